@@ -1,0 +1,63 @@
+//! What can go wrong on the way out.
+
+use std::io;
+use std::path::PathBuf;
+
+/// Why a mesh could not be written or drawn. Each message is one line.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ExportError {
+    /// The file name ends in something that no writer makes.
+    #[error("unknown output format '.{extension}', expected .glb, .gltf, .obj or .stl")]
+    UnknownFormat {
+        /// The ending as given, without the dot.
+        extension: String,
+    },
+    /// The mesh refers to something that it does not hold, or holds a value that is not a number.
+    #[error("invalid mesh: {0}")]
+    InvalidMesh(String),
+    /// The scale is not a positive number that single precision can hold.
+    #[error("scale is {0}, expected a positive number between 1e-30 and 1e30")]
+    Scale(f64),
+    /// A coordinate does not fit the single precision that the format stores.
+    #[error("coordinate {value} of vertex {vertex} is beyond single precision, which the format stores")]
+    CoordinateRange {
+        /// Index of the vertex in the mesh.
+        vertex: usize,
+        /// The coordinate after scaling or shifting.
+        value: f64,
+    },
+    /// The file would be larger than its own length fields can say.
+    #[error("the mesh is too large for the format: {what}")]
+    TooLarge {
+        /// Which count overflows.
+        what: String,
+    },
+    /// The picture has a side of 0 or more than [`crate::MAX_IMAGE_SIDE`] pixels.
+    #[error("picture size is {width}x{height}, expected 1 to 16384 pixels each way")]
+    ImageSize {
+        /// Width asked for, in pixels.
+        width: u32,
+        /// Height asked for, in pixels.
+        height: u32,
+    },
+    /// A camera angle is not a finite number.
+    #[error("camera angle is {0}, expected a finite number of degrees")]
+    CameraAngle(f64),
+    /// A library below failed to serialise; never expected.
+    #[error("cannot encode {format}: {message}")]
+    Encode {
+        /// The format that was being written.
+        format: &'static str,
+        /// What the library said.
+        message: String,
+    },
+    /// The file system refused.
+    #[error("cannot write {}: {source}", .path.display())]
+    Write {
+        /// The file that was to be written.
+        path: PathBuf,
+        /// The reason.
+        source: io::Error,
+    },
+}

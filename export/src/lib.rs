@@ -1,0 +1,26 @@
+//! Mesh writers and rendered previews.
+//!
+//! - [`encode`] turns a [`planecut_csg::Mesh`] into the bytes of a `.glb`, `.gltf`, `.obj` or `.stl` file; [`encode_parts`]
+//!   does so for several named meshes in one file. [`Format`] says what each format keeps of the mesh.
+//! - [`write_atomic`] puts bytes under a file name, completely or not at all.
+//! - [`render_preview`] draws a mesh as a PNG picture.
+//!
+//! Every writer gives the same bytes for the same input, whatever the number of threads.
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+
+mod check;
+mod color;
+mod error;
+mod file;
+mod format;
+mod glb;
+mod obj;
+
+mod stl;
+mod topology;
+
+pub use error::ExportError;
+pub use file::write_atomic;
+pub use format::{ExportOptions, Format, Part, encode, encode_parts};
+

@@ -1,0 +1,8 @@
+//! Readers of brush maps and meshes.
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+
+pub mod map;
+mod warning;
+
+pub use warning::Warning;

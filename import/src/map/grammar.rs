@@ -1,0 +1,222 @@
+//! From tokens to entities: the syntax of a map, and the planes, but no meaning of names yet.
+
+use std::borrow::Cow;
+
+use planecut_kernel::HalfSpace;
+use winnow::Parser;
+use winnow::combinator::delimited;
+use winnow::stream::Location;
+use winnow::token::any;
+
+use super::error::{Found, SyntaxError};
+use super::plane::{self, PlaneError, Point};
+use super::token::{Input, Parsed, is_delimiter, name, number, peek, punctuation, quoted, word};
+
+/// An entity, or a brush that stands outside any.
+#[derive(Debug, Default)]
+pub(super) struct Entity<'a> {
+    /// Whether this is only a brush, or a primitive, outside any entity.
+    pub(super) is_bare: bool,
+    /// The last value of `classname`.
+    pub(super) classname: Option<Cow<'a, [u8]>>,
+    pub(super) brushes: Vec<Brush<'a>>,
+    pub(super) left_out: Vec<LeftOut>,
+}
+
+/// A brush of three-point faces.
+#[derive(Debug)]
+pub(super) struct Brush<'a> {
+    /// Offset of its opening brace.
+    pub(super) offset: usize,
+    pub(super) faces: Vec<Face<'a>>,
+}
+
+/// One face.
+#[derive(Debug)]
+pub(super) struct Face<'a> {
+    /// Offset of its first parenthesis.
+    pub(super) offset: usize,
+    pub(super) plane: Result<HalfSpace, PlaneError>,
+    pub(super) texture: Cow<'a, [u8]>,
+}
+
+/// A primitive that is not read.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct LeftOut {
+    /// Offset of its keyword.
+    pub(super) offset: usize,
+    /// Whether it is a curved patch.
+    pub(super) is_patch: bool,
+}
+
+/// The next entity; `None` at the end of the text.
+pub(super) fn entity<'a>(input: &mut Input<'a>) -> Parsed<Option<Entity<'a>>> {
+    version(input)?;
+    if peek(input)?.is_none() {
+        return Ok(None);
+    }
+    let opened = open_brace(input)?;
+    let mut entity = Entity::default();
+    if peek(input)?.is_some_and(|byte| byte == b'(' || byte.is_ascii_alphabetic()) {
+        entity.is_bare = true;
+        brush_or_primitive(input, opened, &mut entity)?;
+        return Ok(Some(entity));
+    }
+    loop {
+        match peek(input)? {
+            Some(b'"') => {
+                let (key, value) = (quoted, quoted).parse_next(input)?;
+                if *key == *b"classname" {
+                    entity.classname = Some(value);
+                }
+            }
+            Some(b'{') => {
+                let opened = open_brace(input)?;
+                brush_or_primitive(input, opened, &mut entity)?;
+            }
+            _ => {
+                close_brace(input, opened, "a key in quotes, `{` or `}`")?;
+                return Ok(Some(entity));
+            }
+        }
+    }
+}
+
+/// The first line of a Doom 3 map, `Version 2`.
+fn version(input: &mut Input<'_>) -> Parsed<()> {
+    if peek(input)? == Some(b'V') && input.starts_with(b"Version") {
+        (word, number).void().parse_next(input)?;
+    }
+    Ok(())
+}
+
+fn open_brace(input: &mut Input<'_>) -> Parsed<usize> {
+    peek(input)?;
+    let opened = input.current_token_start();
+    punctuation(b'{', "`{`").parse_next(input)?;
+    Ok(opened)
+}
+
+/// Takes `}`; an error says `expected` and where the brace was opened.
+fn close_brace(input: &mut Input<'_>, opened: usize, expected: &'static str) -> Parsed<()> {
+    punctuation(b'}', expected).parse_next(input).map_err(|error| SyntaxError { opened: Some(opened), ..error })
+}
+
+/// What follows the opening brace of a brush, its closing brace included.
+fn brush_or_primitive<'a>(input: &mut Input<'a>, opened: usize, entity: &mut Entity<'a>) -> Parsed<()> {
+    if !peek(input)?.is_some_and(|byte| byte.is_ascii_alphabetic()) {
+        entity.brushes.push(Brush { offset: opened, faces: faces(input, opened, false)? });
+        return Ok(());
+    }
+    let offset = input.current_token_start();
+    let keyword = word(input)?;
+    if keyword.eq_ignore_ascii_case(b"brushDef") {
+        let inner = open_brace(input)?;
+        entity.brushes.push(Brush { offset: opened, faces: faces(input, inner, true)? });
+    } else {
+        skip_block(input)?;
+        let is_patch = keyword.get(..5).is_some_and(|start| start.eq_ignore_ascii_case(b"patch"));
+        entity.left_out.push(LeftOut { offset, is_patch });
+    }
+    close_brace(input, opened, "`}`")
+}
+
+/// Skips a block in braces, whatever it holds. Counts braces instead of recursing: depth costs nothing.
+fn skip_block(input: &mut Input<'_>) -> Parsed<()> {
+    let opened = open_brace(input)?;
+    let mut depth = 1_usize;
+    while depth > 0 {
+        match peek(input)? {
+            None => return close_brace(input, opened, "`}`"),
+            Some(b'"') => quoted.void().parse_next(input)?,
+            Some(byte) if is_delimiter(byte) => {
+                any.void().parse_next(input)?;
+                match byte {
+                    b'{' => depth += 1,
+                    b'}' => depth -= 1,
+                    _ => {}
+                }
+            }
+            Some(_) => word.void().parse_next(input)?,
+        }
+    }
+    Ok(())
+}
+
+/// Faces up to the closing brace, which is taken; those of a brush primitive have a texture matrix.
+fn faces<'a>(input: &mut Input<'a>, opened: usize, has_matrix: bool) -> Parsed<Vec<Face<'a>>> {
+    let mut faces = Vec::with_capacity(6);
+    while peek(input)? == Some(b'(') {
+        faces.push(face(input, has_matrix)?);
+    }
+    close_brace(input, opened, "`(` or `}`")?;
+    Ok(faces)
+}
+
+fn face<'a>(input: &mut Input<'a>, has_matrix: bool) -> Parsed<Face<'a>> {
+    let offset = input.current_token_start();
+    let points: [Point; 3] = (triple, triple, triple).map(<[Point; 3]>::from).parse_next(input)?;
+    if has_matrix {
+        let rows = (triple, triple).void();
+        delimited(punctuation(b'(', "`(`"), rows, punctuation(b')', "`)`")).parse_next(input)?;
+    }
+    let texture = name(input)?;
+    let layout = if has_matrix {
+        Layout::Matrix
+    } else if peek(input)? == Some(b'[') {
+        (axis, axis).void().parse_next(input)?;
+        Layout::Axes
+    } else {
+        Layout::Plain
+    };
+    values(input, offset, layout)?;
+    Ok(Face { offset, plane: plane::half_space(&points), texture })
+}
+
+/// `( x y z )`.
+fn triple(input: &mut Input<'_>) -> Parsed<Point> {
+    let numbers = (number, number, number).map(Point::from);
+    delimited(punctuation(b'(', "`(`"), numbers, punctuation(b')', "`)`")).parse_next(input)
+}
+
+/// `[ x y z offset ]`.
+fn axis(input: &mut Input<'_>) -> Parsed<()> {
+    let numbers = (number, number, number, number).void();
+    delimited(punctuation(b'[', "`[`"), numbers, punctuation(b']', "`]`")).parse_next(input)
+}
+
+/// How a face lays on its texture.
+#[derive(Clone, Copy)]
+enum Layout {
+    /// By shift, rotation and scale.
+    Plain,
+    /// By two axes with their shifts, rotation and scale.
+    Axes,
+    /// By a matrix alone.
+    Matrix,
+}
+
+impl Layout {
+    /// How many values follow: those of the layout alone, with Hexen II's one, Quake 2's three, or Daikatana's six.
+    fn counts(self) -> ([usize; 4], &'static str) {
+        match self {
+            Self::Plain => ([5, 6, 8, 11], "5, 6, 8 or 11"),
+            Self::Axes => ([3, 4, 6, 9], "3, 4, 6 or 9"),
+            Self::Matrix => ([0, 1, 3, 6], "0, 1, 3 or 6"),
+        }
+    }
+}
+
+/// The numbers at the end of a face, counted and dropped; `face` is where the face begins.
+fn values(input: &mut Input<'_>, face: usize, layout: Layout) -> Parsed<()> {
+    let mut count = 0;
+    while peek(input)?.is_some_and(|byte| !is_delimiter(byte)) {
+        number(input)?;
+        count += 1;
+    }
+    let (accepted, expected) = layout.counts();
+    if accepted.contains(&count) {
+        return Ok(());
+    }
+    Err(SyntaxError { offset: face, found: Found::Values(count), expected, opened: None })
+}

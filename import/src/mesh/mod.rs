@@ -1,0 +1,118 @@
+//! Readers of indexed triangle meshes: OBJ, STL, PLY and glTF.
+//!
+//! Each gives the mesh as the file states it: nothing is repaired and no triangle is dropped. Vertices keep the file's
+//! indices where it has meaningful ones (OBJ, PLY, glTF with `EXT_mesh_manifold`). STL has none and plain glTF splits vertices
+//! where normals differ: there, vertices with equal coordinates become one. That cannot tell parts of a surface that merely
+//! touch in a vertex or edge from parts that are connected, so a sound mesh may come back with pinched vertices or edges
+//! used four times.
+
+mod error;
+mod gltf;
+mod merge;
+mod obj;
+mod ply;
+mod polygon;
+mod stl;
+mod text;
+
+use std::ops::Range;
+
+use glam::DVec3;
+
+pub use error::{MeshError, Place};
+
+use error::Fault;
+
+/// A mesh file format.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MeshFormat {
+    /// Wavefront OBJ.
+    Obj,
+    /// STL, binary or ASCII.
+    Stl,
+    /// PLY, ASCII or binary in either byte order.
+    Ply,
+    /// glTF 2.0, as a binary container or as JSON with embedded buffers.
+    Gltf,
+}
+
+impl MeshFormat {
+    /// The format that a file name's extension stands for: `obj`, `stl`, `ply`, `glb` or `gltf` in any case.
+    #[must_use]
+    pub fn from_extension(extension: &str) -> Option<Self> {
+        match extension.to_ascii_lowercase().as_str() {
+            "obj" => Some(Self::Obj),
+            "stl" => Some(Self::Stl),
+            "ply" => Some(Self::Ply),
+            "glb" | "gltf" => Some(Self::Gltf),
+            _ => None,
+        }
+    }
+}
+
+/// How finely a format keeps coordinates.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Precision {
+    /// As `f32`, or coarser.
+    Single,
+    /// As `f64`, or as decimals, whose digits are not counted.
+    Double,
+}
+
+/// A named part of a mesh.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct MeshObject {
+    /// The name, where the file gives one.
+    pub name: Option<String>,
+    /// Its triangles in [`IndexedMesh::triangles`]; never empty.
+    pub triangles: Range<usize>,
+}
+
+/// An indexed triangle mesh as a file states it.
+///
+/// # Guarantees
+/// Coordinates are finite, indices are below the number of positions, there is at least one triangle, and the objects' ranges
+/// follow one another and hold every triangle once. Whether the surface is closed is for `planecut_csg::check` to say.
+#[derive(Debug, Clone, PartialEq)]
+pub struct IndexedMesh {
+    /// Vertex positions in the file's units and axes; of glTF, after the nodes' transforms.
+    pub positions: Vec<DVec3>,
+    /// Vertex indices of each triangle, counter-clockwise seen from outside.
+    pub triangles: Vec<[u32; 3]>,
+    /// The parts: OBJ objects (or groups, where there are no objects), solids of an ASCII STL, mesh nodes of glTF.
+    pub objects: Vec<MeshObject>,
+    /// The coordinates' precision.
+    pub precision: Precision,
+}
+
+/// Reads a mesh; `name` is what errors call the file.
+///
+/// Polygons are cut into triangles without adding or dropping vertices. Lines, points, normals, colours and textures are passed over.
+///
+/// # Errors
+/// [`MeshError`] where the data is damaged, truncated or not of this format, refers to other files, or holds no triangle.
+pub fn read_mesh(bytes: &[u8], format: MeshFormat, name: &str) -> Result<IndexedMesh, MeshError> {
+    let read = match format {
+        MeshFormat::Obj => obj::read(bytes),
+        MeshFormat::Stl => stl::read(bytes),
+        MeshFormat::Ply => ply::read(bytes),
+        MeshFormat::Gltf => gltf::read(bytes),
+    };
+    let check = |mesh: IndexedMesh| {
+        if mesh.triangles.is_empty() { Err(Fault::new(Place::End, "no triangles", "at least one")) } else { Ok(mesh) }
+    };
+    read.and_then(check).map_err(|fault| fault.in_file(name))
+}
+
+/// The objects of a mesh of `count` triangles that starts a new one at each `(first triangle, name)`; empty ones are dropped.
+fn objects_from_starts(starts: Vec<(usize, Option<String>)>, count: usize) -> Vec<MeshObject> {
+    let mut objects: Vec<MeshObject> = Vec::new();
+    let mut pending = (0, None);
+    for (start, name) in starts.into_iter().chain([(count, None)]) {
+        let (begin, old_name) = std::mem::replace(&mut pending, (start, name));
+        if begin < start {
+            objects.push(MeshObject { name: old_name, triangles: begin..start });
+        }
+    }
+    objects
+}

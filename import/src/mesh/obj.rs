@@ -1,0 +1,134 @@
+//! Wavefront OBJ: `v`, `f`, `o` and `g`; all other statements are passed over.
+
+use std::borrow::Cow;
+
+use glam::DVec3;
+
+use super::error::{Fault, Place, quoted};
+use super::polygon::{MAX_CONCAVE_CORNERS, triangulate};
+use super::text::finite;
+use super::{IndexedMesh, Precision, objects_from_starts};
+
+/// Reads an OBJ file. Faces may name vertices that are defined before them, by position from either end.
+pub(super) fn read(bytes: &[u8]) -> Result<IndexedMesh, Fault> {
+    let mut reader = ObjReader::default();
+    for (line, statement) in Statements { rest: bytes, line: 1 } {
+        reader.statement(&statement, line)?;
+    }
+    let ObjReader { positions, triangles, objects, groups, .. } = reader;
+    let starts = if objects.is_empty() { groups } else { objects };
+    let objects = objects_from_starts(starts, triangles.len());
+    Ok(IndexedMesh { positions, triangles, objects, precision: Precision::Double })
+}
+
+/// The statements with the line on which each begins: lines, of which those that end in a backslash are joined with the next.
+struct Statements<'a> {
+    rest: &'a [u8],
+    line: usize,
+}
+
+impl<'a> Iterator for Statements<'a> {
+    type Item = (usize, Cow<'a, [u8]>);
+
+    fn next(&mut self) -> Option<Self::Item> {
+        if self.rest.is_empty() {
+            return None;
+        }
+        let begin = self.line;
+        let mut statement = Cow::Borrowed(self.take_line());
+        while let Some(kept) = statement.strip_suffix(b"\\") {
+            let mut joined = kept.to_vec();
+            joined.push(b' ');
+            joined.extend_from_slice(self.take_line());
+            statement = Cow::Owned(joined);
+            if self.rest.is_empty() {
+                break;
+            }
+        }
+        Some((begin, statement))
+    }
+}
+
+impl<'a> Statements<'a> {
+    /// The next line without its end (`\n` or `\r\n`); empty at the end.
+    fn take_line(&mut self) -> &'a [u8] {
+        let end = self.rest.iter().position(|&b| b == b'\n');
+        let (line, rest) = end.map_or((self.rest, &[][..]), |end| (&self.rest[..end], &self.rest[end + 1..]));
+        self.rest = rest;
+        self.line += 1;
+        line.strip_suffix(b"\r").unwrap_or(line)
+    }
+}
+
+#[derive(Default)]
+struct ObjReader {
+    positions: Vec<DVec3>,
+    triangles: Vec<[u32; 3]>,
+    /// First triangle and name of each `o`, and of each `g`.
+    objects: Vec<(usize, Option<String>)>,
+    groups: Vec<(usize, Option<String>)>,
+    /// The corners of the current face; kept for its allocation.
+    corners: Vec<u32>,
+}
+
+impl ObjReader {
+    fn statement(&mut self, statement: &[u8], line: usize) -> Result<(), Fault> {
+        let text = statement.split(|&b| b == b'#').next().unwrap_or_default();
+        let mut words = text.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
+        match words.next() {
+            Some(b"v") => self.vertex(words, line),
+            Some(b"f") => self.face(words, line),
+            Some(b"o") => {
+                self.objects.push((self.triangles.len(), object_name(text)));
+                Ok(())
+            }
+            Some(b"g") => {
+                self.groups.push((self.triangles.len(), object_name(text)));
+                Ok(())
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// `v x y z`; a weight or colour after it is passed over.
+    fn vertex<'w>(&mut self, mut words: impl Iterator<Item = &'w [u8]>, line: usize) -> Result<(), Fault> {
+        let mut coordinate = || finite(words.next().unwrap_or_default(), Place::Line(line));
+        self.positions.push(DVec3::new(coordinate()?, coordinate()?, coordinate()?));
+        Ok(())
+    }
+
+    fn face<'w>(&mut self, words: impl Iterator<Item = &'w [u8]>, line: usize) -> Result<(), Fault> {
+        self.corners.clear();
+        for word in words {
+            let corner = vertex_index(word, self.positions.len()).ok_or_else(|| {
+                let count = self.positions.len();
+                Fault::new(Place::Line(line), quoted(word), format!("one of the {count} vertices defined so far"))
+            })?;
+            self.corners.push(corner);
+        }
+        let count = self.corners.len();
+        if count < 3 {
+            return Err(Fault::new(Place::Line(line), format!("a face with {count} corners"), "at least 3"));
+        }
+        if !triangulate(&self.corners, &self.positions, &mut self.triangles) {
+            let expected = format!("at most {MAX_CONCAVE_CORNERS} where it is not convex");
+            return Err(Fault::new(Place::Line(line), format!("a face with {count} corners"), expected));
+        }
+        Ok(())
+    }
+}
+
+/// The vertex of a face corner `v`, `v/vt`, `v//vn` or `v/vt/vn`: counted from 1, or backwards from -1.
+fn vertex_index(word: &[u8], count: usize) -> Option<u32> {
+    let first = word.split(|&b| b == b'/').next()?;
+    let number: i64 = std::str::from_utf8(first).ok()?.parse().ok()?;
+    let count = i64::try_from(count).ok()?;
+    let index = if number > 0 { number - 1 } else { count.checked_add(number)? };
+    ((0..count).contains(&index) && number != 0).then(|| u32::try_from(index).ok())?
+}
+
+/// What follows the keyword, if anything.
+fn object_name(statement: &[u8]) -> Option<String> {
+    let name = String::from_utf8_lossy(&statement.trim_ascii()[1..]).trim().to_owned();
+    (!name.is_empty()).then_some(name)
+}

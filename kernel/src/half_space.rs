@@ -1,0 +1,97 @@
+//! A closed half-space `n·x ≤ d`, checked once at the boundary.
+
+use glam::DVec3;
+use thiserror::Error;
+
+/// Largest accepted magnitude of a normal component (`2^400`).
+pub const MAX_NORMAL: f64 = f64::from_bits((1023 + 400) << 52);
+/// Smallest accepted magnitude of a normal's largest component (`2^-400`).
+pub const MIN_NORMAL: f64 = f64::from_bits((1023 - 400) << 52);
+/// A non-zero normal component may be at most `2^200` times smaller than the largest one.
+pub const MAX_NORMAL_RATIO: f64 = f64::from_bits((1023 + 200) << 52);
+/// A non-zero offset may be at most `2^200` times larger or smaller than the largest normal component.
+pub const MAX_OFFSET_RATIO: f64 = f64::from_bits((1023 + 200) << 52);
+
+/// Why a plane was not accepted.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum HalfSpaceError {
+    /// A coefficient is NaN or infinite.
+    #[error("plane coefficients must be finite, found normal {normal} and offset {offset}")]
+    NotFinite {
+        /// The normal that was given.
+        normal: DVec3,
+        /// The offset that was given.
+        offset: f64,
+    },
+    /// The normal is the zero vector.
+    #[error("the normal of a plane must not be zero")]
+    ZeroNormal,
+    /// A coefficient is outside the accepted range.
+    #[error("plane coefficients outside the accepted range: normal {normal}, offset {offset}")]
+    OutOfRange {
+        /// The normal that was given.
+        normal: DVec3,
+        /// The offset that was given.
+        offset: f64,
+    },
+}
+
+/// The closed half-space `normal·x ≤ offset`; the normal points out of the body and need not have unit length.
+///
+/// # Guarantees
+/// All coefficients are finite, the normal is not zero, and the magnitudes are within the accepted range
+/// ([`MIN_NORMAL`], [`MAX_NORMAL`], [`MAX_NORMAL_RATIO`], [`MAX_OFFSET_RATIO`]): inside it no product that a sign forms under- or overflows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HalfSpace {
+    normal: DVec3,
+    offset: f64,
+}
+
+impl HalfSpace {
+    /// The half-space `normal·x ≤ offset`.
+    ///
+    /// # Errors
+    /// [`HalfSpaceError`] where a coefficient is not finite, the normal is zero, or the magnitudes are out of range.
+    pub fn new(normal: DVec3, offset: f64) -> Result<Self, HalfSpaceError> {
+        if !normal.is_finite() || !offset.is_finite() {
+            return Err(HalfSpaceError::NotFinite { normal, offset });
+        }
+        let largest = normal.abs().max_element();
+        if largest == 0.0 {
+            return Err(HalfSpaceError::ZeroNormal);
+        }
+        let too_small = |v: f64, ratio: f64| v != 0.0 && v.abs() * ratio < largest;
+        let out_of_range = !(MIN_NORMAL..=MAX_NORMAL).contains(&largest)
+            || normal.to_array().into_iter().any(|v| too_small(v, MAX_NORMAL_RATIO))
+            || too_small(offset, MAX_OFFSET_RATIO)
+            || offset.abs() > largest * MAX_OFFSET_RATIO;
+        if out_of_range {
+            return Err(HalfSpaceError::OutOfRange { normal, offset });
+        }
+        Ok(Self { normal, offset })
+    }
+
+    /// The outward normal, as given (not normalised).
+    #[must_use]
+    pub fn normal(&self) -> DVec3 {
+        self.normal
+    }
+
+    /// The offset `d` of `n·x ≤ d`, as given.
+    #[must_use]
+    pub fn offset(&self) -> f64 {
+        self.offset
+    }
+
+    /// The complement's closure, `-n·x ≤ -d`.
+    #[must_use]
+    pub fn flipped(&self) -> Self {
+        Self { normal: -self.normal, offset: -self.offset }
+    }
+
+    /// Signed Euclidean distance of a point from the plane, positive outside. For display, never for decisions.
+    #[must_use]
+    pub fn signed_distance(&self, point: DVec3) -> f64 {
+        (self.normal.dot(point) - self.offset) / self.normal.length()
+    }
+}

@@ -1,0 +1,16 @@
+//! Exact dynamic convex polyhedra.
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+
+mod half_space;
+mod meet;
+mod polytope;
+pub mod sign;
+
+pub use glam::DVec3;
+pub use half_space::{HalfSpace, HalfSpaceError, MAX_NORMAL, MAX_NORMAL_RATIO, MAX_OFFSET_RATIO, MIN_NORMAL};
+pub use meet::meet;
+pub use polytope::{
+    AddPlaneResult, DEFAULT_EPSILON, Face, IncrementalPolytope, InvariantError, Measures, PlaneIdx, RemovePlaneResult,
+    Vertex,
+};

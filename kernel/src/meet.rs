@@ -1,0 +1,184 @@
+//! The meeting point of three planes, each coordinate rounded correctly.
+//!
+//! Correct rounding makes the coordinates a function of the point alone, whichever three of the planes through it are
+//! used: equal points get equal coordinates, and the order of coordinates never contradicts the exact order. So
+//! coordinates can propose (hash, sort) while signs decide.
+
+use dashu_int::{IBig, UBig, ops::BitTest};
+use glam::DVec3;
+
+use crate::sign::{Homogeneous, OffsetColumn, Row, big_cross, big_dot, big_integers};
+
+/// Relative error of the double-double evaluation, in units of the permanent. Each term passes at most 12 operations of
+/// relative error `2⁻¹⁰²`, and a product of permanents leaves room.
+const DOUBLE_DOUBLE_BOUND: f64 = f64::from_bits((1023 - 97) << 52);
+
+/// The point where three planes meet, each coordinate correctly rounded (to nearest, ties to even; zero is `+0`).
+///
+/// `None` where the normals are linearly dependent.
+#[must_use]
+pub fn meet(a: &Row, b: &Row, c: &Row) -> Option<DVec3> {
+    let fast = Homogeneous::of(a, b, c, OffsetColumn::Finite);
+    let integer = a.is_integer() && b.is_integer() && c.is_integer();
+    if integer && fast.permanent.iter().all(|p| *p < (1u64 << 52) as f64) {
+        // every intermediate is an exact integer, and one division rounds once
+        let [x, y, z, w] = fast.value;
+        return (w != 0.0).then(|| DVec3::new(x / w + 0.0, y / w + 0.0, z / w + 0.0));
+    }
+    meet_double_double(a, b, c, &fast.permanent).or_else(|| meet_exact(a, b, c))
+}
+
+/// `None` where some coordinate cannot be rounded with certainty.
+fn meet_double_double(a: &Row, b: &Row, c: &Row, permanent: &[f64; 4]) -> Option<DVec3> {
+    // Outside this range the low words could underflow.
+    if permanent.iter().any(|p| *p != 0.0 && !(1e-200..=1e200).contains(p)) {
+        return None;
+    }
+    let [a, b, c] = [a, b, c].map(Row::coefficients);
+    let cross = |p: &[f64; 4], q: &[f64; 4], u: usize, v: usize| {
+        DoubleDouble::product(p[u], q[v]).plus(DoubleDouble::product(p[v], q[u]).negated())
+    };
+    let mut w = DoubleDouble::default();
+    let mut numerators = [DoubleDouble::default(); 3];
+    for (axis, numerator) in numerators.iter_mut().enumerate() {
+        let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+        let (bc, ca, ab) = (cross(b, c, u, v), cross(c, a, u, v), cross(a, b, u, v));
+        *numerator = bc.times(a[3]).plus(ca.times(b[3])).plus(ab.times(c[3]));
+        w = w.plus(bc.times(a[axis]));
+    }
+    let w_error = DOUBLE_DOUBLE_BOUND * permanent[3] / w.high.abs();
+    if w_error.is_nan() || w_error > 1e-3 {
+        return None;
+    }
+    let mut coordinates = [0.0; 3];
+    for axis in 0..3 {
+        let numerator = numerators[axis];
+        if permanent[axis] == 0.0 {
+            continue;
+        }
+        let relative = w_error + DOUBLE_DOUBLE_BOUND * permanent[axis] / numerator.high.abs();
+        let quotient = numerator.over(w);
+        coordinates[axis] = quotient.rounded_with(2.0 * relative * quotient.high.abs())?;
+    }
+    Some(DVec3::from_array(coordinates))
+}
+
+fn meet_exact(a: &Row, b: &Row, c: &Row) -> Option<DVec3> {
+    let [a, b, c] = [a, b, c].map(|row| big_integers(*row.coefficients()));
+    let (bc, ca, ab) = (big_cross(&b, &c), big_cross(&c, &a), big_cross(&a, &b));
+    let w = big_dot(&a, &bc);
+    if w.is_zero() {
+        return None;
+    }
+    let coordinate = |k: usize| round_quotient(&a[3] * &bc[k] + &b[3] * &ca[k] + &c[3] * &ab[k], &w);
+    Some(DVec3::new(coordinate(0), coordinate(1), coordinate(2)))
+}
+
+/// `numerator / denominator`, rounded to nearest, ties to even.
+///
+/// The quotient is taken to be in the range of normal numbers; below it the last bits may be lost.
+fn round_quotient(numerator: IBig, denominator: &IBig) -> f64 {
+    use dashu_int::Sign as BigSign;
+    let (numerator_sign, numerator) = numerator.into_parts();
+    let (denominator_sign, denominator) = denominator.clone().into_parts();
+    if numerator.is_zero() {
+        return 0.0;
+    }
+    // A quotient of 65 or 66 bits, its last bit made sticky: more than 53 + 2, so one more rounding is the right one.
+    let shift = 65 + denominator.bit_len() as i64 - numerator.bit_len() as i64;
+    let (scaled, divisor) = if shift >= 0 {
+        (numerator << shift as usize, denominator)
+    } else {
+        (numerator, denominator << (-shift) as usize)
+    };
+    let (mut quotient, remainder) = (&scaled / &divisor, &scaled % &divisor);
+    if !remainder.is_zero() {
+        quotient |= UBig::ONE;
+    }
+    let mantissa = u128::try_from(quotient).unwrap_or(u128::MAX) as f64;
+    let magnitude = ldexp(mantissa, -shift);
+    if numerator_sign == BigSign::Negative && denominator_sign == BigSign::Positive
+        || numerator_sign == BigSign::Positive && denominator_sign == BigSign::Negative
+    {
+        -magnitude
+    } else {
+        magnitude
+    }
+}
+
+fn ldexp(mut v: f64, mut power: i64) -> f64 {
+    const STEP: i64 = 1000;
+    let factor = |p: i64| f64::from_bits(((1023 + p) as u64) << 52);
+    while power > STEP && v.is_finite() {
+        v *= factor(STEP);
+        power -= STEP;
+    }
+    while power < -STEP && v != 0.0 {
+        v *= factor(-STEP);
+        power += STEP;
+    }
+    v * factor(power.clamp(-STEP, STEP))
+}
+
+/// An unevaluated sum of two numbers, `|low| ≤ ½ ulp(high)` (Dekker 1971).
+#[derive(Debug, Clone, Copy, Default)]
+struct DoubleDouble {
+    high: f64,
+    low: f64,
+}
+
+impl DoubleDouble {
+    fn sum(a: f64, b: f64) -> Self {
+        let high = a + b;
+        let t = high - a;
+        Self { high, low: (a - (high - t)) + (b - t) }
+    }
+
+    fn quick_sum(a: f64, b: f64) -> Self {
+        let high = a + b;
+        Self { high, low: b - (high - a) }
+    }
+
+    fn product(a: f64, b: f64) -> Self {
+        let split = |v: f64| {
+            let t = 134_217_729.0 * v; // 2²⁷ + 1
+            let high = t - (t - v);
+            (high, v - high)
+        };
+        let high = a * b;
+        let ((a1, a0), (b1, b0)) = (split(a), split(b));
+        Self { high, low: ((a1 * b1 - high) + a1 * b0 + a0 * b1) + a0 * b0 }
+    }
+
+    fn negated(self) -> Self {
+        Self { high: -self.high, low: -self.low }
+    }
+
+    fn plus(self, other: Self) -> Self {
+        let (s, t) = (Self::sum(self.high, other.high), Self::sum(self.low, other.low));
+        let v = Self::quick_sum(s.high, s.low + t.high);
+        Self::quick_sum(v.high, v.low + t.low)
+    }
+
+    fn times(self, factor: f64) -> Self {
+        let p = Self::product(self.high, factor);
+        Self::quick_sum(p.high, p.low + self.low * factor)
+    }
+
+    fn over(self, divisor: Self) -> Self {
+        let q1 = self.high / divisor.high;
+        let r = self.plus(divisor.times(q1).negated());
+        let q2 = r.high / divisor.high;
+        let r = r.plus(divisor.times(q2).negated());
+        let q3 = r.high / divisor.high;
+        let q = Self::quick_sum(q1, q2);
+        Self::quick_sum(q.high, q.low + q3)
+    }
+
+    /// The value rounded to one number, where an error of `±error` cannot change that.
+    fn rounded_with(self, error: f64) -> Option<f64> {
+        let up = self.high + (self.low + error);
+        let down = self.high + (self.low - error);
+        (up == down).then_some(up + 0.0)
+    }
+}

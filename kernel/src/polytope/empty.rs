@@ -1,0 +1,45 @@
+//! The empty state: a witness of at most four planes, and the planes that wait for its end.
+
+use super::IncrementalPolytope;
+use super::add::Insertion;
+use super::store::PlaneState;
+use crate::sign::Row;
+
+impl IncrementalPolytope {
+    /// Every vertex violates `plane`: keep the structure as it is without it and remember why.
+    ///
+    /// At the vertex that violates it least, the opposite normal is a non-negative combination of the three normals, so
+    /// the three planes and this one have no interior in common (Farkas, Helly).
+    pub(super) fn become_empty(&mut self, plane: u32) {
+        let opposite: Row = self.row(plane).flipped();
+        let bottom = self.climb(&opposite, self.hint);
+        let [a, b, c] = self.vertices.planes[bottom as usize];
+        self.witness = [a, b, c, plane];
+        self.planes.state[plane as usize] = PlaneState::Pending;
+        if self.pending.first() != Some(&plane) {
+            self.pending.insert(0, plane);
+        }
+    }
+
+    /// Removes a plane that waits.
+    pub(super) fn remove_pending(&mut self, plane: u32) {
+        self.pending.retain(|waiting| *waiting != plane);
+        self.planes.remove(plane);
+        if self.witness.contains(&plane) {
+            self.wake_pending();
+        }
+    }
+
+    /// The witness is broken: let the waiting planes take part, oldest first, until the set is empty again or all do.
+    pub(super) fn wake_pending(&mut self) {
+        let waiting = std::mem::take(&mut self.pending);
+        for (k, &plane) in waiting.iter().enumerate() {
+            self.planes.state[plane as usize] = PlaneState::Uncertified;
+            if self.insert_into_structure(plane) == Insertion::Empty {
+                self.pending = waiting[k..].to_vec();
+                self.become_empty(plane);
+                return;
+            }
+        }
+    }
+}

@@ -1,0 +1,220 @@
+//! [`IncrementalPolytope`]: a convex polyhedron to which planes are added and from which they are taken back.
+//!
+//! **Stored** is the dual triangulation: for each vertex its three planes, counter-clockwise seen from outside, and the
+//! neighbour across each edge; for each plane one vertex of its face. Ties are broken symbolically: plane `i` is moved
+//! inward by `εᵢ`, with `ε₀ ≫ ε₁ ≫ …` in the order of the stamps, so that exactly three planes and three edges meet at
+//! every vertex. The structure is a function of the planes and their stamps alone.
+//!
+//! **Unbounded** polyhedra need no special case: four hidden infinity planes, offset `M → ∞`, close every one of them.
+//!
+//! One room per stage: [`climb`] finds the extreme vertex, [`add`] cuts, [`remove`] takes back, [`redundant`] keeps
+//! the certificates of planes without a face, [`empty`] remembers why a set has no interior; [`view`] and [`measure`]
+//! report it with coincident vertices merged, and [`validate`] checks all of it.
+
+mod add;
+mod climb;
+mod empty;
+mod infinity;
+mod measure;
+mod redundant;
+mod remove;
+mod remove_large;
+mod side;
+mod store;
+mod validate;
+mod view;
+
+pub use measure::Measures;
+pub use validate::InvariantError;
+pub use view::{Face, Vertex};
+
+use crate::half_space::HalfSpace;
+use redundant::Certificates;
+use store::{NONE, PlaneState, PlaneStore, VertexStore};
+
+/// Handle of a plane of one [`IncrementalPolytope`]; given again after the plane was removed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct PlaneIdx(pub usize);
+
+/// What [`IncrementalPolytope::add_plane`] did.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum AddPlaneResult {
+    /// The plane cut the polyhedron and has a face.
+    Added {
+        /// The new plane.
+        plane: PlaneIdx,
+    },
+    /// The plane changed nothing; it is kept and shows itself when the planes that hide it are removed.
+    Redundant {
+        /// The new plane.
+        plane: PlaneIdx,
+    },
+    /// With this plane the set has no interior; it is kept, and removing planes can bring the polyhedron back.
+    Empty {
+        /// The new plane.
+        plane: PlaneIdx,
+    },
+}
+
+impl AddPlaneResult {
+    /// The handle of the plane that was added.
+    #[must_use]
+    pub fn plane(&self) -> PlaneIdx {
+        match *self {
+            Self::Added { plane } | Self::Redundant { plane } | Self::Empty { plane } => plane,
+        }
+    }
+}
+
+/// What [`IncrementalPolytope::remove_plane`] did.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RemovePlaneResult {
+    /// The half-space that was taken back.
+    pub half_space: HalfSpace,
+    /// Whether it had a face, so that the polyhedron changed.
+    pub had_face: bool,
+}
+
+/// The default of [`IncrementalPolytope::with_epsilon`].
+pub const DEFAULT_EPSILON: f64 = 1e-7;
+
+/// A dynamic convex polyhedron: the intersection of half-spaces, with its vertices, edges and faces kept up to date.
+///
+/// # Guarantees
+/// Every decision is exact. After any history of additions and removals the structure equals that of a fresh polytope
+/// to which the same planes are added in the same order. Of two equal planes the older stays, the younger is
+/// redundant; a set without interior is empty.
+///
+/// # Example
+/// ```
+/// use planecut_kernel::{DVec3, HalfSpace, IncrementalPolytope};
+///
+/// # fn main() -> Result<(), planecut_kernel::HalfSpaceError> {
+/// let mut cube = IncrementalPolytope::new();
+/// for axis in DVec3::AXES {
+///     cube.add_plane(HalfSpace::new(axis, 1.0)?);
+///     cube.add_plane(HalfSpace::new(-axis, 1.0)?);
+/// }
+/// let corner = cube.add_plane(HalfSpace::new(DVec3::ONE, 2.0)?).plane();
+/// assert_eq!((cube.vertex_count(), cube.edge_count()), (10, 15));
+/// cube.remove_plane(corner);
+/// assert_eq!((cube.vertex_count(), cube.edge_count()), (8, 12));
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Debug, Clone)]
+pub struct IncrementalPolytope {
+    planes: PlaneStore,
+    vertices: VertexStore,
+    certificates: Certificates,
+    /// Planes that are not part of the structure because with the first of them the set has no interior, by stamp.
+    pending: Vec<u32>,
+    /// The planes whose intersection has no interior, while `pending` is not empty.
+    witness: [u32; 4],
+    /// A vertex near the last change, from which the next climb starts.
+    hint: u32,
+    epsilon: f64,
+    scratch: Scratch,
+}
+
+/// Buffers that operations reuse.
+#[derive(Debug, Clone, Default)]
+struct Scratch {
+    /// Vertices to be cut away, in breadth-first order.
+    cut: Vec<u32>,
+    /// New vertices of the last cut.
+    created: Vec<u32>,
+    /// The ring of a face that is being removed.
+    ring: Vec<remove::RingEdge>,
+    /// New vertices that fill the hole of a removed face.
+    cap: Vec<remove::CapVertex>,
+    /// Planes whose certificate a removed plane carried.
+    to_examine: Vec<u32>,
+}
+
+impl Default for IncrementalPolytope {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl IncrementalPolytope {
+    /// All of space, with the default tolerance ([`DEFAULT_EPSILON`]) for what is reported.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::with_epsilon(DEFAULT_EPSILON)
+    }
+
+    /// All of space; edges shorter than `epsilon` (a length, in the units of the planes) are contracted in what is
+    /// reported. The tolerance decides nothing inside.
+    #[must_use]
+    pub fn with_epsilon(epsilon: f64) -> Self {
+        let mut polytope = Self {
+            planes: PlaneStore::default(),
+            vertices: VertexStore::default(),
+            certificates: Certificates::default(),
+            pending: Vec::new(),
+            witness: [NONE; 4],
+            hint: 0,
+            epsilon,
+            scratch: Scratch::default(),
+        };
+        polytope.close_by_infinity_planes();
+        polytope
+    }
+
+    /// Back to all of space; stamps start again.
+    pub fn clear(&mut self) {
+        *self = Self::with_epsilon(self.epsilon);
+    }
+
+    /// Whether the set has no interior.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        !self.pending.is_empty()
+    }
+
+    /// Whether the set is bounded, in constant time; an empty set is.
+    ///
+    /// The paper's §4 asks a hull of the normals; here no infinity plane may have a face.
+    #[must_use]
+    pub fn is_bounded(&self) -> bool {
+        self.is_empty() || (0..infinity::COUNT).all(|plane| self.planes.face_vertex[plane as usize] == NONE)
+    }
+
+    /// The half-space of a plane, `None` where there is no such plane.
+    #[must_use]
+    pub fn plane(&self, idx: PlaneIdx) -> Option<&HalfSpace> {
+        self.live(idx).map(|plane| &self.planes.half_space[plane as usize])
+    }
+
+    /// All planes, redundant ones included, by handle.
+    pub fn planes(&self) -> impl Iterator<Item = (PlaneIdx, &HalfSpace)> {
+        (infinity::COUNT as usize..self.planes.state.len())
+            .filter(|plane| self.planes.state[*plane] != PlaneState::Free)
+            .map(|plane| (external(plane as u32), &self.planes.half_space[plane]))
+    }
+
+    /// When a plane was added: larger is younger, and no stamp is given twice.
+    #[must_use]
+    pub fn stamp(&self, idx: PlaneIdx) -> Option<u64> {
+        self.live(idx).map(|plane| self.planes.stamp[plane as usize])
+    }
+
+    /// Whether a plane is present without a face in the structure; where the set is empty, no plane has one.
+    #[must_use]
+    pub fn is_redundant(&self, idx: PlaneIdx) -> bool {
+        self.live(idx).is_some_and(|plane| self.is_empty() || self.planes.state[plane as usize] != PlaneState::Face)
+    }
+
+    /// The slot behind a handle, where it holds a plane.
+    fn live(&self, idx: PlaneIdx) -> Option<u32> {
+        let slot = idx.0.checked_add(infinity::COUNT as usize)?;
+        (*self.planes.state.get(slot)? != PlaneState::Free).then_some(slot as u32)
+    }
+}
+
+/// The handle of a slot.
+fn external(slot: u32) -> PlaneIdx {
+    PlaneIdx((slot - infinity::COUNT) as usize)
+}

@@ -1,0 +1,94 @@
+//! On which side of a plane a vertex lies, ties broken by the perturbation: inside or outside, never on.
+
+use super::IncrementalPolytope;
+use super::infinity::is_infinity;
+use crate::sign::{Homogeneous, OffsetColumn, Row, Sign, orient3};
+
+impl IncrementalPolytope {
+    pub(super) fn row(&self, plane: u32) -> &Row {
+        &self.planes.row[plane as usize]
+    }
+
+    fn rows(&self, planes: [u32; 3]) -> [&Row; 3] {
+        planes.map(|plane| self.row(plane))
+    }
+
+    /// The cached position of a vertex: its part in `M` where an infinity plane takes part, else its constant part.
+    pub(super) fn meeting_point(&self, planes: [u32; 3]) -> Homogeneous {
+        let [a, b, c] = self.rows(planes);
+        Homogeneous::of(a, b, c, leading_column(planes))
+    }
+
+    /// Whether vertex `vertex` violates plane `plane`.
+    #[inline]
+    pub(super) fn is_outside(&self, vertex: u32, plane: u32) -> bool {
+        self.is_point_outside(self.vertices.planes[vertex as usize], &self.vertices.point[vertex as usize], plane)
+    }
+
+    /// Whether the meeting point of three planes, counter-clockwise seen from outside, violates `plane`.
+    #[inline]
+    pub(super) fn is_point_outside(&self, planes: [u32; 3], point: &Homogeneous, plane: u32) -> bool {
+        let column = leading_column(planes);
+        if column == OffsetColumn::Finite && is_infinity(plane) {
+            return false;
+        }
+        match point.side(self.rows(planes), self.row(plane), column) {
+            Sign::Positive => true,
+            Sign::Negative => false,
+            Sign::Zero => self.breaks_tie_outside(planes, plane),
+        }
+    }
+
+    /// Whether four planes meet in one point exactly (or in one ideal point along one line).
+    pub(super) fn is_exactly_on(&self, planes: [u32; 3], plane: u32) -> bool {
+        let [a, b, c] = self.rows(planes);
+        [OffsetColumn::Infinite, OffsetColumn::Finite].into_iter().all(|column| {
+            let all_finite = !planes.iter().chain([&plane]).any(|p| is_infinity(*p));
+            (column == OffsetColumn::Infinite && all_finite)
+                || Homogeneous::of(a, b, c, column).side([a, b, c], self.row(plane), column) == Sign::Zero
+        })
+    }
+
+    /// The constant part where that in `M` is zero, then the part in the `ε` of the oldest plane that has one.
+    ///
+    /// Moving plane `a` inward by `ε` changes `n_h·P − d_h·W` by `−ε·det(n_h, n_b, n_c)`, moving `h` inward changes it by
+    /// `+ε·W`, and `W > 0`.
+    #[cold]
+    fn breaks_tie_outside(&self, planes: [u32; 3], plane: u32) -> bool {
+        let rows = self.rows(planes);
+        let h = self.row(plane);
+        if leading_column(planes) == OffsetColumn::Infinite {
+            let point = Homogeneous::of(rows[0], rows[1], rows[2], OffsetColumn::Finite);
+            match point.side(rows, h, OffsetColumn::Finite) {
+                Sign::Positive => return true,
+                Sign::Negative => return false,
+                Sign::Zero => {}
+            }
+        }
+        let stamp = |plane: u32| self.planes.stamp[plane as usize];
+        let [a, b, c] = rows;
+        let mut order = [(stamp(planes[0]), 0), (stamp(planes[1]), 1), (stamp(planes[2]), 2)];
+        order.sort_unstable();
+        for (age, k) in order {
+            if age > stamp(plane) {
+                break;
+            }
+            let cofactor = match k {
+                0 => orient3(h, b, c),
+                1 => orient3(a, h, c),
+                _ => orient3(a, b, h),
+            };
+            match cofactor {
+                Sign::Positive => return false,
+                Sign::Negative => return true,
+                Sign::Zero => {}
+            }
+        }
+        true
+    }
+}
+
+/// The column of the offsets that decides first for a meeting point.
+fn leading_column(planes: [u32; 3]) -> OffsetColumn {
+    if planes.into_iter().any(is_infinity) { OffsetColumn::Infinite } else { OffsetColumn::Finite }
+}

@@ -1,0 +1,150 @@
+//! Layered checks of the whole structure: links first, then signs, then certificates.
+
+use thiserror::Error;
+
+use super::IncrementalPolytope;
+use super::store::{NONE, PlaneState};
+use crate::sign::{Sign, orient3};
+
+/// A broken invariant: never the user's mistake.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum InvariantError {
+    /// Two neighbouring vertices do not name each other, or do not share the two planes of their edge.
+    #[error("vertex {vertex} and its neighbour {neighbour} do not fit together")]
+    Link {
+        /// Slot of the vertex.
+        vertex: u32,
+        /// Slot of the neighbour.
+        neighbour: u32,
+    },
+    /// `V − E + F ≠ 2`, infinity planes included.
+    #[error("Euler's formula fails for {vertices} vertices and {faces} faces")]
+    Euler {
+        /// Vertices of the simple structure.
+        vertices: usize,
+        /// Faces, those of infinity planes included.
+        faces: usize,
+    },
+    /// The planes of a vertex are not right-handed.
+    #[error("the planes of vertex {vertex} are not counter-clockwise")]
+    Orientation {
+        /// Slot of the vertex.
+        vertex: u32,
+    },
+    /// An edge is not convex: the plane across it cuts the vertex off.
+    #[error("vertex {vertex} violates plane {plane} of a neighbour")]
+    Convexity {
+        /// Slot of the vertex.
+        vertex: u32,
+        /// Slot of the plane.
+        plane: u32,
+    },
+    /// A plane's face vertex does not lie on the plane, or it has one although it has no face.
+    #[error("plane {plane} does not know its face")]
+    FaceVertex {
+        /// Slot of the plane.
+        plane: u32,
+    },
+    /// A certificate does not prove that its plane is redundant, or a list does not hold it exactly once.
+    #[error("the certificate of plane {plane} does not hold")]
+    Certificate {
+        /// Slot of the plane.
+        plane: u32,
+    },
+}
+
+impl IncrementalPolytope {
+    /// Checks links, Euler's formula, orientation, local convexity (which implies convexity) and certificates.
+    ///
+    /// # Errors
+    /// The first [`InvariantError`] found; a bug in this crate.
+    pub fn check_invariants(&self) -> Result<(), InvariantError> {
+        self.check_links()?;
+        self.check_signs()?;
+        self.check_planes()
+    }
+
+    fn check_links(&self) -> Result<(), InvariantError> {
+        for vertex in self.vertices.slots() {
+            let planes = self.vertices.planes[vertex as usize];
+            for (k, neighbour) in self.vertices.neighbours[vertex as usize].into_iter().enumerate() {
+                let broken = InvariantError::Link { vertex, neighbour };
+                if !self.vertices.is_live(neighbour) {
+                    return Err(broken);
+                }
+                let other = self.vertices.planes[neighbour as usize];
+                let back = self.vertices.neighbours[neighbour as usize].iter().position(|n| *n == vertex);
+                let (p, q) = (planes[(k + 1) % 3], planes[(k + 2) % 3]);
+                let fits = back.is_some_and(|j| other[(j + 1) % 3] == q && other[(j + 2) % 3] == p);
+                if !fits {
+                    return Err(broken);
+                }
+            }
+        }
+        let vertices = self.vertices.len();
+        let faces = self.planes.state.iter().filter(|state| **state == PlaneState::Face).count();
+        // every vertex has three edges: V − 3V/2 + F = 2
+        if 2 * faces != vertices + 4 {
+            return Err(InvariantError::Euler { vertices, faces });
+        }
+        Ok(())
+    }
+
+    fn check_signs(&self) -> Result<(), InvariantError> {
+        for vertex in self.vertices.slots() {
+            let planes = self.vertices.planes[vertex as usize];
+            let [a, b, c] = planes.map(|p| self.row(p));
+            if orient3(a, b, c) != Sign::Positive {
+                return Err(InvariantError::Orientation { vertex });
+            }
+            for neighbour in self.vertices.neighbours[vertex as usize] {
+                for plane in self.vertices.planes[neighbour as usize] {
+                    if !planes.contains(&plane) && self.is_outside(vertex, plane) {
+                        return Err(InvariantError::Convexity { vertex, plane });
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn check_planes(&self) -> Result<(), InvariantError> {
+        for (slot, state) in self.planes.state.iter().enumerate() {
+            let plane = slot as u32;
+            let vertex = self.planes.face_vertex[slot];
+            let has_vertex = vertex != NONE;
+            if has_vertex != (*state == PlaneState::Face)
+                || has_vertex && !self.vertices.planes[vertex as usize].contains(&plane)
+            {
+                return Err(InvariantError::FaceVertex { plane });
+            }
+            if *state == PlaneState::Certified && !self.holds(plane) {
+                return Err(InvariantError::Certificate { plane });
+            }
+            for listed in self.certificates.list(plane) {
+                let held = self.planes.state[listed as usize] == PlaneState::Certified
+                    && self.certificates.certifiers(listed).contains(&plane)
+                    && self.certificates.list(plane).filter(|p| *p == listed).count() == 1;
+                if !held {
+                    return Err(InvariantError::Certificate { plane: listed });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether the normal of `plane` is a non-negative combination of its certifiers' and their meeting point inside it.
+    fn holds(&self, plane: u32) -> bool {
+        let planes = self.certificates.certifiers(plane);
+        if planes.iter().any(|p| *p == NONE || self.planes.state[*p as usize] == PlaneState::Free) {
+            return false;
+        }
+        let [a, b, c] = planes.map(|p| self.row(p));
+        let n = self.row(plane);
+        let combination = [orient3(n, b, c), orient3(a, n, c), orient3(a, b, n)];
+        !combination.contains(&Sign::Negative)
+            && !self.is_point_outside(planes, &self.meeting_point(planes), plane)
+            && planes.iter().all(|p| self.certificates.list(*p).any(|q| q == plane))
+    }
+}

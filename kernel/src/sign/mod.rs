@@ -1,0 +1,146 @@
+//! The two signs that decide every topological question, exactly.
+//!
+//! A plane enters as four numbers `[nx, ny, nz, d]` that are taken as exact ([`Row`]). [`orient3`] is the sign of the
+//! determinant of three normals, [`orient4`] that of four whole rows. Each is answered by the first tier that can:
+//!
+//! 1. floating point with a proven error bound ([`filter`]);
+//! 2. `i128`, where the rows are small integers ([`small_int`]): on grids about a fifth of all signs are true zeros;
+//! 3. big integers ([`big`]), always.
+//!
+//! Rows are scaled by exact powers of two (or, for integers, by their greatest common divisor), never normalised to
+//! unit length: dividing by a length would destroy exact coincidences.
+
+mod big;
+mod counts;
+mod filter;
+mod row;
+mod small_int;
+
+pub use counts::Counts;
+pub use row::Row;
+
+pub(crate) use big::{cross as big_cross, dot as big_dot, integers as big_integers};
+pub(crate) use filter::{Homogeneous, OffsetColumn};
+
+/// A three-way sign.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Sign {
+    /// Below zero.
+    Negative,
+    /// Exactly zero.
+    Zero,
+    /// Above zero.
+    Positive,
+}
+
+impl Sign {
+    /// The sign of a number; NaN counts as zero.
+    #[must_use]
+    pub(crate) fn of<T: PartialOrd + Default>(value: T) -> Self {
+        let zero = T::default();
+        if value > zero {
+            Self::Positive
+        } else if value < zero {
+            Self::Negative
+        } else {
+            Self::Zero
+        }
+    }
+
+    /// The sign of the negated quantity.
+    #[must_use]
+    pub fn flip(self) -> Self {
+        match self {
+            Self::Negative => Self::Positive,
+            Self::Zero => Self::Zero,
+            Self::Positive => Self::Negative,
+        }
+    }
+
+    /// The sign of the product of two quantities.
+    #[must_use]
+    pub fn times(self, other: Self) -> Self {
+        match self {
+            Self::Negative => other.flip(),
+            Self::Zero => Self::Zero,
+            Self::Positive => other,
+        }
+    }
+}
+
+/// Positive where the normals of `a`, `b`, `c` are a right-handed triple: the sign of `det(nₐ, n_b, n_c)`.
+#[must_use]
+pub fn orient3(a: &Row, b: &Row, c: &Row) -> Sign {
+    let (value, permanent) = filter::det3(a, b, c);
+    counts::note_total();
+    if value.abs() > filter::DET3_BOUND * permanent {
+        return Sign::of(value);
+    }
+    if permanent == 0.0 {
+        return Sign::Zero;
+    }
+    if let Some(sign) = small_int::det3(a, b, c, value, permanent) {
+        counts::note_small_int();
+        return sign;
+    }
+    counts::note_big();
+    big::det3(a, b, c)
+}
+
+/// The sign of the 4×4 determinant of the rows `[n | d]` of `a`, `b`, `c`, `h`.
+///
+/// Where `orient3(a, b, c)` is positive, a **negative** result says that the meeting point of `a`, `b`, `c` lies
+/// strictly outside `h` (`n_h·p > d_h`), a positive one that it lies strictly inside, zero that it lies on `h`.
+#[must_use]
+pub fn orient4(a: &Row, b: &Row, c: &Row, h: &Row) -> Sign {
+    Homogeneous::of(a, b, c, OffsetColumn::Finite).side([a, b, c], h, OffsetColumn::Finite).flip()
+}
+
+/// The sign of component `axis` (0, 1, 2) of the cross product of the normals, `(n_i × n_j)[axis]`.
+#[must_use]
+pub fn cross_component(i: &Row, j: &Row, axis: usize) -> Sign {
+    let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+    let (p, q) = (i.coefficients()[u] * j.coefficients()[v], i.coefficients()[v] * j.coefficients()[u]);
+    let (value, permanent) = (p - q, p.abs() + q.abs());
+    counts::note_total();
+    if value.abs() > filter::DET2_BOUND * permanent {
+        return Sign::of(value);
+    }
+    if permanent == 0.0 {
+        return Sign::Zero;
+    }
+    if let Some(sign) = small_int::det2(i, j, [u, v]) {
+        counts::note_small_int();
+        return sign;
+    }
+    counts::note_big();
+    big::det2(i, j, [u, v])
+}
+
+/// The sign of `det(n_i, n_j, nₐ × n_b)`: where positive, `n_j` lies counter-clockwise of `n_i` seen along the line of
+/// `a` and `b` from the tip of `nₐ × n_b`. Degree 4 in the normals.
+#[must_use]
+pub fn radial(i: &Row, j: &Row, a: &Row, b: &Row) -> Sign {
+    // (n_i × n_j)·(n_a × n_b) = (n_i·n_a)(n_j·n_b) − (n_i·n_b)(n_j·n_a)
+    let dot = |p: &Row, q: &Row| {
+        let (p, q) = (p.coefficients(), q.coefficients());
+        let terms = [p[0] * q[0], p[1] * q[1], p[2] * q[2]];
+        (terms[0] + terms[1] + terms[2], terms[0].abs() + terms[1].abs() + terms[2].abs())
+    };
+    let ((ia, pia), (jb, pjb)) = (dot(i, a), dot(j, b));
+    let ((ib, pib), (ja, pja)) = (dot(i, b), dot(j, a));
+    let (value, permanent) = (ia * jb - ib * ja, pia * pjb + pib * pja);
+    counts::note_total();
+    if value.abs() > filter::RADIAL_BOUND * permanent {
+        return Sign::of(value);
+    }
+    if permanent == 0.0 {
+        return Sign::Zero;
+    }
+    if let Some(sign) = small_int::radial(i, j, a, b) {
+        counts::note_small_int();
+        return sign;
+    }
+    counts::note_big();
+    big::radial(i, j, a, b)
+}

@@ -1,0 +1,132 @@
+//! A plane's coefficients, prepared for signs.
+
+use crate::half_space::HalfSpace;
+
+/// Integer rows keep every coefficient below this, so that it is exact both as `f64` and as `i64`.
+const MAX_INTEGER: f64 = (1u64 << 53) as f64;
+
+/// The exact coefficients `[nx, ny, nz, d]` of a plane, up to one positive scale.
+///
+/// # Guarantees
+/// Where the coefficients are integers below 2⁵³ up to a power of two, they are stored as integers without a common
+/// divisor; otherwise the largest normal component lies in `[1, 2)`. Either way the stored row is an exact positive
+/// multiple of the plane it was made from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Row {
+    coefficients: [f64; 4],
+    /// Bit length of the largest normal component and of the offset where the row is integer, else [`NOT_INTEGER`].
+    bits: [u8; 2],
+    at_infinity: bool,
+}
+
+const NOT_INTEGER: u8 = u8::MAX;
+
+impl Row {
+    /// Prepares the coefficients of a half-space.
+    #[must_use]
+    pub fn new(half_space: &HalfSpace) -> Self {
+        let n = half_space.normal();
+        // `+ 0.0` turns a negative zero into zero, so that equal rows are equal bit for bit.
+        let coefficients = [n.x + 0.0, n.y + 0.0, n.z + 0.0, half_space.offset() + 0.0];
+        match integer_row(coefficients) {
+            Some(integers) => Self::from_integers(integers),
+            None => Self { coefficients: power_of_two_row(coefficients), bits: [NOT_INTEGER; 2], at_infinity: false },
+        }
+    }
+
+    /// A plane whose offset is the symbolic `M → ∞`; its finite offset is zero.
+    pub(crate) fn infinity(normal: [i64; 3]) -> Self {
+        Self { at_infinity: true, ..Self::from_integers([normal[0], normal[1], normal[2], 0]) }
+    }
+
+    fn from_integers(integers: [i64; 4]) -> Self {
+        let length = |v: i64| (64 - v.unsigned_abs().leading_zeros()) as u8;
+        let normal = length(integers[0]).max(length(integers[1])).max(length(integers[2]));
+        Self { coefficients: integers.map(|v| v as f64), bits: [normal, length(integers[3])], at_infinity: false }
+    }
+
+    /// The scaled coefficients `[nx, ny, nz, d]`.
+    #[must_use]
+    pub fn coefficients(&self) -> &[f64; 4] {
+        &self.coefficients
+    }
+
+    /// The row of the opposite half-space.
+    #[must_use]
+    pub fn flipped(&self) -> Self {
+        Self { coefficients: self.coefficients.map(|v| 0.0 - v), ..*self }
+    }
+
+    /// Whether all coefficients are integers (below 2⁵³).
+    pub(crate) fn is_integer(&self) -> bool {
+        self.bits[0] != NOT_INTEGER
+    }
+
+    /// Bit lengths of the largest normal component and of the offset; only for integer rows.
+    pub(super) fn bits(&self) -> [u32; 2] {
+        [u32::from(self.bits[0]), u32::from(self.bits[1])]
+    }
+
+    /// The coefficients as integers; only for integer rows.
+    pub(super) fn integers(&self) -> [i128; 4] {
+        self.coefficients.map(|v| v as i128)
+    }
+
+    pub(crate) fn is_at_infinity(&self) -> bool {
+        self.at_infinity
+    }
+}
+
+/// The coefficients as coprime integers below 2⁵³, where they are such up to a power of two.
+fn integer_row(coefficients: [f64; 4]) -> Option<[i64; 4]> {
+    let lowest = coefficients.into_iter().filter(|v| *v != 0.0).map(lowest_bit).min()?;
+    let largest = coefficients.into_iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    if exponent(largest) - lowest >= 53 {
+        return None;
+    }
+    let integers = coefficients.map(|v| scale(v, -lowest));
+    debug_assert!(integers.iter().all(|v| v.abs() < MAX_INTEGER && v.fract() == 0.0));
+    let integers = integers.map(|v| v as i64);
+    let divisor = integers.into_iter().fold(0, |g, v| gcd(g, v.unsigned_abs())) as i64;
+    Some(integers.map(|v| v / divisor))
+}
+
+/// Scaled by a power of two so that the largest normal component lies in `[1, 2)`.
+fn power_of_two_row(coefficients: [f64; 4]) -> [f64; 4] {
+    let largest = coefficients[..3].iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    coefficients.map(|v| scale(v, -exponent(largest)))
+}
+
+/// `⌊log₂|v|⌋` of a normal number.
+pub(crate) fn exponent(v: f64) -> i32 {
+    ((v.to_bits() >> 52) & 0x7ff) as i32 - 1023
+}
+
+/// The exponent of the lowest set bit of a non-zero normal number.
+fn lowest_bit(v: f64) -> i32 {
+    let mantissa = (v.to_bits() & ((1 << 52) - 1)) | (1 << 52);
+    exponent(v) - 52 + mantissa.trailing_zeros() as i32
+}
+
+/// `v · 2^power`, exact while neither side under- or overflows, which the accepted coefficient range ensures.
+fn scale(v: f64, power: i32) -> f64 {
+    let half = power / 2;
+    let factor = |p: i32| f64::from_bits(((1023 + p) as u64) << 52);
+    v * factor(half) * factor(power - half)
+}
+
+fn gcd(mut a: u64, mut b: u64) -> u64 {
+    if a == 0 || b == 0 {
+        return a | b;
+    }
+    let shift = (a | b).trailing_zeros();
+    a >>= a.trailing_zeros();
+    while b != 0 {
+        b >>= b.trailing_zeros();
+        if a > b {
+            std::mem::swap(&mut a, &mut b);
+        }
+        b -= a;
+    }
+    a << shift
+}

@@ -1,0 +1,70 @@
+//! The structure is a function of the planes and their order alone: whatever was added and removed
+//! before, it equals a fresh build of what is left.
+
+use planecut_kernel::IncrementalPolytope;
+
+use crate::category::{Category, test_each_category};
+use crate::replay::Replay;
+use crate::settings::operations;
+use crate::shrink::Campaign;
+use crate::structure::Structure;
+
+/// Operations per category unless `PLANECUT_OPS` says otherwise.
+const OPERATIONS: usize = 20_000;
+
+test_each_category!(equals_a_fresh_build);
+
+fn equals_a_fresh_build(category: Category) {
+    let campaign = Campaign {
+        operations: operations(OPERATIONS),
+        capacity: 24,
+        start: IncrementalPolytope::new,
+        check: compare_with_fresh_build,
+    };
+    let tally = campaign.run(category);
+    assert!(tally.removals * 10 > tally.operations, "{category:?} hardly removes: {tally:?}");
+    assert!(tally.removed_redundant > 0 && tally.added_redundant > 0, "{category:?} hides nothing: {tally:?}");
+    assert!(tally.revealed > 0, "{category:?} reveals nothing: {tally:?}");
+    if matches!(category, Category::EmptyAndBack | Category::Thin | Category::Duplicates) {
+        assert!(tally.emptied > 0 && tally.revived > 0, "{category:?} is never empty: {tally:?}");
+    }
+    if matches!(category, Category::Unbounded | Category::Prism) {
+        assert!(tally.unbounded > 0, "{category:?} is always bounded: {tally:?}");
+    }
+}
+
+fn compare_with_fresh_build(replay: &Replay) -> Result<(), String> {
+    let polytope = &replay.polytope;
+    polytope.check_invariants().map_err(|e| format!("invariant broken: {e}"))?;
+    if replay.tally.removals == 0 {
+        return Ok(());
+    }
+    let order = replay.order();
+    let (kept, fresh) = (Structure::of(polytope, &order)?, Structure::of_fresh_build(polytope, &order)?);
+    if kept == fresh { Ok(()) } else { Err(format!("kept  {kept:?}\nfresh {fresh:?}")) }
+}
+
+/// A clone and its original go separate ways.
+#[test]
+fn a_clone_is_independent() {
+    let mut rng = crate::random::Rng::new(crate::settings::first_seed());
+    let mut compared = 0;
+    for category in [Category::Peel, Category::EmptyAndBack, Category::Grid] {
+        let ops = category.script(&mut rng, 20);
+        let mut replay = Replay::new(IncrementalPolytope::new());
+        for op in &ops {
+            replay.apply(op).unwrap_or_else(|e| panic!("{category:?}: {e}\n{ops:?}"));
+            let order = replay.order();
+            let before = Structure::of(&replay.polytope, &order).expect("consistent");
+            let mut copy = replay.polytope.clone();
+            assert_eq!(Structure::of(&copy, &order).as_ref(), Ok(&before));
+            for &index in &order {
+                assert!(copy.remove_plane(index).is_some());
+            }
+            assert_eq!(Structure::of(&replay.polytope, &order).as_ref(), Ok(&before));
+            assert!(!copy.is_empty() && !copy.is_bounded() && copy.planes().next().is_none());
+            compared += 1;
+        }
+    }
+    assert!(compared > 60, "only {compared} steps");
+}
