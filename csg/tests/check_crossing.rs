@@ -134,17 +134,19 @@ fn random_triangles_agree_with_rationals() {
         let step = [1.0, 0.1, 1e-3 / 3.0, 1e150][case % 4];
         let shift = [0.0, 0.0, 1e3, 0.0][case % 4];
         let mut coordinate = || random.below(size) as f64 * step + shift;
-        let positions: Vec<DVec3> = (0..7).map(|_| DVec3::new(coordinate(), coordinate(), coordinate())).collect();
-        let exact: Vec<Point> = positions.iter().map(|&p| rational(p)).collect();
-        let corners = |t: [u32; 3]| t.map(|v| exact[v as usize].clone());
-        let mut triangles = Triangles::new();
+        let pool: Vec<DVec3> = (0..7).map(|_| DVec3::new(coordinate(), coordinate(), coordinate())).collect();
+        // Triangles share positions but no indices: without matched edges there are no edge crossings, which the oracle does
+        // not know.
+        let mut positions: Vec<DVec3> = Vec::new();
         for _ in 0..8 {
-            let t = [(); 3].map(|()| random.below(7) as u32);
+            let t = [(); 3].map(|()| pool[random.below(7) as usize]);
             // The oracle is for triangles with area; those without are tested elsewhere.
-            if normal(&corners(t)) != rational(DVec3::ZERO) {
-                triangles.push(t);
+            if normal(&t.map(rational)) != rational(DVec3::ZERO) {
+                positions.extend(t);
             }
         }
+        let triangles: Triangles = (0..positions.len() as u32 / 3).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
+        let corners = |t: [u32; 3]| t.map(|v| rational(positions[v as usize]));
         let mut involved = BTreeSet::new();
         let mut first = None;
         for (i, &t) in triangles.iter().enumerate() {
@@ -160,12 +162,8 @@ fn random_triangles_agree_with_rationals() {
                 involved.extend([i, j]);
             }
         }
-        // Edge crossings need matched edges; a random soup may have a few. They are left to the tests below.
         let found = crossings(&positions, &triangles, 0.0);
-        if found.first.is_some_and(|c| c.kind == ContactKind::EdgeCrossing) {
-            continue;
-        }
-        let context = format!("seed {seed:#x} case {case}: {positions:?} {triangles:?}");
+        let context = format!("seed {seed:#x} case {case}: {positions:?}");
         assert_eq!(found.first.map(|c| (c.kind, c.triangles)), first, "{context}");
         assert_eq!(found.triangles, involved.len(), "{context}");
         match first {
@@ -174,10 +172,7 @@ fn random_triangles_agree_with_rationals() {
             Some(_) => overlapped += 1,
         }
     }
-    assert!(
-        clean > 100 && crossed > 100 && overlapped > 100,
-        "{clean} clean, {crossed} crossed, {overlapped} overlapped"
-    );
+    assert!(clean > 50 && crossed > 50 && overlapped > 50, "{clean} clean, {crossed} crossed, {overlapped} overlapped");
 }
 
 /// A box on a unit grid, each unit square cut into two triangles; corners are shared.

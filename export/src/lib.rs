@@ -16,6 +16,7 @@ mod file;
 mod format;
 mod glb;
 mod obj;
+mod preview;
 
 mod stl;
 mod topology;
@@ -23,4 +24,4 @@ mod topology;
 pub use error::ExportError;
 pub use file::write_atomic;
 pub use format::{ExportOptions, Format, Part, encode, encode_parts};
-
+pub use preview::{MAX_IMAGE_SIDE, PreviewOptions, PreviewStyle, RgbImage, render_preview, render_rgb};

@@ -3,6 +3,7 @@
 #![deny(missing_docs)]
 
 pub mod map;
+pub mod mesh;
 mod warning;
 
 pub use warning::Warning;

@@ -7,7 +7,7 @@ mod meet;
 mod polytope;
 pub mod sign;
 
-pub use glam::DVec3;
+pub use glam::{DVec2, DVec3, DVec4};
 pub use half_space::{HalfSpace, HalfSpaceError, MAX_NORMAL, MAX_NORMAL_RATIO, MAX_OFFSET_RATIO, MIN_NORMAL};
 pub use meet::meet;
 pub use polytope::{

@@ -7,7 +7,7 @@
 use dashu_int::{IBig, UBig, ops::BitTest};
 use glam::DVec3;
 
-use crate::sign::{Homogeneous, OffsetColumn, Row, big_cross, big_dot, big_integers};
+use crate::sign::{Homogeneous, OffsetColumn, Row, big_cross, big_dot, big_integers, exact_product};
 
 /// Relative error of the double-double evaluation, in units of the permanent. Each term passes at most 12 operations of
 /// relative error `2⁻¹⁰²`, and a product of permanents leaves room.
@@ -140,14 +140,8 @@ impl DoubleDouble {
     }
 
     fn product(a: f64, b: f64) -> Self {
-        let split = |v: f64| {
-            let t = 134_217_729.0 * v; // 2²⁷ + 1
-            let high = t - (t - v);
-            (high, v - high)
-        };
-        let high = a * b;
-        let ((a1, a0), (b1, b0)) = (split(a), split(b));
-        Self { high, low: ((a1 * b1 - high) + a1 * b0 + a0 * b1) + a0 * b0 }
+        let (high, low) = exact_product(a, b);
+        Self { high, low }
     }
 
     fn negated(self) -> Self {

@@ -6,10 +6,8 @@ import math
 import os
 import sys
 from dataclasses import asdict
+from importlib.metadata import version
 from pathlib import Path
-
-import manifold3d
-import numpy
 
 from .checks import Result, check
 from .model import FORMATS
@@ -21,15 +19,16 @@ def main() -> int:
     arguments = _arguments()
     binary = str(arguments.planecut)
     if not os.access(binary, os.X_OK):
-        print(f"error: {binary}: no such program; build it with `cargo build --release` or name one with --planecut")
-        return 2
-    models = _models(arguments.paths)
-    if not models:
-        print(f"error: {', '.join(map(str, arguments.paths))}: no model found, expected {', '.join(FORMATS)} files")
-        return 2
-    print(f"{len(models)} models, {arguments.lines} lines each, seed {arguments.seed}, numpy {numpy.__version__}")
+        return _unusable(f"{binary}: no such program; build it with `cargo build --release` or name one with --planecut")
+    models: list[Path] = []
+    for path in arguments.paths:
+        found = _models(path)
+        if not found:
+            return _unusable(f"{path}: no model found, expected {', '.join(FORMATS)}")
+        models += found
+    print(f"{len(models)} models, {arguments.lines} lines each, seed {arguments.seed}, manifold3d {version('manifold3d')}")
     width = min(44, max(len(_short(str(m))) for m in models))
-    print(_HEAD.format("model", "brushes", "volume", "solid", "mesh", "all", "triangles", "lines", "redrawn", "s", w=width))
+    print(_ROW.format(*_HEAD, w=width))
     results = []
     for path in models:
         result = check(path, binary, arguments.lines, arguments.seed)
@@ -52,15 +51,19 @@ def _arguments() -> argparse.Namespace:
     return parser.parse_args()
 
 
-def _models(paths: list[Path]) -> list[Path]:
-    found: list[Path] = []
-    for path in paths:
-        inside = sorted(p for p in path.rglob("*") if p.suffix.lower() in FORMATS) if path.is_dir() else [path]
-        found += inside
-    return [p for p in found if p.is_file() and p.suffix.lower() in FORMATS]
+def _unusable(message: str) -> int:
+    print(f"error: {message}", file=sys.stderr)
+    return 2
 
 
-_HEAD = "{:<{w}} {:>7} {:>16} {:>8} {:>8} {:>8} {:>9} {:>6} {:>7} {:>5}  status"
+def _models(path: Path) -> list[Path]:
+    """The file itself, or all models below the folder."""
+    files = sorted(path.rglob("*")) if path.is_dir() else [path]
+    return [file for file in files if file.is_file() and file.suffix.lower() in FORMATS]
+
+
+_ROW = "{:<{w}} {:>7} {:>16} {:>8} {:>8} {:>8} {:>9} {:>6} {:>7} {:>5}  {}"
+_HEAD = ("model", "brushes", "volume", "solid", "mesh", "all", "triangles", "lines", "redrawn", "s", "status")
 
 
 def _short(name: str) -> str:
@@ -72,7 +75,7 @@ def _print_row(result: Result, width: int) -> None:
     difference = result.differences
     exact = [value for name, value in difference.items() if name != "GLB volume"]
     print(
-        _HEAD.format(
+        _ROW.format(
             _short(result.model)[-width:],
             result.brushes,
             "" if math.isnan(result.reference_volume) else f"{result.reference_volume:.6f}"[:16],
@@ -83,9 +86,9 @@ def _print_row(result: Result, width: int) -> None:
             result.lines.get("mismatches", ""),
             result.lines.get("redrawn", ""),
             f"{result.seconds:.1f}",
+            "; ".join([result.status, *result.notes]),
             w=width,
-        ).replace("  status", f"  {result.status}"),
-        f"({'; '.join(result.notes)})" if result.notes else "",
+        ),
         flush=True,
     )
     for failure in result.failures:
@@ -98,19 +101,13 @@ def _write_report(arguments: argparse.Namespace, results: list[Result]) -> None:
         if math.isnan(row["reference_volume"]):
             row["reference_volume"] = None
     report = {
-        "manifold3d": _version(manifold3d),
+        "manifold3d": version("manifold3d"),
         "lines": arguments.lines,
         "seed": arguments.seed,
         "agree": not any(r.failures for r in results),
         "models": rows,
     }
     arguments.report.write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")
-
-
-def _version(module) -> str:
-    from importlib.metadata import version
-
-    return version(module.__name__)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 """Reference models: what the input means, said by code that planecut has no part in."""
 
-from dataclasses import dataclass
+import random
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Protocol
 
@@ -45,6 +46,19 @@ class Coverage:
     unclear: np.ndarray
 
 
+@dataclass
+class ReferenceVolume:
+    """The volume by manifold3d, and every answer it gave on the way, by name of the way."""
+
+    volume: float
+    answers: dict[str, float] = field(default_factory=dict)
+
+    def spread(self) -> float:
+        """The largest relative difference between two answers."""
+        values = self.answers.values()
+        return (max(values) - min(values)) / abs(self.volume)
+
+
 class ReferenceModel(Protocol):
     """What the checks need from an input; a new file format brings a class like this and a line in `FORMATS`."""
 
@@ -58,8 +72,8 @@ class ReferenceModel(Protocol):
     is_empty: bool
     brush_volume_sum: float
 
-    def solid(self) -> manifold3d.Manifold:
-        """The solid as manifold3d evaluates it."""
+    def volume(self) -> ReferenceVolume:
+        """The volume of the solid by manifold3d. Raises `ArithmeticError` where its answers do not settle on one."""
 
     def coverage(self, lines: Lines) -> Coverage:
         """Where the lines cross the solid, from the input's own definition, without any mesh."""
@@ -91,8 +105,31 @@ class BrushUnion:
             self._first_plane = np.concatenate([[0], np.cumsum(counts)[:-1]])
             self._body_of_plane = np.repeat(np.arange(len(counts)), counts)
 
-    def solid(self) -> manifold3d.Manifold:
-        return manifold3d.Manifold.batch_boolean(self.hulls, manifold3d.OpType.Add)
+    def volume(self) -> ReferenceVolume:
+        """Two ways to one number: the batch union, and the sum over bodies of what earlier ones leave of each.
+
+        The batch union now and then depends on the order of its operands (by 1e-5 of the volume on real maps), so where
+        the two differ it is asked again in other orders until one of its answers meets the sum of parts.
+        """
+        parts = self._volume_by_parts()
+        answers = {"parts": parts, "batch": _union(self.hulls)}
+        for seed in range(_ORDERS):
+            agreeing = [v for name, v in answers.items() if name != "parts" and abs(v - parts) <= _AGREED * parts]
+            if agreeing:
+                return ReferenceVolume(agreeing[-1], answers)
+            shuffled = list(self.hulls)
+            random.Random(seed).shuffle(shuffled)
+            answers[f"batch, order {seed}"] = _union(shuffled)
+        raise ArithmeticError(f"manifold3d gives {answers}")
+
+    def _volume_by_parts(self) -> float:
+        low, high = (np.array([hull.bounding_box() for hull in self.hulls])[:, part] for part in (slice(3), slice(3, 6)))
+        total = 0.0
+        for i, hull in enumerate(self.hulls):
+            earlier = np.nonzero(((low[:i] <= high[i]) & (high[:i] >= low[i])).all(1))[0]
+            operands = [hull] + [self.hulls[j] for j in earlier]
+            total += manifold3d.Manifold.batch_boolean(operands, manifold3d.OpType.Subtract).volume()
+        return total
 
     def coverage(self, lines: Lines, chunk: int = 256) -> Coverage:
         parts = [self._coverage(lines[at : at + chunk], at) for at in range(0, len(lines), chunk)]
@@ -120,19 +157,34 @@ class BrushUnion:
         enter = np.maximum.reduceat(enters, self._first_plane, axis=0)
         leave = np.minimum.reduceat(leaves, self._first_plane, axis=0)
         unclear = (np.abs(leave - enter) <= CLOSE * size).any(0)
+        hit = leave > enter
+        for ends, end in ((enters, enter), (leaves, leave)):
+            # Two planes at one end: the line passes an edge there.
+            with np.errstate(invalid="ignore"):
+                at_end = np.abs(ends - end[self._body_of_plane]) <= CLOSE * size
+            unclear |= (hit & (np.add.reduceat(at_end, self._first_plane, axis=0, dtype=np.int32) > 1)).any(0)
         plane, line = np.nonzero(np.abs(rate) < GRAZING)
         body = self._body_of_plane[plane]
         bounds = (enters[plane, line] == enter[body, line]) | (leaves[plane, line] == leave[body, line])
-        unclear[line[bounds & (leave[body, line] > enter[body, line])]] = True
+        unclear[line[bounds & hit[body, line]]] = True
         return enter, leave, unclear
 
+
+def _union(hulls: list[manifold3d.Manifold]) -> float:
+    return manifold3d.Manifold.batch_boolean(hulls, manifold3d.OpType.Add).volume()
+
+
+_ORDERS = 6
+"""Orders of the operands to try before giving up."""
+_AGREED = 1e-10
+"""Relative difference up to which two answers of manifold3d are one."""
 
 TOUCHING = 1e-9
 """Bodies closer than this along a line, relative to the model's diagonal, count as touching."""
 SURELY_TOUCHING = 1e-12
 """What rounding alone explains. A gap between the two values makes a line unclear."""
 CLOSE = 1e-7
-"""A line inside a body, or past it, by less than this (relative, along the line) comes too near an edge or corner."""
+"""Planes of a body that a line meets within this distance (relative to the diagonal): too near an edge or a corner."""
 GRAZING = 1e-4
 """Cosine to the normal of a face below which the line is taken to graze it."""
 
@@ -163,8 +215,7 @@ def _merge(line, enter, leave, lines: int, size: float) -> tuple[Crossings, np.n
 def _load_map(path: Path) -> BrushUnion:
     # Old editors wrote texture and path names in whatever code page they had; only ASCII matters here.
     brushes = read_map(path.read_text(encoding="latin-1"))
-    model = BrushUnion([convex_body(b.planes) for b in brushes], len(brushes))
-    return model
+    return BrushUnion([convex_body(b.planes) for b in brushes], len(brushes))
 
 
 FORMATS = {".map": _load_map}

@@ -12,7 +12,7 @@ use super::{IndexedMesh, Precision, objects_from_starts};
 /// Reads an OBJ file. Faces may name vertices that are defined before them, by position from either end.
 pub(super) fn read(bytes: &[u8]) -> Result<IndexedMesh, Fault> {
     let mut reader = ObjReader::default();
-    for (line, statement) in Statements { rest: bytes, line: 1 } {
+    for (line, statement) in (Statements { rest: bytes, line: 1 }) {
         reader.statement(&statement, line)?;
     }
     let ObjReader { positions, triangles, objects, groups, .. } = reader;

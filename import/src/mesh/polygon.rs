@@ -81,9 +81,8 @@ fn is_ear(left: &[usize], i: usize, flat: &[DVec2]) -> bool {
         return false;
     }
     // Corners that coincide with those of the ear belong to bridges to holes and are no obstacle.
-    let blocks = |p: DVec2| {
-        p != a && p != b && p != c && turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0
-    };
+    let blocks =
+        |p: DVec2| p != a && p != b && p != c && turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0;
     left.iter().all(|&k| !blocks(flat[k]))
 }
 
@@ -125,7 +124,10 @@ mod tests {
             let triangles = cut(&outline);
             assert_eq!(triangles.len(), n - 2, "seed {seed:#x} case {case}");
             // All turn left and their areas add up: then they cannot overlap or leave the polygon.
-            assert!(triangles.iter().all(|[a, b, c]| turn(*a, *b, *c) >= 0.0), "seed {seed:#x} case {case}: {outline:?}");
+            assert!(
+                triangles.iter().all(|[a, b, c]| turn(*a, *b, *c) >= 0.0),
+                "seed {seed:#x} case {case}: {outline:?}"
+            );
             let sum: f64 = triangles.iter().map(|t| area(t)).sum();
             assert_eq!(sum, area(&outline), "seed {seed:#x} case {case}: {outline:?}");
         }
@@ -133,7 +135,8 @@ mod tests {
 
     #[test]
     fn corners_on_a_side_stay_corners() {
-        let square = [(0, 0), (1, 0), (2, 0), (2, 2), (1, 2), (0, 2)].map(|(x, y)| DVec2::new(f64::from(x), f64::from(y)));
+        let square =
+            [(0, 0), (1, 0), (2, 0), (2, 2), (1, 2), (0, 2)].map(|(x, y)| DVec2::new(f64::from(x), f64::from(y)));
         let triangles = cut(&square);
         assert_eq!(triangles.len(), 4);
         assert!(triangles.iter().all(|[a, b, c]| turn(*a, *b, *c) > 0.0), "none is flat: {triangles:?}");

@@ -28,7 +28,11 @@ pub(super) fn read(bytes: &[u8]) -> Result<IndexedMesh, Fault> {
             || format!("a header of {HEADER} bytes, or `solid`"),
             |length| format!("{length} bytes for the number of facets in the header, or `solid`"),
         );
-        Err(Fault::new(Place::Byte(COUNT_OFFSET.min(bytes.len())), format!("a file of {} bytes", bytes.len()), expected))
+        Err(Fault::new(
+            Place::Byte(COUNT_OFFSET.min(bytes.len())),
+            format!("a file of {} bytes", bytes.len()),
+            expected,
+        ))
     }
 }
 

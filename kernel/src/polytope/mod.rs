@@ -163,9 +163,14 @@ impl IncrementalPolytope {
         polytope
     }
 
-    /// Back to all of space; stamps start again.
+    /// Back to all of space, keeping the memory; stamps and handles start again.
     pub fn clear(&mut self) {
-        *self = Self::with_epsilon(self.epsilon);
+        self.planes.clear();
+        self.vertices.clear();
+        self.certificates.clear();
+        self.pending.clear();
+        self.hint = 0;
+        self.close_by_infinity_planes();
     }
 
     /// Whether the set has no interior.

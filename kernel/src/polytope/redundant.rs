@@ -43,6 +43,15 @@ impl Certificates {
         }
     }
 
+    /// Forgets all certificates, keeping the memory.
+    pub(super) fn clear(&mut self) {
+        self.certifiers.clear();
+        self.next.clear();
+        self.previous.clear();
+        self.head.clear();
+        self.uncertified.clear();
+    }
+
     pub(super) fn push_uncertified(&mut self, link: Link) {
         self.uncertified.push(link);
     }

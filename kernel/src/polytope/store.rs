@@ -65,6 +65,18 @@ impl PlaneStore {
         slot
     }
 
+    /// Forgets all planes, keeping the memory.
+    pub(super) fn clear(&mut self) {
+        self.row.clear();
+        self.half_space.clear();
+        self.stamp.clear();
+        self.state.clear();
+        self.face_vertex.clear();
+        self.mark.clear();
+        self.free.clear();
+        self.next_stamp = 0;
+    }
+
     /// Gives a slot back.
     pub(super) fn remove(&mut self, slot: u32) {
         self.state[slot as usize] = PlaneState::Free;
@@ -106,6 +118,16 @@ impl VertexStore {
         self.point.push(point);
         self.visited.push(0);
         slot
+    }
+
+    /// Forgets all vertices, keeping the memory.
+    pub(super) fn clear(&mut self) {
+        self.planes.clear();
+        self.neighbours.clear();
+        self.point.clear();
+        self.visited.clear();
+        self.free.clear();
+        self.live = 0;
     }
 
     /// Gives a slot back.

@@ -101,6 +101,37 @@ impl IncrementalPolytope {
             .map(|slot| self.vertices.planes[slot as usize].map(|p| (!is_infinity(p)).then(|| external(p))))
     }
 
+    /// The faces that have an area, exactly: for each its plane and the planes of its edges, counter-clockwise seen from
+    /// outside. Edges of exactly zero length are left out; the tolerance takes no part. Corner `i` is where the plane and
+    /// the edge planes `i` and `i + 1` meet, right-handed in this order. Infinity planes are `None`.
+    #[must_use]
+    pub fn facets(&self) -> Vec<(PlaneIdx, Vec<Option<PlaneIdx>>)> {
+        let mut facets = Vec::new();
+        for (slot, state) in self.planes.state.iter().enumerate() {
+            let plane = slot as u32;
+            if self.is_empty() || *state != PlaneState::Face || is_infinity(plane) {
+                continue;
+            }
+            let mut edges = Vec::new();
+            for vertex in self.vertices.face_ring(plane, self.planes.face_vertex[slot]) {
+                // the edge from this vertex (plane, p, q) to the next lies on q
+                let k = self.vertices.index_of(vertex, plane);
+                let planes = self.vertices.planes[vertex as usize];
+                let next = self.vertices.neighbours[vertex as usize][(k + 1) % 3];
+                let across = self.vertices.planes[next as usize];
+                let j = self.vertices.index_of(next, plane);
+                if !self.is_exactly_on(planes, across[(j + 2) % 3]) {
+                    let q = planes[(k + 2) % 3];
+                    edges.push((!is_infinity(q)).then(|| external(q)));
+                }
+            }
+            if edges.len() >= 3 {
+                facets.push((external(plane), edges));
+            }
+        }
+        facets
+    }
+
     /// The homogeneous position of a vertex of the simple structure.
     fn position(&self, slot: u32) -> DVec4 {
         let planes = self.vertices.planes[slot as usize];

@@ -60,14 +60,28 @@ pub(super) fn det3(a: &Row, b: &Row, c: &Row) -> (f64, f64) {
 /// `W = det(nₐ, n_b, n_c)` and `(X, Y, Z) = dₐ·n_b×n_c + d_b·n_c×nₐ + d_c·nₐ×n_b`: asking on which side of a plane it
 /// lies then takes no division.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Homogeneous {
+pub struct Homogeneous {
     /// `(X, Y, Z, W)`, rounded.
-    pub(crate) value: [f64; 4],
+    pub value: [f64; 4],
     /// The sums of the magnitudes of the terms of each.
-    pub(crate) permanent: [f64; 4],
+    pub permanent: [f64; 4],
 }
 
 impl Homogeneous {
+    /// The meeting point of three planes.
+    #[must_use]
+    pub fn meet(a: &Row, b: &Row, c: &Row) -> Self {
+        Self::of(a, b, c, OffsetColumn::Finite)
+    }
+
+    /// On which side of `h` the point lies, times the sign of `W`: for right-handed `rows`, positive is outside, zero on
+    /// the plane. `rows` are the planes that the point was made from, in the same order.
+    #[inline]
+    #[must_use]
+    pub fn side_of(&self, rows: [&Row; 3], h: &Row) -> Sign {
+        self.side(rows, h, OffsetColumn::Finite)
+    }
+
     /// The meeting point for the offsets of one column.
     #[inline]
     pub(crate) fn of(a: &Row, b: &Row, c: &Row, column: OffsetColumn) -> Self {

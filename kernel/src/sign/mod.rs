@@ -18,9 +18,11 @@ mod small_int;
 
 pub use counts::Counts;
 pub use row::Row;
+pub(crate) use row::exact_product;
 
 pub(crate) use big::{cross as big_cross, dot as big_dot, integers as big_integers};
-pub(crate) use filter::{Homogeneous, OffsetColumn};
+pub use filter::Homogeneous;
+pub(crate) use filter::OffsetColumn;
 
 /// A three-way sign.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -57,8 +57,32 @@ impl Row {
         Self { coefficients: self.coefficients.map(|v| 0.0 - v), ..*self }
     }
 
-    /// Whether all coefficients are integers (below 2⁵³).
-    pub(crate) fn is_integer(&self) -> bool {
+    /// Whether the rows describe one plane, up to any scale, positive or negative: all 2×2 minors are zero.
+    #[must_use]
+    pub fn is_same_plane(&self, other: &Self) -> bool {
+        let (a, b) = (&self.coefficients, &other.coefficients);
+        (0..4).all(|i| (i + 1..4).all(|j| exact_product(a[i], b[j]) == exact_product(a[j], b[i])))
+    }
+
+    /// Numbers that equal planes share, whatever the scale and side of their rows: the index of the first coefficient that
+    /// is not zero, and the others divided by it. Division rounds correctly, so equal ratios give equal numbers.
+    #[must_use]
+    pub fn ratios(&self) -> (usize, [f64; 3]) {
+        let c = &self.coefficients;
+        let first = if c[0] != 0.0 {
+            0
+        } else if c[1] != 0.0 {
+            1
+        } else {
+            2
+        };
+        let rest: [usize; 3] = std::array::from_fn(|k| if k < first { k } else { k + 1 });
+        (first, rest.map(|k| c[k] / c[first] + 0.0))
+    }
+
+    /// Whether all coefficients are integers (below 2⁵³), coprime.
+    #[must_use]
+    pub fn is_integer(&self) -> bool {
         self.bits[0] != NOT_INTEGER
     }
 
@@ -113,6 +137,18 @@ fn scale(v: f64, power: i32) -> f64 {
     let half = power / 2;
     let factor = |p: i32| f64::from_bits(((1023 + p) as u64) << 52);
     v * factor(half) * factor(power - half)
+}
+
+/// The product of two numbers as an exact unevaluated sum (Dekker 1971).
+pub(crate) fn exact_product(a: f64, b: f64) -> (f64, f64) {
+    let split = |v: f64| {
+        let t = 134_217_729.0 * v; // 2²⁷ + 1
+        let high = t - (t - v);
+        (high, v - high)
+    };
+    let high = a * b;
+    let ((a1, a0), (b1, b0)) = (split(a), split(b));
+    (high, ((a1 * b1 - high) + a1 * b0 + a0 * b1) + a0 * b0)
 }
 
 fn gcd(mut a: u64, mut b: u64) -> u64 {

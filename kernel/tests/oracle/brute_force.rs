@@ -3,11 +3,14 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-use dashu_ratio::RBig;
+use dashu_int::IBig;
 use planecut_kernel::{DVec3, IncrementalPolytope, PlaneIdx};
 
 use crate::category::{Category, test_each_category};
+use crate::edges::Edges;
 use crate::exact::{integer_row, normal};
+use crate::facets::{check_ideal_vertices, compare_facets, compare_vertices};
+use crate::measures::compare_measures;
 use crate::replay::Replay;
 use crate::settings::operations;
 use crate::shrink::Campaign;
@@ -19,8 +22,6 @@ use crate::truth::Truth;
 const OPERATIONS: usize = 1_500;
 /// Most planes at one time: the oracle takes O(n⁴).
 const PLANES: usize = 9;
-/// Largest accepted error of a coordinate, relative to the largest coordinate of the body.
-const POSITION_TOLERANCE: f64 = 1e-12;
 
 test_each_category!(equals_the_definition);
 
@@ -47,17 +48,31 @@ pub(crate) fn compare_with_truth(replay: &Replay) -> Result<(), String> {
             (polytope.vertex_count(), polytope.edge_count(), polytope.to_mesh().0.len(), polytope.faces().len());
         return agree("vertices, edges, mesh and faces of the empty set", &counts, &(0, 0, 0, 0));
     }
+    let rank: HashMap<PlaneIdx, usize> = order.iter().enumerate().map(|(k, &p)| (p, k)).collect();
+    let edges = Edges::of(&planes);
+    compare_edges(polytope, &edges)?;
+    check_ideal_vertices(polytope, &rank, &planes, edges.ideal_ends)?;
     if !truth.bounded {
-        return Ok(());
+        return agree("measures of an unbounded set", &polytope.measures(), &None);
     }
     let solid = Solid::of(&planes);
+    assert_eq!(edges.count, solid.edges.len(), "the oracle contradicts itself");
     let normals: Vec<_> = planes.iter().map(|&p| normal(&integer_row(p))).collect();
-    let rank: HashMap<PlaneIdx, usize> = order.iter().enumerate().map(|(k, &p)| (p, k)).collect();
     let view = View::of(polytope, &rank)?;
-    view.compare_counts(polytope, &solid)?;
+    view.compare_counts(&solid)?;
     let names = view.match_vertices(&solid)?;
-    view.compare_loops(&solid, &names, &normals)?;
-    view.compare_positions(&solid, &names)
+    let loops = view.compare_loops(&solid, &names, &normals)?;
+    view.compare_positions(&solid, &names)?;
+    compare_facets(polytope, &rank, &solid, &normals)?;
+    compare_vertices(polytope, &rank, &solid)?;
+    compare_measures(polytope, &solid, &loops)
+}
+
+/// Counts that are defined for unbounded sets, too: an ideal vertex is the end of one ray or line.
+fn compare_edges(polytope: &IncrementalPolytope, edges: &Edges) -> Result<(), String> {
+    agree("edge_count", &polytope.edge_count(), &edges.count)?;
+    agree("finite vertices", &polytope.to_mesh().0.len(), &edges.finite_ends.len())?;
+    agree("vertex_count", &polytope.vertex_count(), &(edges.finite_ends.len() + edges.ideal_ends))
 }
 
 /// The kernel's view from outside: positions and, per face, its plane's place in the order and its loop.
@@ -83,12 +98,10 @@ impl View {
         Ok(Self { positions, loops })
     }
 
-    fn compare_counts(&self, polytope: &IncrementalPolytope, solid: &Solid) -> Result<(), String> {
+    fn compare_counts(&self, solid: &Solid) -> Result<(), String> {
         let owners: Vec<usize> = solid.facets.iter().map(|f| f.plane).collect();
         agree("planes of the faces", &self.loops.keys().copied().collect(), &owners)?;
-        agree("vertices of the mesh", &self.positions.len(), &solid.vertices.len())?;
-        agree("vertex_count", &polytope.vertex_count(), &solid.vertices.len())?;
-        agree("edge_count", &polytope.edge_count(), &solid.edges.len())
+        agree("vertices of the mesh", &self.positions.len(), &solid.vertices.len())
     }
 
     /// The exact vertex of each mesh vertex: the one on the same faces. No coordinate is compared.
@@ -105,7 +118,14 @@ impl View {
         (0..self.positions.len()).map(name).collect()
     }
 
-    fn compare_loops(&self, solid: &Solid, names: &[usize], normals: &[[dashu_int::IBig; 3]]) -> Result<(), String> {
+    /// The faces' loops in terms of exact vertices, each found to be a cycle of edges that turns left.
+    fn compare_loops(
+        &self,
+        solid: &Solid,
+        names: &[usize],
+        normals: &[[IBig; 3]],
+    ) -> Result<BTreeMap<usize, Vec<usize>>, String> {
+        let mut loops = BTreeMap::new();
         for facet in &solid.facets {
             let corners: Vec<usize> = self.loops[&facet.plane].iter().map(|&v| names[v]).collect();
             agree("corners of a face", &corners.len(), &facet.vertices.len())?;
@@ -116,24 +136,19 @@ impl View {
                 }
             }
             agree("turn of a face", &solid.turn(&normals[facet.plane], [corners[0], corners[1], corners[2]]), &1)?;
+            loops.insert(facet.plane, corners);
         }
-        Ok(())
+        Ok(loops)
     }
 
+    /// The kernel promises correctly rounded coordinates.
     fn compare_positions(&self, solid: &Solid, names: &[usize]) -> Result<(), String> {
-        let float = |v: &RBig| v.to_f64().value();
-        let coordinates = solid.vertices.iter().flat_map(|v| v.position.iter().map(float));
-        let size = coordinates.fold(0.0, |m: f64, c| m.max(c.abs()));
-        for (v, position) in self.positions.iter().enumerate() {
-            let exact = &solid.vertices[names[v]].position;
-            for (&got, want) in position.as_ref().iter().zip(exact) {
-                let error = (got - float(want)).abs();
-                if error.is_nan() || error > 0.0 * size {
-                    let on = &solid.vertices[names[v]].planes;
-                    return Err(format!(
-                        "coordinate {got:?} of the vertex on planes {on:?} is off by {error:e}, body size {size:e}"
-                    ));
-                }
+        for (position, &name) in self.positions.iter().zip(names) {
+            let vertex = &solid.vertices[name];
+            let exact: Vec<f64> = vertex.position.iter().map(|c| c.to_f64().value()).collect();
+            if position.as_ref().as_slice() != exact {
+                let on = &vertex.planes;
+                return Err(format!("vertex on planes {on:?} is at {position:?}, correctly rounded at {exact:?}"));
             }
         }
         Ok(())

@@ -173,17 +173,17 @@ fn peel(writer: &mut Writer) {
 
 /// Large faces, pyramid bases and roofs, removed and put back; what hides behind them shows up.
 fn wedge(writer: &mut Writer, steps: usize) {
-    let most = if writer.capacity < 12 {
-        writer.capacity as i64 - 2
+    let sides = if writer.capacity < 12 {
+        writer.rng.integer(3, writer.capacity as i64 - 2)
     } else if writer.rng.chance(0.05) {
         writer.capacity = 310;
-        300
+        writer.rng.integer(50, 300)
     } else {
-        40
+        let most = writer.rng.integer(3, 40);
+        writer.rng.integer(3, most)
     };
-    let most = writer.rng.integer(3, most);
     let ring = Ring {
-        sides: writer.rng.integer(3, most) as usize,
+        sides: sides as usize,
         slope: writer.rng.pick(&[0.0, 0.25, 1.0, -0.5]),
         jitter: writer.rng.pick(&[0.0, 0.0, 0.3]),
         whole: writer.rng.chance(0.3),

@@ -68,3 +68,29 @@ fn a_clone_is_independent() {
     }
     assert!(compared > 60, "only {compared} steps");
 }
+
+/// After `clear` handles, stamps and structure are those of a new polytope.
+#[test]
+fn a_cleared_polytope_is_like_a_new_one() {
+    let mut rng = crate::random::Rng::new(crate::settings::first_seed());
+    let categories = [Category::EmptyAndBack, Category::Grid, Category::Peel, Category::Prism, Category::Wedge];
+    let mut used = IncrementalPolytope::new();
+    for round in 0..100 {
+        let category = rng.pick(&categories);
+        let ops = category.script(&mut rng, 20);
+        used.clear();
+        let (mut cleared, mut new) = (Replay::new(used), Replay::new(IncrementalPolytope::new()));
+        for op in &ops[..rng.below(ops.len()).max(5)] {
+            for replay in [&mut cleared, &mut new] {
+                replay.apply(op).unwrap_or_else(|e| panic!("round {round}, {category:?}: {e}\n{ops:?}"));
+            }
+            let (order, polytope) = (new.order(), &cleared.polytope);
+            assert_eq!(cleared.order(), order);
+            assert_eq!(polytope.check_invariants(), Ok(()));
+            assert_eq!(Structure::of(polytope, &order), Structure::of(&new.polytope, &order), "{category:?}\n{ops:?}");
+            let stamps = |p: &IncrementalPolytope| order.iter().map(|&i| p.stamp(i)).collect::<Vec<_>>();
+            assert_eq!(stamps(polytope), stamps(&new.polytope));
+        }
+        used = cleared.polytope;
+    }
+}

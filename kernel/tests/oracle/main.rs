@@ -11,9 +11,12 @@
 
 mod brute_force;
 mod category;
+mod edges;
 mod exact;
+mod facets;
 mod fresh_build;
 mod generators;
+mod measures;
 mod membership;
 mod mesh;
 mod random;

@@ -54,3 +54,23 @@ fn planes_added_to_an_empty_set_count_after_it_comes_back() {
         remove(2),
     ]);
 }
+
+#[test]
+fn the_direction_of_a_line_of_two_nearly_equal_planes() {
+    // The second plane is ten times the first up to rounding: products in floating point cancel to zero.
+    replay(&[
+        add(0, [-0.08127368939572548, 0.03935550273364962, -0.04296198105987248, 0.07977481186384042]),
+        add(1, [-0.8127368939572547, 0.39355502733649617, -0.4296198105987247, 0.7977481186384042]),
+    ]);
+}
+
+#[test]
+fn the_volume_of_a_needle() {
+    // Three sides all but parallel to one line: the tip is 10¹⁶ times as far away as the base is wide.
+    replay(&[
+        add(0, [0.8337102308727241, 0.5303382051907015, 0.15384615384615385, 1.0]),
+        add(1, [-0.25960430490149, -0.9657150743757779, 0.0, 1.0]),
+        add(2, [0.9, -0.3, -0.3, 1.0]),
+        add(3, [-0.45541984073721575, 0.8768831904020253, -0.15384615384615374, 1.0]),
+    ]);
+}

@@ -114,12 +114,14 @@ impl Replay {
     }
 
     fn remove(&mut self, k: usize) -> Result<(), String> {
-        let index = self.live.remove(k).index;
+        let Live { index, plane, .. } = self.live.remove(k);
         let hidden = self.hidden();
         let was_empty = self.polytope.is_empty();
         let was_redundant = self.polytope.is_redundant(index);
-        if self.polytope.remove_plane(index).is_none() {
-            return Err(format!("{index:?} is there, but remove_plane returned None"));
+        let removed = self.polytope.remove_plane(index);
+        let removed = removed.ok_or_else(|| format!("{index:?} is there, but remove_plane returned None"))?;
+        if removed.half_space != half_space(plane) || removed.had_face != (!was_empty && !was_redundant) {
+            return Err(format!("{removed:?}, but empty: {was_empty}, redundant: {was_redundant} before"));
         }
         if self.polytope.plane(index).is_some() || self.polytope.stamp(index).is_some() {
             return Err(format!("{index:?} is still there after its removal"));

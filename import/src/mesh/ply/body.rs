@@ -36,13 +36,10 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// The next number. Text is not checked against the range of its type.
+    /// The next number. Text is taken as it stands, whatever the range and precision of its type.
     pub(super) fn scalar(&mut self, scalar: Scalar) -> Result<f64, Fault> {
         match self {
-            Self::Ascii(words) => {
-                let value = words.number()?;
-                Ok(if scalar == Scalar::F32 { f64::from(value as f32) } else { value })
-            }
+            Self::Ascii(words) => words.number(),
             Self::Binary { rest, offset, big_endian } => {
                 let Some((bytes, after)) = rest.split_at_checked(scalar.size()) else {
                     let found = format!("{} bytes", rest.len());

@@ -104,7 +104,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Header, Body<'_>), Fault> {
             Some(b"format") => encoding = Some(read_encoding(words.next().unwrap_or_default(), place())?),
             Some(b"element") => elements.push(read_element(&mut words, place())?),
             Some(b"property") => {
-                let property = read_property(&mut words, place())?;
+                let property = read_property(&mut words, &place())?;
                 let element = elements.last_mut();
                 let no_element = || Fault::new(place(), "`property` first", "`element` before it");
                 element.ok_or_else(no_element)?.properties.push(property);
@@ -156,7 +156,7 @@ fn read_element(words: &mut Words<'_>, place: Place) -> Result<Element, Fault> {
     Ok(Element { name, count, properties: Vec::new() })
 }
 
-fn read_property(words: &mut Words<'_>, place: Place) -> Result<Property, Fault> {
+fn read_property(words: &mut Words<'_>, place: &Place) -> Result<Property, Fault> {
     let scalar = |word: Option<&[u8]>| {
         let word = word.unwrap_or_default();
         Scalar::from_name(word).ok_or_else(|| Fault::new(place.clone(), quoted(word), "a number type such as `float`"))

@@ -5,7 +5,7 @@ mod header;
 
 use glam::DVec3;
 
-use super::error::{Fault, Place};
+use super::error::Fault;
 use super::polygon::{MAX_CONCAVE_CORNERS, triangulate};
 use super::{IndexedMesh, Precision, objects_from_starts};
 
@@ -22,7 +22,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<IndexedMesh, Fault> {
         // Each record takes at least so many bytes: a count that the file cannot hold is refused before anything is allocated.
         let least = element.least_size(header.encoding) as u128 * element.count as u128;
         if least > body.remaining() as u128 {
-            let found = format!("{} bytes for {} records of element `{}`", body.remaining(), element.count, element.name);
+            let found =
+                format!("{} bytes for {} records of element `{}`", body.remaining(), element.count, element.name);
             return Err(Fault::new(body.place(), found, format!("at least {least}")));
         }
         match element.name.as_str() {
@@ -45,7 +46,11 @@ pub(super) fn read(bytes: &[u8]) -> Result<IndexedMesh, Fault> {
 fn precision(header: &Header) -> Precision {
     let vertex = header.elements.iter().find(|e| e.name == "vertex");
     let is_single = |p: &&Property| p.list_length.is_none() && p.name == "x" && p.scalar == Scalar::F32;
-    if vertex.is_some_and(|v| v.properties.iter().any(|p| is_single(&p))) { Precision::Single } else { Precision::Double }
+    if vertex.is_some_and(|v| v.properties.iter().any(|p| is_single(&p))) {
+        Precision::Single
+    } else {
+        Precision::Double
+    }
 }
 
 fn read_vertices(element: &Element, body: &mut Body<'_>) -> Result<Vec<DVec3>, Fault> {
@@ -73,7 +78,8 @@ fn read_vertices(element: &Element, body: &mut Body<'_>) -> Result<Vec<DVec3>, F
 }
 
 fn read_faces(element: &Element, positions: &[DVec3], body: &mut Body<'_>) -> Result<Vec<[u32; 3]>, Fault> {
-    let is_indices = |p: &&Property| p.list_length.is_some() && ["vertex_indices", "vertex_index"].contains(&p.name.as_str());
+    let is_indices =
+        |p: &&Property| p.list_length.is_some() && ["vertex_indices", "vertex_index"].contains(&p.name.as_str());
     let Some(indices) = element.properties.iter().find(is_indices) else {
         return Err(Fault::whole("no list `vertex_indices` in element `face`", "one"));
     };

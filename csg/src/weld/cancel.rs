@@ -1,0 +1,261 @@
+//! What is left of the boundary edges on each line once opposite ones have cancelled.
+//!
+//! Per line and region (oriented plane and material) the directed edges are summed over the elementary intervals between
+//! end points: coplanar pieces merge, however they were cut. The maximal runs that survive are then cut at the ends of
+//! all runs on the line, so that faces meet without T-junctions.
+
+use planecut_kernel::sign::Sign;
+
+use super::WeldError;
+use super::lines::Line;
+use super::points::Points;
+use crate::plane_table::{PlaneId, PlaneTable};
+
+/// A boundary edge with its points and line numbered.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct NumberedEdge {
+    pub(super) line: u32,
+    /// The region: an oriented plane and a material.
+    pub(super) region: u32,
+    /// The plane of the edge, outward from the region.
+    pub(super) edge: PlaneId,
+    pub(super) from: u32,
+    pub(super) to: u32,
+    /// Whether it points along its line.
+    pub(super) forward: bool,
+}
+
+/// A maximal piece of a line along which one region ends on one side.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Run {
+    pub(super) line: u32,
+    pub(super) region: u32,
+    pub(super) edge: PlaneId,
+    /// In the direction of the run.
+    pub(super) from: u32,
+    pub(super) to: u32,
+    pub(super) forward: bool,
+}
+
+/// The surviving runs of all edges, ordered by line, then region.
+pub(super) fn surviving_runs(
+    table: &PlaneTable,
+    points: &Points,
+    lines: &[Line],
+    edges: &mut [NumberedEdge],
+) -> Result<Vec<Run>, WeldError> {
+    edges.sort_unstable_by_key(|edge| (edge.line, edge.region, edge.from, edge.to));
+    let mut runs = Vec::with_capacity(edges.len());
+    let mut sweep = Sweep::default();
+    for group in edges.chunk_by(|a, b| (a.line, a.region) == (b.line, b.region)) {
+        if let [edge] = group {
+            runs.push(Run {
+                line: edge.line,
+                region: edge.region,
+                edge: edge.edge,
+                from: edge.from,
+                to: edge.to,
+                forward: edge.forward,
+            });
+        } else {
+            sweep.run_group(table, points, &lines[group[0].line as usize], group, &mut runs)?;
+        }
+    }
+    Ok(runs)
+}
+
+/// Buffers of the sweep along one line.
+#[derive(Default)]
+struct Sweep {
+    stops: Vec<u32>,
+    change: Vec<i32>,
+}
+
+impl Sweep {
+    fn run_group(
+        &mut self,
+        table: &PlaneTable,
+        points: &Points,
+        line: &Line,
+        group: &[NumberedEdge],
+        runs: &mut Vec<Run>,
+    ) -> Result<(), WeldError> {
+        self.stops.clear();
+        self.stops.extend(group.iter().flat_map(|edge| [edge.from, edge.to]));
+        sort_along(table, points, line, &mut self.stops);
+        self.change.clear();
+        self.change.resize(self.stops.len(), 0);
+        for edge in group {
+            let step = if edge.forward { 1 } else { -1 };
+            let (low, high) = if edge.forward { (edge.from, edge.to) } else { (edge.to, edge.from) };
+            for (point, step) in [(low, step), (high, -step)] {
+                self.change[place(table, points, line, &self.stops, point)] += step;
+            }
+        }
+        let mut sum = 0;
+        let mut began = 0;
+        for at in 0..self.stops.len() {
+            let before = sum;
+            sum += self.change[at];
+            if sum.abs() > 1 {
+                return Err(WeldError::Overlap { region: group[0].region });
+            }
+            if sum == before {
+                continue;
+            }
+            if before != 0 {
+                let (low, high, forward) = (self.stops[began], self.stops[at], before > 0);
+                let (from, to) = if forward { (low, high) } else { (high, low) };
+                let edge = group.iter().find(|edge| edge.forward == forward).unwrap_or(&group[0]).edge;
+                runs.push(Run { line: group[0].line, region: group[0].region, edge, from, to, forward });
+            }
+            began = at;
+        }
+        Ok(())
+    }
+}
+
+/// Sorts points along a line and drops repeated ones.
+pub(super) fn sort_along(table: &PlaneTable, points: &Points, line: &Line, stops: &mut Vec<u32>) {
+    stops.sort_unstable_by(|p, q| line.compare(table, points, *p, *q));
+    stops.dedup();
+}
+
+/// Where a point stands among sorted stops, of which it is one.
+fn place(table: &PlaneTable, points: &Points, line: &Line, stops: &[u32], point: u32) -> usize {
+    stops.binary_search_by(|stop| line.compare(table, points, *stop, point)).unwrap_or_default()
+}
+
+/// An elementary piece of a run, and later its neighbours.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct HalfEdge {
+    pub(super) region: u32,
+    pub(super) line: u32,
+    pub(super) edge: PlaneId,
+    pub(super) from: u32,
+    pub(super) to: u32,
+    pub(super) forward: bool,
+    pub(super) twin: u32,
+}
+
+/// No half-edge.
+pub(super) const UNPAIRED: u32 = u32::MAX;
+
+/// Cuts the runs of each line at the ends of all of them and at `pinches` (line, point), and pairs opposite pieces.
+///
+/// Where more than two pieces share an interval, faces are sorted around the line and those two are paired that bound one
+/// wedge of solid.
+pub(super) fn half_edges(
+    table: &PlaneTable,
+    points: &Points,
+    lines: &[Line],
+    planes: &[PlaneId],
+    runs: &[Run],
+    pinches: &[(u32, u32)],
+) -> Result<Vec<HalfEdge>, WeldError> {
+    let mut out: Vec<HalfEdge> = Vec::with_capacity(runs.len() * 2);
+    let mut pinches = pinches.iter().copied().peekable();
+    let mut stops: Vec<u32> = Vec::new();
+    let mut at_interval: Vec<(u32, u32)> = Vec::new();
+    for group in runs.chunk_by(|a, b| a.line == b.line) {
+        let number = group[0].line;
+        let line = &lines[number as usize];
+        stops.clear();
+        stops.extend(group.iter().flat_map(|run| [run.from, run.to]));
+        while let Some((_, point)) = pinches.next_if(|(pinched, _)| *pinched <= number) {
+            stops.push(point);
+        }
+        sort_along(table, points, line, &mut stops);
+        at_interval.clear();
+        for run in group {
+            let ends = [run.from, run.to].map(|point| place(table, points, line, &stops, point));
+            cut_run(run, ends, &stops, &mut out, &mut at_interval);
+        }
+        at_interval.sort_unstable();
+        for interval in at_interval.chunk_by(|a, b| a.0 == b.0) {
+            pair_around(table, line, planes, interval, &mut out)?;
+        }
+    }
+    Ok(out)
+}
+
+/// Cuts one run at the stops within it; notes the interval of each piece.
+fn cut_run(run: &Run, [a, b]: [usize; 2], stops: &[u32], out: &mut Vec<HalfEdge>, at_interval: &mut Vec<(u32, u32)>) {
+    for interval in a.min(b)..a.max(b) {
+        let (low, high) = (stops[interval], stops[interval + 1]);
+        let (from, to) = if run.forward { (low, high) } else { (high, low) };
+        at_interval.push((interval as u32, out.len() as u32));
+        out.push(HalfEdge {
+            region: run.region,
+            line: run.line,
+            edge: run.edge,
+            from,
+            to,
+            forward: run.forward,
+            twin: UNPAIRED,
+        });
+    }
+}
+
+/// Pairs the half-edges of one elementary interval.
+fn pair_around(
+    table: &PlaneTable,
+    line: &Line,
+    planes: &[PlaneId],
+    interval: &[(u32, u32)],
+    out: &mut [HalfEdge],
+) -> Result<(), WeldError> {
+    let forward = interval.iter().filter(|(_, k)| out[*k as usize].forward).count();
+    if 2 * forward != interval.len() {
+        let piece = &out[interval[0].1 as usize];
+        return Err(WeldError::Open { from: piece.from, to: piece.to });
+    }
+    let mut around: Vec<u32> = interval.iter().map(|(_, k)| *k).collect();
+    if around.len() > 2 {
+        sort_around(table, line, planes, out, &mut around);
+    }
+    // Seen along the line, solid lies counter-clockwise of a face whose edge points back, up to one that points along.
+    let start = around.iter().position(|k| !out[*k as usize].forward).unwrap_or(0);
+    around.rotate_left(start);
+    for pair in around.chunks(2) {
+        let &[a, b] = pair else { continue };
+        if out[a as usize].forward || !out[b as usize].forward {
+            let piece = &out[a as usize];
+            return Err(WeldError::Wedge { from: piece.from, to: piece.to });
+        }
+        out[a as usize].twin = b;
+        out[b as usize].twin = a;
+    }
+    Ok(())
+}
+
+/// Sorts half-edges counter-clockwise around their line by the direction into their faces.
+///
+/// That direction is `±n × D`, so the normals so signed are sorted; both are perpendicular to the line, so the sign of one
+/// component of their cross product tells their order.
+fn sort_around(table: &PlaneTable, line: &Line, planes: &[PlaneId], out: &[HalfEdge], around: &mut [u32]) {
+    let signed = |k: u32| {
+        let piece = &out[k as usize];
+        let plane = planes[piece.region as usize];
+        if piece.forward { plane } else { plane.flipped() }
+    };
+    let first = signed(around[0]);
+    let half = |plane: PlaneId| {
+        if plane.index() == first.index() {
+            return if plane == first { 0 } else { 2 };
+        }
+        match table.cross_component(first, plane, line.axis) {
+            Sign::Positive => 1,
+            Sign::Zero => 2,
+            Sign::Negative => 3,
+        }
+    };
+    around.sort_by(|i, j| {
+        let (p, q) = (signed(*i), signed(*j));
+        half(p).cmp(&half(q)).then_with(|| match table.cross_component(p, q, line.axis) {
+            Sign::Positive => std::cmp::Ordering::Less,
+            Sign::Zero => std::cmp::Ordering::Equal,
+            Sign::Negative => std::cmp::Ordering::Greater,
+        })
+    });
+}

@@ -1,0 +1,117 @@
+//! Triangles of one planar face with holes: no boundary point is dropped, none is added.
+//!
+//! Holes are joined to the outer loop by bridges ([`bridge`]), then ears are cut ([`ears`]) (Eberly, "Triangulation by Ear
+//! Clipping"), signs of the rounded coordinates being exact. Boundary points that are collinear in truth no longer are
+//! once rounded, so three points of one line never make an ear, whatever their coordinates say.
+
+mod bridge;
+mod ears;
+mod flip;
+mod grid;
+
+use planecut_kernel::DVec2;
+
+/// A corner of a loop.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Corner {
+    pub(super) at: DVec2,
+    /// The mesh vertex.
+    pub(super) vertex: u32,
+    /// The line on which the edge to the next corner lies.
+    pub(super) line: u32,
+}
+
+/// The line of a bridge or a diagonal.
+const NO_LINE: u32 = u32::MAX;
+
+/// A corner in the doubly linked boundary of what is left to triangulate.
+#[derive(Debug, Clone, Copy)]
+struct Node {
+    corner: Corner,
+    previous: u32,
+    next: u32,
+    /// Not strictly convex: only such corners can lie inside an ear.
+    reflex: bool,
+    removed: bool,
+}
+
+/// The boundary of a face: one ring once the holes are joined to it.
+#[derive(Debug, Default)]
+pub(super) struct Boundary {
+    nodes: Vec<Node>,
+}
+
+/// Triangulates a face given by its loops, the outer one first, the inside to the left; triangles of mesh vertices.
+pub(super) fn triangulate(loops: &[Vec<Corner>], boundary: &mut Boundary, out: &mut Vec<[u32; 3]>) {
+    let first = out.len();
+    boundary.nodes.clear();
+    let Some((outer, holes)) = loops.split_first() else { return };
+    let start = boundary.push_ring(outer);
+    if holes.is_empty() && outer.len() == 3 {
+        out.push([outer[0].vertex, outer[1].vertex, outer[2].vertex]);
+        return;
+    }
+    let mut rings: Vec<u32> = holes.iter().map(|hole| boundary.push_ring(hole)).collect();
+    boundary.join_holes(start, &mut rings);
+    let mut triangles = boundary.cut_ears(start);
+    flip::improve(&boundary.nodes, &mut triangles);
+    out.extend(triangles.iter().map(|t| t.map(|node| boundary.nodes[node as usize].corner.vertex)));
+    debug_assert_eq!(out.len() - first, loops.iter().map(Vec::len).sum::<usize>() + 2 * holes.len() - 2);
+}
+
+impl Boundary {
+    /// Links a loop into a ring of nodes; gives its first node.
+    fn push_ring(&mut self, corners: &[Corner]) -> u32 {
+        let first = self.nodes.len() as u32;
+        let n = corners.len() as u32;
+        for (k, corner) in corners.iter().enumerate() {
+            let k = k as u32;
+            self.nodes.push(Node {
+                corner: *corner,
+                previous: first + (k + n - 1) % n,
+                next: first + (k + 1) % n,
+                reflex: false,
+                removed: false,
+            });
+        }
+        first
+    }
+
+    fn at(&self, node: u32) -> DVec2 {
+        self.nodes[node as usize].corner.at
+    }
+
+    fn next(&self, node: u32) -> u32 {
+        self.nodes[node as usize].next
+    }
+
+    fn previous(&self, node: u32) -> u32 {
+        self.nodes[node as usize].previous
+    }
+
+    /// Positive where three nodes turn left.
+    fn turn(&self, a: u32, b: u32, c: u32) -> f64 {
+        orient(self.at(a), self.at(b), self.at(c))
+    }
+
+    /// The nodes of a ring from `start` on.
+    fn ring(&self, start: u32) -> impl Iterator<Item = u32> + '_ {
+        let mut node = Some(start);
+        std::iter::from_fn(move || {
+            let this = node?;
+            node = Some(self.next(this)).filter(|next| *next != start);
+            Some(this)
+        })
+    }
+}
+
+/// Positive where three points turn left, zero where they are collinear; the sign is exact.
+fn orient(a: DVec2, b: DVec2, c: DVec2) -> f64 {
+    let coord = |p: DVec2| robust::Coord { x: p.x, y: p.y };
+    robust::orient2d(coord(a), coord(b), coord(c))
+}
+
+/// Whether `p` lies in the closed triangle `a, b, c`, given counter-clockwise.
+fn in_triangle(a: DVec2, b: DVec2, c: DVec2, p: DVec2) -> bool {
+    orient(a, b, p) >= 0.0 && orient(b, c, p) >= 0.0 && orient(c, a, p) >= 0.0
+}

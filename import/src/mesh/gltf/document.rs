@@ -1,0 +1,148 @@
+//! The parts of a glTF document that say where triangles are. Unknown properties are passed over.
+
+use serde::Deserialize;
+
+use super::super::error::{Fault, Place};
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(rename_all = "camelCase", default)]
+pub(super) struct Document {
+    pub(super) asset: Asset,
+    pub(super) extensions_required: Vec<String>,
+    pub(super) scenes: Vec<Scene>,
+    pub(super) nodes: Vec<Node>,
+    pub(super) meshes: Vec<Mesh>,
+    pub(super) accessors: Vec<Accessor>,
+    pub(super) buffer_views: Vec<BufferView>,
+    pub(super) buffers: Vec<Buffer>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct Asset {
+    pub(super) version: String,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct Scene {
+    pub(super) nodes: Vec<usize>,
+}
+
+/// Either `matrix` (by columns) or the other three, which are applied scale first.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct Node {
+    pub(super) name: Option<String>,
+    pub(super) children: Vec<usize>,
+    pub(super) mesh: Option<usize>,
+    pub(super) matrix: Option<[f64; 16]>,
+    pub(super) translation: Option<[f64; 3]>,
+    /// A quaternion, real part last.
+    pub(super) rotation: Option<[f64; 4]>,
+    pub(super) scale: Option<[f64; 3]>,
+}
+
+#[derive(Debug, Deserialize)]
+pub(super) struct Mesh {
+    pub(super) name: Option<String>,
+    pub(super) primitives: Vec<Primitive>,
+    #[serde(default)]
+    pub(super) extensions: MeshExtensions,
+}
+
+#[derive(Debug, Default, Deserialize)]
+pub(super) struct MeshExtensions {
+    #[serde(rename = "EXT_mesh_manifold")]
+    pub(super) manifold: Option<Manifold>,
+}
+
+/// `EXT_mesh_manifold`: the whole mesh once more, with vertices split only where the surface is.
+#[derive(Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Manifold {
+    pub(super) manifold_primitive: Primitive,
+}
+
+#[derive(Debug, Deserialize)]
+pub(super) struct Primitive {
+    pub(super) attributes: Attributes,
+    pub(super) indices: Option<usize>,
+    pub(super) mode: Option<u32>,
+}
+
+#[derive(Debug, Deserialize)]
+pub(super) struct Attributes {
+    #[serde(rename = "POSITION")]
+    pub(super) position: Option<usize>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Accessor {
+    pub(super) buffer_view: Option<usize>,
+    #[serde(default)]
+    pub(super) byte_offset: usize,
+    pub(super) component_type: u32,
+    #[serde(default)]
+    pub(super) normalized: bool,
+    pub(super) count: usize,
+    #[serde(rename = "type")]
+    pub(super) shape: String,
+    pub(super) sparse: Option<Sparse>,
+}
+
+/// Values that replace some of an accessor's.
+#[derive(Debug, Deserialize)]
+pub(super) struct Sparse {
+    pub(super) count: usize,
+    pub(super) indices: SparseIndices,
+    pub(super) values: SparseValues,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct SparseIndices {
+    pub(super) buffer_view: usize,
+    #[serde(default)]
+    pub(super) byte_offset: usize,
+    pub(super) component_type: u32,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct SparseValues {
+    pub(super) buffer_view: usize,
+    #[serde(default)]
+    pub(super) byte_offset: usize,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct BufferView {
+    pub(super) buffer: usize,
+    #[serde(default)]
+    pub(super) byte_offset: usize,
+    pub(super) byte_length: usize,
+    pub(super) byte_stride: Option<usize>,
+}
+
+#[derive(Debug, Deserialize)]
+pub(super) struct Buffer {
+    pub(super) uri: Option<String>,
+}
+
+/// Parses a document of version 2.
+pub(super) fn parse(json: &[u8]) -> Result<Document, Fault> {
+    let document: Document = serde_json::from_slice(json).map_err(|error| {
+        // The parser's message ends with the place, which stands before it here.
+        let message = error.to_string();
+        let what = message.split(" at line ").next().unwrap_or(&message).escape_debug().to_string();
+        Fault::new(Place::Line(error.line()), format!("JSON that is not a glTF document ({what})"), "glTF 2.0")
+    })?;
+    if !document.asset.version.starts_with("2.") {
+        let found = format!("`{}`", document.asset.version.escape_debug());
+        return Err(Fault::new(Place::Json("asset/version".to_owned()), found, "`2.0`"));
+    }
+    Ok(document)
+}

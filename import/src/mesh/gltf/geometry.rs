@@ -1,0 +1,97 @@
+//! The triangles of one glTF mesh, in its own coordinates.
+
+use glam::DVec3;
+
+use super::super::error::{Fault, Place};
+use super::super::merge::PositionMerger;
+use super::MAX_TRIANGLES;
+use super::accessor::Buffers;
+use super::document::{Document, Primitive};
+
+/// Primitive modes that give triangles.
+const TRIANGLES: u32 = 4;
+const TRIANGLE_STRIP: u32 = 5;
+const TRIANGLE_FAN: u32 = 6;
+
+/// A mesh with the vertices that its triangles use.
+pub(super) struct Geometry {
+    pub(super) positions: Vec<DVec3>,
+    pub(super) triangles: Vec<[u32; 3]>,
+}
+
+/// Reads a mesh: its manifold primitive as it stands, or else its primitives with equal positions merged.
+pub(super) fn read(document: &Document, buffers: &Buffers<'_>, mesh: usize) -> Result<Geometry, Fault> {
+    let source = &document.meshes[mesh];
+    if let Some(manifold) = &source.extensions.manifold {
+        let place = format!("meshes/{mesh}/extensions/EXT_mesh_manifold/manifoldPrimitive");
+        let (positions, triangles) = read_primitive(&manifold.manifold_primitive, buffers, &place)?;
+        return Ok(without_unused(&positions, triangles));
+    }
+    let mut merger = PositionMerger::default();
+    let mut merged = Vec::new();
+    for (number, primitive) in source.primitives.iter().enumerate() {
+        let place = format!("meshes/{mesh}/primitives/{number}");
+        let (positions, triangles) = read_primitive(primitive, buffers, &place)?;
+        if triangles.len() > MAX_TRIANGLES - merged.len() {
+            return Err(Fault::new(Place::Json(place), "more triangles", format!("at most {MAX_TRIANGLES}")));
+        }
+        for triangle in triangles {
+            let mut corners = [0; 3];
+            for (corner, v) in corners.iter_mut().zip(triangle) {
+                *corner = merger
+                    .index(positions[v as usize])
+                    .ok_or_else(|| Fault::new(Place::Json(place.clone()), "more vertices", "at most 4294967295"))?;
+            }
+            merged.push(corners);
+        }
+    }
+    Ok(Geometry { positions: merger.into_positions(), triangles: merged })
+}
+
+/// Keeps the vertices that triangles use, in their order.
+fn without_unused(positions: &[DVec3], mut triangles: Vec<[u32; 3]>) -> Geometry {
+    let mut used = vec![false; positions.len()];
+    triangles.as_flattened().iter().for_each(|&v| used[v as usize] = true);
+    let kept: Vec<u32> = (0..positions.len() as u32).filter(|&v| used[v as usize]).collect();
+    let mut new_index = vec![0u32; positions.len()];
+    kept.iter().enumerate().for_each(|(new, &old)| new_index[old as usize] = new as u32);
+    triangles.iter_mut().flatten().for_each(|v| *v = new_index[*v as usize]);
+    Geometry { positions: kept.into_iter().map(|v| positions[v as usize]).collect(), triangles }
+}
+
+/// The positions and triangles of a primitive; none for points and lines.
+fn read_primitive(
+    primitive: &Primitive,
+    buffers: &Buffers<'_>,
+    place: &str,
+) -> Result<(Vec<DVec3>, Vec<[u32; 3]>), Fault> {
+    let mode = primitive.mode.unwrap_or(TRIANGLES);
+    let (Some(position), TRIANGLES..=TRIANGLE_FAN) = (primitive.attributes.position, mode) else {
+        return Ok((Vec::new(), Vec::new()));
+    };
+    let positions = buffers.positions(position)?;
+    let indices = match primitive.indices {
+        Some(indices) => buffers.indices(indices)?,
+        None => (0..positions.len() as u32).collect(),
+    };
+    let fault = |found, expected| Err(Fault::new(Place::Json(place.to_owned()), found, expected));
+    if let Some(index) = indices.iter().find(|&&i| i as usize >= positions.len()) {
+        return fault(format!("vertex index {index}"), format!("an index below {}", positions.len()));
+    }
+    let triangles = match mode {
+        TRIANGLES => {
+            let (triangles, rest) = indices.as_chunks::<3>();
+            if !rest.is_empty() {
+                return fault(format!("{} indices", indices.len()), "a multiple of 3".to_owned());
+            }
+            triangles.to_vec()
+        }
+        // Every other triangle of a strip is wound the other way.
+        TRIANGLE_STRIP => {
+            let turned = |(k, w): (usize, &[u32])| if k % 2 == 0 { [w[0], w[1], w[2]] } else { [w[1], w[0], w[2]] };
+            indices.windows(3).enumerate().map(turned).collect()
+        }
+        _ => indices.windows(2).skip(1).map(|w| [w[0], w[1], indices[0]]).collect(),
+    };
+    Ok((positions, triangles))
+}

@@ -1,0 +1,89 @@
+//! glTF 2.0: binary containers, and JSON with embedded buffers.
+//!
+//! Every mesh node of every scene becomes an object, with the transforms of its ancestors applied in `f64`. Within a node's mesh,
+//! over all its primitives, vertices with equal coordinates become one: formats for rendering split vertices where normals or
+//! materials differ. Two parts that merely touch are glued by that. A mesh with the extension `EXT_mesh_manifold` says
+//! which vertices are one; there its indices are taken as they stand. Vertices of different nodes stay different.
+//!
+//! Points, lines, morph targets and skins are passed over.
+
+mod accessor;
+mod container;
+mod document;
+mod geometry;
+mod transform;
+
+use glam::DVec3;
+
+use super::error::{Fault, Place};
+use super::{IndexedMesh, MeshObject, Precision};
+
+use accessor::Buffers;
+use document::Document;
+use geometry::Geometry;
+
+/// Most triangles over all nodes: a small file can ask for the same mesh, or the same accessor, any number of times.
+const MAX_TRIANGLES: usize = 200_000_000;
+
+/// Extensions that a file may require: they do not change where triangles are.
+const HARMLESS: [&str; 2] = ["KHR_mesh_quantization", "EXT_mesh_manifold"];
+const HARMLESS_PREFIXES: [&str; 4] = ["KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_"];
+
+/// Reads a glTF file.
+pub(super) fn read(bytes: &[u8]) -> Result<IndexedMesh, Fault> {
+    let (json, binary) = container::split(bytes)?;
+    let document = document::parse(json)?;
+    check_requirements(&document)?;
+    let buffers = Buffers::new(&document, binary)?;
+    let mut mesh =
+        IndexedMesh { positions: Vec::new(), triangles: Vec::new(), objects: Vec::new(), precision: Precision::Single };
+    let mut geometries: Vec<Option<Geometry>> = document.meshes.iter().map(|_| None).collect();
+    for placed in transform::placed_meshes(&document)? {
+        let slot = &mut geometries[placed.mesh];
+        if slot.is_none() {
+            *slot = Some(geometry::read(&document, &buffers, placed.mesh)?);
+        }
+        let Some(geometry) = slot else { continue };
+        append(&mut mesh, geometry, &placed)?;
+    }
+    Ok(mesh)
+}
+
+fn check_requirements(document: &Document) -> Result<(), Fault> {
+    let is_harmless = |name: &str| HARMLESS.contains(&name) || HARMLESS_PREFIXES.iter().any(|p| name.starts_with(p));
+    match document.extensions_required.iter().find(|name| !is_harmless(name)) {
+        None => Ok(()),
+        Some(name) => {
+            let found = format!("the required extension `{}`", name.escape_debug());
+            Err(Fault::new(Place::Json("extensionsRequired".to_owned()), found, "a file without it"))
+        }
+    }
+}
+
+/// Appends a mesh in the place that a node gives it.
+fn append(mesh: &mut IndexedMesh, geometry: &Geometry, placed: &transform::PlacedMesh) -> Result<(), Fault> {
+    let too_many = || Fault::whole("more triangles", format!("at most {MAX_TRIANGLES} over all nodes"));
+    if geometry.triangles.len() > MAX_TRIANGLES - mesh.triangles.len() {
+        return Err(too_many());
+    }
+    if geometry.triangles.is_empty() {
+        return Ok(());
+    }
+    let shift = u32::try_from(mesh.positions.len()).map_err(|_| too_many())?;
+    if u32::try_from(mesh.positions.len() + geometry.positions.len()).is_err() {
+        return Err(too_many());
+    }
+    let place = |p: &DVec3| placed.transform.transform_point3(*p);
+    mesh.positions.extend(geometry.positions.iter().map(place));
+    if mesh.positions[shift as usize..].iter().any(|p| !p.is_finite()) {
+        let found = "a transform that leaves no finite coordinates";
+        return Err(Fault::new(Place::Json(format!("nodes/{}", placed.node)), found, "finite ones"));
+    }
+    // A mirrored mesh would be inside out.
+    let mirrored = placed.transform.matrix3.determinant() < 0.0;
+    let turned = |[a, b, c]: [u32; 3]| if mirrored { [a, c, b] } else { [a, b, c] };
+    let first = mesh.triangles.len();
+    mesh.triangles.extend(geometry.triangles.iter().map(|t| turned(t.map(|v| v + shift))));
+    mesh.objects.push(MeshObject { name: placed.name.clone(), triangles: first..mesh.triangles.len() });
+    Ok(())
+}
