@@ -4,9 +4,9 @@
 //! with four faces by itself. Two different edges can still join the same two vertices, and a diagonal can coincide with
 //! an edge: the second copy then gets a midpoint.
 
-use rustc_hash::FxHashMap;
+use rustc_hash::FxHashSet;
 
-use super::cancel::HalfEdge;
+use super::cancel::{HalfEdge, UNPAIRED};
 use crate::mesh::Mesh;
 
 /// The vertex at the start of each half-edge; and for each vertex the point it lies on.
@@ -28,94 +28,111 @@ pub(super) fn vertices(pieces: &[HalfEdge], following: &[u32]) -> (Vec<u32>, Vec
     (vertex, point)
 }
 
-/// Splits every edge that joins the same two vertices as an earlier one, in both of its triangles, at a midpoint.
-/// Gives how many were split.
-pub(super) fn split_repeated_edges(mesh: &mut Mesh) -> usize {
-    let repeated = repeated_edges(&mesh.triangles);
-    if repeated.is_empty() {
-        return 0;
-    }
+/// The half-edge behind each side of each triangle; [`UNPAIRED`] for a diagonal.
+pub(super) type Labels = Vec<[u32; 3]>;
+
+/// A side of a triangle: three times the triangle plus the index of its first vertex.
+type Side = u32;
+
+/// Splits every edge that joins the same two vertices as another one, in both of its triangles, at a midpoint, until all
+/// directed edges are unique. Gives how many were split.
+pub(super) fn split_repeated_edges(mesh: &mut Mesh, labels: &mut Labels, pieces: &[HalfEdge]) -> usize {
     let mut split = 0;
-    let mut additions: Vec<([u32; 3], u32)> = Vec::new();
-    for ([a, b], sides) in repeated {
-        // All but one pair of opposite sides get a midpoint of their own.
-        for (there, back) in match_sides(&sides, mesh, [a, b]).into_iter().skip(1) {
-            let middle = mesh.positions.len() as u32;
-            mesh.positions.push(0.5 * (mesh.positions[a as usize] + mesh.positions[b as usize]));
-            for triangle in [there, back] {
-                let cut = &mut mesh.triangles[triangle as usize];
-                let k = (0..3).find(|k| is_edge(cut[*k], cut[(k + 1) % 3], [a, b])).unwrap_or(0);
-                let (from, to, tip) = (cut[k], cut[(k + 1) % 3], cut[(k + 2) % 3]);
-                *cut = [from, middle, tip];
-                additions.push(([middle, to, tip], mesh.triangle_faces[triangle as usize]));
+    loop {
+        let repeated = repeated_edges(&mesh.triangles);
+        let mut touched: FxHashSet<u32> = FxHashSet::default();
+        let mut additions = Vec::new();
+        for sides in &repeated {
+            // All but one pair of opposite sides get a midpoint of their own; a triangle is split once a round.
+            for (there, back) in match_sides(sides, &mesh.triangle_faces, labels, pieces).into_iter().skip(1) {
+                if touched.contains(&(there / 3)) || touched.contains(&(back / 3)) {
+                    continue;
+                }
+                touched.extend([there / 3, back / 3]);
+                split_edge(mesh, labels, [there, back], &mut additions);
+                split += 1;
             }
-            split += 1;
         }
+        if additions.is_empty() {
+            return split;
+        }
+        insert_triangles(mesh, labels, &additions);
     }
-    insert_triangles(mesh, additions);
-    split
+}
+
+/// A triangle to be added: its vertices, its labels, its face.
+type Addition = ([u32; 3], [u32; 3], u32);
+
+/// Splits both triangles at an edge by its midpoint.
+fn split_edge(mesh: &mut Mesh, labels: &mut Labels, sides: [Side; 2], additions: &mut Vec<Addition>) {
+    let middle = mesh.positions.len() as u32;
+    let (t, k) = ((sides[0] / 3) as usize, (sides[0] % 3) as usize);
+    let ends = [mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]].map(|v| mesh.positions[v as usize]);
+    mesh.positions.push(0.5 * (ends[0] + ends[1]));
+    for side in sides {
+        let (t, k) = ((side / 3) as usize, (side % 3) as usize);
+        let turned = |v: [u32; 3]| [v[k], v[(k + 1) % 3], v[(k + 2) % 3]];
+        let ([from, to, tip], [cut, next, last]) = (turned(mesh.triangles[t]), turned(labels[t]));
+        mesh.triangles[t] = [from, middle, tip];
+        labels[t] = [cut, UNPAIRED, last];
+        additions.push(([middle, to, tip], [cut, next, UNPAIRED], mesh.triangle_faces[t]));
+    }
 }
 
 /// Adds triangles so that those of one face still follow one another.
-fn insert_triangles(mesh: &mut Mesh, additions: Vec<([u32; 3], u32)>) {
-    mesh.triangles.extend(additions.iter().map(|(triangle, _)| *triangle));
-    mesh.triangle_faces.extend(additions.iter().map(|(_, face)| *face));
+fn insert_triangles(mesh: &mut Mesh, labels: &mut Labels, additions: &[Addition]) {
+    mesh.triangles.extend(additions.iter().map(|(triangle, _, _)| *triangle));
+    labels.extend(additions.iter().map(|(_, labels, _)| *labels));
+    mesh.triangle_faces.extend(additions.iter().map(|(_, _, face)| *face));
     let mut order: Vec<u32> = (0..mesh.triangles.len() as u32).collect();
     order.sort_by_key(|k| mesh.triangle_faces[*k as usize]);
     mesh.triangles = order.iter().map(|k| mesh.triangles[*k as usize]).collect();
+    *labels = order.iter().map(|k| labels[*k as usize]).collect();
     mesh.triangle_faces.sort_unstable();
 }
 
-fn is_edge(p: u32, q: u32, [a, b]: [u32; 2]) -> bool {
-    p == a && q == b || p == b && q == a
-}
-
-/// The edges that more than two triangles share, with those triangles.
-fn repeated_edges(triangles: &[[u32; 3]]) -> Vec<([u32; 2], Vec<u32>)> {
-    let mut directed: Vec<(u64, u32)> = Vec::with_capacity(3 * triangles.len());
-    for (k, triangle) in triangles.iter().enumerate() {
-        for i in 0..3 {
-            let (a, b) = (triangle[i], triangle[(i + 1) % 3]);
-            directed.push((u64::from(a) << 32 | u64::from(b), k as u32));
+/// The sides along each edge whose directed form occurs more than once: those in one direction, and those back.
+fn repeated_edges(triangles: &[[u32; 3]]) -> Vec<[Vec<Side>; 2]> {
+    let mut directed: Vec<(u64, Side)> = Vec::with_capacity(3 * triangles.len());
+    for (t, triangle) in triangles.iter().enumerate() {
+        for k in 0..3 {
+            directed.push((key(triangle[k], triangle[(k + 1) % 3]), (3 * t + k) as Side));
         }
     }
     directed.sort_unstable();
-    let mut repeated: FxHashMap<[u32; 2], ()> = FxHashMap::default();
-    for pair in directed.windows(2) {
-        if pair[0].0 == pair[1].0 {
-            let (a, b) = ((pair[0].0 >> 32) as u32, pair[0].0 as u32);
-            repeated.insert([a.min(b), a.max(b)], ());
-        }
-    }
-    let mut keys: Vec<[u32; 2]> = repeated.into_keys().collect();
-    keys.sort_unstable();
-    let sides = |[a, b]: [u32; 2]| {
-        let of = |p: u32, q: u32| {
-            let key = u64::from(p) << 32 | u64::from(q);
-            let start = directed.partition_point(|(k, _)| *k < key);
-            directed[start..].iter().take_while(move |(k, _)| *k == key).map(|(_, triangle)| *triangle)
-        };
-        of(a, b).chain(of(b, a)).collect()
+    let sides = |wanted: u64| -> Vec<Side> {
+        let start = directed.partition_point(|(key, _)| *key < wanted);
+        directed[start..].iter().take_while(|(key, _)| *key == wanted).map(|(_, side)| *side).collect()
     };
-    keys.into_iter().map(|key| (key, sides(key))).collect()
+    let ends = |key: u64| ((key >> 32) as u32, key as u32);
+    let repeated = directed.chunk_by(|a, b| a.0 == b.0).filter(|same| same.len() > 1).map(|same| ends(same[0].0));
+    repeated.filter(|(a, b)| a < b).map(|(a, b)| [sides(key(a, b)), sides(key(b, a))]).collect()
 }
 
-/// Pairs the triangles on both sides of a repeated edge. A diagonal belongs to two triangles of one face, so sides of the
-/// same face go together first.
-fn match_sides(sides: &[u32], mesh: &Mesh, [a, b]: [u32; 2]) -> Vec<(u32, u32)> {
-    let forward = |t: u32| {
-        let triangle = mesh.triangles[t as usize];
-        (0..3).any(|k| triangle[k] == a && triangle[(k + 1) % 3] == b)
+fn key(a: u32, b: u32) -> u64 {
+    u64::from(a) << 32 | u64::from(b)
+}
+
+/// Pairs the sides of a repeated edge: of the boundary by its half-edges, first; diagonals within their face.
+fn match_sides(
+    [there, back]: &[Vec<Side>; 2],
+    faces: &[u32],
+    labels: &Labels,
+    pieces: &[HalfEdge],
+) -> Vec<(Side, Side)> {
+    let label = |side: Side| labels[(side / 3) as usize][(side % 3) as usize];
+    let is_pair = |s: Side, t: Side| match label(s) {
+        UNPAIRED => label(t) == UNPAIRED && faces[(s / 3) as usize] == faces[(t / 3) as usize],
+        piece => label(t) == pieces[piece as usize].twin,
     };
-    let faces = &mesh.triangle_faces;
-    let (mut there, mut back): (Vec<u32>, Vec<u32>) = sides.iter().partition(|t| forward(**t));
-    let mut pairs = Vec::new();
-    there.retain(|t| {
-        let Some(k) = back.iter().position(|s| faces[*s as usize] == faces[*t as usize]) else { return true };
-        pairs.insert(0, (*t, back.swap_remove(k)));
-        false
-    });
-    let mut all: Vec<(u32, u32)> = there.into_iter().zip(back).collect();
-    all.append(&mut pairs);
-    all
+    let mut left = back.clone();
+    let mut pairs = Vec::with_capacity(there.len());
+    let mut in_order = there.clone();
+    in_order.sort_by_key(|side| label(*side) == UNPAIRED);
+    for side in in_order {
+        if let Some(k) = left.iter().position(|other| is_pair(side, *other)) {
+            pairs.push((side, left.swap_remove(k)));
+        }
+    }
+    pairs
 }

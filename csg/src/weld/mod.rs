@@ -31,9 +31,10 @@ use crate::mesh::{Mesh, MeshFace};
 use crate::plane_table::{PlaneId, PlaneTable};
 use crate::skin::BoundaryEdge;
 use cancel::{HalfEdge, NumberedEdge, Run};
+use manifold::Labels;
 use nest::{FaceLoops, Projection};
 use points::Points;
-use triangulate::{Boundary, Corner};
+use triangulate::{Boundary, Corner, Triangles};
 
 /// The boundary does not close: a bug in this crate, never the user's mistake. Points are numbers of the weld.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
@@ -105,8 +106,8 @@ pub(crate) fn weld(
         materials: materials.to_vec(),
         ..Mesh::default()
     };
-    triangulate_faces(table, &regions, &points, &pieces, &faces, &vertex, &mut mesh);
-    manifold::split_repeated_edges(&mut mesh);
+    let mut labels = triangulate_faces(table, &regions, &points, &pieces, &faces, &vertex, &mut mesh);
+    manifold::split_repeated_edges(&mut mesh, &mut labels, &pieces);
     Ok(Welded { mesh, solid, signs, triangulation: begin.elapsed() })
 }
 
@@ -172,7 +173,7 @@ fn order_by_region(pieces: Vec<HalfEdge>) -> Vec<HalfEdge> {
         .collect()
 }
 
-/// Fills the triangles and faces of a mesh, in parallel over faces.
+/// Fills the triangles and faces of a mesh, in parallel over faces; gives the half-edge behind each side.
 fn triangulate_faces(
     table: &PlaneTable,
     regions: &Regions,
@@ -181,15 +182,20 @@ fn triangulate_faces(
     faces: &[FaceLoops],
     vertex: &[u32],
     mesh: &mut Mesh,
-) {
+) -> Labels {
     let corner = |at: &Projection, k: u32| {
         let piece = &pieces[k as usize];
-        Corner { at: at.of(points.positions[piece.from as usize]), vertex: vertex[k as usize], line: piece.line }
+        Corner {
+            at: at.of(points.positions[piece.from as usize]),
+            vertex: vertex[k as usize],
+            line: piece.line,
+            piece: k,
+        }
     };
-    let parts: Vec<(Vec<[u32; 3]>, Vec<u32>)> = faces
+    let parts: Vec<(Triangles, Vec<u32>)> = faces
         .par_chunks(64)
         .map(|chunk| {
-            let (mut triangles, mut ends) = (Vec::new(), Vec::new());
+            let (mut triangles, mut ends) = (Triangles::default(), Vec::new());
             let mut boundary = Boundary::default();
             for face in chunk {
                 let normal = table.half_space(regions.planes[face.region as usize]).normal();
@@ -197,11 +203,12 @@ fn triangulate_faces(
                 let loops: Vec<Vec<Corner>> =
                     face.loops.iter().map(|pieces| pieces.iter().map(|k| corner(&at, *k)).collect()).collect();
                 triangulate::triangulate(&loops, &mut boundary, &mut triangles);
-                ends.push(triangles.len() as u32);
+                ends.push(triangles.vertices.len() as u32);
             }
             (triangles, ends)
         })
         .collect();
+    let mut labels = Labels::new();
     for (triangles, ends) in parts {
         let mut start = 0;
         for end in ends {
@@ -213,6 +220,8 @@ fn triangulate_faces(
             mesh.triangle_faces.extend(std::iter::repeat_n(face as u32, (end - start) as usize));
             start = end;
         }
-        mesh.triangles.extend(triangles);
+        mesh.triangles.extend(triangles.vertices);
+        labels.extend(triangles.labels);
     }
+    labels
 }

@@ -14,10 +14,14 @@ use crate::color::linear_to_srgb;
 /// Rows that are composed as one piece of work.
 const BAND_ROWS: usize = 32;
 
+/// Rows of samples beyond the band's own, which lines on its border are compared with.
+const MARGIN: usize = 2;
+
 /// Everything that a picture is made from.
 pub(super) struct Layers<'a> {
     pub(super) scene: &'a Scene<'a>,
-    pub(super) samples: &'a Raster,
+    /// Pixels across and down.
+    pub(super) size: [usize; 2],
     /// Samples along a pixel.
     pub(super) factor: usize,
     pub(super) surface: &'a Surface,
@@ -36,26 +40,31 @@ pub(super) fn compose_background(look: &Look, [width, height]: [usize; 2]) -> Ve
 }
 
 /// RGB bytes of the picture, row by row.
+///
+/// Samples live only while their band of rows is composed: those of the whole picture would not fit any cache.
 pub(super) fn compose(layers: &Layers<'_>) -> Vec<u8> {
-    let (width, height) = (layers.samples.width / layers.factor, layers.samples.height / layers.factor);
+    let [width, height] = layers.size;
     let half_width = half_line_width(layers.scene.look.line_width, width.min(height));
     let lines = lines_by_band(layers.lines, half_width, height);
+    let points: Vec<_> = layers.scene.screen.iter().map(|point| point.magnified(layers.factor as f32)).collect();
+    let triangles = layers.scene.triangles([width * layers.factor, height * layers.factor], &points);
+    let chosen = triangles.by_band(BAND_ROWS * layers.factor, MARGIN);
     let display = DisplayTable::new();
     let mut bytes = vec![0; 3 * width * height];
-    bytes.par_chunks_mut(3 * width * BAND_ROWS).zip(&lines).enumerate().for_each(|(band, (bytes, lines))| {
+    let bands = bytes.par_chunks_mut(3 * width * BAND_ROWS).zip(lines.par_iter().zip(&chosen)).enumerate();
+    bands.for_each_init(Raster::default, |samples, (band, (bytes, (lines, chosen)))| {
         let first_row = band * BAND_ROWS;
+        let [first, end] = [first_row, first_row + bytes.len() / (3 * width)].map(|row| row * layers.factor);
+        let rows = first.saturating_sub(MARGIN)..(end + MARGIN).min(triangles.size[1]);
+        samples.draw_rows(triangles, rows, chosen);
         let mut ink = vec![0.0; bytes.len() / 3];
         let mut inked = InkBand { width, first_row, ink: &mut ink, half_width };
         for &line in lines {
-            inked.draw(&layers.lines[line as usize], layers.samples, layers.factor);
+            inked.draw(&layers.lines[line as usize], samples, layers.factor);
         }
+        let band = Band { layers, samples };
         for (y, (bytes, ink)) in bytes.chunks_exact_mut(3 * width).zip(ink.chunks_exact(width)).enumerate() {
-            let row = first_row + y;
-            let (backdrop, rounding) = (background(&layers.scene.look, row, height), row_rounding(row));
-            for (column, (pixel, &ink)) in bytes.chunks_exact_mut(3).zip(ink).enumerate() {
-                let color = layers.color([column, row], backdrop);
-                pixel.copy_from_slice(&display.encode(color.lerp(layers.scene.look.ink, ink), rounding));
-            }
+            band.compose_row(first_row + y, bytes, ink, &display);
         }
     });
     bytes
@@ -80,20 +89,40 @@ fn lines_by_band(lines: &[Line], half_width: f32, height: usize) -> Vec<Vec<u32>
     bands
 }
 
-impl Layers<'_> {
+/// A band of the picture with its samples.
+struct Band<'a> {
+    layers: &'a Layers<'a>,
+    samples: &'a Raster,
+}
+
+impl Band<'_> {
+    fn compose_row(&self, row: usize, bytes: &mut [u8], ink: &[f32], display: &DisplayTable) {
+        let look = &self.layers.scene.look;
+        let (backdrop, rounding) = (background(look, row, self.layers.size[1]), row_rounding(row));
+        for (column, (pixel, &ink)) in bytes.chunks_exact_mut(3).zip(ink).enumerate() {
+            let color = self.color([column, row], backdrop);
+            pixel.copy_from_slice(&display.encode(color.lerp(look.ink, ink), rounding));
+        }
+    }
+
     /// Linear colour of a pixel without lines: the mean of its samples.
     fn color(&self, at: [usize; 2], backdrop: Vec3) -> Vec3 {
-        let first = (at[1] * self.samples.width + at[0]) * self.factor;
+        let (layers, factor) = (self.layers, self.layers.factor);
+        let first = (at[1] * factor - self.samples.rows.start) * self.samples.width + at[0] * factor;
+        let rows = (0..factor).map(|y| {
+            let start = first + y * self.samples.width;
+            &self.samples.faces[start..start + factor]
+        });
         let one = self.samples.faces[first];
-        if self.samples_from(first).all(|face| face == one) {
-            return match self.scene.shades.get(one as usize) {
-                Some(shade) => self.lit(*shade, self.light_at(at, one)),
-                None => self.shaded_floor(backdrop, self.light_at(at, NO_FACE)),
+        if rows.clone().all(|row| row.iter().all(|&face| face == one)) {
+            return match layers.scene.shades.get(one as usize) {
+                Some(shade) => layers.lit(*shade, layers.light_at(at, one)),
+                None => layers.shaded_floor(backdrop, layers.light_at(at, NO_FACE)),
             };
         }
         let (mut sum, mut empty, mut shown) = (Shade::default(), 0, one);
-        for face in self.samples_from(first) {
-            match self.scene.shades.get(face as usize) {
+        for &face in rows.flatten() {
+            match layers.scene.shades.get(face as usize) {
                 Some(shade) => {
                     (sum.ambient, sum.direct) = (sum.ambient + shade.ambient, sum.direct + shade.direct);
                     shown = face;
@@ -101,19 +130,15 @@ impl Layers<'_> {
                 None => empty += 1,
             }
         }
-        let mut color = self.lit(sum, self.light_at(at, shown));
+        let mut color = layers.lit(sum, layers.light_at(at, shown));
         if empty > 0 {
-            color += self.shaded_floor(backdrop, self.light_at(at, NO_FACE)) * empty as f32;
+            color += layers.shaded_floor(backdrop, layers.light_at(at, NO_FACE)) * empty as f32;
         }
-        color / (self.factor * self.factor) as f32
+        color / (factor * factor) as f32
     }
+}
 
-    /// Faces of a pixel's samples; `first` is the number of its top left one.
-    fn samples_from(&self, first: usize) -> impl Iterator<Item = u32> {
-        let rows = (0..self.factor).map(move |y| first + y * self.samples.width);
-        rows.flat_map(|start| self.samples.faces[start..start + self.factor].iter().copied())
-    }
-
+impl Layers<'_> {
     /// The light at a pixel of a face (or of the backdrop, for [`NO_FACE`]), from the cells around it that show the same.
     fn light_at(&self, at: [usize; 2], face: u32) -> Reaching {
         /// Weight of other cells: counts only when there is none of the same face.

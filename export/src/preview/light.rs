@@ -62,9 +62,9 @@ fn at_cell(
 ) -> Reaching {
     let index = at[1] * surface.width + at[0];
     let face = surface.faces[index];
-    let point = surface.ray(&scene.camera, at) * surface.depth[index];
+    let point = surface.ray(at) * surface.depth[index];
     let normal = normal_of(scene, face);
-    let ambient = openness(surface, &scene.camera, at, (point, normal), (turn, shift));
+    let ambient = openness(surface, scene.camera.pixels_per_unit(), at, (point, normal), (turn, shift));
     let faces_light = normal.dot(scene.light) > 0.0;
     let direct = if faces_light { shadows.lit(point, normal, turn) } else { 1.0 };
     match scene.floor {

@@ -1,9 +1,9 @@
 //! Preview pictures, drawn without a graphics card.
 //!
 //! Way of a mesh through this folder: [`camera`] frames it, [`scene`] brings it into view coordinates and colours its
-//! faces, [`raster`] finds the nearest face at several samples per pixel, [`surface`] picks one surface per pixel,
-//! [`light`] computes how much light gets there ([`shadow`], [`occlusion`]), [`edges`] finds the lines, and [`compose`]
-//! puts all of it together. Numbers that are a matter of taste are in [`style`].
+//! faces, [`surface`] finds what is seen in each cell of a few pixels, [`light`] computes how much light gets there ([`shadow`],
+//! [`occlusion`]), [`edges`] finds the lines, and [`compose`] puts all of it together at several samples per pixel.
+//! [`raster`] is the z-buffer that all of these share. Numbers that are a matter of taste are in [`style`].
 
 mod camera;
 mod compose;
@@ -24,7 +24,6 @@ use self::camera::Camera;
 use self::compose::{Layers, compose, compose_background};
 use self::edges::feature_lines;
 use self::light::reaching_light;
-use self::raster::Raster;
 use self::scene::Scene;
 use self::style::Look;
 pub use self::style::PreviewStyle;
@@ -88,8 +87,6 @@ pub fn render_preview(mesh: &Mesh, options: &PreviewOptions) -> Result<Vec<u8>, 
 
 /// Draws `mesh` as [`render_preview`] does, without encoding the picture.
 ///
-/// Takes about 40 bytes of memory per pixel.
-///
 /// # Errors
 /// As for [`render_preview`].
 pub fn render_rgb(mesh: &Mesh, options: &PreviewOptions) -> Result<RgbImage, ExportError> {
@@ -116,35 +113,21 @@ pub fn render_rgb(mesh: &Mesh, options: &PreviewOptions) -> Result<RgbImage, Exp
     Ok(RgbImage { width, height, pixels })
 }
 
-fn draw(scene: &Scene<'_>, [width, height]: [usize; 2]) -> Vec<u8> {
-    let t0 = std::time::Instant::now();
-    let factor = samples_along_pixel(width * height);
-    eprintln!("factor {:?}", t0.elapsed());
-    let points: Vec<_> = scene.screen.iter().map(|point| point.magnified(factor as f32)).collect();
-    let size = [width * factor, height * factor];
-    eprintln!("size {:?}", t0.elapsed());
-    let samples = Raster::draw(size, &points, &scene.mesh.triangles, &scene.mesh.triangle_faces);
-    eprintln!("samples {:?}", t0.elapsed());
-    let surface = Surface::new(scene, &samples, factor, pixels_along_cell(width * height));
-    eprintln!("surface {:?}", t0.elapsed());
+fn draw(scene: &Scene<'_>, size: [usize; 2]) -> Vec<u8> {
+    let pixels = size[0] * size[1];
+    let surface = Surface::new(scene, size, pixels_along_cell(pixels));
     let light = reaching_light(scene, &surface);
-    eprintln!("light {:?}", t0.elapsed());
     let lines = feature_lines(scene);
-    eprintln!("lines {:?}", t0.elapsed());
-    let r = compose(&Layers { scene, samples: &samples, factor, surface: &surface, light: &light, lines: &lines }); eprintln!("compose {:?}", t0.elapsed()); r
+    let factor = samples_along_pixel(pixels);
+    compose(&Layers { scene, size, factor, surface: &surface, light: &light, lines: &lines })
 }
 
-/// Pixels along each side of a cell of light: one for small pictures, where a pixel is a large part of the model.
+/// Pixels along each side of a cell of light: as few as keep the number of cells near half a million.
 fn pixels_along_cell(pixels: usize) -> usize {
-    if pixels <= 500_000 { 1 } else { 2 }
+    (pixels as f64 / 500_000.0).sqrt().ceil() as usize
 }
 
-/// Samples along each side of a pixel: more for small pictures, where they cost nothing, and one for those so large that
-/// memory matters more.
+/// Samples along each side of a pixel: more for small pictures, where they cost little.
 fn samples_along_pixel(pixels: usize) -> usize {
-    match pixels {
-        0..=500_000 => 4,
-        500_001..=20_000_000 => 2,
-        _ => 1,
-    }
+    if pixels <= 500_000 { 4 } else { 2 }
 }

@@ -2,7 +2,6 @@
 
 use glam::Vec3;
 
-use super::camera::Camera;
 use super::surface::Surface;
 
 /// How far away surfaces still take light, in model radii.
@@ -25,17 +24,17 @@ const GOLDEN_TURN: [f32; 2] = [-0.737_368_9, 0.675_490_3];
 
 /// The part of the ambient light that a cell gets, 0 to 1.
 ///
-/// `point` and `normal` are its own, in view coordinates; `turn` is a unit vector that turns the pattern, `shift` moves it
+/// `pixels_per_unit` is the width on the picture of one view unit at depth 1. `point` and `normal` are the cell's own, in view coordinates; `turn` is a unit vector that turns the pattern, `shift` moves it
 /// outwards by a part of a step.
 pub(super) fn openness(
     surface: &Surface,
-    camera: &Camera,
+    pixels_per_unit: f32,
     [column, row]: [usize; 2],
     (point, normal): (Vec3, Vec3),
     (turn, shift): ([f32; 2], f32),
 ) -> f32 {
     let largest = MAX_REACH * surface.width.min(surface.height) as f32;
-    let reach = (RADIUS * camera.pixels_per_unit() / (surface.cell as f32 * point.z)).min(largest);
+    let reach = (RADIUS * pixels_per_unit / (surface.cell as f32 * point.z)).min(largest);
     let [mut cosine, mut sine] = turn;
     let mut taken = 0.0;
     for step in 0..STEPS {
@@ -46,22 +45,22 @@ pub(super) fn openness(
         let y = row as f32 + 0.5 + sine * distance;
         [cosine, sine] =
             [cosine * GOLDEN_TURN[0] - sine * GOLDEN_TURN[1], cosine * GOLDEN_TURN[1] + sine * GOLDEN_TURN[0]];
-        taken += taken_by(surface, camera, [x, y], point, normal);
+        taken += taken_by(surface, [x, y], point, normal);
     }
     1.0 - taken / STEPS as f32
 }
 
 /// What the surface at one place of the picture takes from `point`.
-fn taken_by(surface: &Surface, camera: &Camera, [x, y]: [f32; 2], point: Vec3, normal: Vec3) -> f32 {
+fn taken_by(surface: &Surface, [x, y]: [f32; 2], point: Vec3, normal: Vec3) -> f32 {
     if x < 0.0 || y < 0.0 {
         return 0.0;
     }
-    let (column, row) = (x as u32 as usize, y as u32 as usize);
+    let (column, row) = (x as i32 as usize, y as i32 as usize);
     if column >= surface.width || row >= surface.height {
         return 0.0;
     }
     // The depth belongs to the middle of the cell. Where nothing is, it is infinite, and the tests below fail.
-    let towards = surface.ray(camera, [column, row]) * surface.depth[row * surface.width + column] - point;
+    let towards = surface.ray([column, row]) * surface.depth[row * surface.width + column] - point;
     let (square, rise) = (towards.length_squared(), towards.dot(normal));
     if !(rise > 0.0 && square < RADIUS * RADIUS) {
         return 0.0;

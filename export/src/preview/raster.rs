@@ -1,8 +1,10 @@
 //! A z-buffer: which face is nearest at each sample of a picture.
 //!
 //! Triangles that share an edge neither leave a gap along it nor overlap: both compute where it crosses a row from the
-//! same end points in the same order. Bands of rows are filled in parallel, each with its triangles in the order of the
+//! same end points in the same order. A picture is drawn in bands of rows, each with its triangles in the order of the
 //! mesh, so the result does not depend on the number of threads.
+
+use std::ops::Range;
 
 use rayon::prelude::*;
 
@@ -11,13 +13,50 @@ use super::camera::ScreenPoint;
 /// Number of the face at samples that no triangle covers.
 pub(super) const NO_FACE: u32 = u32::MAX;
 
-/// Rows that are filled as one piece of work.
-const BAND_ROWS: usize = 64;
+/// Triangles on a picture whose unit is the sample: sample `i` of a row lies at `x = i + 0.5`, likewise for rows.
+#[derive(Clone, Copy)]
+pub(super) struct Triangles<'a> {
+    /// Samples across and down.
+    pub(super) size: [usize; 2],
+    pub(super) points: &'a [ScreenPoint],
+    pub(super) corners: &'a [[u32; 3]],
+    /// For each triangle the number to leave at its samples.
+    pub(super) faces: &'a [u32],
+}
 
-/// Nearest face and its depth at each sample, row by row.
+impl Triangles<'_> {
+    /// For each band of `rows` rows, with `margin` more on both sides, the front triangles that reach it, in order.
+    pub(super) fn by_band(&self, rows: usize, margin: usize) -> Vec<Vec<u32>> {
+        let height = self.size[1];
+        let mut bands = vec![Vec::new(); height.div_ceil(rows)];
+        for triangle in 0..self.corners.len() as u32 {
+            let corners = self.points_of(triangle);
+            if !is_front(corners) {
+                continue;
+            }
+            let [a, b, c] = corners.map(|corner| corner.y);
+            let (first, end) = covered(a.min(b).min(c).into(), a.max(b).max(c).into(), 0..height);
+            if first < end {
+                let last = ((end - 1 + margin) / rows).min(bands.len() - 1);
+                for band in &mut bands[first.saturating_sub(margin) / rows..=last] {
+                    band.push(triangle);
+                }
+            }
+        }
+        bands
+    }
+
+    fn points_of(&self, triangle: u32) -> [ScreenPoint; 3] {
+        self.corners[triangle as usize].map(|corner| self.points[corner as usize])
+    }
+}
+
+/// Nearest face and its depth at each sample of some rows, row by row.
+#[derive(Default)]
 pub(super) struct Raster {
     pub(super) width: usize,
-    pub(super) height: usize,
+    /// The rows of the picture that are held.
+    pub(super) rows: Range<usize>,
     /// Nearness of the surface, larger is nearer; 0 where there is none.
     pub(super) nearness: Vec<f32>,
     /// Number of the face, or [`NO_FACE`].
@@ -25,36 +64,81 @@ pub(super) struct Raster {
 }
 
 impl Raster {
-    /// Draws the triangles that turn counter-clockwise on the picture, its y axis pointing down. Sample `i` of a row lies
-    /// at `x = i + 0.5`, likewise for rows.
-    pub(super) fn draw(
-        [width, height]: [usize; 2],
-        points: &[ScreenPoint],
-        triangles: &[[u32; 3]],
-        triangle_faces: &[u32],
-    ) -> Self {
-        let mut raster =
-            Self { width, height, nearness: vec![0.0; width * height], faces: vec![NO_FACE; width * height] };
-        let bands = sort_into_bands(height, points, triangles);
-        let rows = (BAND_ROWS * width).max(1);
-        let slices = raster.nearness.par_chunks_mut(rows).zip(raster.faces.par_chunks_mut(rows));
-        slices.zip(&bands).enumerate().for_each(|(index, ((nearness, faces), triangles_here))| {
-            let mut band = Band { width, first_row: index * BAND_ROWS, nearness, faces };
-            for &triangle in triangles_here {
-                let corners = triangles[triangle as usize].map(|corner| points[corner as usize]);
-                band.fill(corners, triangle_faces[triangle as usize]);
-            }
-        });
-        raster
+    /// Draws the whole picture; triangles that turn clockwise are left out.
+    pub(super) fn draw(triangles: Triangles<'_>) -> Self {
+        const BAND_ROWS: usize = 64;
+        let [width, height] = triangles.size;
+        let draw_band = |(index, chosen): (usize, &Vec<u32>)| {
+            let mut band = Self::default();
+            let first = index * BAND_ROWS;
+            band.draw_rows(triangles, first..(first + BAND_ROWS).min(height), chosen);
+            band
+        };
+        let bands: Vec<Self> = triangles.by_band(BAND_ROWS, 0).par_iter().enumerate().map(draw_band).collect();
+        let mut whole = Self { width, rows: 0..height, nearness: Vec::new(), faces: Vec::new() };
+        whole.nearness.reserve_exact(width * height);
+        whole.faces.reserve_exact(width * height);
+        for band in &bands {
+            whole.nearness.extend_from_slice(&band.nearness);
+            whole.faces.extend_from_slice(&band.faces);
+        }
+        whole
     }
 
-    /// Nearness and face of the sample that contains a point, the nearest one on the picture if the point is outside.
+    /// Draws the chosen triangles on some rows. What was held before is dropped, only the memory is used again.
+    pub(super) fn draw_rows(&mut self, triangles: Triangles<'_>, rows: Range<usize>, chosen: &[u32]) {
+        self.width = triangles.size[0];
+        let samples = self.width * rows.len();
+        self.rows = rows;
+        self.nearness.clear();
+        self.nearness.resize(samples, 0.0);
+        self.faces.clear();
+        self.faces.resize(samples, NO_FACE);
+        for &triangle in chosen {
+            self.fill(triangles.points_of(triangle), triangles.faces[triangle as usize]);
+        }
+    }
+
+    /// Nearness and face of the sample that contains a point of the picture, the nearest sample held if that one is not.
     pub(super) fn at(&self, x: f32, y: f32) -> (f32, u32) {
-        // The conversion saturates: negative numbers become 0.
+        // The conversions saturate: negative numbers become 0.
         let column = (x as u32 as usize).min(self.width - 1);
-        let row = (y as u32 as usize).min(self.height - 1);
-        let index = row * self.width + column;
+        let row = (y as u32 as usize).clamp(self.rows.start, self.rows.end - 1);
+        let index = (row - self.rows.start) * self.width + column;
         (self.nearness[index], self.faces[index])
+    }
+
+    fn fill(&mut self, mut corners: [ScreenPoint; 3], face: u32) {
+        let plane = Plane::through(corners);
+        corners.sort_by(|a, b| a.y.total_cmp(&b.y));
+        let [top, middle, bottom] = corners;
+        let long = Side::new(top, bottom);
+        for (upper, lower) in [(top, middle), (middle, bottom)] {
+            let short = Side::new(upper, lower);
+            let (start, end) = covered(upper.y.into(), lower.y.into(), self.rows.clone());
+            for row in start..end {
+                let y = row as f64 + 0.5;
+                let (a, b) = (long.x_at(y), short.x_at(y));
+                let (left, right) = covered(a.min(b), a.max(b), 0..self.width);
+                if left < right {
+                    self.fill_span(row, left..right, &plane, face);
+                }
+            }
+        }
+    }
+
+    fn fill_span(&mut self, row: usize, columns: Range<usize>, plane: &Plane, face: u32) {
+        let (first, step) = plane.along(row as f64 + 0.5, columns.start as f64 + 0.5, columns.len());
+        let start = (row - self.rows.start) * self.width;
+        let span = start + columns.start..start + columns.end;
+        let samples = self.nearness[span.clone()].iter_mut().zip(&mut self.faces[span]);
+        for (i, (old, id)) in samples.enumerate() {
+            let new = first + step * (i as i32 as f32);
+            // Selections instead of a branch: the loop becomes vector code.
+            let wins = new > *old;
+            *old = if wins { new } else { *old };
+            *id = if wins { face } else { *id };
+        }
     }
 }
 
@@ -69,78 +153,15 @@ fn signed_area(a: ScreenPoint, b: ScreenPoint, c: ScreenPoint) -> f64 {
     (by - ay) * (cx - ax) - (bx - ax) * (cy - ay)
 }
 
-/// For each band the front triangles that reach it, in the order of the mesh.
-fn sort_into_bands(height: usize, points: &[ScreenPoint], triangles: &[[u32; 3]]) -> Vec<Vec<u32>> {
-    let mut bands = vec![Vec::new(); height.div_ceil(BAND_ROWS)];
-    for (triangle, corners) in (0..).zip(triangles) {
-        let corners = corners.map(|corner| points[corner as usize]);
-        if !is_front(corners) {
-            continue;
-        }
-        let [a, b, c] = corners.map(|corner| corner.y);
-        let rows = row_range(f64::from(a.min(b).min(c)), f64::from(a.max(b).max(c)), 0, height);
-        if rows.0 < rows.1 {
-            for band in &mut bands[rows.0 / BAND_ROWS..=(rows.1 - 1) / BAND_ROWS] {
-                band.push(triangle);
-            }
-        }
-    }
-    bands
-}
-
-/// The samples between two coordinates, those on the lower one included, clamped to `first..end`.
-fn row_range(low: f64, high: f64, first: usize, end: usize) -> (usize, usize) {
+/// The samples between two coordinates, those on the lower one included, limited to `held`.
+fn covered(low: f64, high: f64, held: Range<usize>) -> (usize, usize) {
     // Rounds up; written out because the library call costs more than the rest of a short row.
     let index = |value: f64| {
         let shifted = value - 0.5;
         let whole = shifted as u32;
-        (whole as usize + usize::from(f64::from(whole) < shifted)).clamp(first, end)
+        (whole as usize + usize::from(f64::from(whole) < shifted)).clamp(held.start, held.end)
     };
     (index(low), index(high))
-}
-
-/// Some rows of the raster.
-struct Band<'a> {
-    width: usize,
-    first_row: usize,
-    nearness: &'a mut [f32],
-    faces: &'a mut [u32],
-}
-
-impl Band<'_> {
-    fn fill(&mut self, mut corners: [ScreenPoint; 3], face: u32) {
-        let plane = Plane::through(corners);
-        corners.sort_by(|a, b| a.y.total_cmp(&b.y));
-        let [top, middle, bottom] = corners;
-        let long = Side::new(top, bottom);
-        let last_row = self.first_row + self.nearness.len() / self.width;
-        for (upper, lower) in [(top, middle), (middle, bottom)] {
-            let short = Side::new(upper, lower);
-            let (start, end) = row_range(upper.y.into(), lower.y.into(), self.first_row, last_row);
-            for row in start..end {
-                let y = row as f64 + 0.5;
-                let (a, b) = (long.x_at(y), short.x_at(y));
-                let (left, right) = row_range(a.min(b), a.max(b), 0, self.width);
-                if left < right {
-                    self.fill_span(row, left, right, &plane, face);
-                }
-            }
-        }
-    }
-
-    fn fill_span(&mut self, row: usize, left: usize, right: usize, plane: &Plane, face: u32) {
-        let start = (row - self.first_row) * self.width;
-        let nearness = &mut self.nearness[start + left..start + right];
-        let faces = &mut self.faces[start + left..start + right];
-        let (first, step) = plane.along(row as f64 + 0.5, left as f64 + 0.5, right - left);
-        for (i, (old, id)) in nearness.iter_mut().zip(faces).enumerate() {
-            let new = first + step * (i as i32 as f32);
-            // Selections instead of a branch: the loop becomes vector code.
-            let wins = new > *old;
-            *old = if wins { new } else { *old };
-            *id = if wins { face } else { *id };
-        }
-    }
 }
 
 /// One side of a triangle, always computed from its upper end.
@@ -231,12 +252,15 @@ mod tests {
             let count = rim.len() as u32;
             let triangles: Vec<_> = (0..count).map(|i| [count, i, (i + 1) % count]).collect();
             let faces: Vec<_> = (0..count).collect();
-            let whole = Raster::draw([100, 100], &points, &triangles, &faces);
+            let draw = |corners: &[[u32; 3]], faces: &[u32]| {
+                Raster::draw(Triangles { size: [100, 100], points: &points, corners, faces })
+            };
+            let whole = draw(&triangles, &faces);
             assert!(whole.faces.iter().all(|&face| face != NO_FACE), "a gap in round {round} of seed 3");
             let covered: usize = triangles
                 .iter()
                 .map(|&triangle| {
-                    let alone = Raster::draw([100, 100], &points, &[triangle], &[0]);
+                    let alone = draw(&[triangle], &[0]);
                     alone.faces.iter().filter(|&&face| face == 0).count()
                 })
                 .sum();
@@ -252,7 +276,8 @@ mod tests {
         let near = [[4, 5, 6], [4, 6, 7]];
         let near_back = [[4, 6, 5], [4, 7, 6]];
         for (triangles, expected) in [([far, near], 1), ([near, far], 0), ([far, near_back], 0)] {
-            let raster = Raster::draw([8, 8], &points, triangles.as_flattened(), &[0, 0, 1, 1]);
+            let corners = triangles.as_flattened();
+            let raster = Raster::draw(Triangles { size: [8, 8], points: &points, corners, faces: &[0, 0, 1, 1] });
             assert!(raster.faces.iter().all(|&face| face == expected));
         }
     }

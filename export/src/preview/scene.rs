@@ -4,11 +4,9 @@ use glam::{DVec3, Vec3};
 use planecut_csg::Mesh;
 
 use super::camera::{Camera, ScreenPoint};
+use super::raster::Triangles;
 use super::style::Look;
 use crate::color::material_color;
-
-/// Faces that turn away from the light by more than this cosine get no direct light at all.
-const MIN_KEY_COSINE: f32 = 0.0;
 
 /// Model, camera and light in view coordinates.
 pub(super) struct Scene<'a> {
@@ -68,6 +66,11 @@ impl<'a> Scene<'a> {
         let floor = (look.floor > 0.0).then(|| floor_under(&view, up)).flatten();
         Self { mesh, camera, look, view, screen, normals, shades, light, floor }
     }
+
+    /// The mesh on a picture of `size` samples, with its vertices at `points` of it.
+    pub(super) fn triangles<'b>(&'b self, size: [usize; 2], points: &'b [ScreenPoint]) -> Triangles<'b> {
+        Triangles { size, points, corners: &self.mesh.triangles, faces: &self.mesh.triangle_faces }
+    }
 }
 
 /// The key light stands behind the camera's left shoulder, high up, whatever side the model is seen from.
@@ -82,8 +85,7 @@ fn shade(look: &Look, color: Vec3, normal: Vec3, up: Vec3, light: Vec3) -> Shade
     // The fill light comes from the right, where the key light does not reach.
     let fill_part = 0.5 + 0.5 * normal.dot(Vec3::X);
     let ambient = look.bounce.lerp(look.sky, sky_part) + look.fill * fill_part;
-    let cosine = normal.dot(light);
-    let direct = if cosine > MIN_KEY_COSINE { look.key * cosine } else { Vec3::ZERO };
+    let direct = look.key * normal.dot(light).max(0.0);
     Shade { ambient: color * ambient, direct: color * direct }
 }
 

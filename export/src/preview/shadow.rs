@@ -46,16 +46,10 @@ impl ShadowMap {
         let scale = (SIDE - 2.0 * BORDER) / extent;
         // Heights start at 1, since 0 means that nothing is there.
         let origin = Vec3::new(BORDER - min.x * scale, BORDER - min.y * scale, 1.0 - min.z);
-        let mut shadows = Self {
-            map: Raster { width: 0, height: 0, nearness: Vec::new(), faces: Vec::new() },
-            axes,
-            origin,
-            scale,
-        };
-        let points: Vec<_> = scene.view.iter().map(|&p| shadows.place(p)).collect();
-        let points: Vec<_> = points.iter().map(|p| ScreenPoint { x: p.x, y: p.y, w: p.z }).collect();
-        shadows.map =
-            Raster::draw([SIDE as usize; 2], &points, &scene.mesh.triangles, &scene.mesh.triangle_faces);
+        let mut shadows = Self { map: Raster::default(), axes, origin, scale };
+        let to_point = |place: Vec3| ScreenPoint { x: place.x, y: place.y, w: place.z };
+        let points: Vec<_> = scene.view.iter().map(|&p| to_point(shadows.place(p))).collect();
+        shadows.map = Raster::draw(scene.triangles([SIDE as usize; 2], &points));
         shadows
     }
 

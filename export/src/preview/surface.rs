@@ -3,9 +3,7 @@
 //! Light is computed for cells of a few pixels, since it varies slowly within a face.
 
 use glam::Vec3;
-use rayon::prelude::*;
 
-use super::camera::Camera;
 use super::raster::{NO_FACE, Raster};
 use super::scene::{Floor, Scene};
 
@@ -23,6 +21,9 @@ pub(super) struct Surface {
     pub(super) height: usize,
     /// Pixels along a cell.
     pub(super) cell: usize,
+    /// View ray through the first cell, and the way from each cell's to the next.
+    first_ray: Vec3,
+    ray_step: f32,
     /// View depth; infinite where there is nothing.
     pub(super) depth: Vec<f32>,
     /// Number of the face, [`FLOOR`], or [`NO_FACE`].
@@ -30,39 +31,42 @@ pub(super) struct Surface {
 }
 
 impl Surface {
-    /// Takes one sample near the middle of each cell of `cell`² pixels, from a raster of `factor`² samples per pixel.
-    pub(super) fn new(scene: &Scene<'_>, samples: &Raster, factor: usize, cell: usize) -> Self {
-        let step = cell * factor;
-        let (width, height) = (samples.width.div_ceil(step), samples.height.div_ceil(step));
-        let mut surface =
-            Self { width, height, cell, depth: vec![0.0; width * height], faces: vec![NO_FACE; width * height] };
-        let rows = surface.depth.par_chunks_mut(width).zip(surface.faces.par_chunks_mut(width));
-        rows.enumerate().for_each(|(row, (depth, faces))| {
-            // Cells at the right and lower edge may reach beyond the picture.
-            let middle = |index: usize, size: usize| (index * step + step / 2).min(size - 1);
-            let start = middle(row, samples.height) * samples.width;
-            for column in 0..width {
-                let sample = start + middle(column, samples.width);
-                (depth[column], faces[column]) = (1.0 / samples.nearness[sample], samples.faces[sample]);
-                if let (NO_FACE, Some(floor)) = (faces[column], scene.floor) {
-                    if let Some(distance) = floor.depth_along(cell_ray(&scene.camera, cell, [column, row])) {
-                        (depth[column], faces[column]) = (distance, FLOOR);
-                    }
-                }
-            }
-        });
+    /// Looks through the middle of each cell of `cell`² pixels; the picture has `size` pixels.
+    pub(super) fn new(scene: &Scene<'_>, size: [usize; 2], cell: usize) -> Self {
+        let points: Vec<_> = scene.screen.iter().map(|point| point.magnified(1.0 / cell as f32)).collect();
+        // Cells at the right and lower edge may reach beyond the picture.
+        let size = size.map(|side| side.div_ceil(cell));
+        let raster = Raster::draw(scene.triangles(size, &points));
+        let first_ray = scene.camera.ray(cell as f32 / 2.0, cell as f32 / 2.0);
+        let ray_step = cell as f32 / scene.camera.pixels_per_unit();
+        let depth = raster.nearness.iter().map(|nearness| 1.0 / nearness).collect();
+        let [width, height] = size;
+        let mut surface = Self { width, height, cell, first_ray, ray_step, depth, faces: raster.faces };
+        if let Some(floor) = scene.floor {
+            surface.add_floor(floor);
+        }
         surface
     }
 
-    /// The view ray through the middle of a cell.
-    pub(super) fn ray(&self, camera: &Camera, at: [usize; 2]) -> Vec3 {
-        cell_ray(camera, self.cell, at)
+    fn add_floor(&mut self, floor: Floor) {
+        for row in 0..self.height {
+            for column in 0..self.width {
+                let index = row * self.width + column;
+                if self.faces[index] == NO_FACE
+                    && let Some(depth) = floor.depth_along(self.ray([column, row]))
+                {
+                    (self.depth[index], self.faces[index]) = (depth, FLOOR);
+                }
+            }
+        }
     }
-}
 
-fn cell_ray(camera: &Camera, cell: usize, at: [usize; 2]) -> Vec3 {
-    let [x, y] = at.map(|index| (index as f32 + 0.5) * cell as f32);
-    camera.ray(x, y)
+    /// The view ray through the middle of a cell.
+    pub(super) fn ray(&self, [column, row]: [usize; 2]) -> Vec3 {
+        // Signed conversions are the fast ones.
+        let (right, down) = (column as i32 as f32, row as i32 as f32);
+        Vec3::new(self.first_ray.x + self.ray_step * right, self.first_ray.y - self.ray_step * down, 1.0)
+    }
 }
 
 impl Floor {

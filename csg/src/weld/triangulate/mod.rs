@@ -11,6 +11,9 @@ mod grid;
 
 use planecut_kernel::DVec2;
 
+use super::cancel::UNPAIRED;
+use super::manifold::Labels;
+
 /// A corner of a loop.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Corner {
@@ -19,6 +22,15 @@ pub(super) struct Corner {
     pub(super) vertex: u32,
     /// The line on which the edge to the next corner lies.
     pub(super) line: u32,
+    /// The half-edge to the next corner.
+    pub(super) piece: u32,
+}
+
+/// The triangles of a face: mesh vertices, and for each side the half-edge it lies on.
+#[derive(Debug, Default)]
+pub(super) struct Triangles {
+    pub(super) vertices: Vec<[u32; 3]>,
+    pub(super) labels: Labels,
 }
 
 /// The line of a bridge or a diagonal.
@@ -42,21 +54,26 @@ pub(super) struct Boundary {
 }
 
 /// Triangulates a face given by its loops, the outer one first, the inside to the left; triangles of mesh vertices.
-pub(super) fn triangulate(loops: &[Vec<Corner>], boundary: &mut Boundary, out: &mut Vec<[u32; 3]>) {
-    let first = out.len();
+pub(super) fn triangulate(loops: &[Vec<Corner>], boundary: &mut Boundary, out: &mut Triangles) {
+    let first = out.vertices.len();
     boundary.nodes.clear();
     let Some((outer, holes)) = loops.split_first() else { return };
     let start = boundary.push_ring(outer);
     if holes.is_empty() && outer.len() == 3 {
-        out.push([outer[0].vertex, outer[1].vertex, outer[2].vertex]);
+        out.vertices.push([outer[0].vertex, outer[1].vertex, outer[2].vertex]);
+        out.labels.push([outer[0].piece, outer[1].piece, outer[2].piece]);
         return;
     }
     let mut rings: Vec<u32> = holes.iter().map(|hole| boundary.push_ring(hole)).collect();
     boundary.join_holes(start, &mut rings);
+    let ahead = boundary.boundary_edges();
     let mut triangles = boundary.cut_ears(start);
     flip::improve(&boundary.nodes, &mut triangles);
-    out.extend(triangles.iter().map(|t| t.map(|node| boundary.nodes[node as usize].corner.vertex)));
-    debug_assert_eq!(out.len() - first, loops.iter().map(Vec::len).sum::<usize>() + 2 * holes.len() - 2);
+    let corner = |node: u32| &boundary.nodes[node as usize].corner;
+    out.vertices.extend(triangles.iter().map(|t| t.map(|node| corner(node).vertex)));
+    let label = |from: u32, to: u32| if ahead[from as usize] == to { corner(from).piece } else { UNPAIRED };
+    out.labels.extend(triangles.iter().map(|[a, b, c]| [label(*a, *b), label(*b, *c), label(*c, *a)]));
+    debug_assert_eq!(out.vertices.len() - first, loops.iter().map(Vec::len).sum::<usize>() + 2 * holes.len() - 2);
 }
 
 impl Boundary {
@@ -75,6 +92,11 @@ impl Boundary {
             });
         }
         first
+    }
+
+    /// For each node the one that ends the boundary edge beginning there; none for a bridge.
+    fn boundary_edges(&self) -> Vec<u32> {
+        self.nodes.iter().map(|node| if node.corner.line == NO_LINE { u32::MAX } else { node.next }).collect()
     }
 
     fn at(&self, node: u32) -> DVec2 {
