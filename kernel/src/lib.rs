@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+mod double_double;
 mod half_space;
 mod meet;
 mod polytope;

@@ -7,7 +7,8 @@
 use dashu_int::{IBig, UBig, ops::BitTest};
 use glam::DVec3;
 
-use crate::sign::{Homogeneous, OffsetColumn, Row, big_cross, big_dot, big_integers, exact_product};
+use crate::double_double::DoubleDouble;
+use crate::sign::{Homogeneous, OffsetColumn, Row, big_cross, big_dot, big_integers};
 
 /// Relative error of the double-double evaluation, in units of the permanent. Each term passes at most 12 operations of
 /// relative error `2⁻¹⁰²`, and a product of permanents leaves room.
@@ -61,6 +62,17 @@ fn meet_double_double(a: &Row, b: &Row, c: &Row, permanent: &[f64; 4]) -> Option
         coordinates[axis] = quotient.rounded_with(2.0 * relative * quotient.high.abs())?;
     }
     Some(DVec3::from_array(coordinates))
+}
+
+/// The unit direction of `nₐ × n_b`, each component accurate to a few roundings; zero where the normals are parallel.
+#[must_use]
+pub(crate) fn direction(a: &Row, b: &Row) -> DVec3 {
+    let [a, b] = [a, b].map(|row| big_integers(*row.coefficients()));
+    let cross = big_cross(&a, &b);
+    // Keep the leading 100 bits of the longest component: what is lost lies far below its last place.
+    let surplus = cross.iter().map(|v| v.bit_len()).max().unwrap_or(0).saturating_sub(100);
+    let [x, y, z] = cross.map(|v| i128::try_from(v >> surplus).unwrap_or_default() as f64);
+    DVec3::new(x, y, z).normalize_or_zero()
 }
 
 fn meet_exact(a: &Row, b: &Row, c: &Row) -> Option<DVec3> {
@@ -118,61 +130,4 @@ fn ldexp(mut v: f64, mut power: i64) -> f64 {
         power += STEP;
     }
     v * factor(power.clamp(-STEP, STEP))
-}
-
-/// An unevaluated sum of two numbers, `|low| ≤ ½ ulp(high)` (Dekker 1971).
-#[derive(Debug, Clone, Copy, Default)]
-struct DoubleDouble {
-    high: f64,
-    low: f64,
-}
-
-impl DoubleDouble {
-    fn sum(a: f64, b: f64) -> Self {
-        let high = a + b;
-        let t = high - a;
-        Self { high, low: (a - (high - t)) + (b - t) }
-    }
-
-    fn quick_sum(a: f64, b: f64) -> Self {
-        let high = a + b;
-        Self { high, low: b - (high - a) }
-    }
-
-    fn product(a: f64, b: f64) -> Self {
-        let (high, low) = exact_product(a, b);
-        Self { high, low }
-    }
-
-    fn negated(self) -> Self {
-        Self { high: -self.high, low: -self.low }
-    }
-
-    fn plus(self, other: Self) -> Self {
-        let (s, t) = (Self::sum(self.high, other.high), Self::sum(self.low, other.low));
-        let v = Self::quick_sum(s.high, s.low + t.high);
-        Self::quick_sum(v.high, v.low + t.low)
-    }
-
-    fn times(self, factor: f64) -> Self {
-        let p = Self::product(self.high, factor);
-        Self::quick_sum(p.high, p.low + self.low * factor)
-    }
-
-    fn over(self, divisor: Self) -> Self {
-        let q1 = self.high / divisor.high;
-        let r = self.plus(divisor.times(q1).negated());
-        let q2 = r.high / divisor.high;
-        let r = r.plus(divisor.times(q2).negated());
-        let q3 = r.high / divisor.high;
-        let q = Self::quick_sum(q1, q2);
-        Self::quick_sum(q.high, q.low + q3)
-    }
-
-    /// The value rounded to one number, where an error of `±error` cannot change that.
-    fn rounded_with(self, error: f64) -> Option<f64> {
-        let up = self.high + (self.low + error);
-        let down = self.high + (self.low - error);
-        (up == down).then_some(up + 0.0)
-    }
 }

@@ -144,10 +144,12 @@ impl Layers<'_> {
         /// Weight of other cells: counts only when there is none of the same face.
         const FOREIGN: f32 = 1e-4;
         let surface = self.surface;
-        let corner = at.map(|index| (index as f32 + 0.5) / surface.cell as f32 - 0.5);
+        let corner = at.map(|index| (index as i32 as f32 + 0.5) * (1.0 / surface.cell as f32) - 0.5);
         let (x, y) = (corner[0].max(0.0), corner[1].max(0.0));
-        let (column, row) = (x as u32 as usize, y as u32 as usize);
+        // Signed conversions are the fast ones.
+        let (column, row) = (x as i32, y as i32);
         let (right, below) = (x - column as f32, y - row as f32);
+        let (column, row) = (column as usize, row as usize);
         let (mut ambient, mut direct, mut weight) = (0.0, 0.0, 0.0);
         for (row, down) in [(row, 1.0 - below), (row + 1, below)] {
             for (column, across) in [(column, 1.0 - right), (column + 1, right)] {
@@ -160,7 +162,8 @@ impl Layers<'_> {
                 weight += part;
             }
         }
-        Reaching { ambient: ambient / weight, direct: direct / weight }
+        let scale = 1.0 / weight;
+        Reaching { ambient: ambient * scale, direct: direct * scale }
     }
 
     fn lit(&self, shade: Shade, light: Reaching) -> Vec3 {

@@ -134,10 +134,10 @@ impl Raster {
         let samples = self.nearness[span.clone()].iter_mut().zip(&mut self.faces[span]);
         for (i, (old, id)) in samples.enumerate() {
             let new = first + step * (i as i32 as f32);
-            // Selections instead of a branch: the loop becomes vector code.
-            let wins = new > *old;
-            *old = if wins { new } else { *old };
-            *id = if wins { face } else { *id };
+            // A bit mask instead of a branch: the loop becomes vector code.
+            let wins = u32::from(new > *old).wrapping_neg();
+            *old = old.max(new);
+            *id = (face & wins) | (*id & !wins);
         }
     }
 }

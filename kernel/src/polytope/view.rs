@@ -8,7 +8,7 @@ use glam::{DVec3, DVec4};
 use super::infinity::is_infinity;
 use super::store::{NONE, PlaneState};
 use super::{IncrementalPolytope, PlaneIdx, external};
-use crate::meet::meet;
+use crate::meet::{direction, meet};
 
 /// A vertex as seen from outside.
 #[derive(Debug, Clone, PartialEq)]
@@ -135,9 +135,9 @@ impl IncrementalPolytope {
     /// The homogeneous position of a vertex of the simple structure.
     fn position(&self, slot: u32) -> DVec4 {
         let planes = self.vertices.planes[slot as usize];
-        if self.vertices.is_ideal(slot) {
-            let [x, y, z, _] = self.vertices.point[slot as usize].value;
-            return DVec3::new(x, y, z).normalize_or_zero().extend(0.0);
+        if let Some(k) = planes.iter().position(|p| is_infinity(*p)) {
+            // of the planes (M, b, c) the last two carry the ray, which runs along their cross product
+            return direction(self.row(planes[(k + 1) % 3]), self.row(planes[(k + 2) % 3])).extend(0.0);
         }
         let [a, b, c] = planes.map(|p| self.row(p));
         meet(a, b, c).expect("the normals at a vertex are independent").extend(1.0)

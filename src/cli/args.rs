@@ -1,0 +1,267 @@
+//! What may stand on the command line. The doc comments here are the help texts.
+
+use std::path::PathBuf;
+
+use clap::error::ErrorKind;
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use planecut::export::{Format, MAX_IMAGE_SIDE, PreviewOptions, PreviewStyle};
+use planecut::import::map::MapOptions;
+
+use super::error::CliError;
+use super::terminal;
+
+/// Convex-CSG modeling kernel: exact half-spaces in, watertight meshes out.
+#[derive(Debug, Parser)]
+#[command(name = "planecut", version, arg_required_else_help = false, subcommand_required = true)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+/// One variant for each command.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Unite the brushes of a map and write the boundary as a mesh
+    Build(BuildArgs),
+    /// Print what a file holds as JSON: the report that `build` would write
+    Info(InfoArgs),
+    /// Draw the solid of a map as a picture
+    Render(RenderArgs),
+    /// Check that a mesh is watertight, manifold and not self-crossing; exit status 1 if not
+    Check(CheckArgs),
+}
+
+/// Arguments of `build`.
+#[derive(Debug, Args)]
+pub(crate) struct BuildArgs {
+    /// The map to read (.map)
+    #[arg(value_name = "INPUT")]
+    pub(crate) input: PathBuf,
+    /// Mesh to write, by its ending .glb, .gltf, .obj or .stl; may be given several times; `-` is standard output
+    #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1)]
+    pub(crate) outputs: Vec<PathBuf>,
+    /// Format of `-o -`: glb, gltf, obj or stl
+    #[arg(long, value_name = "FORMAT", value_parser = parse_format)]
+    pub(crate) format: Option<Format>,
+    /// Factor from the input's units to those of the meshes
+    #[arg(long, value_name = "S", default_value_t = 1.0, value_parser = parse_scale)]
+    pub(crate) scale: f64,
+    /// Also draw a picture (.png)
+    #[arg(long, value_name = "PNG")]
+    pub(crate) preview: Option<PathBuf>,
+    /// Size of the picture in pixels
+    #[arg(long, value_name = "WxH", default_value = "1280x960", value_parser = parse_size)]
+    pub(crate) preview_size: Size,
+    /// Also write counts, measures and times as JSON
+    #[arg(long, value_name = "JSON")]
+    pub(crate) report: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) map: MapArgs,
+    #[command(flatten)]
+    pub(crate) common: CommonArgs,
+}
+
+/// Arguments of `info`.
+#[derive(Debug, Args)]
+pub(crate) struct InfoArgs {
+    /// The file to look into (.map, .obj, .stl, .ply, .glb, .gltf)
+    #[arg(value_name = "INPUT")]
+    pub(crate) input: PathBuf,
+    #[command(flatten)]
+    pub(crate) map: MapArgs,
+    #[command(flatten)]
+    pub(crate) common: CommonArgs,
+}
+
+/// Arguments of `render`.
+#[derive(Debug, Args)]
+pub(crate) struct RenderArgs {
+    /// The map to read (.map)
+    #[arg(value_name = "INPUT")]
+    pub(crate) input: PathBuf,
+    /// Picture to write (.png); `-` is standard output
+    #[arg(short, long, value_name = "PICTURE")]
+    pub(crate) output: PathBuf,
+    /// How to draw
+    #[arg(long, value_enum, default_value_t = Style::Shaded)]
+    pub(crate) style: Style,
+    /// Size of the picture in pixels
+    #[arg(long, value_name = "WxH", default_value = "1280x960", value_parser = parse_size)]
+    pub(crate) size: Size,
+    #[command(flatten)]
+    pub(crate) map: MapArgs,
+    #[command(flatten)]
+    pub(crate) common: CommonArgs,
+}
+
+/// Arguments of `check`.
+#[derive(Debug, Args)]
+pub(crate) struct CheckArgs {
+    /// The mesh to check (.obj, .stl, .ply, .glb, .gltf)
+    #[arg(value_name = "MESH")]
+    pub(crate) mesh: PathBuf,
+    /// Depth up to which crossings count as touching, relative to the size; by default what the format's precision asks for
+    #[arg(long, value_name = "T", value_parser = parse_tolerance)]
+    pub(crate) tolerance: Option<f64>,
+    #[command(flatten)]
+    pub(crate) common: CommonArgs,
+}
+
+/// Which brushes of a map to take.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Options for .map")]
+pub(crate) struct MapArgs {
+    /// Take only the brushes of the world, of `func_group` and of `func_detail…`
+    #[arg(long)]
+    world_only: bool,
+    /// Skip brushes whose faces all have a texture like this (`*` and `?` are wildcards); may be given several times
+    #[arg(long, value_name = "PATTERN", num_args = 1)]
+    skip_texture: Vec<String>,
+    /// Skip the brushes of entities whose class is like this; may be given several times
+    #[arg(long, value_name = "PATTERN", num_args = 1)]
+    skip_class: Vec<String>,
+}
+
+impl MapArgs {
+    /// The same as the reader wants it.
+    pub(crate) fn options(&self) -> MapOptions {
+        MapOptions {
+            world_only: self.world_only,
+            skip_textures: self.skip_texture.clone(),
+            skip_classes: self.skip_class.clone(),
+        }
+    }
+}
+
+/// What every command takes.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "General options")]
+pub(crate) struct CommonArgs {
+    /// Number of threads, 1 to 1024; by default as many as there are cores
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(crate) threads: Option<u16>,
+    /// No warnings and no progress on standard error
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+}
+
+/// Looks of a picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Style {
+    /// Tinted clay in soft light with shadows
+    Shaded,
+}
+
+/// Width and height of a picture in pixels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Size {
+    width: u32,
+    height: u32,
+}
+
+/// Most pixels of a picture: drawing takes about 40 bytes for each.
+const MAX_PIXELS: u64 = 1 << 26;
+
+impl Size {
+    /// How to draw a picture of this size.
+    pub(crate) fn preview(self, style: Style) -> PreviewOptions {
+        let style = match style {
+            Style::Shaded => PreviewStyle::Shaded,
+        };
+        PreviewOptions { width: self.width, height: self.height, style, ..PreviewOptions::default() }
+    }
+}
+
+/// The command to run; `None` where help or the version was asked for and printed.
+pub(crate) fn parse() -> Result<Option<Command>, CliError> {
+    match Cli::try_parse() {
+        Ok(cli) => Ok(Some(cli.command)),
+        Err(error) if matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) => {
+            terminal::print_text(&error.render().to_string())?;
+            Ok(None)
+        }
+        Err(error) => Err(CliError::Usage(in_one_line(&error.render().to_string()))),
+    }
+}
+
+/// The parser's message and its tips, without the usage text that follows.
+fn in_one_line(message: &str) -> String {
+    let message = message.strip_prefix("error: ").unwrap_or(message);
+    let paragraphs = message.split("\n\n").map(|paragraph| paragraph.split_whitespace().collect::<Vec<_>>().join(" "));
+    let told = paragraphs.enumerate().filter(|(place, text)| *place == 0 || text.starts_with("tip: "));
+    told.map(|(_, text)| text).collect::<Vec<_>>().join("; ")
+}
+
+fn parse_format(text: &str) -> Result<Format, String> {
+    Format::from_extension(text).map_err(|_| "expected glb, gltf, obj or stl".to_owned())
+}
+
+fn parse_scale(text: &str) -> Result<f64, String> {
+    let scale = text.parse().ok().filter(|scale| (1e-30..=1e30).contains(scale));
+    scale.ok_or_else(|| "expected a number between 1e-30 and 1e30".to_owned())
+}
+
+fn parse_tolerance(text: &str) -> Result<f64, String> {
+    let tolerance = text.parse().ok().filter(|tolerance| (0.0..=1.0).contains(tolerance));
+    tolerance.ok_or_else(|| "expected a number between 0 and 1".to_owned())
+}
+
+fn parse_size(text: &str) -> Result<Size, String> {
+    let side = |text: &str| text.parse().ok().filter(|side| (1..=MAX_IMAGE_SIDE).contains(side));
+    let size = text.split_once(['x', 'X']).and_then(|(width, height)| Some((side(width)?, side(height)?)));
+    match size {
+        Some((width, height)) if u64::from(width) * u64::from(height) <= MAX_PIXELS => Ok(Size { width, height }),
+        _ => Err(format!(
+            "expected WIDTHxHEIGHT, each from 1 to {MAX_IMAGE_SIDE}, with at most {MAX_PIXELS} pixels in all"
+        )),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    use super::*;
+
+    #[test]
+    fn the_parser_is_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn sizes_have_two_sides_within_bounds() {
+        assert_eq!(parse_size("640x480"), Ok(Size { width: 640, height: 480 }));
+        for text in ["", "640", "640x", "x480", "0x1", "1x0", "-1x5", "1.5x2", "16385x1", "16384x16384", "1x2x3", "9e9x1"] {
+            assert!(parse_size(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn numbers_that_are_no_scale_or_tolerance_are_refused() {
+        assert_eq!((parse_scale("0.0254"), parse_tolerance("0")), (Ok(0.0254), Ok(0.0)));
+        for text in ["0", "-1", "nan", "inf", "1e31", "", "x"] {
+            assert!(parse_scale(text).is_err(), "{text}");
+        }
+        for text in ["-1e-9", "nan", "inf", "2", "", "x"] {
+            assert!(parse_tolerance(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn every_message_of_the_parser_fits_on_a_line() {
+        let commands: [&[&str]; 7] = [
+            &[],
+            &["buidl"],
+            &["build"],
+            &["build", "a.map"],
+            &["build", "a.map", "-o", "a.glb", "--reprot", "r.json"],
+            &["build", "a.map", "-o", "a.glb", "--threads", "0"],
+            &["render", "a.map", "-o", "a.png", "--style", "sketch"],
+        ];
+        for command in commands {
+            let error = Cli::try_parse_from([&["planecut"], command].concat()).expect_err("refused");
+            let line = in_one_line(&error.render().to_string());
+            assert!(!line.is_empty() && !line.contains('\n') && !line.contains("Usage"), "{line}");
+        }
+    }
+}

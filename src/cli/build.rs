@@ -1,0 +1,95 @@
+//! `planecut build`: a map into meshes, a picture and a report.
+
+use std::time::Instant;
+
+use planecut::csg::Mesh;
+use planecut::export::{ExportOptions, encode, render_preview};
+
+use super::args::{BuildArgs, Style};
+use super::error::CliError;
+use super::input::Input;
+use super::output::{MeshTarget, Target, check_targets};
+use super::pool::on_threads;
+use super::progress::Progress;
+use super::report::milliseconds;
+use super::solve::{Solved, solve};
+
+/// What is to be written where.
+struct Plan<'a> {
+    args: &'a BuildArgs,
+    input: Input,
+    meshes: Vec<MeshTarget>,
+    preview: Option<Target>,
+    report: Option<Target>,
+}
+
+/// An output that is complete in memory.
+type Encoded = (Target, Vec<u8>);
+
+/// Runs the command: everything is encoded in memory before the first file is written.
+///
+/// # Errors
+/// Any [`CliError`] but those of `check`.
+pub(crate) fn run(args: &BuildArgs) -> Result<(), CliError> {
+    let begin = Instant::now();
+    let plan = Plan::resolve(args)?;
+    let progress = Progress::start(args.common.quiet);
+    let (mut solved, outputs) = on_threads(args.common.threads, || plan.carry_out(&progress))?;
+    drop(progress);
+    if !args.common.quiet {
+        solved.print_warnings(&plan.input);
+    }
+    let writing = Instant::now();
+    for (target, bytes) in &outputs {
+        target.write(bytes)?;
+    }
+    if let Some(target) = &plan.report {
+        solved.report.time_ms.export += milliseconds(writing.elapsed());
+        solved.report.time_ms.total = milliseconds(begin.elapsed());
+        // Last, so that a report is a sign that all else is there.
+        target.write(solved.report.to_json().as_bytes())?;
+    }
+    Ok(())
+}
+
+impl<'a> Plan<'a> {
+    fn resolve(args: &'a BuildArgs) -> Result<Self, CliError> {
+        let plan = Self {
+            args,
+            input: Input::resolve_map(&args.input)?,
+            meshes: MeshTarget::resolve_all(&args.outputs, args.format)?,
+            preview: args.preview.as_deref().map(Target::picture).transpose()?,
+            report: args.report.as_deref().map(Target::new),
+        };
+        let meshes = plan.meshes.iter().map(|mesh| &mesh.target);
+        check_targets(&args.input, meshes.chain(&plan.preview).chain(&plan.report))?;
+        Ok(plan)
+    }
+
+    fn carry_out(&self, progress: &Progress) -> Result<(Solved, Vec<Encoded>), CliError> {
+        let mut solved = solve(&self.input, &self.args.map.options(), progress)?;
+        let encoding = Instant::now();
+        progress.stage("encoding");
+        let mut outputs = self.encode(&solved.mesh)?;
+        solved.report.time_ms.export = milliseconds(encoding.elapsed());
+        if let Some(target) = &self.preview {
+            let drawing = Instant::now();
+            progress.stage("drawing");
+            let options = self.args.preview_size.preview(Style::Shaded);
+            let picture = render_preview(&solved.mesh, &options)
+                .map_err(|source| CliError::Encode { output: target.to_string(), source })?;
+            outputs.push((target.clone(), picture));
+            solved.report.time_ms.preview = milliseconds(drawing.elapsed());
+        }
+        Ok((solved, outputs))
+    }
+
+    fn encode(&self, mesh: &Mesh) -> Result<Vec<Encoded>, CliError> {
+        let options = ExportOptions { scale: self.args.scale };
+        let encode_one = |MeshTarget { target, format }: &MeshTarget| match encode(mesh, *format, &options) {
+            Ok(bytes) => Ok((target.clone(), bytes)),
+            Err(source) => Err(CliError::Encode { output: target.to_string(), source }),
+        };
+        self.meshes.iter().map(encode_one).collect()
+    }
+}

@@ -1,0 +1,54 @@
+//! `planecut check`: is a mesh watertight, manifold and not self-crossing?
+
+use planecut::csg::check::{CheckOptions, CheckReport, TOLERANCE_F32, TOLERANCE_F64, check_mesh};
+use planecut::import::mesh::{Precision, read_mesh};
+
+use super::args::CheckArgs;
+use super::error::CliError;
+use super::input::{Input, Kind};
+use super::pool::on_threads;
+use super::progress::Progress;
+use super::terminal;
+
+/// Runs the command: one line on standard output where the mesh is sound.
+///
+/// # Errors
+/// [`CliError::NotSound`] where it is not, another [`CliError`] where it cannot be read.
+pub(crate) fn run(args: &CheckArgs) -> Result<(), CliError> {
+    let expected = "a mesh: `.obj`, `.stl`, `.ply`, `.glb` or `.gltf`";
+    let input = Input::resolve(&args.mesh, |kind| matches!(kind, Kind::Mesh(_)), expected)?;
+    let progress = Progress::start(args.common.quiet);
+    let report = on_threads(args.common.threads, || check(&input, args.tolerance, &progress))?;
+    drop(progress);
+    match report.first_problem() {
+        Some(problem) => Err(CliError::NotSound { path: input.path, problem }),
+        None => terminal::print_text(&describe(&input, &report)),
+    }
+}
+
+fn check(input: &Input, tolerance: Option<f64>, progress: &Progress) -> Result<CheckReport, CliError> {
+    let Kind::Mesh(format) = input.kind else {
+        return Err(CliError::Ending { path: input.path.clone(), expected: "a mesh" });
+    };
+    progress.stage("reading");
+    let mesh = read_mesh(&input.read()?, format, &input.name())?;
+    let tolerance = tolerance.unwrap_or(match mesh.precision {
+        Precision::Single => TOLERANCE_F32,
+        Precision::Double => TOLERANCE_F64,
+    });
+    progress.stage("checking");
+    Ok(check_mesh(&mesh.positions, &mesh.triangles, &CheckOptions { tolerance, crossings: true }))
+}
+
+fn describe(input: &Input, report: &CheckReport) -> String {
+    let topology = &report.topology;
+    format!(
+        "{}: {report}; vertices {}, triangles {}, components {}, genus {}, volume {}\n",
+        input.name(),
+        topology.vertices,
+        topology.triangles,
+        topology.components,
+        topology.genus.unwrap_or(0),
+        topology.measures.volume,
+    )
+}

@@ -1,0 +1,132 @@
+//! Everything that can go wrong, and the exit status it gives.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use planecut::csg::WeldError;
+use planecut::csg::check::MeshProblem;
+use planecut::export::ExportError;
+use planecut::import::map::MapError;
+use planecut::import::mesh::MeshError;
+use rayon::ThreadPoolBuildError;
+use thiserror::Error;
+
+/// Exit status of a job that failed although its input was read.
+pub(crate) const FAILED: u8 = 1;
+/// Exit status where arguments or input are unusable.
+pub(crate) const UNUSABLE: u8 = 2;
+
+/// Why a command did not do its job. Displays as one line, which names the file that it is about.
+#[derive(Debug, Error)]
+pub(crate) enum CliError {
+    /// The arguments are unusable.
+    #[error("{0}")]
+    Usage(String),
+    /// A file's name does not end as the command needs it.
+    #[error("{}: found {}, expected {expected}", .path.display(), ending(.path))]
+    Ending {
+        /// The file.
+        path: PathBuf,
+        /// The endings that will do.
+        expected: &'static str,
+    },
+    /// An output cannot be what the arguments say.
+    #[error("{}: found {found}, expected {expected}", .path.display())]
+    Output {
+        /// The output.
+        path: PathBuf,
+        /// What it is.
+        found: &'static str,
+        /// What it should be.
+        expected: &'static str,
+    },
+    /// The input cannot be read.
+    #[error("{}: found {}, expected a file that can be read", .path.display(), reason(.source))]
+    Read {
+        /// The input.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// The input is no map.
+    #[error(transparent)]
+    Map(#[from] MapError),
+    /// The input is no mesh.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+    /// The mesh is not sound.
+    #[error("{}: found {problem}, expected a watertight, manifold mesh that does not cross itself", .path.display())]
+    NotSound {
+        /// The mesh.
+        path: PathBuf,
+        /// The first problem.
+        problem: MeshProblem,
+    },
+    /// The boundary does not close.
+    #[error("{}: found a bug in planecut, expected a closed boundary: {source}", .path.display())]
+    Weld {
+        /// The input.
+        path: PathBuf,
+        /// Where the boundary is open.
+        source: WeldError,
+    },
+    /// A mesh or picture cannot be encoded.
+    #[error("{output}: {source}")]
+    Encode {
+        /// The output.
+        output: String,
+        /// What the encoder said.
+        source: ExportError,
+    },
+    /// An output, or the folder it belongs into, cannot be written.
+    #[error("{}: found {}, expected a place that can be written", .path.display(), reason(.source))]
+    Write {
+        /// The output.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// Standard output cannot be written.
+    #[error("standard output: found {}, expected a place that can be written", reason(.0))]
+    Stdout(io::Error),
+    /// The system gives no threads.
+    #[error("found no threads to work with: {0}, expected a smaller --threads")]
+    Threads(#[from] ThreadPoolBuildError),
+}
+
+impl CliError {
+    /// The status that the process ends with.
+    pub(crate) fn exit_status(&self) -> u8 {
+        match self {
+            Self::Usage(_)
+            | Self::Ending { .. }
+            | Self::Output { .. }
+            | Self::Read { .. }
+            | Self::Map(_)
+            | Self::Mesh(_) => UNUSABLE,
+            Self::NotSound { .. }
+            | Self::Weld { .. }
+            | Self::Encode { .. }
+            | Self::Write { .. }
+            | Self::Stdout(_)
+            | Self::Threads(_) => FAILED,
+        }
+    }
+}
+
+fn ending(path: &Path) -> String {
+    match path.extension() {
+        Some(ending) => format!("a name that ends in `.{}`", ending.display()),
+        None => "a name without an ending".to_owned(),
+    }
+}
+
+/// What the system said, in words that do not depend on the system where it matters.
+fn reason(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::NotFound => "no such file".to_owned(),
+        io::ErrorKind::IsADirectory => "a folder".to_owned(),
+        io::ErrorKind::PermissionDenied => "no permission".to_owned(),
+        _ => format!("`{error}`"),
+    }
+}

@@ -1,0 +1,58 @@
+//! `planecut info`: what a file holds, as the report's JSON on standard output.
+
+use std::time::Instant;
+
+use planecut::csg::check::check_topology;
+use planecut::import::mesh::{MeshFormat, read_mesh};
+
+use super::args::InfoArgs;
+use super::error::CliError;
+use super::input::{Input, Kind};
+use super::pool::on_threads;
+use super::progress::Progress;
+use super::report::{Report, milliseconds};
+use super::solve::solve;
+use super::terminal;
+
+/// Runs the command. A map is evaluated; a mesh is taken as it is.
+///
+/// # Errors
+/// [`CliError`] where the input is unusable, or where a map's boundary does not close.
+pub(crate) fn run(args: &InfoArgs) -> Result<(), CliError> {
+    let begin = Instant::now();
+    let input = Input::resolve(&args.input, |_| true, "`.map`, `.obj`, `.stl`, `.ply`, `.glb` or `.gltf`")?;
+    let progress = Progress::start(args.common.quiet);
+    let mut report = on_threads(args.common.threads, || match input.kind {
+        Kind::Map => {
+            let solved = solve(&input, &args.map.options(), &progress)?;
+            if !args.common.quiet {
+                solved.print_warnings(&input);
+            }
+            Ok(solved.report)
+        }
+        Kind::Mesh(format) => report_on_mesh(&input, format),
+    })?;
+    drop(progress);
+    report.time_ms.total = milliseconds(begin.elapsed());
+    terminal::print_text(&report.to_json())
+}
+
+fn report_on_mesh(input: &Input, format: MeshFormat) -> Result<Report, CliError> {
+    let begin = Instant::now();
+    let mesh = read_mesh(&input.read()?, format, &input.name())?;
+    let import_time = begin.elapsed();
+    let topology = check_topology(&mesh.positions, &mesh.triangles);
+    let mut report = Report::of_mesh(input.name(), format_name(format), &topology);
+    report.time_ms.import = milliseconds(import_time);
+    report.warnings = topology.first_defect.iter().map(ToString::to_string).collect();
+    Ok(report)
+}
+
+fn format_name(format: MeshFormat) -> &'static str {
+    match format {
+        MeshFormat::Obj => "obj",
+        MeshFormat::Stl => "stl",
+        MeshFormat::Ply => "ply",
+        MeshFormat::Gltf => "gltf",
+    }
+}

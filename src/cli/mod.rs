@@ -1,0 +1,58 @@
+//! The command line: parse ([`args`]), resolve ([`input`], [`output`]), run (one file for each command).
+//!
+//! Exit statuses are decided in [`error`] and nowhere else. Every error is one line on standard error.
+
+mod args;
+mod build;
+mod check;
+mod error;
+mod info;
+mod input;
+mod output;
+mod pool;
+mod progress;
+mod render;
+mod report;
+mod solve;
+mod terminal;
+
+use std::panic;
+use std::process::ExitCode;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use args::Command;
+use error::{CliError, FAILED};
+
+/// Runs the program on the process's arguments and gives its exit status.
+pub(crate) fn run() -> ExitCode {
+    report_panics_in_one_line();
+    let status = match panic::catch_unwind(parse_and_run) {
+        Ok(Ok(())) => 0,
+        Ok(Err(error)) => {
+            terminal::print_error(&error.to_string());
+            error.exit_status()
+        }
+        Err(_) => FAILED,
+    };
+    ExitCode::from(status)
+}
+
+fn parse_and_run() -> Result<(), CliError> {
+    let Some(command) = args::parse()? else { return Ok(()) };
+    match command {
+        Command::Build(args) => build::run(&args),
+        Command::Info(args) => info::run(&args),
+        Command::Render(args) => render::run(&args),
+        Command::Check(args) => check::run(&args),
+    }
+}
+
+/// A panic is a bug of ours, and callers still get the one line and the status they expect of a job that failed.
+fn report_panics_in_one_line() {
+    static REPORTED: AtomicBool = AtomicBool::new(false);
+    panic::set_hook(Box::new(|fault| {
+        if !REPORTED.swap(true, Ordering::Relaxed) {
+            terminal::print_error(&format!("found a bug in planecut, expected none: {fault}"));
+        }
+    }));
+}

@@ -1,0 +1,132 @@
+//! Where outputs go: checked before the work, written after it.
+
+use std::fmt;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use planecut::export::{ExportError, Format, write_atomic};
+
+use super::error::CliError;
+use super::terminal;
+
+/// A place for bytes.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Target {
+    /// A file; folders that are missing on the way to it are made.
+    File(PathBuf),
+    /// Standard output, written `-`.
+    Stdout,
+}
+
+impl Target {
+    /// The place that an argument names.
+    pub(crate) fn new(path: &Path) -> Self {
+        if path == Path::new("-") { Self::Stdout } else { Self::File(path.to_owned()) }
+    }
+
+    /// The place of a picture.
+    ///
+    /// # Errors
+    /// [`CliError::Ending`] where the name is not that of a PNG file.
+    pub(crate) fn picture(path: &Path) -> Result<Self, CliError> {
+        let is_png = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
+        match Self::new(path) {
+            Self::File(path) if !is_png => Err(CliError::Ending { path, expected: "`.png`" }),
+            target => Ok(target),
+        }
+    }
+
+    /// Puts `bytes` there: a file appears under its name only when it is complete.
+    ///
+    /// # Errors
+    /// [`CliError::Write`] or [`CliError::Stdout`] where the system refuses.
+    pub(crate) fn write(&self, bytes: &[u8]) -> Result<(), CliError> {
+        let Self::File(path) = self else { return terminal::print_bytes(bytes) };
+        if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+            fs::create_dir_all(folder).map_err(|source| CliError::Write { path: path.clone(), source })?;
+        }
+        write_atomic(path, bytes).map_err(|error| match error {
+            ExportError::Write { path, source } => CliError::Write { path, source },
+            source => CliError::Encode { output: self.to_string(), source },
+        })
+    }
+}
+
+impl fmt::Display for Target {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::File(path) => write!(f, "{}", path.display()),
+            Self::Stdout => f.write_str("standard output"),
+        }
+    }
+}
+
+/// A mesh to write.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct MeshTarget {
+    pub(crate) target: Target,
+    pub(crate) format: Format,
+}
+
+impl MeshTarget {
+    /// The place and format of `-o` arguments; `stdout_format` is that of `-`.
+    ///
+    /// # Errors
+    /// [`CliError::Ending`] for a name whose ending is not that of a mesh, [`CliError::Usage`] for `-` without a format or
+    /// a format without `-`.
+    pub(crate) fn resolve_all(paths: &[PathBuf], stdout_format: Option<Format>) -> Result<Vec<Self>, CliError> {
+        let resolve = |path: &PathBuf| match Target::new(path) {
+            Target::Stdout => match stdout_format {
+                Some(format) => Ok(Self { target: Target::Stdout, format }),
+                None => Err(CliError::Usage("found -o - without a format, expected --format beside it".to_owned())),
+            },
+            target => match Format::from_path(path) {
+                Ok(format) => Ok(Self { target, format }),
+                Err(_) => Err(CliError::Ending { path: path.clone(), expected: "`.glb`, `.gltf`, `.obj` or `.stl`" }),
+            },
+        };
+        let targets: Vec<Self> = paths.iter().map(resolve).collect::<Result<_, _>>()?;
+        if stdout_format.is_some() && !targets.iter().any(|mesh| mesh.target == Target::Stdout) {
+            return Err(CliError::Usage("found --format without standard output, expected -o - beside it".to_owned()));
+        }
+        Ok(targets)
+    }
+}
+
+/// Sees, before any work is done, that no output replaces the input or another output, and that none is a folder.
+///
+/// # Errors
+/// [`CliError::Output`] or, for standard output used twice, [`CliError::Usage`].
+pub(crate) fn check_targets<'a>(input: &Path, targets: impl Iterator<Item = &'a Target>) -> Result<(), CliError> {
+    let input = same_name(input);
+    let mut taken: Vec<PathBuf> = Vec::new();
+    let mut stdout_is_taken = false;
+    for target in targets {
+        let Target::File(path) = target else {
+            if stdout_is_taken {
+                return Err(CliError::Usage("found standard output twice, expected one output to it".to_owned()));
+            }
+            stdout_is_taken = true;
+            continue;
+        };
+        let name = same_name(path);
+        let refused = |found, expected| Err(CliError::Output { path: path.clone(), found, expected });
+        if path.is_dir() {
+            return refused("a folder", "the name of a file to write");
+        }
+        if name == input {
+            return refused("the input", "another name for an output");
+        }
+        if taken.contains(&name) {
+            return refused("two outputs of this name", "a name of its own for each");
+        }
+        taken.push(name);
+    }
+    Ok(())
+}
+
+/// One name for a file however it is given, as far as it exists.
+fn same_name(path: &Path) -> PathBuf {
+    let absolute = || std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    fs::canonicalize(path).unwrap_or_else(|_| absolute())
+}

@@ -1,0 +1,34 @@
+//! `planecut render`: the solid of a map as a picture.
+
+use planecut::export::render_preview;
+
+use super::args::RenderArgs;
+use super::error::CliError;
+use super::input::Input;
+use super::output::{Target, check_targets};
+use super::pool::on_threads;
+use super::progress::Progress;
+use super::solve::solve;
+
+/// Runs the command.
+///
+/// # Errors
+/// [`CliError`] where the arguments or the input are unusable, or the picture cannot be written.
+pub(crate) fn run(args: &RenderArgs) -> Result<(), CliError> {
+    let input = Input::resolve_map(&args.input)?;
+    let target = Target::picture(&args.output)?;
+    check_targets(&args.input, [&target].into_iter())?;
+    let progress = Progress::start(args.common.quiet);
+    let (solved, picture) = on_threads(args.common.threads, || {
+        let solved = solve(&input, &args.map.options(), &progress)?;
+        progress.stage("drawing");
+        let picture = render_preview(&solved.mesh, &args.size.preview(args.style))
+            .map_err(|source| CliError::Encode { output: target.to_string(), source })?;
+        Ok((solved, picture))
+    })?;
+    drop(progress);
+    if !args.common.quiet {
+        solved.print_warnings(&input);
+    }
+    target.write(&picture)
+}

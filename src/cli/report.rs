@@ -1,0 +1,210 @@
+//! The report: what `--report` writes and `info` prints.
+//!
+//! Names, meanings and order are fixed (`docs/command-line.md`); scripts read them. Numbers that are not finite become
+//! `null` when they are written, which is what `serde_json` does with them.
+
+use std::time::Duration;
+
+use planecut::csg::check::{Measures, TopologyReport};
+use planecut::csg::{Evaluation, Mesh, ModelSummary, SolidMeasures, StageTimes};
+use planecut::kernel::DVec3;
+use planecut::kernel::sign::Counts;
+use serde::Serialize;
+
+/// The report of one input.
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct Report {
+    /// Version of the program.
+    planecut: &'static str,
+    /// The input's path as it was given.
+    input: String,
+    /// The input's format.
+    format: &'static str,
+    /// What the model holds; `null` for a mesh.
+    model: Option<ModelPart>,
+    /// The solid; `null` for a mesh that encloses none.
+    solid: Option<SolidPart>,
+    /// The mesh.
+    mesh: MeshPart,
+    /// The signs that were asked for.
+    signs: SignsPart,
+    /// Where the time went, in milliseconds.
+    pub(crate) time_ms: Times,
+    /// What was left out or is doubtful.
+    pub(crate) warnings: Vec<String>,
+}
+
+impl Report {
+    /// The report on a model that was evaluated; export, preview and total times are still to be filled in.
+    pub(crate) fn of_model(input: String, materials: usize, evaluation: &Evaluation, mesh: MeshPart) -> Self {
+        Self {
+            planecut: env!("CARGO_PKG_VERSION"),
+            input,
+            format: "map",
+            model: Some(ModelPart::new(&evaluation.model, materials)),
+            solid: Some(SolidPart::new(&evaluation.solid)),
+            mesh,
+            signs: SignsPart::new(&evaluation.signs),
+            time_ms: Times::new(&evaluation.times),
+            warnings: Vec::new(),
+        }
+    }
+
+    /// The report on a mesh that was read from a file of the given format.
+    pub(crate) fn of_mesh(input: String, format: &'static str, topology: &TopologyReport) -> Self {
+        let Measures { volume, area, centroid, min, max } = topology.measures;
+        let measures = SolidMeasures { volume, area, centroid, min, max };
+        Self {
+            planecut: env!("CARGO_PKG_VERSION"),
+            input,
+            format,
+            model: None,
+            solid: topology.watertight.then(|| SolidPart::new(&measures)),
+            mesh: MeshPart::new(topology, None),
+            signs: SignsPart::new(&Counts::default()),
+            time_ms: Times::default(),
+            warnings: Vec::new(),
+        }
+    }
+
+    /// The report as a file: JSON with line breaks.
+    pub(crate) fn to_json(&self) -> String {
+        let json = serde_json::to_string_pretty(self).expect("the report holds only texts, numbers and lists");
+        json + "\n"
+    }
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct ModelPart {
+    brushes: usize,
+    planes: usize,
+    empty_brushes: usize,
+    redundant_planes: usize,
+    snapped_planes: usize,
+    materials: usize,
+    unbounded_brushes: usize,
+    brush_volume_sum: f64,
+}
+
+impl ModelPart {
+    fn new(summary: &ModelSummary, materials: usize) -> Self {
+        Self {
+            brushes: summary.brushes,
+            planes: summary.planes,
+            empty_brushes: summary.empty.len(),
+            redundant_planes: summary.redundant_planes,
+            snapped_planes: summary.snapped_planes,
+            materials,
+            unbounded_brushes: summary.unbounded.len(),
+            brush_volume_sum: summary.brush_volume_sum,
+        }
+    }
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct SolidPart {
+    volume: f64,
+    area: f64,
+    centroid: [f64; 3],
+    min: [f64; 3],
+    max: [f64; 3],
+    /// Number of convex cells, where they were asked for; this version makes none.
+    cells: Option<usize>,
+}
+
+impl SolidPart {
+    fn new(solid: &SolidMeasures) -> Self {
+        // Adding zero turns `-0` into `0`.
+        let array = |v: DVec3| (v + DVec3::ZERO).to_array();
+        Self {
+            volume: solid.volume + 0.0,
+            area: solid.area,
+            centroid: array(solid.centroid),
+            min: array(solid.min),
+            max: array(solid.max),
+            cells: None,
+        }
+    }
+}
+
+/// Counts of a mesh, from its indices, and its volume, from its triangles.
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct MeshPart {
+    vertices: usize,
+    triangles: usize,
+    /// Planar regions; `null` for meshes from files, which do not say.
+    faces: Option<usize>,
+    components: usize,
+    /// Handles, summed over components; `null` where the mesh is not manifold.
+    genus: Option<i64>,
+    watertight: bool,
+    manifold: bool,
+    volume: f64,
+}
+
+impl MeshPart {
+    /// The mesh of a model. One without triangles is the whole boundary of the empty solid: closed.
+    pub(crate) fn of_solid(topology: &TopologyReport, mesh: &Mesh) -> Self {
+        let part = Self::new(topology, Some(mesh.faces.len()));
+        if !mesh.triangles.is_empty() {
+            return part;
+        }
+        Self { genus: Some(0), watertight: true, manifold: true, ..part }
+    }
+
+    fn new(topology: &TopologyReport, faces: Option<usize>) -> Self {
+        Self {
+            vertices: topology.vertices,
+            triangles: topology.triangles,
+            faces,
+            components: topology.components,
+            genus: topology.genus,
+            watertight: topology.watertight,
+            manifold: topology.manifold,
+            volume: topology.measures.volume + 0.0,
+        }
+    }
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct SignsPart {
+    total: u64,
+    filtered: u64,
+    small_int: u64,
+    big: u64,
+}
+
+impl SignsPart {
+    fn new(counts: &Counts) -> Self {
+        let Counts { total, small_int, big } = *counts;
+        Self { total, filtered: counts.filtered(), small_int, big }
+    }
+}
+
+/// Milliseconds that each stage took; the total holds reading and checking as well.
+#[derive(Debug, Clone, Default, Serialize)]
+pub(crate) struct Times {
+    pub(crate) import: f64,
+    evaluate: f64,
+    weld: f64,
+    triangulate: f64,
+    pub(crate) export: f64,
+    pub(crate) preview: f64,
+    pub(crate) total: f64,
+}
+
+impl Times {
+    fn new(times: &StageTimes) -> Self {
+        Self {
+            evaluate: milliseconds(times.evaluate),
+            weld: milliseconds(times.weld),
+            triangulate: milliseconds(times.triangulate),
+            ..Self::default()
+        }
+    }
+}
+
+/// A duration in milliseconds, to the microsecond.
+pub(crate) fn milliseconds(duration: Duration) -> f64 {
+    duration.as_micros() as f64 / 1e3
+}
