@@ -6,6 +6,7 @@ mod body;
 mod bounds;
 mod brush;
 pub mod check;
+mod contract;
 mod evaluate;
 mod mesh;
 mod neighbours;
@@ -14,6 +15,7 @@ mod skin;
 mod weld;
 
 pub use brush::{Brush, BrushFace, Material, MaterialId, Model};
+pub use contract::contract_short_edges;
 pub use evaluate::{Evaluation, ModelSummary, SolidMeasures, StageTimes, evaluate, summarize};
 pub use mesh::{Mesh, MeshFace};
 pub use plane_table::{PlaneId, PlaneTable, SNAP_TOLERANCE};

@@ -231,7 +231,9 @@ mod tests {
     #[test]
     fn sizes_have_two_sides_within_bounds() {
         assert_eq!(parse_size("640x480"), Ok(Size { width: 640, height: 480 }));
-        for text in ["", "640", "640x", "x480", "0x1", "1x0", "-1x5", "1.5x2", "16385x1", "16384x16384", "1x2x3", "9e9x1"] {
+        for text in
+            ["", "640", "640x", "x480", "0x1", "1x0", "-1x5", "1.5x2", "16385x1", "16384x16384", "1x2x3", "9e9x1"]
+        {
             assert!(parse_size(text).is_err(), "{text}");
         }
     }

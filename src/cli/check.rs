@@ -1,7 +1,7 @@
 //! `planecut check`: is a mesh watertight, manifold and not self-crossing?
 
 use planecut::csg::check::{CheckOptions, CheckReport, TOLERANCE_F32, TOLERANCE_F64, check_mesh};
-use planecut::import::mesh::{Precision, read_mesh};
+use planecut::import::mesh::{MeshFormat, Precision, read_mesh};
 
 use super::args::CheckArgs;
 use super::error::CliError;
@@ -16,9 +16,13 @@ use super::terminal;
 /// [`CliError::NotSound`] where it is not, another [`CliError`] where it cannot be read.
 pub(crate) fn run(args: &CheckArgs) -> Result<(), CliError> {
     let expected = "a mesh: `.obj`, `.stl`, `.ply`, `.glb` or `.gltf`";
-    let input = Input::resolve(&args.mesh, |kind| matches!(kind, Kind::Mesh(_)), expected)?;
+    let mesh_format = |kind| match kind {
+        Kind::Mesh(format) => Some(format),
+        Kind::Map => None,
+    };
+    let (input, format) = Input::resolve(&args.mesh, mesh_format, expected)?;
     let progress = Progress::start(args.common.quiet);
-    let report = on_threads(args.common.threads, || check(&input, args.tolerance, &progress))?;
+    let report = on_threads(args.common.threads, || check(&input, format, args.tolerance, &progress))?;
     drop(progress);
     match report.first_problem() {
         Some(problem) => Err(CliError::NotSound { path: input.path, problem }),
@@ -26,10 +30,12 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), CliError> {
     }
 }
 
-fn check(input: &Input, tolerance: Option<f64>, progress: &Progress) -> Result<CheckReport, CliError> {
-    let Kind::Mesh(format) = input.kind else {
-        return Err(CliError::Ending { path: input.path.clone(), expected: "a mesh" });
-    };
+fn check(
+    input: &Input,
+    format: MeshFormat,
+    tolerance: Option<f64>,
+    progress: &Progress,
+) -> Result<CheckReport, CliError> {
     progress.stage("reading");
     let mesh = read_mesh(&input.read()?, format, &input.name())?;
     let tolerance = tolerance.unwrap_or(match mesh.precision {

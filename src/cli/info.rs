@@ -20,9 +20,9 @@ use super::terminal;
 /// [`CliError`] where the input is unusable, or where a map's boundary does not close.
 pub(crate) fn run(args: &InfoArgs) -> Result<(), CliError> {
     let begin = Instant::now();
-    let input = Input::resolve(&args.input, |_| true, "`.map`, `.obj`, `.stl`, `.ply`, `.glb` or `.gltf`")?;
+    let (input, kind) = Input::resolve(&args.input, Some, "`.map`, `.obj`, `.stl`, `.ply`, `.glb` or `.gltf`")?;
     let progress = Progress::start(args.common.quiet);
-    let mut report = on_threads(args.common.threads, || match input.kind {
+    let mut report = on_threads(args.common.threads, || match kind {
         Kind::Map => {
             let solved = solve(&input, &args.map.options(), &progress)?;
             if !args.common.quiet {

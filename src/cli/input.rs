@@ -21,22 +21,20 @@ pub(crate) enum Kind {
 pub(crate) struct Input {
     /// The path as it was given.
     pub(crate) path: PathBuf,
-    /// What its ending says.
-    pub(crate) kind: Kind,
 }
 
 impl Input {
-    /// Looks at the name alone.
+    /// The input, and what `accept` makes of its kind; looks at the name alone.
     ///
     /// # Errors
-    /// [`CliError::Ending`], which says `expected`, where the ending is that of no kind that `accepted` accepts.
-    pub(crate) fn resolve(
+    /// [`CliError::Ending`], which says `expected`, where the ending is that of no kind that is accepted.
+    pub(crate) fn resolve<T>(
         path: &Path,
-        accepted: impl FnOnce(Kind) -> bool,
+        accept: impl FnOnce(Kind) -> Option<T>,
         expected: &'static str,
-    ) -> Result<Self, CliError> {
-        match kind_of(path).filter(|kind| accepted(*kind)) {
-            Some(kind) => Ok(Self { path: path.to_owned(), kind }),
+    ) -> Result<(Self, T), CliError> {
+        match kind_of(path).and_then(accept) {
+            Some(kind) => Ok((Self { path: path.to_owned() }, kind)),
             None => Err(CliError::Ending { path: path.to_owned(), expected }),
         }
     }
@@ -46,7 +44,8 @@ impl Input {
     /// # Errors
     /// [`CliError::Ending`] where it is no map by its name.
     pub(crate) fn resolve_map(path: &Path) -> Result<Self, CliError> {
-        Self::resolve(path, |kind| kind == Kind::Map, "`.map`, the input from which this version builds")
+        let map = |kind| (kind == Kind::Map).then_some(());
+        Self::resolve(path, map, "`.map`, the one input from which this version builds").map(|(input, ())| input)
     }
 
     /// The path for messages and reports.

@@ -3,7 +3,8 @@
 //! 1. [`points`] and [`lines`] get one number each, however many planes name them; 2. [`cancel`]: on each line opposite
 //! edges of a region cancel, what survives is cut where any of it ends (and at [`pinches`]) and paired around the line;
 //! 3. [`loops`] chains the rest, [`nest`] finds which hole belongs to which face; 4. [`triangulate`] each face;
-//! 5. [`manifold`] joins corners to vertices so that the mesh is an oriented 2-manifold.
+//! 5. [`manifold`] joins corners to vertices so that the mesh is an oriented 2-manifold; edges
+//! of mere noise are contracted.
 //!
 //! Nothing here is hoped for: an interval whose directed edges do not sum to zero, or a half-edge without a twin, is a
 //! [`WeldError`].
@@ -26,6 +27,7 @@ use rayon::prelude::*;
 use thiserror::Error;
 
 use crate::brush::{Material, MaterialId};
+use crate::contract::contract_short_edges;
 use crate::evaluate::SolidMeasures;
 use crate::mesh::{Mesh, MeshFace};
 use crate::plane_table::{PlaneId, PlaneTable};
@@ -65,6 +67,10 @@ pub enum WeldError {
         to: u32,
     },
 }
+
+/// Edges shorter than this share of the largest coordinate come from planes that were meant to meet in a point: noise of
+/// decimal text or rotations is some `1e-15`, what anybody models is far longer.
+const CONTRACTION: f64 = 1e-12;
 
 /// What the weld gives.
 pub(crate) struct Welded {
@@ -108,6 +114,7 @@ pub(crate) fn weld(
     };
     let mut labels = triangulate_faces(table, &regions, &points, &pieces, &faces, &vertex, &mut mesh);
     manifold::split_repeated_edges(&mut mesh, &mut labels, &pieces);
+    contract_short_edges(&mut mesh, CONTRACTION * solid.min.abs().max(solid.max.abs()).max_element());
     Ok(Welded { mesh, solid, signs, triangulation: begin.elapsed() })
 }
 

@@ -18,6 +18,9 @@ const FILL: f64 = 0.88;
 /// Distance from the eye to the nearest vertex, at least, in model radii.
 const MIN_DISTANCE: f64 = 0.1;
 
+/// How often the view is centred; other points can become the outermost ones each time, though hardly any do.
+const CENTERING_STEPS: usize = 2;
+
 /// A vertex on the picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct ScreenPoint {
@@ -82,10 +85,36 @@ impl Camera {
             pixel,
         };
         camera.eye = camera.framing_eye(points);
+        for _ in 0..CENTERING_STEPS {
+            camera.center_on(points);
+        }
         Some(camera)
     }
 
-    /// The eye that sees all points between four planes through it, each pair of planes tight on both sides or centred.
+    /// Moves the eye sideways so that what were the outermost points each way are equally far from the middle.
+    fn center_on(&mut self, points: &[DVec3]) {
+        let first = points.first().map_or(DVec3::Z, |&p| self.to_view(p));
+        // For each axis the points that are furthest left and right, or down and up.
+        let mut ends = [[first; 2]; 2];
+        for &point in points {
+            let view = self.to_view(point);
+            for axis in 0..2 {
+                let [low, high] = &mut ends[axis];
+                if view[axis] * low.z < low[axis] * view.z {
+                    *low = view;
+                }
+                if view[axis] * high.z > high[axis] * view.z {
+                    *high = view;
+                }
+            }
+        }
+        for axis in 0..2 {
+            let [low, high] = ends[axis];
+            self.eye[axis] += (low[axis] * high.z + high[axis] * low.z) / (low.z + high.z);
+        }
+    }
+
+    /// The eye that sees all points between four planes through it, tight for at least one of the two pairs.
     fn framing_eye(&self, points: &[DVec3]) -> DVec3 {
         let tangents = self.half_size.map(|half| half * self.pixel * FILL);
         // Largest value of ±x − t·z (and ±y − t·z): the planes' offsets.

@@ -95,11 +95,9 @@ impl Line {
     /// Whether the surface seen at a point of the line, or right beside it, is one of the line's own faces or lies
     /// behind it.
     fn is_visible(&self, samples: &Raster, factor: f32, at: ScreenPoint) -> bool {
-        let (x, y) = (at.x * factor, at.y * factor);
-        [(-0.5, -0.5), (0.5, -0.5), (-0.5, 0.5), (0.5, 0.5)].into_iter().any(|(dx, dy)| {
-            let (nearness, face) = samples.at(x + dx, y + dy);
-            self.faces.contains(&face) || nearness < at.w * (1.0 - DEPTH_TOLERANCE)
-        })
+        let behind = at.w * (1.0 - DEPTH_TOLERANCE);
+        let around = samples.around(at.x * factor, at.y * factor);
+        around.into_iter().any(|(nearness, face)| self.faces.contains(&face) || nearness < behind)
     }
 
     fn at(&self, part: f32) -> ScreenPoint {

@@ -108,6 +108,17 @@ impl Raster {
         (self.nearness[index], self.faces[index])
     }
 
+    /// Nearness and face of the four samples around a point, as [`Self::at`] gives them.
+    pub(super) fn around(&self, x: f32, y: f32) -> [(f32, u32); 4] {
+        let (x, y) = (x - 0.5, y - 0.5);
+        let column = (x as u32 as usize).min(self.width - 1);
+        let row = (y as u32 as usize).clamp(self.rows.start, self.rows.end - 1);
+        let right = usize::from(x >= 0.0 && column + 1 < self.width);
+        let below = self.width * usize::from(y >= self.rows.start as f32 && row + 1 < self.rows.end);
+        let index = (row - self.rows.start) * self.width + column;
+        [0, right, below, below + right].map(|way| (self.nearness[index + way], self.faces[index + way]))
+    }
+
     fn fill(&mut self, mut corners: [ScreenPoint; 3], face: u32) {
         let plane = Plane::through(corners);
         corners.sort_by(|a, b| a.y.total_cmp(&b.y));

@@ -58,8 +58,10 @@ impl<'a> Scene<'a> {
             .iter()
             .zip(&normals)
             .map(|(face, &normal)| {
-                let color = Vec3::from(material_color(&mesh.materials[face.material.0 as usize]));
-                shade(&look, look.clay.lerp(color, look.tint), normal, up, light)
+                let material = &mesh.materials[face.material.0 as usize];
+                let tint = if material.color.is_some() { look.stated_tint } else { look.tint };
+                let color = look.clay.lerp(Vec3::from(material_color(material)), tint);
+                shade(&look, color, normal, up, light)
             })
             .collect();
         let view: Vec<Vec3> = in_view.iter().map(|p| p.as_vec3()).collect();

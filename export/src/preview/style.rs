@@ -21,8 +21,9 @@ pub(super) struct Look {
     pub(super) background: [Vec3; 2],
     /// Colour of surfaces without tint.
     pub(super) clay: Vec3,
-    /// How far surfaces go from clay to the colour of their material, 0 to 1.
+    /// How far surfaces go from clay to the colour of their material, 0 to 1: one derived from the name, one stated.
     pub(super) tint: f32,
+    pub(super) stated_tint: f32,
     /// Light from above and from below, from the key light and from the fill light.
     pub(super) sky: Vec3,
     pub(super) bounce: Vec3,
@@ -46,16 +47,17 @@ impl Look {
         match style {
             PreviewStyle::Shaded => Self {
                 background: [display(0.90, 0.92, 0.945), display(0.76, 0.79, 0.83)],
-                clay: display(0.78, 0.765, 0.745),
-                tint: 0.5,
-                sky: Vec3::new(0.42, 0.46, 0.52),
+                clay: display(0.80, 0.785, 0.76),
+                tint: 0.34,
+                stated_tint: 0.8,
+                sky: Vec3::new(0.36, 0.40, 0.46),
                 bounce: Vec3::new(0.20, 0.18, 0.16),
-                key: Vec3::new(0.98, 0.93, 0.84),
+                key: Vec3::new(1.02, 0.96, 0.86),
                 fill: Vec3::new(0.13, 0.15, 0.19),
                 occlusion: 0.85,
                 floor: 0.5,
                 ink: display(0.10, 0.12, 0.16),
-                crease: 0.62,
+                crease: 0.7,
                 outline: 0.9,
                 line_width: 1.25,
             },
@@ -63,6 +65,7 @@ impl Look {
                 background: [display(1.0, 1.0, 1.0), display(1.0, 1.0, 1.0)],
                 clay: display(0.98, 0.98, 0.98),
                 tint: 0.0,
+                stated_tint: 0.0,
                 sky: Vec3::splat(0.80),
                 bounce: Vec3::splat(0.60),
                 key: Vec3::splat(0.25),

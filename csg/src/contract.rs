@@ -1,0 +1,185 @@
+//! Topological contraction of edges too short to survive rounding.
+//!
+//! Planes that went through rotations or decimal text can nearly meet in a point: that leaves true edges of `1e-13`, and a
+//! format with 32-bit coordinates rounds far longer ones to nothing. Merging by coordinates would undo the splits that
+//! keep the mesh a manifold, so edges are contracted one by one, each only where the surface stays the surface it was
+//! (the link condition: Dey, Edelsbrunner, Guha, Nekhayev 1999).
+
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use crate::mesh::Mesh;
+
+/// Contracts edges of at most `length` (in the mesh's units) and gives how many went. Edges whose contraction would change
+/// the topology stay. Faces that lose all their triangles are dropped.
+pub fn contract_short_edges(mesh: &mut Mesh, length: f64) -> usize {
+    let mut short = short_edges(mesh, length);
+    if short.is_empty() {
+        return 0;
+    }
+    let mut contraction = Contraction::new(mesh);
+    let mut contracted = 0;
+    loop {
+        let before = contracted;
+        short.retain(|&[a, b]| {
+            let done = contraction.contract(mesh, a, b, length);
+            contracted += usize::from(done);
+            !done
+        });
+        if contracted == before {
+            break;
+        }
+    }
+    if contracted > 0 {
+        contraction.compact(mesh);
+    }
+    contracted
+}
+
+/// The short edges, shortest first.
+fn short_edges(mesh: &Mesh, length: f64) -> Vec<[u32; 2]> {
+    let at = |v: u32| mesh.positions[v as usize];
+    let mut short: Vec<(f64, [u32; 2])> = Vec::new();
+    for triangle in &mesh.triangles {
+        for k in 0..3 {
+            let (a, b) = (triangle[k], triangle[(k + 1) % 3]);
+            let distance = at(a).distance(at(b));
+            if a < b && distance <= length {
+                short.push((distance, [a, b]));
+            }
+        }
+    }
+    short.sort_by(|p, q| p.0.total_cmp(&q.0).then(p.1.cmp(&q.1)));
+    short.into_iter().map(|(_, edge)| edge).collect()
+}
+
+struct Contraction {
+    /// What a contracted vertex became.
+    became: FxHashMap<u32, u32>,
+    /// The live triangles at a vertex.
+    triangles: Vec<Vec<u32>>,
+    removed: FxHashSet<u32>,
+}
+
+impl Contraction {
+    fn new(mesh: &Mesh) -> Self {
+        let mut triangles = vec![Vec::new(); mesh.positions.len()];
+        for (t, triangle) in mesh.triangles.iter().enumerate() {
+            for v in triangle {
+                triangles[*v as usize].push(t as u32);
+            }
+        }
+        Self { became: FxHashMap::default(), triangles, removed: FxHashSet::default() }
+    }
+
+    fn current(&self, mut vertex: u32) -> u32 {
+        while let Some(next) = self.became.get(&vertex) {
+            vertex = *next;
+        }
+        vertex
+    }
+
+    /// Merges `b` into `a`, where that keeps the surface a manifold of the same topology.
+    fn contract(&mut self, mesh: &mut Mesh, a: u32, b: u32, length: f64) -> bool {
+        let (a, b) = (self.current(a), self.current(b));
+        let apart = mesh.positions[a as usize].distance(mesh.positions[b as usize]);
+        if a == b || apart > 2.0 * length || !self.keeps_topology(mesh, a, b) {
+            return false;
+        }
+        let at_b = std::mem::take(&mut self.triangles[b as usize]);
+        for t in at_b {
+            let triangle = &mut mesh.triangles[t as usize];
+            if triangle.contains(&a) {
+                self.removed.insert(t);
+                for v in *triangle {
+                    self.triangles[v as usize].retain(|other| *other != t);
+                }
+            } else {
+                *triangle = triangle.map(|v| if v == b { a } else { v });
+                self.triangles[a as usize].push(t);
+            }
+        }
+        self.became.insert(b, a);
+        true
+    }
+
+    /// The link condition: exactly two triangles share the edge, and their tips are all the neighbours that both ends have.
+    fn keeps_topology(&self, mesh: &Mesh, a: u32, b: u32) -> bool {
+        let around = |v: u32| -> FxHashSet<u32> {
+            let corners = self.triangles[v as usize].iter().flat_map(|t| mesh.triangles[*t as usize]);
+            corners.filter(|other| *other != v).collect()
+        };
+        let (at_a, at_b) = (around(a), around(b));
+        let shared = self.triangles[b as usize].iter().filter(|t| mesh.triangles[**t as usize].contains(&a)).count();
+        // a tetrahedron would fold flat
+        shared == 2 && at_a.intersection(&at_b).count() == 2 && at_a.len() + at_b.len() > 6
+    }
+
+    /// Drops what is no longer used and renumbers the rest.
+    fn compact(&self, mesh: &mut Mesh) {
+        let live = |t: &usize| !self.removed.contains(&(*t as u32));
+        let kept: Vec<usize> = (0..mesh.triangles.len()).filter(live).collect();
+        mesh.triangles = kept.iter().map(|t| mesh.triangles[*t]).collect();
+        mesh.triangle_faces = kept.iter().map(|t| mesh.triangle_faces[*t]).collect();
+        let mut number = vec![u32::MAX; mesh.positions.len()];
+        for v in mesh.triangles.iter().flatten() {
+            number[*v as usize] = 0;
+        }
+        let used: Vec<usize> = (0..number.len()).filter(|v| number[*v] == 0).collect();
+        for (new, old) in used.iter().enumerate() {
+            number[*old] = new as u32;
+        }
+        mesh.positions = used.iter().map(|v| mesh.positions[*v]).collect();
+        mesh.triangles.iter_mut().flatten().for_each(|v| *v = number[*v as usize]);
+        let mut faces = Vec::with_capacity(mesh.faces.len());
+        let mut last = None;
+        for face in &mut mesh.triangle_faces {
+            if last != Some(*face) {
+                last = Some(*face);
+                faces.push(mesh.faces[*face as usize]);
+            }
+            *face = faces.len() as u32 - 1;
+        }
+        mesh.faces = faces;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::check::check_topology;
+    use crate::{Brush, BrushFace, Material, MaterialId, Model, evaluate};
+    use planecut_kernel::{DVec3, HalfSpace};
+
+    /// A cube with a corner cut off so slightly that the cut's edges have length `size · √2`.
+    fn chamfered_cube(size: f64) -> Mesh {
+        let normals = DVec3::AXES.into_iter().flat_map(|axis| [axis, -axis]).map(|axis| (axis, 1.0));
+        let planes = normals.chain([(DVec3::ONE, 3.0 - size)]);
+        let faces = planes.map(|(normal, offset)| BrushFace {
+            half_space: HalfSpace::new(normal, offset).expect("a valid plane"),
+            material: MaterialId(0),
+        });
+        let brush = Brush { faces: faces.collect(), ..Brush::default() };
+        let materials = vec![Material { name: "m".into(), color: None }];
+        evaluate(&Model { materials, brushes: vec![brush] }).expect("a closed boundary").mesh
+    }
+
+    #[test]
+    fn a_tiny_chamfer_contracts_to_a_cube() {
+        let mut mesh = chamfered_cube(1e-4);
+        assert_eq!(contract_short_edges(&mut mesh, 1e-6), 0);
+        assert_eq!(mesh.faces.len(), 7);
+        assert_eq!(contract_short_edges(&mut mesh, 1e-3), 2);
+        assert_eq!((mesh.positions.len(), mesh.triangles.len(), mesh.faces.len()), (8, 12, 6));
+        let topology = check_topology(&mesh.positions, &mesh.triangles);
+        assert!(topology.watertight && topology.manifold);
+    }
+
+    #[test]
+    fn a_whole_body_below_the_length_keeps_its_topology() {
+        let mut mesh = chamfered_cube(0.5);
+        contract_short_edges(&mut mesh, 100.0);
+        let topology = check_topology(&mesh.positions, &mesh.triangles);
+        assert!(topology.watertight && topology.manifold);
+        assert_eq!(mesh.triangles.len(), 4);
+    }
+}
