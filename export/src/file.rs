@@ -19,7 +19,8 @@ use crate::ExportError;
 /// or the disk is full. The temporary file is gone by then, and an older file under the name is untouched.
 pub fn write_atomic(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), ExportError> {
     let path = path.as_ref();
-    write_with(path, |file| file.write_all(bytes)).map_err(|source| ExportError::Write { path: path.to_owned(), source })
+    write_with(path, |file| file.write_all(bytes))
+        .map_err(|source| ExportError::Write { path: path.to_owned(), source })
 }
 
 fn write_with(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<()> {

@@ -14,7 +14,8 @@ const TRIANGLE_BYTES: usize = 50;
 /// Encodes the triangles of all parts, Z-up, in the order of the meshes.
 pub(crate) fn encode_stl(parts: &[Part<'_>], options: &ExportOptions) -> Result<Vec<u8>, ExportError> {
     let triangles: usize = parts.iter().map(|part| part.mesh.triangles.len()).sum();
-    let count = u32::try_from(triangles).map_err(|_| ExportError::TooLarge { what: format!("{triangles} triangles") })?;
+    let count =
+        u32::try_from(triangles).map_err(|_| ExportError::TooLarge { what: format!("{triangles} triangles") })?;
     let mut bytes = Vec::with_capacity(HEADER_BYTES + 4 + TRIANGLE_BYTES * triangles);
     // Must not begin with "solid": readers would take the file for a text one.
     bytes.extend_from_slice(concat!("binary STL, planecut ", env!("CARGO_PKG_VERSION"), ", Z up").as_bytes());

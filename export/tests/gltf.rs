@@ -82,8 +82,11 @@ fn check_round_trip(mesh: &Mesh, scale: f64) {
         }
     }
 
-    let mut used: Vec<String> =
-        mesh.triangle_faces.iter().map(|&f| mesh.materials[mesh.faces[f as usize].material.0 as usize].name.clone()).collect();
+    let mut used: Vec<String> = mesh
+        .triangle_faces
+        .iter()
+        .map(|&f| mesh.materials[mesh.faces[f as usize].material.0 as usize].name.clone())
+        .collect();
     used.sort();
     used.dedup();
     let mut found = seen.materials.clone();
@@ -162,7 +165,9 @@ fn manifold_indices(glb: &[u8], mesh: usize) -> Option<Vec<u32>> {
     };
     let accessor = |index: &serde_json::Value| &json["accessors"][index.as_u64().expect("an index") as usize];
     let number = |value: &serde_json::Value| value.as_u64().expect("a number");
-    let read = |a: &serde_json::Value| integers(&a["bufferView"], &a["byteOffset"], number(&a["componentType"]), number(&a["count"]));
+    let read = |a: &serde_json::Value| {
+        integers(&a["bufferView"], &a["byteOffset"], number(&a["componentType"]), number(&a["count"]))
+    };
 
     let primitive = &extension["manifoldPrimitive"];
     let indices = accessor(&primitive["indices"]);
@@ -173,7 +178,10 @@ fn manifold_indices(glb: &[u8], mesh: usize) -> Option<Vec<u32>> {
     let (places, vertices) = (accessor(&extension["mergeIndices"]), accessor(&extension["mergeValues"]));
     let sparse = &indices["sparse"];
     for (merge, sparse_side) in [(places, &sparse["indices"]), (vertices, &sparse["values"])] {
-        assert_eq!((&merge["bufferView"], &merge["byteOffset"]), (&sparse_side["bufferView"], &sparse_side["byteOffset"]));
+        assert_eq!(
+            (&merge["bufferView"], &merge["byteOffset"]),
+            (&sparse_side["bufferView"], &sparse_side["byteOffset"])
+        );
         assert_eq!(merge["count"], sparse["count"]);
     }
     assert_eq!(places["componentType"], sparse["indices"]["componentType"]);
@@ -256,7 +264,8 @@ fn gltf_embeds_the_buffer_of_the_glb() {
     let mut found: serde_json::Value = serde_json::from_slice(&text).expect("JSON");
     let uri = found["buffers"][0].as_object_mut().expect("a buffer").remove("uri").expect("a URI");
     assert_eq!(found, expected);
-    let code = uri.as_str().and_then(|uri| uri.strip_prefix("data:application/octet-stream;base64,")).expect("a data URI");
+    let code =
+        uri.as_str().and_then(|uri| uri.strip_prefix("data:application/octet-stream;base64,")).expect("a data URI");
     assert_eq!(decode_base64(code), raw.bin.expect("a buffer").to_vec());
 }
 

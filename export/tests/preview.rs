@@ -8,13 +8,8 @@ use glam::{DMat3, DVec3};
 use planecut_csg::Mesh;
 use planecut_export::{ExportError, PreviewOptions, PreviewStyle, RgbImage, render_preview, render_rgb};
 
-const SMALL: PreviewOptions = PreviewOptions {
-    width: 320,
-    height: 240,
-    style: PreviewStyle::Shaded,
-    azimuth: -62.0,
-    elevation: 32.0,
-};
+const SMALL: PreviewOptions =
+    PreviewOptions { width: 320, height: 240, style: PreviewStyle::Shaded, azimuth: -62.0, elevation: 32.0 };
 
 fn draw(mesh: &Mesh, options: &PreviewOptions) -> RgbImage {
     render_rgb(mesh, options).expect("drawn")
@@ -88,23 +83,16 @@ fn what_is_inside_is_hidden() {
     }
 }
 
-/// A wall in front of a box hides it: the picture of the wall's middle is that of the wall alone.
+/// A wall in front of a box hides it, and the box behind a wall shows from the other side.
 #[test]
 fn what_is_behind_is_hidden() {
     let options = PreviewOptions { azimuth: 0.0, elevation: 0.0, style: PreviewStyle::Technical, ..SMALL };
     let wall = || common::box_mesh(DVec3::new(4.0, -3.0, -3.0), DVec3::new(4.5, 3.0, 3.0), "stone");
     let mut both = wall();
-    common::push_box(&mut both, DVec3::ZERO, DVec3::new(4.0, 0.5, 0.5), DMat3::IDENTITY, "stone");
-    let (mut alone, both) = (draw(&wall(), &options), draw(&both, &options));
-    assert!(alone != both, "the box moves the camera");
-    // The colour of a face does not depend on the distance, so a patch that is nothing but wall is the same in both.
-    for image in [&mut alone, &mut { both }] {
-        let first = pixel(image, 110, 70);
-        for (x, y) in (110..210).flat_map(|x| (70..170).map(move |y| (x, y))) {
-            let difference = brightness(pixel(image, x, y)).abs_diff(brightness(first));
-            assert!(difference <= 3, "something shows at {x}, {y}");
-        }
-    }
+    common::push_box(&mut both, DVec3::X * 3.0, DVec3::splat(0.5), DMat3::IDENTITY, "stone");
+    assert!(draw(&wall(), &options) == draw(&both, &options), "the box shows");
+    let from_behind = PreviewOptions { azimuth: 180.0, ..options };
+    assert!(draw(&wall(), &from_behind) != draw(&both, &from_behind), "the box is missing");
 }
 
 /// A dark line runs where two visible faces meet, and none where the triangles of one face do.
@@ -124,7 +112,7 @@ fn edges_are_drawn_between_faces_but_not_within() {
     let image = draw(&slab, &PreviewOptions { style: PreviewStyle::Technical, ..corner });
     let middle = (158..162).map(|x| brightness(pixel(&image, x, 120))).min().expect("pixels");
     let beside = brightness(pixel(&image, 140, 120));
-    assert!(middle + 200 < beside, "{middle} against {beside}");
+    assert!(middle + 100 < beside, "{middle} against {beside}");
 }
 
 #[test]
@@ -164,7 +152,8 @@ fn extreme_meshes_are_drawn() {
         mesh.positions.iter_mut().for_each(|p| *p = *p * factor + shift);
         mesh
     };
-    let factors = [DVec3::splat(1e-200), DVec3::splat(1e150), DVec3::new(1.0, 1.0, 0.0), DVec3::new(1e9, 1.0, 1e-9), DVec3::ZERO];
+    let factors =
+        [DVec3::splat(1e-200), DVec3::splat(1e150), DVec3::new(1.0, 1.0, 0.0), DVec3::new(1e9, 1.0, 1e-9), DVec3::ZERO];
     for factor in factors {
         for shift in [0.0, 1e6] {
             for elevation in [32.0, 0.0, -90.0, 1e9] {

@@ -1,6 +1,6 @@
 //! `planecut build`: a map into meshes, a picture and a report.
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use planecut::csg::Mesh;
 use planecut::export::{ExportOptions, encode, render_preview};
@@ -13,6 +13,7 @@ use super::pool::on_threads;
 use super::progress::Progress;
 use super::report::milliseconds;
 use super::solve::{Solved, solve};
+use super::terminal;
 
 /// What is to be written where.
 struct Plan<'a> {
@@ -26,6 +27,14 @@ struct Plan<'a> {
 /// An output that is complete in memory.
 type Encoded = (Target, Vec<u8>);
 
+/// What is there before the first file is written.
+struct Product {
+    solved: Solved,
+    outputs: Vec<Encoded>,
+    /// How long the meshes took to encode.
+    encoding: Duration,
+}
+
 /// Runs the command: everything is encoded in memory before the first file is written.
 ///
 /// # Errors
@@ -34,17 +43,18 @@ pub(crate) fn run(args: &BuildArgs) -> Result<(), CliError> {
     let begin = Instant::now();
     let plan = Plan::resolve(args)?;
     let progress = Progress::start(args.common.quiet);
-    let (mut solved, outputs) = on_threads(args.common.threads, || plan.carry_out(&progress))?;
+    let product = on_threads(args.common.threads, || plan.carry_out(&progress))?;
     drop(progress);
+    let Product { mut solved, outputs, encoding } = product;
     if !args.common.quiet {
-        solved.print_warnings(&plan.input);
+        terminal::print_warnings(&plan.input.name(), &solved.warnings);
     }
     let writing = Instant::now();
     for (target, bytes) in &outputs {
         target.write(bytes)?;
     }
     if let Some(target) = &plan.report {
-        solved.report.time_ms.export += milliseconds(writing.elapsed());
+        solved.report.time_ms.export = milliseconds(encoding + writing.elapsed());
         solved.report.time_ms.total = milliseconds(begin.elapsed());
         // Last, so that a report is a sign that all else is there.
         target.write(solved.report.to_json().as_bytes())?;
@@ -66,12 +76,12 @@ impl<'a> Plan<'a> {
         Ok(plan)
     }
 
-    fn carry_out(&self, progress: &Progress) -> Result<(Solved, Vec<Encoded>), CliError> {
+    fn carry_out(&self, progress: &Progress) -> Result<Product, CliError> {
         let mut solved = solve(&self.input, &self.args.map.options(), progress)?;
-        let encoding = Instant::now();
+        let begin = Instant::now();
         progress.stage("encoding");
         let mut outputs = self.encode(&solved.mesh)?;
-        solved.report.time_ms.export = milliseconds(encoding.elapsed());
+        let encoding = begin.elapsed();
         if let Some(target) = &self.preview {
             let drawing = Instant::now();
             progress.stage("drawing");
@@ -81,7 +91,7 @@ impl<'a> Plan<'a> {
             outputs.push((target.clone(), picture));
             solved.report.time_ms.preview = milliseconds(drawing.elapsed());
         }
-        Ok((solved, outputs))
+        Ok(Product { solved, outputs, encoding })
     }
 
     fn encode(&self, mesh: &Mesh) -> Result<Vec<Encoded>, CliError> {

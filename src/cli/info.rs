@@ -3,6 +3,7 @@
 use std::time::Instant;
 
 use planecut::csg::check::check_topology;
+use planecut::import::Warning;
 use planecut::import::mesh::{MeshFormat, read_mesh};
 
 use super::args::InfoArgs;
@@ -22,30 +23,31 @@ pub(crate) fn run(args: &InfoArgs) -> Result<(), CliError> {
     let begin = Instant::now();
     let (input, kind) = Input::resolve(&args.input, Some, "`.map`, `.obj`, `.stl`, `.ply`, `.glb` or `.gltf`")?;
     let progress = Progress::start(args.common.quiet);
-    let mut report = on_threads(args.common.threads, || match kind {
+    let (mut report, warnings) = on_threads(args.common.threads, || match kind {
         Kind::Map => {
             let solved = solve(&input, &args.map.options(), &progress)?;
-            if !args.common.quiet {
-                solved.print_warnings(&input);
-            }
-            Ok(solved.report)
+            Ok((solved.report, solved.warnings))
         }
         Kind::Mesh(format) => report_on_mesh(&input, format),
     })?;
     drop(progress);
+    if !args.common.quiet {
+        terminal::print_warnings(&input.name(), &warnings);
+    }
     report.time_ms.total = milliseconds(begin.elapsed());
     terminal::print_text(&report.to_json())
 }
 
-fn report_on_mesh(input: &Input, format: MeshFormat) -> Result<Report, CliError> {
+fn report_on_mesh(input: &Input, format: MeshFormat) -> Result<(Report, Vec<Warning>), CliError> {
     let begin = Instant::now();
     let mesh = read_mesh(&input.read()?, format, &input.name())?;
     let import_time = begin.elapsed();
     let topology = check_topology(&mesh.positions, &mesh.triangles);
     let mut report = Report::of_mesh(input.name(), format_name(format), &topology);
     report.time_ms.import = milliseconds(import_time);
-    report.warnings = topology.first_defect.iter().map(ToString::to_string).collect();
-    Ok(report)
+    let warning = topology.first_defect.map(|defect| Warning { line: 0, message: defect.to_string() });
+    report.warnings = warning.iter().map(ToString::to_string).collect();
+    Ok((report, warning.into_iter().collect()))
 }
 
 fn format_name(format: MeshFormat) -> &'static str {

@@ -9,6 +9,7 @@ use super::output::{Target, check_targets};
 use super::pool::on_threads;
 use super::progress::Progress;
 use super::solve::solve;
+use super::terminal;
 
 /// Runs the command.
 ///
@@ -28,7 +29,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), CliError> {
     })?;
     drop(progress);
     if !args.common.quiet {
-        solved.print_warnings(&input);
+        terminal::print_warnings(&input.name(), &solved.warnings);
     }
     target.write(&picture)
 }

@@ -11,7 +11,6 @@ use super::error::CliError;
 use super::input::Input;
 use super::progress::Progress;
 use super::report::{MeshPart, Report, milliseconds};
-use super::terminal;
 
 /// The solid of a map.
 pub(crate) struct Solved {
@@ -20,20 +19,7 @@ pub(crate) struct Solved {
     /// The report, without the times of what comes after.
     pub(crate) report: Report,
     /// What was left out or is doubtful; the report tells the same.
-    warnings: Vec<Warning>,
-}
-
-impl Solved {
-    /// Tells the warnings to the user.
-    pub(crate) fn print_warnings(&self, input: &Input) {
-        let name = input.name();
-        for Warning { line, message } in &self.warnings {
-            match line {
-                0 => terminal::print_warning(&format!("{name}: {message}")),
-                line => terminal::print_warning(&format!("{name}:{line}: {message}")),
-            }
-        }
-    }
+    pub(crate) warnings: Vec<Warning>,
 }
 
 /// Reads a map and evaluates the union of its brushes on the current thread pool.

@@ -2,6 +2,8 @@
 
 use std::io::{self, ErrorKind, Write};
 
+use planecut::import::Warning;
+
 use super::error::CliError;
 
 /// Prints one line that starts with `error:`.
@@ -9,9 +11,12 @@ pub(crate) fn print_error(message: &str) {
     print_line("error", message);
 }
 
-/// Prints one line that starts with `warning:`.
-pub(crate) fn print_warning(message: &str) {
-    print_line("warning", message);
+/// Prints one line for each warning, that starts with `warning:` and names the file `name`.
+pub(crate) fn print_warnings(name: &str, warnings: &[Warning]) {
+    for Warning { line, message } in warnings {
+        let line = if *line > 0 { format!(":{line}") } else { String::new() };
+        print_line("warning", &format!("{name}{line}: {message}"));
+    }
 }
 
 fn print_line(kind: &str, message: &str) {

@@ -2,8 +2,14 @@
 
 use crate::inputs::Plane;
 
-/// A dynamic polytope of one library, with the planes of one input numbered as in the input.
+/// A dynamic polytope of one library.
+///
+/// Planes are numbered as in the input. Both libraries number them so, and both give the slot that was freed last to the
+/// next plane: as long as one plane at a time is away, the numbers stay valid.
 pub(crate) trait Library: Clone {
+    /// The name in the report.
+    const NAME: &'static str;
+
     /// A half-space in the library's own type; making it is not timed.
     type HalfSpace: Clone;
 
@@ -16,8 +22,8 @@ pub(crate) trait Library: Clone {
     /// Takes plane `index` of the input back.
     fn remove(&mut self, index: usize);
 
-    /// Adds plane `index` again.
-    fn add_again(&mut self, index: usize, half_space: &Self::HalfSpace);
+    /// Adds the plane that was removed last again.
+    fn add_again(&mut self, half_space: &Self::HalfSpace);
 
     /// The number of vertices that are seen from outside.
     fn vertex_count(&self) -> usize;
@@ -28,13 +34,11 @@ pub(crate) trait Library: Clone {
 
 /// The kernel of this project.
 #[derive(Clone)]
-pub(crate) struct Planecut {
-    polytope: planecut_kernel::IncrementalPolytope,
-    /// The handle of each plane of the input; a plane that is added again gets a new one.
-    handles: Vec<planecut_kernel::PlaneIdx>,
-}
+pub(crate) struct Planecut(planecut_kernel::IncrementalPolytope);
 
 impl Library for Planecut {
+    const NAME: &'static str = "planecut";
+
     type HalfSpace = planecut_kernel::HalfSpace;
 
     fn half_space(plane: &Plane) -> Self::HalfSpace {
@@ -43,20 +47,22 @@ impl Library for Planecut {
 
     fn build(half_spaces: &[Self::HalfSpace]) -> Self {
         let mut polytope = planecut_kernel::IncrementalPolytope::new();
-        let handles = half_spaces.iter().map(|half_space| polytope.add_plane(*half_space).plane()).collect();
-        Self { polytope, handles }
+        for half_space in half_spaces {
+            polytope.add_plane(*half_space);
+        }
+        Self(polytope)
     }
 
     fn remove(&mut self, index: usize) {
-        self.polytope.remove_plane(self.handles[index]);
+        self.0.remove_plane(planecut_kernel::PlaneIdx(index));
     }
 
-    fn add_again(&mut self, index: usize, half_space: &Self::HalfSpace) {
-        self.handles[index] = self.polytope.add_plane(*half_space).plane();
+    fn add_again(&mut self, half_space: &Self::HalfSpace) {
+        self.0.add_plane(*half_space);
     }
 
     fn vertex_count(&self) -> usize {
-        self.polytope.vertex_count()
+        self.0.vertex_count()
     }
 
     fn settle(&mut self) {}
@@ -64,11 +70,11 @@ impl Library for Planecut {
 
 /// The published crate `poly_surge`.
 #[derive(Clone)]
-pub(crate) struct PolySurge {
-    polytope: poly_surge::IncrementalPolytope,
-}
+pub(crate) struct PolySurge(poly_surge::IncrementalPolytope);
 
 impl Library for PolySurge {
+    const NAME: &'static str = "poly_surge";
+
     type HalfSpace = poly_surge::HalfSpace;
 
     fn half_space(plane: &Plane) -> Self::HalfSpace {
@@ -80,23 +86,22 @@ impl Library for PolySurge {
         for half_space in half_spaces {
             polytope.add_plane(half_space.clone());
         }
-        Self { polytope }
+        Self(polytope)
     }
 
     fn remove(&mut self, index: usize) {
-        self.polytope.remove_plane(poly_surge::PlaneIdx(index));
+        self.0.remove_plane(poly_surge::PlaneIdx(index));
     }
 
-    /// It takes the slot that was freed last, so that the numbers of the input stay valid.
-    fn add_again(&mut self, _index: usize, half_space: &Self::HalfSpace) {
-        self.polytope.add_plane(half_space.clone());
+    fn add_again(&mut self, half_space: &Self::HalfSpace) {
+        self.0.add_plane(half_space.clone());
     }
 
     fn vertex_count(&self) -> usize {
-        self.polytope.vertex_count()
+        self.0.vertex_count()
     }
 
     fn settle(&mut self) {
-        self.polytope.edge_count();
+        self.0.edge_count();
     }
 }

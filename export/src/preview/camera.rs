@@ -1,7 +1,7 @@
 //! A perspective camera that frames a model.
 //!
 //! Three kinds of coordinates: *world* (the input's units), *view* (x right, y up, z away from the eye, which is the
-//! origin; one unit is the model's radius) and *screen* (pixels from the top left corner, with the reciprocal view depth
+//! origin; left-handed; one unit is the model's radius) and *screen* (pixels from the top left corner, with the reciprocal view depth
 //! `w`, which unlike the depth itself is linear across the picture).
 
 use glam::{DMat3, DVec3, Vec3};

@@ -217,8 +217,7 @@ impl Plane {
     /// range: the slopes of slivers are not trustworthy.
     fn along(&self, y: f64, x: f64, count: usize) -> (f32, f32) {
         let at = |x: f64| {
-            let value =
-                self.origin[2] + (x - self.origin[0]) * self.slope[0] + (y - self.origin[1]) * self.slope[1];
+            let value = self.origin[2] + (x - self.origin[0]) * self.slope[0] + (y - self.origin[1]) * self.slope[1];
             // Not `clamp`, which panics on a reversed range and keeps NaN.
             value.max(self.range[0]).min(self.range[1])
         };

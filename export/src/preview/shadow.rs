@@ -38,8 +38,9 @@ pub(super) struct ShadowMap {
 impl ShadowMap {
     pub(super) fn new(scene: &Scene<'_>) -> Self {
         let (u, v) = scene.light.any_orthonormal_pair();
-        // The map is seen from the light: its third axis points towards the viewer, its second one down the picture.
-        let axes = Mat3::from_cols(u, -v, scene.light).transpose();
+        // Seen from the light, like any picture: x to the right, y down, heights towards the viewer. That is a left-handed
+        // frame, and so is that of the view coordinates, so the light's right-handed pair serves as it is.
+        let axes = Mat3::from_cols(u, v, scene.light).transpose();
         let turned = scene.view.iter().map(|&p| axes * p);
         let (min, max) = turned.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(l, h), p| (l.min(p), h.max(p)));
         let extent = (max - min).truncate().max_element().max(f32::MIN_POSITIVE);

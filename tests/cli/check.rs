@@ -1,0 +1,87 @@
+//! `check` and `info` on meshes: sound ones, the program's own, and ones with one thing wrong.
+
+use std::path::Path;
+
+use crate::support::{agree, block, folder, keep, planecut, write_map};
+
+/// A tetrahedron with one corner at `(x, 0, 0)`, as OBJ; its vertices are numbered from `first`.
+fn tetrahedron(x: f64, first: usize) -> String {
+    let mut text = String::new();
+    for [dx, y, z] in [[0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 4]] {
+        text += &format!("v {} {y} {z}\n", x + f64::from(dx));
+    }
+    for [a, b, c] in [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]] {
+        text += &format!("f {} {} {}\n", first + a, first + b, first + c);
+    }
+    text
+}
+
+fn write_obj(folder: &Path, text: &str) -> std::path::PathBuf {
+    let path = folder.join("a.obj");
+    std::fs::write(&path, text).expect("written");
+    path
+}
+
+#[track_caller]
+fn not_sound(text: &str, words: &str) {
+    let folder = folder();
+    let mesh = write_obj(folder.path(), text);
+    let run = planecut(["check".as_ref(), mesh.as_os_str()]);
+    run.expect_error(1, words);
+    assert!(run.stderr.contains("a.obj"), "{}", run.stderr);
+    assert_eq!(run.stdout, b"");
+}
+
+#[test]
+fn a_sound_mesh_gets_one_line_on_standard_output() {
+    let folder = folder();
+    let mesh = write_obj(folder.path(), &tetrahedron(0.0, 1));
+    let run = planecut(["check".as_ref(), mesh.as_os_str()]).expect_quiet_success();
+    let line = String::from_utf8(run.stdout).expect("UTF-8");
+    assert!(line.contains("watertight, manifold, not self-crossing") && line.lines().count() == 1, "{line}");
+}
+
+#[test]
+fn each_fault_is_named() {
+    let whole = tetrahedron(0.0, 1);
+    let open = whole.lines().take(7).collect::<Vec<_>>().join("\n");
+    not_sound(&open, "open edge");
+    not_sound(&(whole.clone() + "f 1 3 2\nf 1 2 3\n"), "edge between vertices");
+    not_sound(&(whole + &tetrahedron(1.0, 5)), "cross");
+}
+
+#[test]
+fn tolerance_decides_how_deep_a_crossing_counts() {
+    let folder = folder();
+    let mesh = write_obj(folder.path(), &(tetrahedron(0.0, 1) + &tetrahedron(3.9999, 5)));
+    planecut(["check".as_ref(), mesh.as_os_str()]).expect_error(1, "cross");
+    planecut(["check".as_ref(), mesh.as_os_str(), "--tolerance".as_ref(), "1e-3".as_ref()]).expect_quiet_success();
+}
+
+#[test]
+fn what_is_no_mesh_is_unusable() {
+    let folder = folder();
+    for text in ["", "v 0 0 0\n", "f 1 2 3\n", "v 0 0 nan\n", "v 0 0\n", "\u{0}\u{1}"] {
+        let mesh = write_obj(folder.path(), text);
+        planecut(["check".as_ref(), mesh.as_os_str()]).expect_error(2, "a.obj");
+        planecut(["info".as_ref(), mesh.as_os_str()]).expect_error(2, "a.obj");
+    }
+}
+
+/// Everything that is written can be read back, is sound, and has the volume of the report.
+#[test]
+fn what_build_writes_is_sound() {
+    let folder = folder();
+    let boxes = [block([0; 3], [2; 3], "a"), block([1; 3], [3; 3], "b"), block([3, 0, 0], [5, 1, 1], "c")];
+    for (map, tolerance) in [(keep(), 1e-6), (write_map(folder.path(), "m.map", &boxes), 1e-12)] {
+        let volume = planecut(["info".as_ref(), map.as_os_str()]).json()["solid"]["volume"].as_f64().expect("a number");
+        for format in ["glb", "gltf", "obj", "stl"] {
+            let mesh = folder.path().join(format!("a.{format}"));
+            planecut(["build".as_ref(), map.as_os_str(), "-o".as_ref(), mesh.as_ref()]).expect_quiet_success();
+            planecut(["check".as_ref(), mesh.as_os_str()]).expect_quiet_success();
+            let report = planecut(["info".as_ref(), mesh.as_os_str()]).json();
+            assert!(agree(&report["mesh"]["volume"], volume, tolerance), "{format}: {}", report["mesh"]);
+            assert_eq!(report["mesh"]["manifold"].as_bool(), Some(true), "{format}");
+        }
+    }
+}

@@ -1,0 +1,11 @@
+//! The program as its users run it: arguments, exit statuses, files and what they hold.
+#![forbid(unsafe_code)]
+
+mod check;
+mod damaged;
+mod determinism;
+mod outputs;
+mod report;
+mod shared_maps;
+mod support;
+mod usage;

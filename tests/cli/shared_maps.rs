@@ -1,0 +1,60 @@
+//! Maps that others made, in `../shared/data/map` beside the project; skipped, with a line that says so, where absent.
+
+use serde_json::{Value, json};
+
+use crate::support::{Run, agree, planecut, shared_maps};
+
+fn info(name: &str) -> Option<Run> {
+    Some(planecut(["info".as_ref(), shared_maps()?.join(name).as_os_str()]))
+}
+
+/// Volumes are those of manifold3d's union, which computes in double precision.
+#[test]
+fn volumes_are_those_of_the_reference() {
+    let Some(folder) = shared_maps() else { return };
+    let text = std::fs::read(folder.join("reference.json")).expect("reference.json");
+    let reference: Value = serde_json::from_slice(&text).expect("JSON");
+    let mut compared = 0;
+    for (name, expected) in reference.as_object().expect("an object") {
+        let Some(volume) = expected["union_volume"].as_f64() else { continue };
+        let report = info(name).expect("the folder is there").json();
+        let mesh = &report["mesh"];
+        assert_eq!((&mesh["watertight"], &mesh["manifold"]), (&json!(true), &json!(true)), "{name}");
+        assert!(agree(&report["solid"]["volume"], volume, 1e-9), "{name}: {}, expected {volume}", report["solid"]);
+        assert!(agree(&mesh["volume"], volume, 1e-9), "{name}: {mesh}, expected {volume}");
+        let sum = expected["sum_volume"].as_f64().expect("a sum");
+        assert!(agree(&report["model"]["brush_volume_sum"], sum, 1e-9), "{name}: {}, expected {sum}", report["model"]);
+        assert_eq!(report["model"]["brushes"], expected["brushes"], "{name}");
+        compared += 1;
+    }
+    assert!(compared > 0);
+}
+
+/// Editor fixtures, some of them invalid on purpose: brushes and the volume, or the line of the error.
+#[test]
+fn editor_fixtures_are_built_or_refused_with_a_line() {
+    let expected: [(&str, Result<u64, &str>); 11] = [
+        ("01_Worldspawn_and_one_brush", Ok(1)),
+        ("05_Quake_2_brush_format", Ok(1)),
+        ("07_Quake_3_Valve220_brush_format", Ok(1)),
+        ("08_Daikatana_brush_format", Ok(1)),
+        ("10_Daikatana_map_header", Ok(1)),
+        ("13_Ordered_layers_with_gaps_and_duplicates", Err(".map:21: found")),
+        ("15_Grouped_entities_and_brushes", Ok(5)),
+        ("18_Quake_3_patch", Ok(0)),
+        ("19___TB_empty_material_name", Ok(1)),
+        ("20_Quoted_material_names", Err(".map:3: found")),
+        ("21_1424", Ok(1)),
+    ];
+    for (name, expected) in expected {
+        let Some(run) = info(&format!("tb_worldreader/{name}.map")) else { return };
+        match expected {
+            Err(words) => run.expect_error(2, words),
+            Ok(brushes) => {
+                let report = run.json();
+                assert_eq!(report["model"]["brushes"], json!(brushes), "{name}");
+                assert_eq!(report["mesh"]["manifold"], json!(true), "{name}");
+            }
+        }
+    }
+}
