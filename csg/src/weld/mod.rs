@@ -56,6 +56,12 @@ pub enum WeldError {
         /// Number of the region.
         region: u32,
     },
+    /// A hole lies in no outer loop of its region.
+    #[error("internal error: a hole of region {region} lies in no face; please report this model")]
+    Hole {
+        /// Number of the region.
+        region: u32,
+    },
     /// Around an edge, solid and empty wedges do not alternate.
     #[error(
         "internal error: faces around the edge between points {from} and {to} do not alternate; please report this model"
@@ -101,7 +107,7 @@ pub(crate) fn weld(
     let pieces = cancel::half_edges(table, &points, &lines, &regions.planes, &runs, &pinches)?;
     let pieces = order_by_region(pieces);
     let following = loops::following(table, &regions.planes, &pieces)?;
-    let faces = nest::faces(table, &regions.planes, &points, &pieces, &following);
+    let faces = nest::faces(table, &regions.planes, &points, &pieces, &following)?;
     let solid = measure::measures(&points.positions, &pieces, &faces);
     let (vertex, point) = manifold::vertices(&pieces, &following);
     let signs = Counts::since(before);

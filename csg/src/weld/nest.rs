@@ -5,6 +5,7 @@ use std::cmp::Ordering;
 use planecut_kernel::sign::Sign;
 use planecut_kernel::{DVec2, DVec3};
 
+use super::WeldError;
 use super::cancel::HalfEdge;
 use super::points::Points;
 use crate::plane_table::{PlaneId, PlaneTable};
@@ -51,7 +52,7 @@ pub(super) fn faces(
     points: &Points,
     pieces: &[HalfEdge],
     following: &[u32],
-) -> Vec<FaceLoops> {
+) -> Result<Vec<FaceLoops>, WeldError> {
     let mut faces = Vec::new();
     let mut seen = vec![false; pieces.len()];
     let mut base = 0;
@@ -65,10 +66,10 @@ pub(super) fn faces(
                 loops.push(nester.walk(start as u32, following, &mut seen));
             }
         }
-        nester.group(region, loops, &mut faces);
+        nester.group(region, loops, &mut faces)?;
         base += members.len();
     }
-    faces
+    Ok(faces)
 }
 
 struct Nester<'a> {
@@ -125,7 +126,7 @@ impl Nester<'_> {
     }
 
     /// Gives each hole to the smallest outer loop around it.
-    fn group(&self, region: u32, loops: Vec<Loop>, faces: &mut Vec<FaceLoops>) {
+    fn group(&self, region: u32, loops: Vec<Loop>, faces: &mut Vec<FaceLoops>) -> Result<(), WeldError> {
         let (outers, holes): (Vec<Loop>, Vec<Loop>) = loops.into_iter().partition(|candidate| self.is_outer(candidate));
         let base = faces.len();
         faces.extend(outers.iter().map(|outer| FaceLoops { region, loops: vec![outer.pieces.clone()] }));
@@ -134,10 +135,9 @@ impl Nester<'_> {
                 outer.min.cmple(hole.min).all() && outer.max.cmpge(hole.max).all() && self.contains(outer, &hole)
             });
             let owner = around.min_by(|a, b| a.1.area.total_cmp(&b.1.area)).map(|(k, _)| k);
-            if let Some(owner) = owner {
-                faces[base + owner].loops.push(hole.pieces);
-            }
+            faces[base + owner.ok_or(WeldError::Hole { region })?].loops.push(hole.pieces);
         }
+        Ok(())
     }
 
     /// Whether a hole lies inside an outer loop: by the parity of crossings to the right of one of its corners that is not

@@ -18,7 +18,6 @@ mod measure;
 mod regressions;
 mod rng;
 mod scene;
-mod scratch;
 mod sloped;
 mod soundness;
 mod voxels;

@@ -5,7 +5,7 @@ use planecut_csg::{MaterialId, Model};
 use crate::generate::{general_scene, kindred_scene, sloped_scene, with_materials};
 use crate::rng::Rng;
 use crate::scene::{ensure, ensure_eq, sweep};
-use crate::soundness::{area_by_material, evaluate_soundly};
+use crate::soundness::{area_by_material, contraction, evaluate_soundly};
 
 fn scene(rng: &mut Rng) -> Model {
     let scene = match rng.integer(0, 2) {
@@ -26,16 +26,16 @@ fn the_shape_does_not_depend_on_materials() {
         }
         let plain = evaluate_soundly(&plain)?;
         let (a, b) = (&found.solid, &plain.solid);
-        let reach = a.min.abs().max(a.max.abs()).max_element();
+        let (size, slack) = ((a.max - a.min).length(), contraction(a) * model.brushes.len() as f64);
         ensure!(
-            (a.volume - b.volume).abs() <= 1e-12 * b.volume + 1e-14 * reach * b.area,
+            (a.volume - b.volume).abs() <= slack * b.area + slack * size.powi(2),
             "volume {}, {}",
             a.volume,
             b.volume
         );
         let total: f64 = area_by_material(&found.mesh).iter().sum();
         for area in [a.area, total] {
-            ensure!((area - b.area).abs() <= 1e-11 * b.area, "area {area}, {}", b.area);
+            ensure!((area - b.area).abs() <= slack * size, "area {area}, {}", b.area);
         }
         ensure_eq!((a.min, a.max), (b.min, b.max), "box");
         ensure!(found.mesh.faces.len() >= plain.mesh.faces.len(), "fewer faces than of one material");
