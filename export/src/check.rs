@@ -76,7 +76,8 @@ mod tests {
     #[test]
     fn each_defect_is_named() {
         assert!(check_mesh(&one_triangle()).is_ok());
-        let defects: [(fn(&mut Mesh), &str); 6] = [
+        type Spoil = fn(&mut Mesh);
+        let defects: [(Spoil, &str); 6] = [
             (|m| m.triangles[0][1] = 3, "vertex 3"),
             (|m| m.triangle_faces[0] = 1, "face 1"),
             (|m| m.triangle_faces.clear(), "0 face indices"),

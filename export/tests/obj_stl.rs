@@ -85,6 +85,14 @@ fn stl_has_the_triangles_in_single_precision() {
     }
 }
 
+/// The oracle of these tests is right where the answer is known: a cube of side 4 less a square prism of side 2.
+#[test]
+fn the_test_meshes_have_the_volumes_they_should() {
+    assert!((common::mesh_volume(&common::cube_with_hole()) - (64.0 - 16.0)).abs() < 1e-12);
+    let slab = common::box_mesh(DVec3::splat(-1.0), DVec3::new(1.0, 2.0, 3.0), "stone");
+    assert!((common::mesh_volume(&slab) - 24.0).abs() < 1e-12);
+}
+
 #[test]
 fn empty_meshes_are_valid_files() {
     let options = ExportOptions::default();

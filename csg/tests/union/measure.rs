@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use planecut_csg::{Brush, Evaluation, Mesh, Model};
-use planecut_kernel::IncrementalPolytope;
+use planecut_kernel::{HalfSpace, IncrementalPolytope};
 
 use crate::rng::Rng;
 use crate::scene::ensure;
@@ -69,7 +69,9 @@ pub(crate) fn snap_distance(evaluation: &Evaluation, reach: f64) -> f64 {
 pub(crate) fn check_volume(model: &Model, evaluation: &Evaluation) -> Result<(), String> {
     let expected = inclusion_exclusion(model);
     let solid = &evaluation.solid;
-    let reach = solid.min.abs().max(solid.max.abs()).max_element();
+    let distance = |plane: &HalfSpace| plane.signed_distance(DVec3::ZERO).abs();
+    let planes = model.brushes.iter().flat_map(|brush| &brush.faces).map(|face| distance(&face.half_space));
+    let reach = planes.fold(solid.min.abs().max(solid.max.abs()).max_element(), f64::max);
     let displacement = 64.0 * f64::EPSILON * reach + snap_distance(evaluation, reach);
     // Sums over tetrahedra round as the cube of the size of a body, however thin it is.
     let rounding = 4.0 * f64::EPSILON * expected.cubes;

@@ -2,7 +2,7 @@
 //!
 //! Way of a mesh through this folder: [`camera`] frames it, [`scene`] brings it into view coordinates and colours its
 //! faces, [`surface`] finds what is seen in each cell of a few pixels, [`light`] computes how much light gets there ([`shadow`],
-//! [`occlusion`]), [`edges`] finds the lines, and [`compose`] puts all of it together at several samples per pixel.
+//! [`occlusion`]), [`edges`] finds the lines, and [`mod@compose`] puts all of it together at several samples per pixel.
 //! [`raster`] is the z-buffer that all of these share. Numbers that are a matter of taste are in [`style`].
 
 mod camera;

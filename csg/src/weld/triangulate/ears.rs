@@ -1,5 +1,7 @@
 //! Cutting ears until nothing is left.
 
+use planecut_kernel::DVec2;
+
 use super::grid::Grid;
 use super::{Boundary, NO_LINE, in_triangle};
 
@@ -8,6 +10,9 @@ use super::{Boundary, NO_LINE, in_triangle};
 enum Care {
     /// Strictly convex, not of one line, and no other corner in it.
     Strict,
+    /// The same but for noise: as good as convex, and no other corner deeper in it than noise goes. Boundaries whose
+    /// corners lie within noise of one another need this: rounded, they cross themselves a little.
+    Tolerant,
     /// Convex and not of one line.
     Convex,
     /// Not of one line.
@@ -19,12 +24,16 @@ enum Care {
 impl Care {
     fn looser(self) -> Self {
         match self {
-            Self::Strict => Self::Convex,
+            Self::Strict => Self::Tolerant,
+            Self::Tolerant => Self::Convex,
             Self::Convex => Self::Bent,
             Self::Bent | Self::Any => Self::Any,
         }
     }
 }
+
+/// Depth of noise, relative to the largest coordinate.
+const NOISE: f64 = 1e-11;
 
 impl Boundary {
     /// Cuts the ring of `start` into triangles of nodes.
@@ -34,6 +43,7 @@ impl Boundary {
             self.classify(node);
         }
         let grid = Grid::new(self, &ring);
+        let noise = NOISE * ring.iter().map(|node| self.at(*node).abs().max_element()).fold(0.0, f64::max);
         let mut triangles = Vec::with_capacity(ring.len() - 2);
         let mut left = ring.len();
         let mut node = start;
@@ -45,7 +55,7 @@ impl Boundary {
                 tried = 0;
             }
             let (before, after) = (self.previous(node), self.next(node));
-            if self.is_ear([before, node, after], care, &grid) {
+            if self.is_ear([before, node, after], care, noise, &grid) {
                 triangles.push([before, node, after]);
                 self.remove(node);
                 left -= 1;
@@ -88,7 +98,7 @@ impl Boundary {
         self.lines_at(a).into_iter().any(|line| line != NO_LINE && at_c.contains(&line))
     }
 
-    fn is_ear(&self, [a, b, c]: [u32; 3], care: Care, grid: &Grid) -> bool {
+    fn is_ear(&self, [a, b, c]: [u32; 3], care: Care, noise: f64, grid: &Grid) -> bool {
         if care == Care::Any {
             return true;
         }
@@ -98,14 +108,19 @@ impl Boundary {
         if care == Care::Bent {
             return true;
         }
+        if care == Care::Tolerant {
+            let longest = self.at(a).distance(self.at(c)).max(self.at(a).distance(self.at(b)));
+            return self.turn(a, b, c) >= -noise * longest && !self.holds_a_corner([a, b, c], noise, grid);
+        }
         if self.nodes[b as usize].reflex {
             return false;
         }
-        care == Care::Convex || !self.holds_a_corner([a, b, c], grid)
+        care == Care::Convex || !self.holds_a_corner([a, b, c], 0.0, grid)
     }
 
-    /// Whether another corner of what is left lies in a triangle; one at the same place as a corner of it does not count.
-    fn holds_a_corner(&self, [a, b, c]: [u32; 3], grid: &Grid) -> bool {
+    /// Whether another corner of what is left lies in a triangle, deeper than `noise` where that is not zero; one at the
+    /// same place as a corner of it does not count.
+    fn holds_a_corner(&self, [a, b, c]: [u32; 3], noise: f64, grid: &Grid) -> bool {
         let (p, q, r) = (self.at(a), self.at(b), self.at(c));
         let (min, max) = (p.min(q).min(r), p.max(q).max(r));
         grid.any_in(min, max, |node| {
@@ -118,7 +133,13 @@ impl Boundary {
                 && at != p
                 && at != q
                 && at != r
-                && in_triangle(p, q, r, at)
+                && if noise > 0.0 { is_deep_in(p, q, r, at, noise) } else { in_triangle(p, q, r, at) }
         })
     }
+}
+
+/// Whether `p` lies in a triangle, farther than `depth` from each of its sides.
+fn is_deep_in(a: DVec2, b: DVec2, c: DVec2, p: DVec2, depth: f64) -> bool {
+    let is_deep = |from: DVec2, to: DVec2| (to - from).perp_dot(p - from) > depth * from.distance(to);
+    is_deep(a, b) && is_deep(b, c) && is_deep(c, a)
 }
