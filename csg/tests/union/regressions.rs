@@ -30,8 +30,32 @@ fn a_wall_given_at_two_scales_dissolves() {
     assert_eq!(evaluate_soundly(&model).expect("a sound mesh").mesh.faces.len(), 10);
 }
 
-/// The tip of the second body meets a slope of the first within 1e-16: rounded, the loop around the notch is not simple, and
-/// triangles of the slope must not fold over.
+/// On the shared top, a spike stands on the line of a longer edge: three corners are collinear and the spike's
+/// tip lies beyond. Its ear must be cut although the diagonal runs along that line. All corners are small integers.
+#[test]
+fn a_spike_on_a_straight_side_does_not_fold() {
+    let model = model_of(&[
+        &[
+            ([1.0, 1.0, 1.0], 11.0, 0),
+            ([-1.0, 1.0, 1.0], 5.0, 0),
+            ([1.0, -1.0, 1.0], 9.0, 0),
+            ([-1.0, -1.0, 1.0], 3.0, 0),
+            ([0.0, 0.0, 1.0], 3.0, 0),
+            ([0.0, 0.0, -1.0], 5.0, 0),
+        ],
+        &[
+            ([1.0, 0.0, 0.0], 6.0, 0),
+            ([-1.0, 0.0, 0.0], -1.0, 0),
+            ([0.0, 1.0, 0.0], 4.0, 0),
+            ([0.0, -1.0, 0.0], 2.0, 0),
+            ([0.0, 0.0, 1.0], 3.0, 0),
+            ([0.0, 0.0, -1.0], 3.0, 0),
+        ],
+    ]);
+    evaluate_soundly(&model).expect("a sound mesh");
+}
+
+/// A notch whose corners nearly lie on the edge of a slope, 5e-17 from its end: triangles of the slope must not fold over.
 #[test]
 fn a_notch_that_ends_on_an_edge_does_not_fold() {
     let model = model_of(&[

@@ -58,10 +58,10 @@ fn six_times_tetrahedron(apex: DVec3, a: DVec3, b: DVec3, c: DVec3) -> f64 {
         |p: DVec3, q: DVec3| -> [DoubleDouble; 3] { std::array::from_fn(|axis| DoubleDouble::sum(p[axis], -q[axis])) };
     let (u, v, w) = (difference(b, a), difference(c, a), difference(a, apex));
     let mut total = DoubleDouble::default();
-    for axis in 0..3 {
+    for (axis, height) in w.into_iter().enumerate() {
         let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
         let minor = u[i].times_sum(v[j]).plus(u[j].times_sum(v[i]).negated());
-        total = total.plus(minor.times_sum(w[axis]));
+        total = total.plus(minor.times_sum(height));
     }
     total.high
 }

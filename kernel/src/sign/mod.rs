@@ -3,9 +3,9 @@
 //! A plane enters as four numbers `[nx, ny, nz, d]` that are taken as exact ([`Row`]). [`orient3`] is the sign of the
 //! determinant of three normals, [`orient4`] that of four whole rows. Each is answered by the first tier that can:
 //!
-//! 1. floating point with a proven error bound ([`filter`]);
-//! 2. `i128`, where the rows are small integers ([`small_int`]): on grids about a fifth of all signs are true zeros;
-//! 3. big integers ([`big`]), always.
+//! 1. floating point with a proven error bound (`filter`);
+//! 2. `i128`, where the rows are small integers (`small_int`): on grids about a fifth of all signs are true zeros;
+//! 3. big integers (`big`), always.
 //!
 //! Rows are scaled by exact powers of two (or, for integers, by their greatest common divisor), never normalised to
 //! unit length: dividing by a length would destroy exact coincidences.
@@ -38,7 +38,7 @@ pub enum Sign {
 impl Sign {
     /// The sign of a number; NaN counts as zero.
     #[must_use]
-    pub(crate) fn of<T: PartialOrd + Default>(value: T) -> Self {
+    pub(crate) fn of<T: PartialOrd + Default + Copy>(value: T) -> Self {
         let zero = T::default();
         if value > zero {
             Self::Positive
