@@ -5,6 +5,7 @@
 //! keep the mesh a manifold, so edges are contracted one by one, each only where the surface stays the surface it was
 //! (the link condition: Dey, Edelsbrunner, Guha, Nekhayev 1999).
 
+use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::mesh::Mesh;
@@ -12,7 +13,14 @@ use crate::mesh::Mesh;
 /// Contracts edges of at most `length` (in the mesh's units) and gives how many went. Edges whose contraction would change
 /// the topology stay. Faces that lose all their triangles are dropped.
 pub fn contract_short_edges(mesh: &mut Mesh, length: f64) -> usize {
-    let mut short = short_edges(mesh, length);
+    contract_edges(mesh, |a, b| a.distance(b) <= length)
+}
+
+/// Contracts the edges between whose ends `is_short` holds, shortest first; otherwise as [`contract_short_edges`].
+///
+/// A format with coarser coordinates asks for the edges whose ends it would round to one place.
+pub fn contract_edges(mesh: &mut Mesh, is_short: impl Fn(DVec3, DVec3) -> bool) -> usize {
+    let mut short = short_edges(mesh, &is_short);
     if short.is_empty() {
         return 0;
     }
@@ -21,7 +29,7 @@ pub fn contract_short_edges(mesh: &mut Mesh, length: f64) -> usize {
     loop {
         let before = contracted;
         short.retain(|&[a, b]| {
-            let done = contraction.contract(mesh, a, b, length);
+            let done = contraction.contract(mesh, a, b, &is_short);
             contracted += usize::from(done);
             !done
         });
@@ -36,15 +44,14 @@ pub fn contract_short_edges(mesh: &mut Mesh, length: f64) -> usize {
 }
 
 /// The short edges, shortest first.
-fn short_edges(mesh: &Mesh, length: f64) -> Vec<[u32; 2]> {
+fn short_edges(mesh: &Mesh, is_short: impl Fn(DVec3, DVec3) -> bool) -> Vec<[u32; 2]> {
     let at = |v: u32| mesh.positions[v as usize];
     let mut short: Vec<(f64, [u32; 2])> = Vec::new();
     for triangle in &mesh.triangles {
         for k in 0..3 {
             let (a, b) = (triangle[k], triangle[(k + 1) % 3]);
-            let distance = at(a).distance(at(b));
-            if a < b && distance <= length {
-                short.push((distance, [a, b]));
+            if a < b && is_short(at(a), at(b)) {
+                short.push((at(a).distance(at(b)), [a, b]));
             }
         }
     }
@@ -79,10 +86,10 @@ impl Contraction {
     }
 
     /// Merges `b` into `a`, where that keeps the surface a manifold of the same topology.
-    fn contract(&mut self, mesh: &mut Mesh, a: u32, b: u32, length: f64) -> bool {
+    fn contract(&mut self, mesh: &mut Mesh, a: u32, b: u32, is_short: impl Fn(DVec3, DVec3) -> bool) -> bool {
         let (a, b) = (self.current(a), self.current(b));
-        let apart = mesh.positions[a as usize].distance(mesh.positions[b as usize]);
-        if a == b || apart > 2.0 * length || !self.keeps_topology(mesh, a, b) {
+        let still_short = is_short(mesh.positions[a as usize], mesh.positions[b as usize]);
+        if a == b || !still_short || !self.keeps_topology(mesh, a, b) {
             return false;
         }
         let at_b = std::mem::take(&mut self.triangles[b as usize]);
@@ -148,7 +155,7 @@ mod tests {
     use super::*;
     use crate::check::check_topology;
     use crate::{Brush, BrushFace, Material, MaterialId, Model, evaluate};
-    use planecut_kernel::{DVec3, HalfSpace};
+    use planecut_kernel::HalfSpace;
 
     /// A cube with a corner cut off so slightly that the cut's edges have length `size · √2`.
     fn chamfered_cube(size: f64) -> Mesh {

@@ -41,7 +41,7 @@ mod skin;
 mod weld;
 
 pub use brush::{Brush, BrushFace, Material, MaterialId, Model};
-pub use contract::contract_short_edges;
+pub use contract::{contract_edges, contract_short_edges};
 pub use evaluate::{Evaluation, ModelSummary, SolidMeasures, StageTimes, evaluate, summarize};
 pub use mesh::{Mesh, MeshFace};
 pub use plane_table::{PlaneId, PlaneTable, SNAP_TOLERANCE};

@@ -1,12 +1,18 @@
 //! Every plane of a model once: interned exactly up to scale, with noise snapped away.
 
+use std::cmp::Ordering;
+
 use planecut_kernel::sign::{Homogeneous, Row, Sign, cross_component, orient3};
 use planecut_kernel::{DVec3, HalfSpace, meet};
 use rustc_hash::FxHashMap;
 
 /// Planes whose unit normals and relative offsets differ by at most this are taken to be one plane that went through
-/// rotations or decimal text. Planes with (coprime, small) integer coefficients on both sides are exact and never snapped.
+/// rotations or decimal text, relative to the largest distance of a plane from the origin.
 pub const SNAP_TOLERANCE: f64 = 1e-12;
+
+/// Planes whose normal has coprime integer components of at most this many bits are exact and never snapped onto others:
+/// what went through rotations or decimal text is hardly ever that short.
+const EXACT_BITS: u32 = 36;
 
 /// Side of the cells in which near planes are sought; many times the tolerance, so that one cell nearly always does.
 const SNAP_CELL: f64 = 1024.0 * SNAP_TOLERANCE;
@@ -57,10 +63,10 @@ impl PlaneTable {
         let rows: Vec<Row> = half_spaces.iter().map(Row::new).collect();
         let (exact, class) = group_exactly(&rows);
         let mut table = Self::default();
-        let ids = table.snap(half_spaces, &rows, &exact);
+        let ids = table.snap(exact);
         let of_input = class.into_iter().zip(&rows).map(|(class, row)| {
             let id: PlaneId = ids[class as usize];
-            if is_reversed(row) != is_reversed(&rows[exact[class as usize]]) { id.flipped() } else { id }
+            if is_reversed(row) { id.flipped() } else { id }
         });
         let of_input = of_input.collect();
         (table, of_input)
@@ -126,47 +132,48 @@ impl PlaneTable {
         meet(a, b, c)
     }
 
-    /// Stores the groups of equal planes, snapping those that are nearly equal; the id of the first row of each group.
+    /// Stores different planes, given by their sides with a positive first coefficient, snapping those that are nearly
+    /// equal; gives their ids.
     ///
-    /// Exact integer planes come first, then the others by their coefficients, so that the outcome does not depend on the
-    /// order of the input.
-    fn snap(&mut self, half_spaces: &[HalfSpace], rows: &[Row], exact: &[usize]) -> Vec<PlaneId> {
-        let size = exact.iter().map(|k| unit(&half_spaces[*k])[3].abs()).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
-        let mut order: Vec<(bool, (usize, [f64; 3]), u32)> =
-            exact.iter().enumerate().map(|(g, k)| (!rows[*k].is_integer(), rows[*k].ratios(), g as u32)).collect();
-        order.sort_unstable_by(|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal));
-        let any_noise = order.last().is_some_and(|last| last.0);
+    /// Exact planes come first, then the others by their coefficients, so that the outcome does not depend on the order of
+    /// the input.
+    fn snap(&mut self, planes: Vec<Row>) -> Vec<PlaneId> {
+        let units: Vec<[f64; 4]> = planes.iter().map(unit).collect();
+        let size = units.iter().map(|unit| unit[3].abs()).fold(f64::MIN_POSITIVE, f64::max);
+        let is_exact = |row: &Row| row.integer_bits().is_some_and(|bits| bits <= EXACT_BITS);
+        let mut order: Vec<usize> = (0..planes.len()).collect();
+        order.sort_unstable_by(|a, b| {
+            let (p, q) = (&planes[*a], &planes[*b]);
+            is_exact(q).cmp(&is_exact(p)).then_with(|| compare_coefficients(p, q))
+        });
+        let any_noise = order.last().is_some_and(|last| !is_exact(&planes[*last]));
         let mut near = NearPlanes::default();
-        let mut ids = vec![PlaneId(0); exact.len()];
-        for (noisy, _, group) in order {
-            let first = exact[group as usize];
-            let mut unit = unit(&half_spaces[first]);
-            unit[3] /= size;
-            let reversed = is_reversed(&rows[first]);
-            if reversed {
-                unit = unit.map(|v| -v);
-            }
-            let found = if noisy { near.find(&unit) } else { None };
-            ids[group as usize] = if let Some((index, opposite)) = found {
+        let mut ids = vec![PlaneId(0); planes.len()];
+        for plane in order {
+            let row = &planes[plane];
+            let [x, y, z, d] = units[plane];
+            let place = [x, y, z, d / size];
+            let found = if is_exact(row) { None } else { near.find(&place) };
+            ids[plane] = if let Some((index, opposite)) = found {
                 self.snapped += 1;
-                PlaneId::new(index, reversed != opposite)
+                PlaneId::new(index, opposite)
             } else {
-                let id = PlaneId::new(self.len(), reversed);
                 if any_noise {
-                    near.insert(unit, self.len());
+                    near.insert(place, self.len());
                 }
-                self.push(&half_spaces[first], &rows[first], reversed);
+                let id = PlaneId::new(self.len(), false);
+                self.push(row);
                 id
             };
         }
         ids
     }
 
-    fn push(&mut self, half_space: &HalfSpace, row: &Row, reversed: bool) {
-        let (sided, other) = ((*half_space, *row), (half_space.flipped(), row.flipped()));
-        let (first, second) = if reversed { (other, sided) } else { (sided, other) };
-        self.half_spaces.extend([first.0, second.0]);
-        self.rows.extend([first.1, second.1]);
+    fn push(&mut self, row: &Row) {
+        let [x, y, z, d] = *row.coefficients();
+        let half_space = HalfSpace::new(DVec3::new(x, y, z), d).expect("scaled from a valid half-space");
+        self.half_spaces.extend([half_space, half_space.flipped()]);
+        self.rows.extend([*row, row.flipped()]);
     }
 }
 
@@ -175,31 +182,42 @@ fn is_reversed(row: &Row) -> bool {
     row.coefficients().iter().find(|v| **v != 0.0).is_some_and(|v| *v < 0.0)
 }
 
-/// Groups rows that describe the same plane: the first row of each group, and the group of each row.
-fn group_exactly(rows: &[Row]) -> (Vec<usize>, Vec<u32>) {
+/// The order of rows by their coefficients.
+fn compare_coefficients(p: &Row, q: &Row) -> Ordering {
+    let pairs = p.coefficients().iter().zip(q.coefficients());
+    pairs.map(|(a, b)| a.total_cmp(b)).find(|order| order.is_ne()).unwrap_or(Ordering::Equal)
+}
+
+/// Groups rows that describe the same plane: for each group its side with a positive first coefficient, and the group of
+/// each row. Of rows of different scale the least stands for the group, so that the order of the input does not matter.
+fn group_exactly(rows: &[Row]) -> (Vec<Row>, Vec<u32>) {
     let mut buckets: FxHashMap<(usize, [u64; 3]), Vec<u32>> = FxHashMap::default();
-    let mut exact: Vec<usize> = Vec::new();
+    let mut exact: Vec<Row> = Vec::new();
     let mut class = Vec::with_capacity(rows.len());
-    for (k, row) in rows.iter().enumerate() {
+    for row in rows {
+        let row = if is_reversed(row) { row.flipped() } else { *row };
         let (first, ratios) = row.ratios();
         let bucket = buckets.entry((first, ratios.map(f64::to_bits))).or_default();
-        let known = bucket.iter().copied().find(|g| rows[exact[*g as usize]].is_same_plane(row));
-        class.push(known.unwrap_or_else(|| {
-            exact.push(k);
+        let known = bucket.iter().copied().find(|g| exact[*g as usize].is_same_plane(&row));
+        let group = known.unwrap_or_else(|| {
+            exact.push(row);
             bucket.push(exact.len() as u32 - 1);
             exact.len() as u32 - 1
-        }));
+        });
+        let least = &mut exact[group as usize];
+        if compare_coefficients(&row, least).is_lt() {
+            *least = row;
+        }
+        class.push(group);
     }
     (exact, class)
 }
 
 /// Unit normal and distance from the origin.
-fn unit(half_space: &HalfSpace) -> [f64; 4] {
-    let scale = half_space.normal().abs().max_element();
-    let normal = half_space.normal() / scale;
-    let length = normal.length();
-    let normal = normal / length;
-    [normal.x, normal.y, normal.z, half_space.offset() / scale / length]
+fn unit(row: &Row) -> [f64; 4] {
+    let [x, y, z, d] = *row.coefficients();
+    let length = DVec3::new(x, y, z).length();
+    [x / length, y / length, z / length, d / length]
 }
 
 /// A hash of planes by their unit normal and relative offset.

@@ -17,7 +17,7 @@ mod format;
 mod glb;
 mod obj;
 mod preview;
-
+mod single_precision;
 mod stl;
 mod topology;
 

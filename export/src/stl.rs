@@ -1,11 +1,14 @@
 //! Binary STL: a flat list of triangles in single precision.
 //!
-//! Corners are repeated for every triangle, so readers merge equal ones. Vertices that the weld has split on purpose, or
-//! that differ by less than single precision can hold, fall together there: use glTF or OBJ where topology matters.
+//! Corners are repeated for every triangle, so readers merge equal ones. Vertices that the weld has split on purpose fall
+//! together there: use glTF or OBJ where topology matters. Edges too short for single precision are contracted.
+
+use std::borrow::Cow;
 
 use glam::DVec3;
 use planecut_csg::Mesh;
 
+use crate::single_precision::without_lost_edges;
 use crate::{ExportError, ExportOptions, Part};
 
 const HEADER_BYTES: usize = 80;
@@ -13,7 +16,11 @@ const TRIANGLE_BYTES: usize = 50;
 
 /// Encodes the triangles of all parts, Z-up, in the order of the meshes.
 pub(crate) fn encode_stl(parts: &[Part<'_>], options: &ExportOptions) -> Result<Vec<u8>, ExportError> {
-    let triangles: usize = parts.iter().map(|part| part.mesh.triangles.len()).sum();
+    let meshes: Vec<Cow<'_, Mesh>> = parts
+        .iter()
+        .map(|part| without_lost_edges(part.mesh, |position| (position * options.scale).as_vec3()))
+        .collect();
+    let triangles: usize = meshes.iter().map(|mesh| mesh.triangles.len()).sum();
     let count =
         u32::try_from(triangles).map_err(|_| ExportError::TooLarge { what: format!("{triangles} triangles") })?;
     let mut bytes = Vec::with_capacity(HEADER_BYTES + 4 + TRIANGLE_BYTES * triangles);
@@ -21,8 +28,8 @@ pub(crate) fn encode_stl(parts: &[Part<'_>], options: &ExportOptions) -> Result<
     bytes.extend_from_slice(concat!("binary STL, planecut ", env!("CARGO_PKG_VERSION"), ", Z up").as_bytes());
     bytes.resize(HEADER_BYTES, 0);
     bytes.extend_from_slice(&count.to_le_bytes());
-    for part in parts {
-        push_triangles(&mut bytes, part.mesh, options.scale)?;
+    for mesh in &meshes {
+        push_triangles(&mut bytes, mesh, options.scale)?;
     }
     Ok(bytes)
 }

@@ -45,7 +45,7 @@ fn add_terms(left: &[&Brush], inside: &IncrementalPolytope, chosen: usize, out: 
             continue;
         }
         let measures = meeting.measures().expect("bounded brushes meet in a bounded set");
-        out.volume += if chosen % 2 == 0 { measures.volume } else { -measures.volume };
+        out.volume += if chosen.is_multiple_of(2) { measures.volume } else { -measures.volume };
         out.terms += measures.volume;
         out.areas += measures.area;
         let corners = meeting.to_mesh().0;

@@ -125,7 +125,8 @@ pub(crate) fn as_rust(model: &Model) -> String {
 /// `Err` with a message where a condition does not hold.
 macro_rules! ensure {
     ($condition:expr, $($message:tt)+) => {
-        if !$condition {
+        let holds: bool = $condition;
+        if !holds {
             return Err(format!($($message)+));
         }
     };

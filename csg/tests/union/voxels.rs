@@ -72,7 +72,7 @@ impl Voxels {
         let mut sets = Sets::new(self.quads.keys().copied());
         self.for_glued(|quad, other, _| {
             if quad.1 == other.1 && self.quads[&quad] == self.quads[&other] {
-                sets.join(quad, other);
+                sets.join(&quad, &other);
             }
         });
         sets.count()
@@ -81,7 +81,7 @@ impl Voxels {
     /// Number of closed surfaces.
     pub(crate) fn components(&self) -> usize {
         let mut sets = Sets::new(self.quads.keys().copied());
-        self.for_glued(|quad, other, _| sets.join(quad, other));
+        self.for_glued(|quad, other, _| sets.join(&quad, &other));
         sets.count()
     }
 
@@ -96,7 +96,7 @@ impl Voxels {
             let along = across(quad.1).into_iter().find(|axis| *axis != side.0).expect("two axes lie across");
             for sign in [1, -1] {
                 let at = corner(quad, side, (along, sign));
-                sets.join((quad, at), (other, at));
+                sets.join(&(quad, at), &(other, at));
             }
         });
         // four edges a quad, each shared by two
@@ -154,8 +154,8 @@ impl<T: Ord> Sets<T> {
         k
     }
 
-    fn join(&mut self, a: T, b: T) {
-        let (a, b) = (self.number[&a], self.number[&b]);
+    fn join(&mut self, a: &T, b: &T) {
+        let (a, b) = (self.number[a], self.number[b]);
         let (a, b) = (self.root(a), self.root(b));
         self.parent[a] = b;
     }

@@ -7,6 +7,7 @@ use planecut_csg::{MaterialId, Mesh};
 
 use super::origin::choose_origin;
 use crate::ExportError;
+use crate::single_precision::without_lost_edges;
 use crate::topology::is_oriented_manifold;
 
 /// Marks a mesh vertex that no triangle has used yet.
@@ -30,11 +31,12 @@ pub(super) struct Geometry {
 }
 
 impl Geometry {
-    /// Splits the vertices of a checked mesh. Triangles that name a vertex twice have no area by construction and are
-    /// left out; those that merely collapse in single precision stay, for the sake of the topology.
+    /// Splits the vertices of a checked mesh. Edges that single precision cannot hold are contracted; triangles that name a
+    /// vertex twice have no area by construction and are left out.
     pub(super) fn new(mesh: &Mesh) -> Result<Self, ExportError> {
-        let order = triangles_by_material(mesh);
         let origin = choose_origin(&mesh.positions);
+        let mesh = &*without_lost_edges(mesh, |position| (position - origin).as_vec3());
+        let order = triangles_by_material(mesh);
         let points = relative_positions(&mesh.positions, origin)?;
         let mut splitter = Splitter::new(points, 3 * order.len());
         let mut runs: Vec<(MaterialId, Range<usize>)> = Vec::new();

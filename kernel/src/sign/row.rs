@@ -81,9 +81,14 @@ impl Row {
     }
 
     /// Whether all coefficients are integers (below 2⁵³), coprime.
-    #[must_use]
-    pub fn is_integer(&self) -> bool {
+    pub(crate) fn is_integer(&self) -> bool {
         self.bits[0] != NOT_INTEGER
+    }
+
+    /// The bit length of the largest normal component where all coefficients are (coprime) integers below 2⁵³.
+    #[must_use]
+    pub fn integer_bits(&self) -> Option<u32> {
+        self.is_integer().then(|| self.bits()[0])
     }
 
     /// Bit lengths of the largest normal component and of the offset; only for integer rows.

@@ -85,12 +85,11 @@ impl Boundary {
         let (after_bridge, before_hole) = (self.next(bridge), self.previous(hole));
         let hole_copy = self.nodes.len() as u32;
         let bridge_copy = hole_copy + 1;
-        let mut end = self.nodes[hole as usize].corner;
-        end.line = NO_LINE;
-        let node = |corner, previous, next| Node { corner, previous, next, reflex: false, removed: false };
-        self.nodes.push(node(end, before_hole, bridge_copy));
-        let start = self.nodes[bridge as usize].corner;
-        self.nodes.push(node(start, hole_copy, after_bridge));
+        let mut end = self.nodes[hole as usize];
+        end.corner.line = NO_LINE;
+        self.nodes.push(Node { previous: before_hole, next: bridge_copy, ..end });
+        let start = self.nodes[bridge as usize];
+        self.nodes.push(Node { previous: hole_copy, next: after_bridge, ..start });
         self.nodes[before_hole as usize].next = hole_copy;
         self.nodes[after_bridge as usize].previous = bridge_copy;
         self.nodes[bridge as usize].next = hole;

@@ -13,10 +13,8 @@ enum Care {
     /// The same but for noise: as good as convex, and no other corner deeper in it than noise goes. Boundaries whose
     /// corners lie within noise of one another need this: rounded, they cross themselves a little.
     Tolerant,
-    /// Convex and not of one line.
+    /// Strictly convex and not of one line, whatever lies in it.
     Convex,
-    /// Not of one line.
-    Bent,
     /// Anything.
     Any,
 }
@@ -26,8 +24,7 @@ impl Care {
         match self {
             Self::Strict => Self::Tolerant,
             Self::Tolerant => Self::Convex,
-            Self::Convex => Self::Bent,
-            Self::Bent | Self::Any => Self::Any,
+            Self::Convex | Self::Any => Self::Any,
         }
     }
 }
@@ -76,7 +73,6 @@ impl Boundary {
         let (before, after) = (self.previous(node), self.next(node));
         self.nodes[node as usize].removed = true;
         self.nodes[before as usize].next = after;
-        self.nodes[before as usize].corner.line = NO_LINE;
         self.nodes[after as usize].previous = before;
         self.classify(before);
         self.classify(after);
@@ -87,26 +83,31 @@ impl Boundary {
         self.nodes[node as usize].reflex = reflex;
     }
 
-    /// The lines on which the two edges at a node lie.
-    fn lines_at(&self, node: u32) -> [u32; 2] {
-        [self.nodes[self.previous(node) as usize].corner.line, self.nodes[node as usize].corner.line]
+    /// A line of the boundary through both nodes.
+    fn shared_line(&self, a: u32, c: u32) -> Option<u32> {
+        let at_c = self.nodes[c as usize].lines;
+        self.nodes[a as usize].lines.into_iter().find(|line| *line != NO_LINE && at_c.contains(line))
     }
 
-    /// Whether the diagonal of an ear would run along a line of the boundary.
-    fn is_along_line(&self, a: u32, c: u32) -> bool {
-        let at_c = self.lines_at(c);
-        self.lines_at(a).into_iter().any(|line| line != NO_LINE && at_c.contains(&line))
+    /// Whether another corner of what is left lies between two on the same line, which rounding may hide.
+    fn has_corner_between(&self, a: u32, c: u32, line: u32) -> bool {
+        let (from, along) = (self.at(a), self.at(c) - self.at(a));
+        let length = along.length_squared();
+        self.ring(c).any(|node| {
+            let place = (self.at(node) - from).dot(along);
+            node != a && node != c && self.nodes[node as usize].lines.contains(&line) && place > 0.0 && place < length
+        })
     }
 
     fn is_ear(&self, [a, b, c]: [u32; 3], care: Care, noise: f64, grid: &Grid) -> bool {
         if care == Care::Any {
             return true;
         }
-        if self.is_along_line(a, c) {
-            return false;
-        }
-        if care == Care::Bent {
-            return true;
+        if let Some(line) = self.shared_line(a, c) {
+            let flat = self.nodes[b as usize].lines.contains(&line);
+            if flat || care != Care::Convex && self.has_corner_between(a, c, line) {
+                return false;
+            }
         }
         if care == Care::Tolerant {
             let longest = self.at(a).distance(self.at(c)).max(self.at(a).distance(self.at(b)));

@@ -40,6 +40,8 @@ const NO_LINE: u32 = u32::MAX;
 #[derive(Debug, Clone, Copy)]
 struct Node {
     corner: Corner,
+    /// The lines of the two boundary edges that met here.
+    lines: [u32; 2],
     previous: u32,
     next: u32,
     /// Not strictly convex: only such corners can lie inside an ear.
@@ -82,9 +84,11 @@ impl Boundary {
         let first = self.nodes.len() as u32;
         let n = corners.len() as u32;
         for (k, corner) in corners.iter().enumerate() {
+            let before = corners[(k + corners.len() - 1) % corners.len()];
             let k = k as u32;
             self.nodes.push(Node {
                 corner: *corner,
+                lines: [before.line, corner.line],
                 previous: first + (k + n - 1) % n,
                 next: first + (k + 1) % n,
                 reflex: false,
