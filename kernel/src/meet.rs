@@ -4,11 +4,13 @@
 //! used: equal points get equal coordinates, and the order of coordinates never contradicts the exact order. So
 //! coordinates can propose (hash, sort) while signs decide.
 
+use std::cmp::Ordering;
+
 use dashu_int::{IBig, UBig, ops::BitTest};
 use glam::DVec3;
 
 use crate::double_double::DoubleDouble;
-use crate::sign::{Homogeneous, OffsetColumn, Row, big_cross, big_dot, big_integers};
+use crate::sign::{Homogeneous, OffsetColumn, Row, Sign, big_cross, big_dot, big_integers};
 
 /// Relative error of the double-double evaluation, in units of the permanent. Each term passes at most 12 operations of
 /// relative error `2⁻¹⁰²`, and a product of permanents leaves room.
@@ -62,6 +64,26 @@ fn meet_double_double(a: &Row, b: &Row, c: &Row, permanent: &[f64; 4]) -> Option
         coordinates[axis] = quotient.rounded_with(2.0 * relative * quotient.high.abs())?;
     }
     Some(DVec3::from_array(coordinates))
+}
+
+/// The turn that the projections of three meeting points onto the coordinates `u`, `v` make: positive to the left, exactly.
+///
+/// Each point is given by three planes with right-handed normals. Always by big integers: for what a filter left open.
+#[must_use]
+pub fn planar_turn(points: [[&Row; 3]; 3], u: usize, v: usize) -> Sign {
+    let [p, q, r] = points.map(|planes| {
+        let [a, b, c] = planes.map(|row| big_integers(*row.coefficients()));
+        let (bc, ca, ab) = (big_cross(&b, &c), big_cross(&c, &a), big_cross(&a, &b));
+        let coordinate = |k: usize| &a[3] * &bc[k] + &b[3] * &ca[k] + &c[3] * &ab[k];
+        [coordinate(u), coordinate(v), big_dot(&a, &bc)]
+    });
+    let minor = |i: usize, j: usize| &q[i] * &r[j] - &q[j] * &r[i];
+    let determinant = &p[0] * minor(1, 2) + &p[1] * minor(2, 0) + &p[2] * minor(0, 1);
+    match determinant.cmp(&IBig::ZERO) {
+        Ordering::Less => Sign::Negative,
+        Ordering::Equal => Sign::Zero,
+        Ordering::Greater => Sign::Positive,
+    }
 }
 
 /// The unit direction of `nₐ × n_b`, each component accurate to a few roundings; zero where the normals are parallel.

@@ -40,7 +40,7 @@ use cancel::{HalfEdge, NumberedEdge, Run};
 use manifold::Labels;
 use nest::{FaceLoops, Projection};
 use points::Points;
-use triangulate::{Boundary, Corner, Triangles};
+use triangulate::{Corner, Triangles, Turns};
 
 /// The boundary does not close: a bug in this crate, never the user's mistake. Points are numbers of the weld.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
@@ -204,6 +204,7 @@ fn triangulate_faces(
         let piece = &pieces[k as usize];
         Corner {
             at: at.of(points.positions[piece.from as usize]),
+            point: piece.from,
             vertex: vertex[k as usize],
             line: piece.line,
             piece: k,
@@ -213,13 +214,12 @@ fn triangulate_faces(
         .par_chunks(64)
         .map(|chunk| {
             let (mut triangles, mut ends) = (Triangles::default(), Vec::new());
-            let mut boundary = Boundary::default();
             for face in chunk {
                 let normal = table.half_space(regions.planes[face.region as usize]).normal();
                 let at = Projection::new(normal);
                 let loops: Vec<Vec<Corner>> =
                     face.loops.iter().map(|pieces| pieces.iter().map(|k| corner(&at, *k)).collect()).collect();
-                triangulate::triangulate(&loops, &mut boundary, &mut triangles);
+                triangulate::triangulate(&loops, Turns { table, points, projection: at }, &mut triangles);
                 ends.push(triangles.vertices.len() as u32);
             }
             (triangles, ends)

@@ -16,6 +16,8 @@ pub(super) struct Points {
     /// Three planes through each point, right-handed.
     pub(super) planes: Vec<[PlaneId; 3]>,
     pub(super) positions: Vec<DVec3>,
+    /// Whether the position is the point itself, not rounded; false where that is not easily told.
+    pub(super) exact: Vec<bool>,
 }
 
 impl Points {
@@ -60,6 +62,7 @@ impl Points {
         let right_handed = table.orient3(a, b, c) == Sign::Positive;
         self.planes.push(if right_handed { [a, b, c] } else { [a, c, b] });
         self.positions.push(position);
+        self.exact.push([a, b, c].into_iter().all(|plane| holds_exactly(table, plane, position)));
         self.planes.len() as u32 - 1
     }
 
@@ -88,6 +91,7 @@ impl Points {
         }
         self.planes = order.iter().map(|p| self.planes[*p as usize]).collect();
         self.positions = order.iter().map(|p| self.positions[*p as usize]).collect();
+        self.exact = order.iter().map(|p| self.exact[*p as usize]).collect();
         runs
     }
 
@@ -96,4 +100,16 @@ impl Points {
         let planes = self.planes[point as usize];
         table.side(planes, &table.homogeneous(planes), plane)
     }
+}
+
+/// Whether a plane of short integers passes through a position of few bits: every product and sum is exact then.
+fn holds_exactly(table: &PlaneTable, plane: PlaneId, position: DVec3) -> bool {
+    const BITS: u32 = 24;
+    let limit = f64::from(1 << BITS);
+    let row = table.row(plane);
+    let [x, y, z, d] = *row.coefficients();
+    let is_short = |v: f64| (v * 16.0).fract() == 0.0 && v.abs() < limit;
+    row.integer_bits().is_some_and(|bits| bits < BITS)
+        && position.to_array().into_iter().all(is_short)
+        && x * position.x + y * position.y + z * position.z == d
 }

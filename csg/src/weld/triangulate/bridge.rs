@@ -1,10 +1,11 @@
 //! Bridges from holes to the loop around them.
 
 use planecut_kernel::DVec2;
+use planecut_kernel::sign::Sign;
 
-use super::{Boundary, NO_LINE, Node, in_triangle};
+use super::{Boundary, NO_LINE, Node, orient};
 
-impl Boundary {
+impl Boundary<'_> {
     /// Joins rings of holes to the ring of `outer`, from left to right, so that each finds the ones before it joined.
     pub(super) fn join_holes(&mut self, outer: u32, holes: &mut [u32]) {
         for hole in holes.iter_mut() {
@@ -73,10 +74,10 @@ impl Boundary {
     /// Whether the inside at `node` lies towards `other`.
     fn opens_towards(&self, node: u32, other: u32) -> bool {
         let (before, after) = (self.previous(node), self.next(node));
-        if self.turn(before, node, after) > 0.0 {
-            self.turn(node, after, other) >= 0.0 && self.turn(before, node, other) >= 0.0
+        if self.turn(before, node, after) == Sign::Positive {
+            self.turn(node, after, other) != Sign::Negative && self.turn(before, node, other) != Sign::Negative
         } else {
-            self.turn(node, after, other) > 0.0 || self.turn(before, node, other) > 0.0
+            self.turn(node, after, other) == Sign::Positive || self.turn(before, node, other) == Sign::Positive
         }
     }
 
@@ -96,4 +97,9 @@ impl Boundary {
         self.nodes[bridge as usize].corner.line = NO_LINE;
         self.nodes[hole as usize].previous = bridge;
     }
+}
+
+/// Whether `p` lies in the closed triangle `a, b, c`, given counter-clockwise, in rounded coordinates.
+fn in_triangle(a: DVec2, b: DVec2, c: DVec2, p: DVec2) -> bool {
+    orient(a, b, p) >= 0.0 && orient(b, c, p) >= 0.0 && orient(c, a, p) >= 0.0
 }

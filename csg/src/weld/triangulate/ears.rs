@@ -1,11 +1,13 @@
 //! Cutting ears until nothing is left.
 
 use planecut_kernel::DVec2;
+use planecut_kernel::sign::Sign;
 
 use super::grid::Grid;
-use super::{Boundary, NO_LINE, in_triangle};
+use super::{Boundary, NO_LINE, orient};
 
-/// How strict the test of an ear is; loosened only where rounding left no strict one.
+/// How strict the test of an ear is. The exact points leave a strict one unless a bridge was placed badly within noise; then
+/// the test is loosened.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Care {
     /// Strictly convex, not of one line, and no other corner in it.
@@ -32,7 +34,7 @@ impl Care {
 /// Depth of noise, relative to the largest coordinate.
 const NOISE: f64 = 1e-11;
 
-impl Boundary {
+impl Boundary<'_> {
     /// Cuts the ring of `start` into triangles of nodes.
     pub(super) fn cut_ears(&mut self, start: u32) -> Vec<[u32; 3]> {
         let ring: Vec<u32> = self.ring(start).collect();
@@ -79,7 +81,7 @@ impl Boundary {
     }
 
     fn classify(&mut self, node: u32) {
-        let reflex = self.turn(self.previous(node), node, self.next(node)) <= 0.0;
+        let reflex = self.turn(self.previous(node), node, self.next(node)) != Sign::Positive;
         self.nodes[node as usize].reflex = reflex;
     }
 
@@ -111,7 +113,8 @@ impl Boundary {
         }
         if care == Care::Tolerant {
             let longest = self.at(a).distance(self.at(c)).max(self.at(a).distance(self.at(b)));
-            return self.turn(a, b, c) >= -noise * longest && !self.holds_a_corner([a, b, c], noise, grid);
+            let turn = orient(self.at(a), self.at(b), self.at(c));
+            return turn >= -noise * longest && !self.holds_a_corner([a, b, c], noise, grid);
         }
         if self.nodes[b as usize].reflex {
             return false;
@@ -121,8 +124,8 @@ impl Boundary {
 
     /// Whether another corner of what is left lies in a triangle, deeper than `noise` where that is not zero; one at the
     /// same place as a corner of it does not count.
-    fn holds_a_corner(&self, [a, b, c]: [u32; 3], noise: f64, grid: &Grid) -> bool {
-        let (p, q, r) = (self.at(a), self.at(b), self.at(c));
+    fn holds_a_corner(&self, corners: [u32; 3], noise: f64, grid: &Grid) -> bool {
+        let [p, q, r] = corners.map(|corner| self.at(corner));
         let (min, max) = (p.min(q).min(r), p.max(q).max(r));
         grid.any_in(min, max, |node| {
             let entry = &self.nodes[node as usize];
@@ -131,10 +134,8 @@ impl Boundary {
                 && !entry.removed
                 && at.cmpge(min).all()
                 && at.cmple(max).all()
-                && at != p
-                && at != q
-                && at != r
-                && if noise > 0.0 { is_deep_in(p, q, r, at, noise) } else { in_triangle(p, q, r, at) }
+                && corners.iter().all(|corner| self.nodes[*corner as usize].corner.point != entry.corner.point)
+                && if noise > 0.0 { is_deep_in(p, q, r, at, noise) } else { self.is_in_triangle(corners, node) }
         })
     }
 }

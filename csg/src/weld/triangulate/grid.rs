@@ -20,7 +20,7 @@ pub(super) struct Grid {
 }
 
 impl Grid {
-    pub(super) fn new(boundary: &Boundary, ring: &[u32]) -> Self {
+    pub(super) fn new(boundary: &Boundary<'_>, ring: &[u32]) -> Self {
         let reflex: Vec<u32> = ring.iter().copied().filter(|node| boundary.nodes[*node as usize].reflex).collect();
         let side = if reflex.len() <= SMALL { 1 } else { (reflex.len() as f64).sqrt() as usize };
         let (mut min, mut max) = (DVec2::INFINITY, DVec2::NEG_INFINITY);

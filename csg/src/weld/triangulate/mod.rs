@@ -1,15 +1,19 @@
 //! Triangles of one planar face with holes: no boundary point is dropped, none is added.
 //!
 //! Holes are joined to the outer loop by bridges ([`bridge`]), then ears are cut ([`ears`]) (Eberly, "Triangulation by Ear
-//! Clipping"), signs of the rounded coordinates being exact. Boundary points that are collinear in truth no longer are
-//! once rounded, so three points of one line never make an ear, whatever their coordinates say.
+//! Clipping"). The turns asked for are those of the exact points ([`turn`]): rounded, points that are collinear or lie on an
+//! edge no longer do, loops cross themselves a little, and an ear that looks fine folds the rest over.
 
 mod bridge;
 mod ears;
 mod flip;
 mod grid;
+mod turn;
+
+pub(super) use turn::Turns;
 
 use planecut_kernel::DVec2;
+use planecut_kernel::sign::Sign;
 
 use super::cancel::UNPAIRED;
 use super::manifold::Labels;
@@ -18,6 +22,8 @@ use super::manifold::Labels;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Corner {
     pub(super) at: DVec2,
+    /// The exact point.
+    pub(super) point: u32,
     /// The mesh vertex.
     pub(super) vertex: u32,
     /// The line on which the edge to the next corner lies.
@@ -50,22 +56,22 @@ struct Node {
 }
 
 /// The boundary of a face: one ring once the holes are joined to it.
-#[derive(Debug, Default)]
-pub(super) struct Boundary {
+pub(super) struct Boundary<'a> {
     nodes: Vec<Node>,
+    turns: Turns<'a>,
 }
 
 /// Triangulates a face given by its loops, the outer one first, the inside to the left; triangles of mesh vertices.
-pub(super) fn triangulate(loops: &[Vec<Corner>], boundary: &mut Boundary, out: &mut Triangles) {
+pub(super) fn triangulate(loops: &[Vec<Corner>], turns: Turns<'_>, out: &mut Triangles) {
     let first = out.vertices.len();
-    boundary.nodes.clear();
     let Some((outer, holes)) = loops.split_first() else { return };
-    let start = boundary.push_ring(outer);
     if holes.is_empty() && outer.len() == 3 {
         out.vertices.push([outer[0].vertex, outer[1].vertex, outer[2].vertex]);
         out.labels.push([outer[0].piece, outer[1].piece, outer[2].piece]);
         return;
     }
+    let mut boundary = Boundary { nodes: Vec::with_capacity(outer.len()), turns };
+    let start = boundary.push_ring(outer);
     let mut rings: Vec<u32> = holes.iter().map(|hole| boundary.push_ring(hole)).collect();
     boundary.join_holes(start, &mut rings);
     let ahead = boundary.boundary_edges();
@@ -78,7 +84,7 @@ pub(super) fn triangulate(loops: &[Vec<Corner>], boundary: &mut Boundary, out: &
     debug_assert_eq!(out.vertices.len() - first, loops.iter().map(Vec::len).sum::<usize>() + 2 * holes.len() - 2);
 }
 
-impl Boundary {
+impl Boundary<'_> {
     /// Links a loop into a ring of nodes; gives its first node.
     fn push_ring(&mut self, corners: &[Corner]) -> u32 {
         let first = self.nodes.len() as u32;
@@ -115,9 +121,18 @@ impl Boundary {
         self.nodes[node as usize].previous
     }
 
-    /// Positive where three nodes turn left.
-    fn turn(&self, a: u32, b: u32, c: u32) -> f64 {
-        orient(self.at(a), self.at(b), self.at(c))
+    /// Which way three nodes turn, exactly; positive is left.
+    fn turn(&self, a: u32, b: u32, c: u32) -> Sign {
+        let [a, b, c] = [a, b, c].map(|node| &self.nodes[node as usize]);
+        if a.lines.iter().any(|line| b.lines.contains(line) && c.lines.contains(line)) {
+            return Sign::Zero;
+        }
+        self.turns.of(&a.corner, &b.corner, &c.corner)
+    }
+
+    /// Whether a node lies in the closed triangle of three others, counter-clockwise.
+    fn is_in_triangle(&self, [a, b, c]: [u32; 3], node: u32) -> bool {
+        [(a, b), (b, c), (c, a)].into_iter().all(|(from, to)| self.turn(from, to, node) != Sign::Negative)
     }
 
     /// The nodes of a ring from `start` on.
@@ -131,13 +146,8 @@ impl Boundary {
     }
 }
 
-/// Positive where three points turn left, zero where they are collinear; the sign is exact.
+/// Positive where three rounded points turn left, zero where they are collinear; the sign is exact.
 fn orient(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     let coord = |p: DVec2| robust::Coord { x: p.x, y: p.y };
     robust::orient2d(coord(a), coord(b), coord(c))
-}
-
-/// Whether `p` lies in the closed triangle `a, b, c`, given counter-clockwise.
-fn in_triangle(a: DVec2, b: DVec2, c: DVec2, p: DVec2) -> bool {
-    orient(a, b, p) >= 0.0 && orient(b, c, p) >= 0.0 && orient(c, a, p) >= 0.0
 }
