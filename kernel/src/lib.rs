@@ -32,7 +32,7 @@ pub mod sign;
 
 pub use glam::{DVec2, DVec3, DVec4};
 pub use half_space::{HalfSpace, HalfSpaceError, MAX_NORMAL, MAX_NORMAL_RATIO, MAX_OFFSET_RATIO, MIN_NORMAL};
-pub use meet::{meet, planar_turn};
+pub use meet::{compare_exactly, meet, planar_turn};
 pub use polytope::{
     AddPlaneResult, DEFAULT_EPSILON, Face, IncrementalPolytope, InvariantError, Measures, PlaneIdx, RemovePlaneResult,
     Vertex,

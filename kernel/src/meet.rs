@@ -71,19 +71,30 @@ fn meet_double_double(a: &Row, b: &Row, c: &Row, permanent: &[f64; 4]) -> Option
 /// Each point is given by three planes with right-handed normals. Always by big integers: for what a filter left open.
 #[must_use]
 pub fn planar_turn(points: [[&Row; 3]; 3], u: usize, v: usize) -> Sign {
-    let [p, q, r] = points.map(|planes| {
-        let [a, b, c] = planes.map(|row| big_integers(*row.coefficients()));
-        let (bc, ca, ab) = (big_cross(&b, &c), big_cross(&c, &a), big_cross(&a, &b));
-        let coordinate = |k: usize| &a[3] * &bc[k] + &b[3] * &ca[k] + &c[3] * &ab[k];
-        [coordinate(u), coordinate(v), big_dot(&a, &bc)]
-    });
+    let [p, q, r] = points.map(homogeneous_exactly);
     let minor = |i: usize, j: usize| &q[i] * &r[j] - &q[j] * &r[i];
-    let determinant = &p[0] * minor(1, 2) + &p[1] * minor(2, 0) + &p[2] * minor(0, 1);
+    let determinant = &p[u] * minor(v, 3) + &p[v] * minor(3, u) + &p[3] * minor(u, v);
     match determinant.cmp(&IBig::ZERO) {
         Ordering::Less => Sign::Negative,
         Ordering::Equal => Sign::Zero,
         Ordering::Greater => Sign::Positive,
     }
+}
+
+/// The exact lexicographic order of two meeting points, each given by three planes with right-handed normals.
+#[must_use]
+pub fn compare_exactly(p: [&Row; 3], q: [&Row; 3]) -> Ordering {
+    let (p, q) = (homogeneous_exactly(p), homogeneous_exactly(q));
+    let by_axis = |axis: usize| (&p[axis] * &q[3]).cmp(&(&q[axis] * &p[3]));
+    by_axis(0).then_with(|| by_axis(1)).then_with(|| by_axis(2))
+}
+
+/// `(X, Y, Z, W)` of a meeting point.
+fn homogeneous_exactly(planes: [&Row; 3]) -> [IBig; 4] {
+    let [a, b, c] = planes.map(|row| big_integers(*row.coefficients()));
+    let (bc, ca, ab) = (big_cross(&b, &c), big_cross(&c, &a), big_cross(&a, &b));
+    let coordinate = |k: usize| &a[3] * &bc[k] + &b[3] * &ca[k] + &c[3] * &ab[k];
+    [coordinate(0), coordinate(1), coordinate(2), big_dot(&a, &bc)]
 }
 
 /// The unit direction of `nₐ × n_b`, each component accurate to a few roundings; zero where the normals are parallel.
@@ -98,14 +109,8 @@ pub(crate) fn direction(a: &Row, b: &Row) -> DVec3 {
 }
 
 fn meet_exact(a: &Row, b: &Row, c: &Row) -> Option<DVec3> {
-    let [a, b, c] = [a, b, c].map(|row| big_integers(*row.coefficients()));
-    let (bc, ca, ab) = (big_cross(&b, &c), big_cross(&c, &a), big_cross(&a, &b));
-    let w = big_dot(&a, &bc);
-    if w.is_zero() {
-        return None;
-    }
-    let coordinate = |k: usize| round_quotient(&a[3] * &bc[k] + &b[3] * &ca[k] + &c[3] * &ab[k], &w);
-    Some(DVec3::new(coordinate(0), coordinate(1), coordinate(2)))
+    let [x, y, z, w] = homogeneous_exactly([a, b, c]);
+    (!w.is_zero()).then(|| DVec3::new(round_quotient(x, &w), round_quotient(y, &w), round_quotient(z, &w)))
 }
 
 /// `numerator / denominator`, rounded to nearest, ties to even.

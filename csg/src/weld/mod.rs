@@ -106,7 +106,7 @@ pub(crate) fn weld(
     let before = Counts::now();
     let (regions, numbers) = Regions::number(edges, rank);
     let (mut points, runs, lines) = runs_of(table, edges, &numbers)?;
-    let runs = points.renumber(runs);
+    let runs = points.renumber(table, runs);
     let pinches = pinches::find(table, &points, &runs, regions.planes.len());
     let pieces = cancel::half_edges(table, &points, &lines, &regions.planes, &runs, &pinches)?;
     let pieces = order_by_region(&pieces);

@@ -2,8 +2,10 @@
 //!
 //! Coordinates are correctly rounded, so equal points have equal coordinates: the coordinates propose, signs decide.
 
-use planecut_kernel::DVec3;
+use std::cmp::Ordering;
+
 use planecut_kernel::sign::Sign;
+use planecut_kernel::{DVec3, compare_exactly};
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
@@ -73,12 +75,15 @@ impl Points {
 
     /// Keeps only the points at the ends of runs and numbers them by position, so that the numbering does not depend on the
     /// order of the brushes.
-    pub(super) fn renumber(&mut self, mut runs: Vec<Run>) -> Vec<Run> {
+    pub(super) fn renumber(&mut self, table: &PlaneTable, mut runs: Vec<Run>) -> Vec<Run> {
         let mut order: Vec<u32> = runs.iter().flat_map(|run| [run.from, run.to]).collect();
         let key = |p: u32| self.positions[p as usize].to_array();
         order.sort_unstable_by(|p, q| {
             let (a, b) = (key(*p), key(*q));
-            a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])).then(a[2].total_cmp(&b[2])).then(p.cmp(q))
+            a[0].total_cmp(&b[0])
+                .then(a[1].total_cmp(&b[1]))
+                .then(a[2].total_cmp(&b[2]))
+                .then_with(|| self.compare_exactly(table, *p, *q))
         });
         order.dedup();
         let mut number = vec![0; self.planes.len()];
@@ -93,6 +98,16 @@ impl Points {
         self.positions = order.iter().map(|p| self.positions[*p as usize]).collect();
         self.exact = order.iter().map(|p| self.exact[*p as usize]).collect();
         runs
+    }
+
+    /// The order of two points whose coordinates round alike.
+    #[cold]
+    fn compare_exactly(&self, table: &PlaneTable, p: u32, q: u32) -> Ordering {
+        if p == q {
+            return Ordering::Equal;
+        }
+        let rows = |point: u32| self.planes[point as usize].map(|plane| table.row(plane));
+        compare_exactly(rows(p), rows(q))
     }
 
     /// On which side of a plane a point lies; positive is outside.

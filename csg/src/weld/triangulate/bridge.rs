@@ -1,9 +1,8 @@
 //! Bridges from holes to the loop around them.
 
-use planecut_kernel::DVec2;
 use planecut_kernel::sign::Sign;
 
-use super::{Boundary, NO_LINE, Node, orient};
+use super::{Boundary, NO_LINE, Node};
 
 impl Boundary<'_> {
     /// Joins rings of holes to the ring of `outer`, from left to right, so that each finds the ones before it joined.
@@ -28,43 +27,41 @@ impl Boundary<'_> {
     /// A node of the outer ring that sees `hole`, the leftmost node of a hole.
     ///
     /// The ray to the left meets an edge; its left end is seen unless some corner lies in the triangle between, and then
-    /// the one at the smallest angle to the ray is.
+    /// the one at the smallest angle to the ray is. Sides are those of the exact points.
     fn visible_from(&self, hole: u32, outer: u32) -> u32 {
         let from = self.at(hole);
-        let mut nearest = f64::NEG_INFINITY;
-        let mut seen = outer;
+        let mut nearest: Option<(f64, u32)> = None;
         for node in self.ring(outer) {
-            let (p, q) = (self.at(node), self.at(self.next(node)));
+            let next = self.next(node);
+            let (p, q) = (self.at(node), self.at(next));
             // left of the hole the boundary runs downward
-            if p.y < from.y || q.y > from.y || p.y == q.y {
+            if p.y < from.y || q.y > from.y || p.y == q.y || self.turn(node, next, hole) == Sign::Negative {
                 continue;
             }
             let x = p.x + (from.y - p.y) / (q.y - p.y) * (q.x - p.x);
-            if x <= from.x && x > nearest {
-                nearest = x;
-                seen = if p.x < q.x { node } else { self.next(node) };
+            if nearest.is_none_or(|(best, _)| x > best) {
+                nearest = Some((x, node));
             }
         }
-        if nearest == f64::NEG_INFINITY {
-            return outer;
-        }
-        self.first_in_sight(from, DVec2::new(nearest, from.y), seen, hole)
+        nearest.map_or(outer, |(_, edge)| self.first_in_sight(hole, edge))
     }
 
-    /// Among the corners in the triangle of the hole's corner, the hit point and `seen`, the one nearest to the ray.
-    fn first_in_sight(&self, from: DVec2, hit: DVec2, seen: u32, hole: u32) -> u32 {
-        let target = self.at(seen);
-        let (b, c) = if target.y > from.y { (target, hit) } else { (hit, target) };
-        let mut best = seen;
-        let mut slope = f64::INFINITY;
-        for node in self.ring(seen) {
+    /// The corner at the smallest angle to the ray from `hole` to the left, in the triangle between the ray, the edge it
+    /// meets and that edge's left end.
+    fn first_in_sight(&self, hole: u32, edge: u32) -> u32 {
+        let (from, edge_end) = (self.at(hole), self.next(edge));
+        let target = if self.at(edge).x < self.at(edge_end).x { edge } else { edge_end };
+        let (left, height) = (self.at(target).x, self.at(target).y - from.y);
+        let closer_to_ray = if height > 0.0 { Sign::Positive } else { Sign::Negative };
+        let mut best = target;
+        for node in self.ring(target) {
             let p = self.at(node);
-            if p.x >= from.x || p.x < target.x || !in_triangle(from, b, c, p) || !self.opens_towards(node, hole) {
+            if p.x < left || p.x >= from.x || (p.y - from.y) * height < 0.0 {
                 continue;
             }
-            let angle = (p.y - from.y).abs() / (from.x - p.x);
-            if angle < slope || angle == slope && p.x > self.at(best).x {
-                slope = angle;
+            let turn = self.turn(hole, best, node);
+            let is_nearer = height != 0.0 && turn == closer_to_ray || turn == Sign::Zero && p.x > self.at(best).x;
+            if is_nearer && self.turn(edge, edge_end, node) != Sign::Negative && self.opens_towards(node, hole) {
                 best = node;
             }
         }
@@ -97,9 +94,4 @@ impl Boundary<'_> {
         self.nodes[bridge as usize].corner.line = NO_LINE;
         self.nodes[hole as usize].previous = bridge;
     }
-}
-
-/// Whether `p` lies in the closed triangle `a, b, c`, given counter-clockwise, in rounded coordinates.
-fn in_triangle(a: DVec2, b: DVec2, c: DVec2, p: DVec2) -> bool {
-    orient(a, b, p) >= 0.0 && orient(b, c, p) >= 0.0 && orient(c, a, p) >= 0.0
 }
