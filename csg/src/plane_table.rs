@@ -63,7 +63,7 @@ impl PlaneTable {
         let rows: Vec<Row> = half_spaces.iter().map(Row::new).collect();
         let (exact, class) = group_exactly(&rows);
         let mut table = Self::default();
-        let ids = table.snap(exact);
+        let ids = table.snap(&exact);
         let of_input = class.into_iter().zip(&rows).map(|(class, row)| {
             let id: PlaneId = ids[class as usize];
             if is_reversed(row) { id.flipped() } else { id }
@@ -137,7 +137,7 @@ impl PlaneTable {
     ///
     /// Exact planes come first, then the others by their coefficients, so that the outcome does not depend on the order of
     /// the input.
-    fn snap(&mut self, planes: Vec<Row>) -> Vec<PlaneId> {
+    fn snap(&mut self, planes: &[Row]) -> Vec<PlaneId> {
         let units: Vec<[f64; 4]> = planes.iter().map(unit).collect();
         let size = units.iter().map(|unit| unit[3].abs()).fold(f64::MIN_POSITIVE, f64::max);
         let is_exact = |row: &Row| row.integer_bits().is_some_and(|bits| bits <= EXACT_BITS);

@@ -81,12 +81,13 @@ pub fn planar_turn(points: [[&Row; 3]; 3], u: usize, v: usize) -> Sign {
     }
 }
 
-/// The exact lexicographic order of two meeting points, each given by three planes with right-handed normals.
+/// The exact lexicographic order of two meeting points by the coordinates `axes`, each point given by three planes with
+/// right-handed normals.
 #[must_use]
-pub fn compare_exactly(p: [&Row; 3], q: [&Row; 3]) -> Ordering {
+pub fn compare_exactly(p: [&Row; 3], q: [&Row; 3], axes: &[usize]) -> Ordering {
     let (p, q) = (homogeneous_exactly(p), homogeneous_exactly(q));
-    let by_axis = |axis: usize| (&p[axis] * &q[3]).cmp(&(&q[axis] * &p[3]));
-    by_axis(0).then_with(|| by_axis(1)).then_with(|| by_axis(2))
+    let by_axis = |axis: &usize| (&p[*axis] * &q[3]).cmp(&(&q[*axis] * &p[3]));
+    axes.iter().map(by_axis).find(|order| order.is_ne()).unwrap_or(Ordering::Equal)
 }
 
 /// `(X, Y, Z, W)` of a meeting point.

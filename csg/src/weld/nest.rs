@@ -117,11 +117,9 @@ impl Nester<'_> {
             let (e, f) = (self.pieces[before as usize].edge, self.pieces[after as usize].edge);
             self.table.orient3(self.plane, e, f)
         };
-        let key = |k: &usize| self.position(self.pieces[candidate.pieces[*k] as usize].from);
-        let extreme = (0..n).filter(|k| turn(*k) != Sign::Zero).min_by(|a, b| {
-            let (p, q) = (key(a), key(b));
-            p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y))
-        });
+        // points are numbered in the exact order of their coordinates, so the least one is extreme
+        let point = |k: &usize| self.pieces[candidate.pieces[*k] as usize].from;
+        let extreme = (0..n).filter(|k| turn(*k) != Sign::Zero).min_by_key(point);
         extreme.is_some_and(|k| turn(k) == Sign::Positive)
     }
 

@@ -107,7 +107,7 @@ impl Points {
             return Ordering::Equal;
         }
         let rows = |point: u32| self.planes[point as usize].map(|plane| table.row(plane));
-        compare_exactly(rows(p), rows(q))
+        compare_exactly(rows(p), rows(q), &[0, 1, 2])
     }
 
     /// On which side of a plane a point lies; positive is outside.

@@ -7,17 +7,12 @@ use super::{Boundary, NO_LINE, Node};
 impl Boundary<'_> {
     /// Joins rings of holes to the ring of `outer`, from left to right, so that each finds the ones before it joined.
     pub(super) fn join_holes(&mut self, outer: u32, holes: &mut [u32]) {
+        let order =
+            |a: &u32, b: &u32| self.turns.order(&self.nodes[*a as usize].corner, &self.nodes[*b as usize].corner);
         for hole in holes.iter_mut() {
-            let by_place = |a: &u32, b: &u32| {
-                let (p, q) = (self.at(*a), self.at(*b));
-                p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y))
-            };
-            *hole = self.ring(*hole).min_by(by_place).unwrap_or(*hole);
+            *hole = self.ring(*hole).min_by(order).unwrap_or(*hole);
         }
-        holes.sort_by(|a, b| {
-            let (p, q) = (self.at(*a), self.at(*b));
-            p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y))
-        });
+        holes.sort_by(order);
         for &hole in holes.iter() {
             let bridge = self.visible_from(hole, outer);
             self.connect(bridge, hole);

@@ -1,7 +1,9 @@
 //! Which way three exact points turn.
 
+use std::cmp::Ordering;
+
 use planecut_kernel::sign::Sign;
-use planecut_kernel::{DVec2, planar_turn};
+use planecut_kernel::{DVec2, compare_exactly, planar_turn};
 
 use super::{Corner, orient};
 use crate::plane_table::PlaneTable;
@@ -35,12 +37,28 @@ impl Turns<'_> {
         let rows = [a, b, c].map(|corner| self.points.planes[corner.point as usize].map(|plane| self.table.row(plane)));
         planar_turn(rows, self.projection.u, self.projection.v)
     }
+
+    /// The exact order of two corners from left to right, then upwards.
+    pub(super) fn order(&self, a: &Corner, b: &Corner) -> Ordering {
+        if a.point == b.point {
+            return Ordering::Equal;
+        }
+        let by_x = a.at.x.total_cmp(&b.at.x);
+        if by_x.is_ne() {
+            return by_x;
+        }
+        if [a, b].iter().all(|corner| self.points.exact[corner.point as usize]) {
+            return a.at.y.total_cmp(&b.at.y);
+        }
+        let rows = |corner: &Corner| self.points.planes[corner.point as usize].map(|plane| self.table.row(plane));
+        compare_exactly(rows(a), rows(b), &[self.projection.u, self.projection.v])
+    }
 }
 
 fn sign(value: f64) -> Sign {
     match value.partial_cmp(&0.0) {
-        Some(std::cmp::Ordering::Greater) => Sign::Positive,
-        Some(std::cmp::Ordering::Less) => Sign::Negative,
+        Some(Ordering::Greater) => Sign::Positive,
+        Some(Ordering::Less) => Sign::Negative,
         _ => Sign::Zero,
     }
 }
