@@ -129,3 +129,33 @@ fn snapped_planes_do_not_depend_on_the_order() {
         same(&evaluate_soundly(&other).expect("a sound mesh"), &expected, "rotated").unwrap();
     }
 }
+
+/// Two holes of noise width side by side: the second's bridge has to leave the corner at which the first's ends on the side
+/// that looks towards it.
+#[test]
+fn bridges_that_share_a_corner_leave_it_on_their_own_sides() {
+    let model = model_of(&[
+        &[
+            ([1.0, 0.0, 0.0], -0.5666666666666667, 0),
+            ([0.0, -1.0, 0.0], 0.2333333333333333, 0),
+            ([0.0, 0.0, 1.0], 0.43333333333333335, 0),
+            ([-1.0, 1.0, -1.0], 0.5666666666666667, 0),
+        ],
+        &[
+            ([1.0, 0.0, 0.0], -0.2333333333333333, 0),
+            ([-1.0, 0.0, 0.0], 0.9, 0),
+            ([0.0, 1.0, 0.0], 0.43333333333333335, 0),
+            ([0.0, -1.0, 0.0], 0.5666666666666667, 0),
+            ([0.0, 0.0, 1.0], 0.1, 0),
+            ([0.0, 0.0, -1.0], 0.9, 0),
+        ],
+        &[
+            ([-1.0, 0.0, 0.0], 1.5666666666666664, 0),
+            ([0.0, -1.0, 0.0], 1.9, 0),
+            ([0.0, 0.0, 1.0], 0.7666666666666666, 0),
+            ([0.0, 1.0, -1.0], -0.6666666666666666, 0),
+            ([1.0, -1.0, -1.0], 1.9, 0),
+        ],
+    ]);
+    evaluate_soundly(&model).expect("a sound mesh");
+}

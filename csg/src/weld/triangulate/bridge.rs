@@ -48,16 +48,20 @@ impl Boundary<'_> {
         let target = if self.at(edge).x < self.at(edge_end).x { edge } else { edge_end };
         let (left, height) = (self.at(target).x, self.at(target).y - from.y);
         let closer_to_ray = if height > 0.0 { Sign::Positive } else { Sign::Negative };
-        let mut best = target;
+        // earlier bridges have left several corners at one point, of which only one may open towards the hole
+        let (mut best, mut is_open) = (target, self.opens_towards(target, hole));
         for node in self.ring(target) {
             let p = self.at(node);
             if p.x < left || p.x >= from.x || (p.y - from.y) * height < 0.0 {
                 continue;
             }
             let turn = self.turn(hole, best, node);
-            let is_nearer = height != 0.0 && turn == closer_to_ray || turn == Sign::Zero && p.x > self.at(best).x;
+            let is_twin = self.nodes[node as usize].corner.point == self.nodes[best as usize].corner.point;
+            let is_nearer = is_twin && !is_open
+                || height != 0.0 && turn == closer_to_ray
+                || turn == Sign::Zero && p.x > self.at(best).x;
             if is_nearer && self.turn(edge, edge_end, node) != Sign::Negative && self.opens_towards(node, hole) {
-                best = node;
+                (best, is_open) = (node, true);
             }
         }
         best
