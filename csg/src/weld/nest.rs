@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 
 use planecut_kernel::sign::Sign;
-use planecut_kernel::{DVec2, DVec3};
+use planecut_kernel::{DVec2, DVec3, compare_exactly};
 
 use super::WeldError;
 use super::cancel::HalfEdge;
@@ -158,13 +158,15 @@ impl Nester<'_> {
         inside
     }
 
-    /// The order of two points by height: exact where their rounded heights differ, else consistent by number, which parity
-    /// needs no more than.
+    /// The exact order of two points by height; where both round alike, the corner would seem to lie on an edge it only
+    /// comes near.
     fn compare_height(&self, p: u32, q: u32) -> Ordering {
-        if p == q {
-            return Ordering::Equal;
+        let by_rounded = self.position(p).y.total_cmp(&self.position(q).y);
+        if p == q || by_rounded.is_ne() || [p, q].iter().all(|point| self.points.exact[*point as usize]) {
+            return by_rounded;
         }
-        self.position(p).y.total_cmp(&self.position(q).y)
+        let rows = |point: u32| self.points.planes[point as usize].map(|plane| self.table.row(plane));
+        compare_exactly(rows(p), rows(q), &[self.at.v])
     }
 
     /// Every corner is shared: take the middle of an edge, in rounded coordinates.
