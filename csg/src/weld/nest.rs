@@ -117,9 +117,9 @@ impl Nester<'_> {
             let (e, f) = (self.pieces[before as usize].edge, self.pieces[after as usize].edge);
             self.table.orient3(self.plane, e, f)
         };
-        // points are numbered in the exact order of their coordinates, so the least one is extreme
-        let point = |k: &usize| self.pieces[candidate.pieces[*k] as usize].from;
-        let extreme = (0..n).filter(|k| turn(*k) != Sign::Zero).min_by_key(point);
+        let point = |k: usize| self.pieces[candidate.pieces[k] as usize].from;
+        let bends = (0..n).filter(|k| turn(*k) != Sign::Zero);
+        let extreme = bends.min_by(|a, b| self.compare_height(point(*a), point(*b)));
         extreme.is_some_and(|k| turn(k) == Sign::Positive)
     }
 
@@ -158,15 +158,19 @@ impl Nester<'_> {
         inside
     }
 
-    /// The exact order of two points by height; where both round alike, the corner would seem to lie on an edge it only
-    /// comes near.
+    /// The exact order of two points by height, then from left to right: by rounded heights, points would seem to lie on edges
+    /// that they only come near.
     fn compare_height(&self, p: u32, q: u32) -> Ordering {
-        let by_rounded = self.position(p).y.total_cmp(&self.position(q).y);
-        if p == q || by_rounded.is_ne() || [p, q].iter().all(|point| self.points.exact[*point as usize]) {
+        let (at_p, at_q) = (self.position(p), self.position(q));
+        let by_rounded = at_p.y.total_cmp(&at_q.y);
+        if p == q || by_rounded.is_ne() {
             return by_rounded;
         }
+        if [p, q].iter().all(|point| self.points.exact[*point as usize]) {
+            return at_p.x.total_cmp(&at_q.x);
+        }
         let rows = |point: u32| self.points.planes[point as usize].map(|plane| self.table.row(plane));
-        compare_exactly(rows(p), rows(q), &[self.at.v])
+        compare_exactly(rows(p), rows(q), &[self.at.v, self.at.u])
     }
 
     /// Every corner is shared: take the middle of an edge, in rounded coordinates.
