@@ -11,9 +11,9 @@ use super::lines::Line;
 use super::points::Points;
 use crate::plane_table::{PlaneId, PlaneTable};
 
-/// A boundary edge with its points and line numbered.
+/// A directed piece of a line along which one region ends on one side: a boundary edge, or after cancelling a maximal run.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct NumberedEdge {
+pub(super) struct Run {
     pub(super) line: u32,
     /// The region: an oriented plane and a material.
     pub(super) region: u32,
@@ -25,38 +25,19 @@ pub(super) struct NumberedEdge {
     pub(super) forward: bool,
 }
 
-/// A maximal piece of a line along which one region ends on one side.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Run {
-    pub(super) line: u32,
-    pub(super) region: u32,
-    pub(super) edge: PlaneId,
-    /// In the direction of the run.
-    pub(super) from: u32,
-    pub(super) to: u32,
-    pub(super) forward: bool,
-}
-
 /// The surviving runs of all edges, ordered by line, then region.
 pub(super) fn surviving_runs(
     table: &PlaneTable,
     points: &Points,
     lines: &[Line],
-    edges: &mut [NumberedEdge],
+    edges: &mut [Run],
 ) -> Result<Vec<Run>, WeldError> {
     edges.sort_unstable_by_key(|edge| (edge.line, edge.region, edge.from, edge.to));
     let mut runs = Vec::with_capacity(edges.len());
     let mut sweep = Sweep::default();
     for group in edges.chunk_by(|a, b| (a.line, a.region) == (b.line, b.region)) {
         if let [edge] = group {
-            runs.push(Run {
-                line: edge.line,
-                region: edge.region,
-                edge: edge.edge,
-                from: edge.from,
-                to: edge.to,
-                forward: edge.forward,
-            });
+            runs.push(*edge);
         } else {
             sweep.run_group(table, points, &lines[group[0].line as usize], group, &mut runs)?;
         }
@@ -77,7 +58,7 @@ impl Sweep {
         table: &PlaneTable,
         points: &Points,
         line: &Line,
-        group: &[NumberedEdge],
+        group: &[Run],
         runs: &mut Vec<Run>,
     ) -> Result<(), WeldError> {
         self.stops.clear();

@@ -36,7 +36,7 @@ use crate::evaluate::SolidMeasures;
 use crate::mesh::{Mesh, MeshFace};
 use crate::plane_table::{PlaneId, PlaneTable};
 use crate::skin::BoundaryEdge;
-use cancel::{HalfEdge, NumberedEdge, Run};
+use cancel::{HalfEdge, Run};
 use manifold::Labels;
 use nest::{FaceLoops, Projection};
 use points::Points;
@@ -154,10 +154,10 @@ fn runs_of(
     let pairs: Vec<[PlaneId; 2]> = edges.iter().map(|e| [e.face, e.edge]).collect();
     let ((points, ends), (lines, of_pair)) =
         rayon::join(|| Points::identify(table, &triples), || lines::identify(table, &pairs));
-    let mut numbered: Vec<NumberedEdge> = edges
+    let mut numbered: Vec<Run> = edges
         .iter()
         .enumerate()
-        .map(|(k, edge)| NumberedEdge {
+        .map(|(k, edge)| Run {
             line: of_pair[k],
             region: regions[k],
             edge: edge.edge,
