@@ -38,6 +38,7 @@ mod mesh;
 mod neighbours;
 mod plane_table;
 mod skin;
+mod sum;
 mod weld;
 
 pub use brush::{Brush, BrushFace, Material, MaterialId, Model};

@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use crate::sum::CompensatedSum;
+
 /// Sizes of a closed mesh, in the units of its positions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measures {
@@ -16,25 +18,6 @@ pub struct Measures {
     pub min: DVec3,
     /// Largest coordinates of all vertices that triangles use; zero where there are none.
     pub max: DVec3,
-}
-
-/// A sum that carries its own rounding errors along (Neumaier's variant of Kahan's).
-#[derive(Clone, Copy, Default)]
-struct CompensatedSum {
-    sum: f64,
-    lost: f64,
-}
-
-impl CompensatedSum {
-    fn add(&mut self, term: f64) {
-        let total = self.sum + term;
-        self.lost += if self.sum.abs() >= term.abs() { (self.sum - total) + term } else { (term - total) + self.sum };
-        self.sum = total;
-    }
-
-    fn value(self) -> f64 {
-        self.sum + self.lost
-    }
 }
 
 /// Measures of the given triangles, all of whose indices are in range.

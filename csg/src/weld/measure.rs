@@ -5,6 +5,7 @@ use planecut_kernel::DVec3;
 use super::cancel::HalfEdge;
 use super::nest::FaceLoops;
 use crate::evaluate::SolidMeasures;
+use crate::sum::CompensatedSum;
 
 /// Volume, area, centroid and box by the divergence theorem, relative to the middle of the box so that little cancels.
 pub(super) fn measures(positions: &[DVec3], pieces: &[HalfEdge], faces: &[FaceLoops]) -> SolidMeasures {
@@ -15,7 +16,8 @@ pub(super) fn measures(positions: &[DVec3], pieces: &[HalfEdge], faces: &[FaceLo
     let min = used().fold(DVec3::INFINITY, DVec3::min);
     let max = used().fold(DVec3::NEG_INFINITY, DVec3::max);
     let middle = 0.5 * (min + max);
-    let (mut six_volume, mut area, mut moment) = (Sum::default(), Sum::default(), [Sum::default(); 3]);
+    let (mut six_volume, mut area, mut moment) =
+        (CompensatedSum::default(), CompensatedSum::default(), [CompensatedSum::default(); 3]);
     for face in faces {
         let origin = positions[pieces[face.loops[0][0] as usize].from as usize] - middle;
         let mut twice_area = DVec3::ZERO;
@@ -32,26 +34,7 @@ pub(super) fn measures(positions: &[DVec3], pieces: &[HalfEdge], faces: &[FaceLo
         }
         area.add(0.5 * twice_area.length());
     }
-    let volume = six_volume.total() / 6.0;
-    let moment = DVec3::new(moment[0].total(), moment[1].total(), moment[2].total());
-    SolidMeasures { volume, area: area.total(), centroid: middle + moment / (24.0 * volume), min, max }
-}
-
-/// A compensated sum (Neumaier 1974).
-#[derive(Debug, Clone, Copy, Default)]
-struct Sum {
-    high: f64,
-    low: f64,
-}
-
-impl Sum {
-    fn add(&mut self, v: f64) {
-        let sum = self.high + v;
-        self.low += if self.high.abs() >= v.abs() { (self.high - sum) + v } else { (v - sum) + self.high };
-        self.high = sum;
-    }
-
-    fn total(self) -> f64 {
-        self.high + self.low
-    }
+    let volume = six_volume.value() / 6.0;
+    let moment = DVec3::new(moment[0].value(), moment[1].value(), moment[2].value());
+    SolidMeasures { volume, area: area.value(), centroid: middle + moment / (24.0 * volume), min, max }
 }
