@@ -4,11 +4,11 @@ use planecut_kernel::DVec2;
 use planecut_kernel::sign::Sign;
 
 use super::grid::Grid;
-use super::{Boundary, NO_LINE, orient};
+use super::{Boundary, orient};
 
 /// How strict the test of an ear is. The exact points leave a strict one unless a bridge was placed badly within noise; then
 /// the test is loosened.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Care {
     /// Strictly convex, not of one line, and no other corner in it.
     Strict,
@@ -88,7 +88,7 @@ impl Boundary<'_> {
     /// A line of the boundary through both nodes.
     fn shared_line(&self, a: u32, c: u32) -> Option<u32> {
         let at_c = self.nodes[c as usize].lines;
-        self.nodes[a as usize].lines.into_iter().find(|line| *line != NO_LINE && at_c.contains(line))
+        self.nodes[a as usize].lines.into_iter().find(|line| at_c.contains(line))
     }
 
     /// Whether another corner of what is left lies between two on the same line, which rounding may hide.
