@@ -6,7 +6,7 @@ use crate::sign::exact_product;
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct DoubleDouble {
     pub(crate) high: f64,
-    low: f64,
+    pub(crate) low: f64,
 }
 
 impl DoubleDouble {

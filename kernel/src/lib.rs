@@ -26,14 +26,18 @@
 
 mod double_double;
 mod half_space;
+mod hull;
 mod meet;
 mod polytope;
 pub mod sign;
 
-pub use glam::{DVec2, DVec3, DVec4};
+pub use glam::{DMat3, DVec2, DVec3, DVec4};
 pub use half_space::{HalfSpace, HalfSpaceError, MAX_NORMAL, MAX_NORMAL_RATIO, MAX_OFFSET_RATIO, MIN_NORMAL};
+pub use hull::{HullError, MAX_COORDINATE, hull};
 pub use meet::{compare_exactly, meet, planar_turn};
 pub use polytope::{
-    AddPlaneResult, DEFAULT_EPSILON, Face, IncrementalPolytope, InvariantError, Measures, PlaneIdx, RemovePlaneResult,
-    Vertex,
+    AddPlaneResult, BoundaryLine, BoundingBox, ClippedLine, ClosestFeature, ClosestPoint, DEFAULT_EPSILON, Edge,
+    EdgeIdx, EdgeKind, Face, FacePolygon, IncrementalPolytope, InscribedBall, InteriorPoint, InvariantError, Location,
+    Measures, MovePlaneResult, PlaneIdx, RecessionCone, RemovePlaneResult, RemovePlanesResult, Support, TopologyError,
+    Validation, ValidationError, Vertex, VertexIdx,
 };

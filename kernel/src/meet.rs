@@ -91,7 +91,7 @@ pub fn compare_exactly(p: [&Row; 3], q: [&Row; 3], axes: &[usize]) -> Ordering {
 }
 
 /// `(X, Y, Z, W)` of a meeting point.
-fn homogeneous_exactly(planes: [&Row; 3]) -> [IBig; 4] {
+pub(crate) fn homogeneous_exactly(planes: [&Row; 3]) -> [IBig; 4] {
     let [a, b, c] = planes.map(|row| big_integers(*row.coefficients()));
     let (bc, ca, ab) = (big_cross(&b, &c), big_cross(&c, &a), big_cross(&a, &b));
     let coordinate = |k: usize| &a[3] * &bc[k] + &b[3] * &ca[k] + &c[3] * &ab[k];
@@ -117,7 +117,7 @@ fn meet_exact(a: &Row, b: &Row, c: &Row) -> Option<DVec3> {
 /// `numerator / denominator`, rounded to nearest, ties to even.
 ///
 /// The quotient is taken to be in the range of normal numbers; below it the last bits may be lost.
-fn round_quotient(numerator: IBig, denominator: &IBig) -> f64 {
+pub(crate) fn round_quotient(numerator: IBig, denominator: &IBig) -> f64 {
     use dashu_int::Sign as BigSign;
     let (numerator_sign, numerator) = numerator.into_parts();
     let (denominator_sign, denominator) = denominator.clone().into_parts();
@@ -146,7 +146,7 @@ fn round_quotient(numerator: IBig, denominator: &IBig) -> f64 {
     }
 }
 
-fn ldexp(mut v: f64, mut power: i64) -> f64 {
+pub(crate) fn ldexp(mut v: f64, mut power: i64) -> f64 {
     const STEP: i64 = 1000;
     let factor = |p: i64| f64::from_bits(((1023 + p) as u64) << 52);
     while power > STEP && v.is_finite() {

@@ -1,37 +1,58 @@
-//! Times the kernel's polytope beside `poly_surge`, in one run, interleaved: every round visits every case, so that a slow
-//! moment of the machine falls on all of them. No time counts before the results agree.
+//! Times the kernel's polytope beside `poly_surge` and voro++, in one run, interleaved; counts wrong answers and bytes. No time
+//! counts before the results agree.
 
+mod batch;
 mod case;
-mod inputs;
-mod library;
+mod contestant;
+mod json;
+mod machine;
+mod markdown;
+mod measure;
+mod memory;
 mod plan;
+mod queries;
 mod report;
+mod rings;
+mod robustness;
 mod verify;
+mod voronoi;
 
-use report::{Line, Report};
+use report::Report;
 use std::process::ExitCode;
-use std::time::{Duration, Instant};
 
-const USAGE: &str = "usage: bench/kernel [--quick] [--json FILE]";
+const USAGE: &str = "usage: bench/kernel [--quick] [--json FILE] [--markdown FILE] [--cases COUNT] [--paper FILE]";
 
 /// Rounds of a full and of a quick run.
 const ROUNDS: usize = 31;
-const QUICK_ROUNDS: usize = 9;
-/// How long a case is sampled in one round; one sample is always taken.
-const SLICE: Duration = Duration::from_millis(10);
+const QUICK_ROUNDS: usize = 5;
+/// Scripts of each category in a full and in a quick run.
+const CASES: usize = 2000;
+const QUICK_CASES: usize = 80;
 
+#[derive(Default)]
 struct Options {
     quick: bool,
     json: Option<String>,
+    markdown: Option<String>,
+    cases: Option<usize>,
+    /// What `cargo bench` printed, to be quoted in the Markdown.
+    paper: Option<String>,
 }
 
 impl Options {
     fn parse(mut arguments: impl Iterator<Item = String>) -> Result<Self, String> {
-        let mut options = Self { quick: false, json: None };
+        let mut options = Self::default();
         while let Some(argument) = arguments.next() {
+            let mut value = || arguments.next().ok_or(format!("{argument} needs a value"));
             match argument.as_str() {
                 "--quick" => options.quick = true,
-                "--json" => options.json = Some(arguments.next().ok_or("--json needs a file")?),
+                "--json" => options.json = Some(value()?),
+                "--markdown" => options.markdown = Some(value()?),
+                "--paper" => options.paper = Some(value()?),
+                "--cases" => {
+                    let cases = value()?.parse().map_err(|error| format!("--cases: {error}"))?;
+                    options.cases = Some(cases);
+                }
                 other => return Err(format!("unknown argument {other:?}; {USAGE}")),
             }
         }
@@ -57,38 +78,37 @@ fn fail(error: &str, status: u8) -> ExitCode {
 
 fn run(options: &Options) -> Result<(), String> {
     let rounds = if options.quick { QUICK_ROUNDS } else { ROUNDS };
-    let report = measure(plan::prepare(options.quick)?, rounds, options.quick)?;
-    print!("{}", report.table());
-    println!("\n{rounds} rounds; all vertex counts agree");
+    let cases = options.cases.unwrap_or(if options.quick { QUICK_CASES } else { CASES });
+    let sets = voronoi::sets().map(Vec::from).unwrap_or_else(|error| {
+        eprintln!("Voronoi cells are left out: {error}");
+        Vec::new()
+    });
+    let report = Report {
+        lines: measure::run(plan::prepare(options.quick, &sets)?, rounds)?,
+        memory: memory::run()?,
+        robustness: robustness::run(cases),
+        cells: sets.first().map_or(0, |set| set.cells.len()),
+        rounds,
+        quick: options.quick,
+    };
+    let paper = options.paper.as_ref().map(|file| read(file)).transpose()?;
+    print!("{}", markdown::tables(&report));
     if let Some(file) = &options.json {
-        let text = format!("{:#}\n", report.json());
-        std::fs::write(file, text).map_err(|error| format!("{file}: {error}"))?;
+        write(file, &format!("{:#}\n", json::json(&report)))?;
     }
-    Ok(())
+    if let Some(file) = &options.markdown {
+        write(file, &markdown::page(&report, paper.as_deref()))?;
+    }
+    match report.robustness.iter().find_map(|tally| tally.our_first.map(|seed| (&tally.category, seed))) {
+        Some((category, seed)) => Err(format!("planecut was wrong: category {category}, seed {seed}")),
+        None => Ok(()),
+    }
 }
 
-fn measure(mut cases: Vec<plan::Case>, rounds: usize, quick: bool) -> Result<Report, String> {
-    let mut samples = vec![Vec::new(); cases.len()];
-    // The first round warms caches and buffers up and is not kept.
-    for round in 0..=rounds {
-        for (case, samples) in cases.iter_mut().zip(&mut samples) {
-            let start = Instant::now();
-            loop {
-                let sample = (case.sampler)()?;
-                if round > 0 {
-                    samples.push(sample);
-                }
-                if start.elapsed() >= SLICE {
-                    break;
-                }
-            }
-        }
-    }
-    let line = |(case, samples): (&plan::Case, Vec<f64>)| Line {
-        operation: case.operation,
-        size: case.size,
-        library: case.library,
-        samples,
-    };
-    Ok(Report { lines: cases.iter().zip(samples).map(line).collect(), rounds, quick })
+fn read(file: &str) -> Result<String, String> {
+    std::fs::read_to_string(file).map_err(|error| format!("{file}: {error}"))
+}
+
+fn write(file: &str, text: &str) -> Result<(), String> {
+    std::fs::write(file, text).map_err(|error| format!("{file}: {error}"))
 }

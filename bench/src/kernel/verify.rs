@@ -1,7 +1,7 @@
 //! No time counts before the results agree: vertex counts against Euler's formula, and of one library against the other.
 
-use crate::inputs::Plane;
-use crate::library::Library;
+use planecut_bench::inputs::Plane;
+use planecut_bench::library::Library;
 
 /// Checks a polytope all of whose planes have a face and whose vertices all have three: after the build, without each of
 /// `removals` evenly spread planes, and after each was added again in place.
@@ -24,7 +24,7 @@ pub(crate) fn simple_polytope<L: Library>(planes: &[Plane], removals: usize) -> 
         clone.remove(index);
         expect(clone.vertex_count(), count - 1, &format!("without plane {index}"))?;
         polytope.remove(index);
-        polytope.add_again(&half_spaces[index]);
+        polytope.add(&half_spaces[index]);
         expect(polytope.vertex_count(), count, &format!("with plane {index} added again"))?;
     }
     Ok(())

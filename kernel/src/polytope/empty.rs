@@ -13,9 +13,9 @@ impl IncrementalPolytope {
     pub(super) fn become_empty(&mut self, plane: u32) {
         let opposite: Row = self.row(plane).flipped();
         let bottom = self.climb(&opposite, self.hint);
-        let [a, b, c] = self.vertices.planes[bottom as usize];
+        let [a, b, c] = self.vertices.planes(bottom);
         self.witness = [a, b, c, plane];
-        self.planes.state[plane as usize] = PlaneState::Pending;
+        self.planes.set_without_face(plane, PlaneState::Pending);
         if self.pending.first() != Some(&plane) {
             self.pending.insert(0, plane);
         }
@@ -25,16 +25,23 @@ impl IncrementalPolytope {
     pub(super) fn remove_pending(&mut self, plane: u32) {
         self.pending.retain(|waiting| *waiting != plane);
         self.planes.remove(plane);
-        if self.witness.contains(&plane) {
+        self.after_loss(&[plane]);
+    }
+
+    /// While the set is empty, planes were taken back or moved: where the witness needed one, the waiting planes try
+    /// again. What comes back is new, all of it.
+    pub(super) fn after_loss(&mut self, planes: &[u32]) {
+        if planes.iter().any(|plane| self.witness.contains(plane)) {
             self.wake_pending();
         }
+        self.report_all_as_new();
     }
 
     /// The witness is broken: let the waiting planes take part, oldest first, until the set is empty again or all do.
-    pub(super) fn wake_pending(&mut self) {
+    fn wake_pending(&mut self) {
         let waiting = std::mem::take(&mut self.pending);
         for (k, &plane) in waiting.iter().enumerate() {
-            self.planes.state[plane as usize] = PlaneState::Uncertified;
+            self.planes.set_without_face(plane, PlaneState::Uncertified);
             if self.insert_into_structure(plane) == Insertion::Empty {
                 self.pending = waiting[k..].to_vec();
                 self.become_empty(plane);

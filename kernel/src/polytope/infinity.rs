@@ -1,7 +1,7 @@
 //! The four hidden planes that close every polyhedron at infinity.
 
 use super::IncrementalPolytope;
-use super::store::PlaneState;
+use super::store::Link;
 use crate::half_space::HalfSpace;
 use crate::sign::Row;
 use glam::DVec3;
@@ -10,10 +10,10 @@ use glam::DVec3;
 pub(super) const COUNT: u32 = 4;
 
 /// Generic normals near those of a tetrahedron; they span space positively (checked by a test).
-const NORMALS: [[i64; 3]; 4] = [[97, 101, 89], [103, -83, -107], [-109, 79, -91], [-85, -99, 113]];
+const NORMALS: [[i64; 3]; COUNT as usize] = [[97, 101, 89], [103, -83, -107], [-109, 79, -91], [-85, -99, 113]];
 
 /// The vertices of the tetrahedron: the planes of each, counter-clockwise seen from outside.
-const VERTICES: [[u32; 3]; 4] = [[1, 3, 2], [0, 2, 3], [0, 3, 1], [0, 1, 2]];
+const VERTICES: [[u32; 3]; COUNT as usize] = [[1, 3, 2], [0, 2, 3], [0, 3, 1], [0, 1, 2]];
 
 /// Whether a slot holds an infinity plane.
 pub(super) fn is_infinity(plane: u32) -> bool {
@@ -26,19 +26,25 @@ impl IncrementalPolytope {
         for normal in NORMALS {
             let direction = DVec3::from_array(normal.map(|v| v as f64));
             let half_space = HalfSpace::new(direction, 0.0).expect("the normals are small integers");
-            let plane = self.planes.insert(half_space, Row::infinity(normal));
-            self.planes.state[plane as usize] = PlaneState::Face;
-            self.certificates.grow();
+            self.planes.insert(half_space, Row::infinity(normal));
         }
+        self.close_at_infinity();
+    }
+
+    /// Makes the tetrahedron of the infinity planes, which must be there, the first vertices.
+    pub(super) fn close_at_infinity(&mut self) {
+        self.hint = 0;
         for planes in VERTICES {
             let point = self.meeting_point(planes);
-            self.vertices.insert(planes, point);
+            let vertex = self.vertices.insert(planes, point);
+            self.vertices.take_fresh(vertex);
         }
         // Vertex `v` is the one that plane `v` misses, so across the edge off plane `p` lies vertex `p`.
-        for (vertex, planes) in VERTICES.into_iter().enumerate() {
-            self.vertices.neighbours[vertex] = planes;
-            for plane in planes {
-                self.planes.face_vertex[plane as usize] = vertex as u32;
+        for (vertex, planes) in (0u32..).zip(VERTICES) {
+            for (k, plane) in planes.into_iter().enumerate() {
+                let back = self.vertices.index_of(plane, vertex);
+                self.vertices.join(Link::new(vertex, k), Link::new(plane, back));
+                self.planes.set_face(plane, vertex);
             }
         }
     }

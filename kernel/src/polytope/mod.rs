@@ -7,42 +7,63 @@
 //!
 //! **Unbounded** polyhedra need no special case: four hidden infinity planes, offset `M → ∞`, close every one of them.
 //!
-//! One room per stage: [`climb`] finds the extreme vertex, [`add`] cuts, [`remove`] takes back, [`redundant`] keeps
-//! the certificates of planes without a face, [`empty`] remembers why a set has no interior; [`view`] and [`measure`]
-//! report it with coincident vertices merged, and [`validate`] checks all of it.
+//! One room per stage: [`climb`] finds the extreme vertex, [`add`] cuts, [`remove`] takes back and [`fill`] closes the hole,
+//! [`redundant`] keeps the certificates of planes without a face, [`empty`] remembers why a set has no interior; [`view`]
+//! and [`measure`] report it with coincident vertices merged, and [`validate`] checks all of it.
 
 mod add;
 mod climb;
 mod empty;
+mod fill;
 mod infinity;
 mod measure;
+mod move_plane;
+mod query;
+mod rebuild;
 mod redundant;
 mod remove;
 mod remove_large;
+mod remove_many;
 mod side;
 mod store;
 mod validate;
 mod view;
 
 pub use measure::Measures;
-pub use validate::InvariantError;
-pub use view::{Face, Vertex};
+pub(crate) use query::exact_side;
+pub use query::{
+    BoundaryLine, BoundingBox, ClippedLine, ClosestFeature, ClosestPoint, FacePolygon, InscribedBall, InteriorPoint,
+    Location, RecessionCone, Support,
+};
+pub use validate::{InvariantError, TopologyError, Validation, ValidationError};
+pub use view::{Edge, EdgeIdx, EdgeKind, Face, Vertex};
 
 use crate::half_space::HalfSpace;
+use crate::sign::Homogeneous;
 use redundant::Certificates;
-use store::{NONE, PlaneState, PlaneStore, VertexStore};
+use store::{Change, Link, NONE, PlaneState, PlaneStore, VertexStore};
 
 /// Handle of a plane of one [`IncrementalPolytope`]; given again after the plane was removed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct PlaneIdx(pub usize);
 
-/// What [`IncrementalPolytope::add_plane`] did.
+/// Handle of a vertex of the simple structure; given again after the vertex was removed.
+///
+/// Several vertices of the simple structure can coincide and are then seen as one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct VertexIdx(pub u32);
+
+/// What [`IncrementalPolytope::add_plane`] did. The lists live until the next operation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum AddPlaneResult {
+pub enum AddPlaneResult<'a> {
     /// The plane cut the polyhedron and has a face.
     Added {
         /// The new plane.
         plane: PlaneIdx,
+        /// The vertices that were cut away.
+        removed_vertices: &'a [VertexIdx],
+        /// The vertices of the new face.
+        new_vertices: &'a [VertexIdx],
     },
     /// The plane changed nothing; it is kept and shows itself when the planes that hide it are removed.
     Redundant {
@@ -56,23 +77,55 @@ pub enum AddPlaneResult {
     },
 }
 
-impl AddPlaneResult {
+impl AddPlaneResult<'_> {
     /// The handle of the plane that was added.
     #[must_use]
     pub fn plane(&self) -> PlaneIdx {
         match *self {
-            Self::Added { plane } | Self::Redundant { plane } | Self::Empty { plane } => plane,
+            Self::Added { plane, .. } | Self::Redundant { plane } | Self::Empty { plane } => plane,
         }
     }
 }
 
-/// What [`IncrementalPolytope::remove_plane`] did.
+/// What [`IncrementalPolytope::remove_plane`] did. The lists live until the next operation.
+///
+/// A handle can stand in both lists: the place of a vertex that was removed is given to a new one.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RemovePlaneResult {
+pub struct RemovePlaneResult<'a> {
     /// The half-space that was taken back.
     pub half_space: HalfSpace,
     /// Whether it had a face, so that the polyhedron changed.
     pub had_face: bool,
+    /// The vertices that are no longer there; none where the set was empty before.
+    pub removed_vertices: &'a [VertexIdx],
+    /// The vertices that were not there before; all of them where an empty set came back.
+    pub new_vertices: &'a [VertexIdx],
+}
+
+/// What [`IncrementalPolytope::remove_planes`] did. The lists live until the next operation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct RemovePlanesResult<'a> {
+    /// How many planes were taken back.
+    pub count: usize,
+    /// The vertices that are no longer there; none where the set was empty before.
+    pub removed_vertices: &'a [VertexIdx],
+    /// The vertices that were not there before; all of them where an empty set came back.
+    pub new_vertices: &'a [VertexIdx],
+}
+
+/// What [`IncrementalPolytope::move_plane`] did. The lists live until the next operation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MovePlaneResult<'a> {
+    /// The half-space that was there before.
+    pub previous: HalfSpace,
+    /// Whether the plane has a face now.
+    pub has_face: bool,
+    /// The vertices that are no longer there; none where the set was or became empty.
+    pub removed_vertices: &'a [VertexIdx],
+    /// The vertices that were not there before; all of them where an empty set came back.
+    pub new_vertices: &'a [VertexIdx],
+    /// The vertices that kept their planes and have another position.
+    pub moved_vertices: &'a [VertexIdx],
 }
 
 /// The default of [`IncrementalPolytope::with_epsilon`].
@@ -102,7 +155,7 @@ pub const DEFAULT_EPSILON: f64 = 1e-7;
 /// # Ok(())
 /// # }
 /// ```
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub struct IncrementalPolytope {
     planes: PlaneStore,
     vertices: VertexStore,
@@ -114,22 +167,57 @@ pub struct IncrementalPolytope {
     /// A vertex near the last change, from which the next climb starts.
     hint: u32,
     epsilon: f64,
+    /// What the last operation changed.
+    change: Change,
+    /// How often a failed validation made the structure anew.
+    rebuilds: u64,
     scratch: Scratch,
 }
 
 /// Buffers that operations reuse.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Default)]
 struct Scratch {
     /// Vertices to be cut away, in breadth-first order.
     cut: Vec<u32>,
-    /// New vertices of the last cut.
-    created: Vec<u32>,
+    /// The edges that leave them, named from the cut end.
+    horizon: Vec<Link>,
     /// The ring of a face that is being removed.
     ring: Vec<remove::RingEdge>,
-    /// New vertices that fill the hole of a removed face.
-    cap: Vec<remove::CapVertex>,
+    /// Parts of a ring that are not closed yet.
+    open_parts: Vec<fill::OpenPart>,
+    /// New positions of the vertices of a face that moves.
+    points: Vec<Homogeneous>,
     /// Planes whose certificate a removed plane carried.
     to_examine: Vec<u32>,
+}
+
+/// `clone_from` keeps the memory: the fast way to begin again and again with the same polytope, such as a box.
+impl Clone for IncrementalPolytope {
+    fn clone(&self) -> Self {
+        Self {
+            planes: self.planes.clone(),
+            vertices: self.vertices.clone(),
+            certificates: self.certificates.clone(),
+            pending: self.pending.clone(),
+            witness: self.witness,
+            hint: self.hint,
+            epsilon: self.epsilon,
+            change: Change::default(),
+            rebuilds: self.rebuilds,
+            scratch: Scratch::default(),
+        }
+    }
+
+    fn clone_from(&mut self, source: &Self) {
+        self.planes.clone_from(&source.planes);
+        self.vertices.clone_from(&source.vertices);
+        self.certificates.clone_from(&source.certificates);
+        self.pending.clone_from(&source.pending);
+        self.witness = source.witness;
+        self.hint = source.hint;
+        self.epsilon = source.epsilon;
+        self.rebuilds = source.rebuilds;
+    }
 }
 
 impl Default for IncrementalPolytope {
@@ -150,13 +238,15 @@ impl IncrementalPolytope {
     #[must_use]
     pub fn with_epsilon(epsilon: f64) -> Self {
         let mut polytope = Self {
-            planes: PlaneStore::default(),
-            vertices: VertexStore::default(),
+            planes: PlaneStore::with_capacity(16),
+            vertices: VertexStore::with_capacity(24),
             certificates: Certificates::default(),
             pending: Vec::new(),
             witness: [NONE; 4],
             hint: 0,
             epsilon,
+            change: Change::default(),
+            rebuilds: 0,
             scratch: Scratch::default(),
         };
         polytope.close_by_infinity_planes();
@@ -184,38 +274,42 @@ impl IncrementalPolytope {
     /// The paper's §4 asks a hull of the normals; here no infinity plane may have a face.
     #[must_use]
     pub fn is_bounded(&self) -> bool {
-        self.is_empty() || (0..infinity::COUNT).all(|plane| self.planes.face_vertex[plane as usize] == NONE)
+        self.is_empty() || !(0..infinity::COUNT).any(|plane| self.planes.has_face(plane))
     }
 
     /// The half-space of a plane, `None` where there is no such plane.
     #[must_use]
     pub fn plane(&self, idx: PlaneIdx) -> Option<&HalfSpace> {
-        self.live(idx).map(|plane| &self.planes.half_space[plane as usize])
+        self.live(idx).map(|plane| self.planes.half_space(plane))
     }
 
     /// All planes, redundant ones included, by handle.
     pub fn planes(&self) -> impl Iterator<Item = (PlaneIdx, &HalfSpace)> {
-        (infinity::COUNT as usize..self.planes.state.len())
-            .filter(|plane| self.planes.state[*plane] != PlaneState::Free)
-            .map(|plane| (external(plane as u32), &self.planes.half_space[plane]))
+        self.planes.slots().map(|plane| (external(plane), self.planes.half_space(plane)))
     }
 
     /// When a plane was added: larger is younger, and no stamp is given twice.
     #[must_use]
     pub fn stamp(&self, idx: PlaneIdx) -> Option<u64> {
-        self.live(idx).map(|plane| self.planes.stamp[plane as usize])
+        self.live(idx).map(|plane| self.planes.stamp(plane))
     }
 
     /// Whether a plane is present without a face in the structure; where the set is empty, no plane has one.
     #[must_use]
     pub fn is_redundant(&self, idx: PlaneIdx) -> bool {
-        self.live(idx).is_some_and(|plane| self.is_empty() || self.planes.state[plane as usize] != PlaneState::Face)
+        self.live(idx).is_some_and(|plane| self.is_empty() || !self.planes.has_face(plane))
+    }
+
+    /// The handles of all vertices of the simple structure.
+    fn simple_handles(&self) -> impl Iterator<Item = VertexIdx> + '_ {
+        self.vertices.slots().map(VertexIdx)
     }
 
     /// The slot behind a handle, where it holds a plane.
     fn live(&self, idx: PlaneIdx) -> Option<u32> {
         let slot = idx.0.checked_add(infinity::COUNT as usize)?;
-        (*self.planes.state.get(slot)? != PlaneState::Free).then_some(slot as u32)
+        let slot = u32::try_from(slot).ok().filter(|slot| *slot < self.planes.slot_count())?;
+        (self.planes.state(slot) != PlaneState::Free).then_some(slot)
     }
 }
 

@@ -3,127 +3,134 @@
 //! Where a climb ends at vertex `(a, b, c)`, the normal is a non-negative combination of the three normals there, so the
 //! plane stays redundant for as long as `a`, `b`, `c` exist, whatever else is added. Each plane keeps the list of
 //! the planes it helps to certify; removing it re-examines exactly that list. The lists are doubly linked through arrays,
-//! three places for each redundant plane, so that an entry is never there twice and leaves in constant time.
+//! three places for each certificate, so that an entry is never there twice and leaves in constant time.
 
 use super::IncrementalPolytope;
-use super::store::{NONE, PlaneState};
+use super::store::{NONE, PlaneState, PlaneStore};
 
 /// An orphaned plane and the plane that hid it, near which its certificate will be found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Link {
+pub(super) struct Orphan {
     pub(super) plane: u32,
     pub(super) hidden_by: u32,
 }
 
-/// The certificates of all planes. Place `3·plane + k` is the entry of `plane` in the list of its `k`-th certifier.
-#[derive(Debug, Clone, Default)]
+/// Why one plane is redundant, and its places in the lists of the planes that make it so.
+#[derive(Debug, Clone, Copy)]
+struct Certificate {
+    plane: u32,
+    certifiers: [u32; 3],
+    next: [u32; 3],
+    previous: [u32; 3],
+}
+
+/// The certificates of all planes. Place `3·certificate + k` is an entry in the list of the `k`-th certifier.
+#[derive(Debug, Default)]
 pub(super) struct Certificates {
-    certifiers: Vec<[u32; 3]>,
-    next: Vec<u32>,
-    previous: Vec<u32>,
-    /// The first entry of the list that a plane carries.
-    head: Vec<u32>,
+    entries: Vec<Certificate>,
+    free: Vec<u32>,
     /// Planes that were orphaned since the last removal; entries of planes that are no longer uncertified are stale.
-    uncertified: Vec<Link>,
+    uncertified: Vec<Orphan>,
+}
+
+impl Clone for Certificates {
+    fn clone(&self) -> Self {
+        let mut clone = Self::default();
+        clone.clone_from(self);
+        clone
+    }
+
+    fn clone_from(&mut self, source: &Self) {
+        self.entries.clone_from(&source.entries);
+        self.free.clone_from(&source.free);
+        self.uncertified.clone_from(&source.uncertified);
+    }
 }
 
 impl Certificates {
-    /// Room for one more plane slot.
-    pub(super) fn grow(&mut self) {
-        self.certifiers.push([NONE; 3]);
-        self.next.extend([NONE; 3]);
-        self.previous.extend([NONE; 3]);
-        self.head.push(NONE);
-    }
-
-    /// Room for `slots` plane slots.
-    pub(super) fn grow_to(&mut self, slots: usize) {
-        while self.head.len() < slots {
-            self.grow();
-        }
-    }
-
     /// Forgets all certificates, keeping the memory.
     pub(super) fn clear(&mut self) {
-        self.certifiers.clear();
-        self.next.clear();
-        self.previous.clear();
-        self.head.clear();
+        self.entries.clear();
+        self.free.clear();
         self.uncertified.clear();
     }
 
-    pub(super) fn push_uncertified(&mut self, link: Link) {
-        self.uncertified.push(link);
+    pub(super) fn push_uncertified(&mut self, orphan: Orphan) {
+        self.uncertified.push(orphan);
     }
 
     /// The planes that certify a redundant plane.
-    pub(super) fn certifiers(&self, plane: u32) -> [u32; 3] {
-        self.certifiers[plane as usize]
+    pub(super) fn certifiers(&self, certificate: u32) -> [u32; 3] {
+        self.entries[certificate as usize].certifiers
     }
 
-    /// The planes that `certifier` helps to certify.
-    pub(super) fn list(&self, certifier: u32) -> impl Iterator<Item = u32> + '_ {
-        let first = self.head[certifier as usize];
+    /// The planes on the list that begins at a place.
+    pub(super) fn list(&self, first: u32) -> impl Iterator<Item = u32> + '_ {
         std::iter::successors((first != NONE).then_some(first), |place| {
-            let following = self.next[*place as usize];
+            let following = self.entries[(place / 3) as usize].next[(place % 3) as usize];
             (following != NONE).then_some(following)
         })
-        .map(|place| place / 3)
+        .map(|place| self.entries[(place / 3) as usize].plane)
     }
 
-    fn link(&mut self, plane: u32, certifiers: [u32; 3]) {
-        self.certifiers[plane as usize] = certifiers;
+    fn link(&mut self, planes: &mut PlaneStore, plane: u32, certifiers: [u32; 3]) {
+        let entry = Certificate { plane, certifiers, next: [NONE; 3], previous: [NONE; 3] };
+        let number = if let Some(number) = self.free.pop() {
+            self.entries[number as usize] = entry;
+            number
+        } else {
+            self.entries.push(entry);
+            self.entries.len() as u32 - 1
+        };
+        planes.set_certified(plane, number);
         for (k, certifier) in certifiers.into_iter().enumerate() {
-            let place = 3 * plane + k as u32;
-            let first = std::mem::replace(&mut self.head[certifier as usize], place);
-            self.next[place as usize] = first;
-            self.previous[place as usize] = NONE;
+            let place = 3 * number + k as u32;
+            let first = planes.carried(certifier);
+            planes.set_carried(certifier, place);
+            self.entries[number as usize].next[k] = first;
             if first != NONE {
-                self.previous[first as usize] = place;
+                self.entries[(first / 3) as usize].previous[(first % 3) as usize] = place;
             }
         }
     }
 
-    fn unlink(&mut self, plane: u32) {
-        let certifiers = std::mem::replace(&mut self.certifiers[plane as usize], [NONE; 3]);
-        for (k, certifier) in certifiers.into_iter().enumerate() {
-            let place = (3 * plane) as usize + k;
-            let (previous, next) = (self.previous[place], self.next[place]);
-            if previous == NONE {
-                self.head[certifier as usize] = next;
+    fn unlink(&mut self, planes: &mut PlaneStore, number: u32) {
+        let Certificate { certifiers, next, previous, .. } = self.entries[number as usize];
+        for k in 0..3 {
+            if previous[k] == NONE {
+                planes.set_carried(certifiers[k], next[k]);
             } else {
-                self.next[previous as usize] = next;
+                self.entries[(previous[k] / 3) as usize].next[(previous[k] % 3) as usize] = next[k];
             }
-            if next != NONE {
-                self.previous[next as usize] = previous;
+            if next[k] != NONE {
+                self.entries[(next[k] / 3) as usize].previous[(next[k] % 3) as usize] = previous[k];
             }
         }
+        self.free.push(number);
     }
 }
 
 impl IncrementalPolytope {
     /// Records that `plane` is redundant because of the planes of `vertex`.
     pub(super) fn certify(&mut self, plane: u32, vertex: u32) {
-        self.planes.state[plane as usize] = PlaneState::Certified;
-        self.planes.face_vertex[plane as usize] = NONE;
-        self.certificates.link(plane, self.vertices.planes[vertex as usize]);
+        self.certificates.link(&mut self.planes, plane, self.vertices.planes(vertex));
     }
 
     /// Takes a redundant plane out of the lists of its certifiers.
     pub(super) fn forget_certificate(&mut self, plane: u32) {
-        if self.planes.state[plane as usize] == PlaneState::Certified {
-            self.certificates.unlink(plane);
+        if let Some(number) = self.planes.certificate(plane) {
+            self.certificates.unlink(&mut self.planes, number);
         }
-        self.planes.state[plane as usize] = PlaneState::Uncertified;
+        self.planes.set_without_face(plane, PlaneState::Uncertified);
     }
 
     /// Finds the certificates that were put off: a removal needs them.
     pub(super) fn certify_orphans(&mut self) {
-        while let Some(Link { plane, hidden_by }) = self.certificates.uncertified.pop() {
-            if self.planes.state[plane as usize] != PlaneState::Uncertified {
+        while let Some(Orphan { plane, hidden_by }) = self.certificates.uncertified.pop() {
+            if self.planes.state(plane) != PlaneState::Uncertified {
                 continue;
             }
-            let near = self.planes.face_vertex[hidden_by as usize];
+            let near = self.planes.face_vertex(hidden_by);
             let top = self.climb(self.row(plane), if near == NONE { self.hint } else { near });
             debug_assert!(!self.is_outside(top, plane), "an orphaned plane is redundant");
             self.certify(plane, top);
@@ -131,10 +138,14 @@ impl IncrementalPolytope {
     }
 
     /// Takes all planes that `certifier` helps to certify out of their lists and puts them into `examine`.
+    #[inline]
     pub(super) fn take_certified(&mut self, certifier: u32, examine: &mut Vec<u32>) {
-        examine.clear();
-        examine.extend(self.certificates.list(certifier));
-        for &plane in examine.iter() {
+        let known = examine.len();
+        if self.planes.carried(certifier) == NONE {
+            return;
+        }
+        examine.extend(self.certificates.list(self.planes.carried(certifier)));
+        for &plane in &examine[known..] {
             self.forget_certificate(plane);
         }
     }

@@ -1,51 +1,41 @@
 //! The cap of a large or open ring: a polytope of the ring planes alone, built in random order, and the part of it that
-//! lies beyond the removed face.
+//! lies beyond the removed faces.
 //!
 //! The caps of ring planes and infinity planes together are what the polytope shows there, because a hidden infinity plane
 //! that is needed beyond an open ring is one that nothing else bounds.
 
-use super::remove::{CapVertex, EdgeEnd, RingEdge};
-use super::store::{NONE, PlaneState};
-use super::{IncrementalPolytope, infinity};
+use super::remove::RingEdge;
+use super::store::{Link, NEXT, NONE};
+use super::{IncrementalPolytope, VertexIdx, infinity};
 
 impl IncrementalPolytope {
-    /// Fills `cap` with the vertices that replace the face of `plane`, whose ring is `ring`.
-    pub(super) fn build_cap(&mut self, plane: u32, ring: &[RingEdge], cap: &mut Vec<CapVertex>) {
+    /// Closes a hole with the part beyond the planes `opened` of the polytope of the ring planes.
+    pub(super) fn fill_with_cap(&mut self, ring: &[RingEdge], opened: &[u32]) {
         let (mut body, original) = self.body_of_ring(ring);
-        let face = body.planes.insert_with_stamp(
-            self.planes.half_space[plane as usize],
-            *self.row(plane),
-            self.planes.stamp[plane as usize],
-        );
-        let top = body.climb(self.row(plane), body.hint);
-        debug_assert!(body.is_outside(top, face), "the cap lies beyond the removed face");
-        body.collect_cut(face, top);
-        let beyond = std::mem::take(&mut body.scratch.cut);
-
+        let beyond = self.vertices_beyond(&mut body, opened);
         for (position, edge) in ring.iter().enumerate() {
-            self.planes.mark[edge.plane as usize] = position as u32;
+            self.planes.set_mark(edge.plane, position as u32);
         }
-        let mut number = vec![NONE; body.vertices.planes.len()];
-        for (k, &vertex) in beyond.iter().enumerate() {
-            number[vertex as usize] = k as u32;
-        }
+        let mut number = vec![NONE; body.vertices.slot_count()];
         for &vertex in &beyond {
-            let planes = body.vertices.planes[vertex as usize].map(|p| original[p as usize]);
-            let ends = std::array::from_fn(|k| {
-                let neighbour = body.vertices.neighbours[vertex as usize][k];
-                match number[neighbour as usize] {
-                    // this edge crosses the removed face: it continues where that ring edge does
-                    NONE => Some(ring[self.planes.mark[planes[(k + 1) % 3] as usize] as usize].end),
-                    other => Some(EdgeEnd::New(other, body.vertices.link_to(neighbour, vertex) as u8)),
-                }
-            });
-            cap.push(CapVertex { planes, point: body.vertices.point[vertex as usize], ends });
+            let planes = body.vertices.planes(vertex).map(|p| original[p as usize]);
+            let slot = self.vertices.insert(planes, *body.vertices.point(vertex));
+            self.change.created.push(VertexIdx(slot));
+            number[vertex as usize] = slot;
             for p in planes {
-                self.show_infinity_plane(p);
+                self.show(p, slot);
             }
         }
-        for edge in ring {
-            self.planes.mark[edge.plane as usize] = NONE;
+        for &vertex in &beyond {
+            for (k, link) in body.vertices.links(vertex).into_iter().enumerate() {
+                let slot = number[vertex as usize];
+                let end = match number[link.vertex() as usize] {
+                    // this edge crosses the removed face: it continues where that ring edge does
+                    NONE => ring[self.planes.mark(self.vertices.planes(slot)[NEXT[k]]) as usize].end,
+                    other => Link::new(other, link.index()),
+                };
+                self.vertices.join(Link::new(slot, k), end);
+            }
         }
     }
 
@@ -56,23 +46,42 @@ impl IncrementalPolytope {
         let mut order: Vec<u32> = ring.iter().map(|edge| edge.plane).filter(|p| !infinity::is_infinity(*p)).collect();
         shuffle(&mut order);
         for plane in order {
-            let i = plane as usize;
-            let slot =
-                body.planes.insert_with_stamp(self.planes.half_space[i], self.planes.row[i], self.planes.stamp[i]);
+            let slot = self.lend(plane, &mut body);
             debug_assert_eq!(slot as usize, original.len());
-            body.certificates.grow_to(body.planes.row.len());
             original.push(plane);
             body.insert_into_structure(slot);
         }
         (body, original)
     }
 
-    /// An infinity plane that shows itself in the cap has a face again.
-    fn show_infinity_plane(&mut self, plane: u32) {
-        if infinity::is_infinity(plane) && self.planes.state[plane as usize] != PlaneState::Face {
-            self.forget_certificate(plane);
-            self.planes.state[plane as usize] = PlaneState::Face;
+    /// Stores one of the own planes in another polytope.
+    fn lend(&self, plane: u32, body: &mut Self) -> u32 {
+        body.planes.insert_with_stamp(*self.planes.half_space(plane), *self.row(plane), self.planes.stamp(plane))
+    }
+
+    /// The vertices of `body` that violate one of the planes `opened`.
+    fn vertices_beyond(&self, body: &mut Self, opened: &[u32]) -> Vec<u32> {
+        let mut beyond: Vec<u32> = Vec::new();
+        for &plane in opened {
+            let face = self.lend(plane, body);
+            let top = body.climb(self.row(plane), body.hint);
+            debug_assert!(body.is_outside(top, face), "the cap lies beyond each removed face");
+            body.collect_cut(face, top);
+            beyond.extend(&body.scratch.cut);
         }
+        if opened.len() > 1 {
+            beyond.sort_unstable();
+            beyond.dedup();
+        }
+        beyond
+    }
+
+    /// A plane that takes part in the cap has a face there; an infinity plane may have been hidden until now.
+    fn show(&mut self, plane: u32, vertex: u32) {
+        if !self.planes.has_face(plane) {
+            self.forget_certificate(plane);
+        }
+        self.planes.set_face(plane, vertex);
     }
 }
 

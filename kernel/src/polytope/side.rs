@@ -6,7 +6,7 @@ use crate::sign::{Homogeneous, OffsetColumn, Row, Sign, orient3};
 
 impl IncrementalPolytope {
     pub(super) fn row(&self, plane: u32) -> &Row {
-        &self.planes.row[plane as usize]
+        self.planes.row(plane)
     }
 
     fn rows(&self, planes: [u32; 3]) -> [&Row; 3] {
@@ -14,25 +14,55 @@ impl IncrementalPolytope {
     }
 
     /// The cached position of a vertex: its part in `M` where an infinity plane takes part, else its constant part.
+    #[inline(always)]
     pub(super) fn meeting_point(&self, planes: [u32; 3]) -> Homogeneous {
         let [a, b, c] = self.rows(planes);
-        Homogeneous::of(a, b, c, leading_column(planes))
+        Homogeneous::quick(a, b, c, leading_column(planes))
     }
 
     /// Whether vertex `vertex` violates plane `plane`.
     #[inline]
     pub(super) fn is_outside(&self, vertex: u32, plane: u32) -> bool {
-        self.is_point_outside(self.vertices.planes[vertex as usize], &self.vertices.point[vertex as usize], plane)
+        if !self.vertices.is_ideal(vertex) && !is_infinity(plane) {
+            match self.vertices.point(vertex).certain_side(self.row(plane), OffsetColumn::Finite) {
+                Sign::Positive => return true,
+                Sign::Negative => return false,
+                Sign::Zero => {}
+            }
+        }
+        self.decide_outside(self.vertices.planes(vertex), self.vertices.point(vertex), plane)
     }
 
     /// Whether the meeting point of three planes, counter-clockwise seen from outside, violates `plane`.
     #[inline]
     pub(super) fn is_point_outside(&self, planes: [u32; 3], point: &Homogeneous, plane: u32) -> bool {
+        if !planes.into_iter().any(is_infinity) && !is_infinity(plane) {
+            match point.certain_side(self.row(plane), OffsetColumn::Finite) {
+                Sign::Positive => return true,
+                Sign::Negative => return false,
+                Sign::Zero => {}
+            }
+        }
+        self.decide_outside(planes, point, plane)
+    }
+
+    /// The same where an infinity plane takes part or the quick filter could not tell.
+    #[cold]
+    #[inline(never)]
+    fn decide_outside(&self, planes: [u32; 3], point: &Homogeneous, plane: u32) -> bool {
         let column = leading_column(planes);
         if column == OffsetColumn::Finite && is_infinity(plane) {
             return false;
         }
-        match point.side(self.rows(planes), self.row(plane), column) {
+        if column == OffsetColumn::Infinite {
+            match point.certain_side(self.row(plane), column) {
+                Sign::Positive => return true,
+                Sign::Negative => return false,
+                Sign::Zero => {}
+            }
+        }
+        let rows @ [a, b, c] = self.rows(planes);
+        match Homogeneous::of(a, b, c, column).side(rows, self.row(plane), column) {
             Sign::Positive => true,
             Sign::Negative => false,
             Sign::Zero => self.breaks_tie_outside(planes, plane),
@@ -53,7 +83,6 @@ impl IncrementalPolytope {
     ///
     /// Moving plane `a` inward by `ε` changes `n_h·P − d_h·W` by `−ε·det(n_h, n_b, n_c)`, moving `h` inward changes it by
     /// `+ε·W`, and `W > 0`.
-    #[cold]
     fn breaks_tie_outside(&self, planes: [u32; 3], plane: u32) -> bool {
         let rows = self.rows(planes);
         let h = self.row(plane);
@@ -65,7 +94,7 @@ impl IncrementalPolytope {
                 Sign::Zero => {}
             }
         }
-        let stamp = |plane: u32| self.planes.stamp[plane as usize];
+        let stamp = |plane: u32| self.planes.stamp(plane);
         let [a, b, c] = rows;
         let mut order = [(stamp(planes[0]), 0), (stamp(planes[1]), 1), (stamp(planes[2]), 2)];
         order.sort_unstable();

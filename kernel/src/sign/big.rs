@@ -5,8 +5,8 @@ use dashu_int::IBig;
 use super::filter::OffsetColumn;
 use super::{Row, Sign};
 
-/// A row's coefficients as big integers, up to one positive scale.
-pub(crate) fn integers(row: [f64; 4]) -> [IBig; 4] {
+/// Numbers, such as a row's coefficients, as big integers, up to one positive scale.
+pub(crate) fn integers<const N: usize>(row: [f64; N]) -> [IBig; N] {
     let lowest = row.into_iter().filter(|v| *v != 0.0).map(|v| decompose(v).1).min().unwrap_or(0);
     row.map(|v| {
         if v == 0.0 {

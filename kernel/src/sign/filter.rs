@@ -24,6 +24,11 @@ pub(super) const RADIAL_BOUND: f64 = 12.0 * U;
 /// Below this permanent every intermediate of an integer expression is an integer below 2⁵³: the value is exact.
 pub(super) const EXACT_PERMANENT: f64 = (1u64 << 52) as f64;
 
+/// The index after 0, 1, 2 in cyclic order.
+const NEXT: [usize; 3] = [1, 2, 0];
+/// The index before.
+const BEFORE: [usize; 3] = [2, 0, 1];
+
 /// Which coefficient of the offsets `d + m·M` is meant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum OffsetColumn {
@@ -41,6 +46,42 @@ impl OffsetColumn {
             Self::Infinite => f64::from(u8::from(row.is_at_infinity())),
         }
     }
+}
+
+/// The sign of `det(nₐ, n_b, n_c)` where a bound from the magnitudes of the rows decides it, else zero.
+#[inline]
+pub(super) fn certain_det3(a: &Row, b: &Row, c: &Row) -> Sign {
+    // six products of three
+    let bound = (6.0 * DET3_BOUND) * a.magnitude() * b.magnitude() * c.magnitude();
+    let (a, b, c) = (a.coefficients(), b.coefficients(), c.coefficients());
+    let value =
+        a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+    if value.abs() > bound { Sign::of(value) } else { Sign::Zero }
+}
+
+/// Which edge at the vertex of three planes leads on in direction `n`: the one off plane `k` does where the determinant of
+/// `n` and the normals of the other two is negative. The most negative one is taken, all three at once: a branch for each
+/// would be mispredicted. Where the filter leaves a sign open on which this depends, an error.
+#[inline]
+pub(crate) fn certain_climb(n: &Row, rows: [&Row; 3]) -> Result<Option<usize>, ()> {
+    let [a, b, c] = rows.map(Row::magnitude);
+    let scale = (6.0 * DET3_BOUND) * n.magnitude();
+    let bounds = [scale * (b * c), scale * (c * a), scale * (a * b)];
+    let [a, b, c] = rows.map(Row::coefficients);
+    let n = n.coefficients();
+    let cross = |p: &[f64; 4]| [n[1] * p[2] - n[2] * p[1], n[2] * p[0] - n[0] * p[2], n[0] * p[1] - n[1] * p[0]];
+    let dot = |p: [f64; 3], q: &[f64; 4]| p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
+    let (na, nb) = (cross(a), cross(b));
+    let values = [dot(nb, c), -dot(na, c), dot(na, b)];
+    let mut best = 0;
+    for k in 1..3 {
+        best = if values[k] < values[best] { k } else { best };
+    }
+    if values[best] < -bounds[best] {
+        return Ok(Some(best));
+    }
+    let settled = values[0] > bounds[0] && values[1] > bounds[1] && values[2] > bounds[2];
+    if settled { Ok(None) } else { Err(()) }
 }
 
 /// Value and permanent of `det(nₐ, n_b, n_c)`.
@@ -104,6 +145,42 @@ impl Homogeneous {
             permanent[3] += a[axis].abs() * pbc;
         }
         Self { value, permanent }
+    }
+
+    /// The meeting point for the offsets of one column, with permanents from the magnitudes of the rows: they are a few
+    /// times too large, equal for the three coordinates, and cost little.
+    #[inline(always)]
+    pub(crate) fn quick(a: &Row, b: &Row, c: &Row, column: OffsetColumn) -> Self {
+        let [da, db, dc] = [column.of(a), column.of(b), column.of(c)];
+        let [ma, mb, mc] = [a.magnitude(), b.magnitude(), c.magnitude()];
+        let (a, b, c) = (a.coefficients(), b.coefficients(), c.coefficients());
+        let mut value = [0.0; 4];
+        for axis in 0..3 {
+            let (u, v) = (NEXT[axis], BEFORE[axis]);
+            let bc = b[u] * c[v] - b[v] * c[u];
+            let ca = c[u] * a[v] - c[v] * a[u];
+            let ab = a[u] * b[v] - a[v] * b[u];
+            value[axis] = da * bc + db * ca + dc * ab;
+            value[3] += a[axis] * bc;
+        }
+        // each minor has two products
+        let reach = 2.0 * (da.abs() * (mb * mc) + db.abs() * (mc * ma) + dc.abs() * (ma * mb));
+        Self { value, permanent: [reach, reach, reach, 6.0 * (ma * mb * mc)] }
+    }
+
+    /// The side of `h` that a point made by [`quick`](Self::quick) is certainly on, for the same column; else zero.
+    #[inline]
+    pub(crate) fn certain_side(&self, h: &Row, column: OffsetColumn) -> Sign {
+        let [nx, ny, nz, _] = *h.coefficients();
+        let d = column.of(h);
+        let [x, y, z, w] = self.value;
+        let value = nx * x + ny * y + nz * z - d * w;
+        let permanent = (nx.abs() + ny.abs() + nz.abs()) * self.permanent[0] + d.abs() * self.permanent[3];
+        if value.abs() > DET4_BOUND * permanent {
+            counts::note_total();
+            return Sign::of(value);
+        }
+        Sign::Zero
     }
 
     /// The sign of `n_h·(X, Y, Z) − d_h·W`; `rows` are the planes that this was made from, in the same order.

@@ -22,7 +22,7 @@ pub(crate) use row::exact_product;
 
 pub(crate) use big::{cross as big_cross, dot as big_dot, integers as big_integers};
 pub use filter::Homogeneous;
-pub(crate) use filter::OffsetColumn;
+pub(crate) use filter::{OffsetColumn, certain_climb};
 
 /// A three-way sign.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -71,10 +71,20 @@ impl Sign {
 }
 
 /// Positive where the normals of `a`, `b`, `c` are a right-handed triple: the sign of `det(nₐ, n_b, n_c)`.
+#[inline]
 #[must_use]
 pub fn orient3(a: &Row, b: &Row, c: &Row) -> Sign {
-    let (value, permanent) = filter::det3(a, b, c);
     counts::note_total();
+    match filter::certain_det3(a, b, c) {
+        Sign::Zero => orient3_carefully(a, b, c),
+        sign => sign,
+    }
+}
+
+#[cold]
+#[inline(never)]
+fn orient3_carefully(a: &Row, b: &Row, c: &Row) -> Sign {
+    let (value, permanent) = filter::det3(a, b, c);
     if value.abs() > filter::DET3_BOUND * permanent {
         return Sign::of(value);
     }

@@ -2,13 +2,14 @@
 
 use crate::half_space::HalfSpace;
 
-/// Integer rows keep every coefficient below this, so that it is exact both as `f64` and as `i64`.
-const MAX_INTEGER: f64 = (1u64 << 53) as f64;
+/// Integer rows keep every coefficient below two to this power. Longer ones would not fit the integer tier anyway, and
+/// decimal numbers, which nearly all use their 53 bits, are told from integers at the first coefficient.
+const MAX_INTEGER_BITS: i32 = 48;
 
 /// The exact coefficients `[nx, ny, nz, d]` of a plane, up to one positive scale.
 ///
 /// # Guarantees
-/// Where the coefficients are integers below 2⁵³ up to a power of two, they are stored as integers without a common
+/// Where the coefficients are integers below 2⁴⁸ up to a power of two, they are stored as integers without a common
 /// divisor; otherwise the largest normal component lies in `[1, 2)`. Either way the stored row is an exact positive
 /// multiple of the plane it was made from.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,6 +18,8 @@ pub struct Row {
     /// Bit length of the largest normal component and of the offset where the row is integer, else [`NOT_INTEGER`].
     bits: [u8; 2],
     at_infinity: bool,
+    /// The largest magnitude in the normal, rounded up.
+    magnitude: f32,
 }
 
 const NOT_INTEGER: u8 = u8::MAX;
@@ -30,7 +33,7 @@ impl Row {
         let coefficients = [n.x + 0.0, n.y + 0.0, n.z + 0.0, half_space.offset() + 0.0];
         match integer_row(coefficients) {
             Some(integers) => Self::from_integers(integers),
-            None => Self { coefficients: power_of_two_row(coefficients), bits: [NOT_INTEGER; 2], at_infinity: false },
+            None => Self::from_scaled(power_of_two_row(coefficients), [NOT_INTEGER; 2]),
         }
     }
 
@@ -42,7 +45,21 @@ impl Row {
     fn from_integers(integers: [i64; 4]) -> Self {
         let length = |v: i64| (64 - v.unsigned_abs().leading_zeros()) as u8;
         let normal = length(integers[0]).max(length(integers[1])).max(length(integers[2]));
-        Self { coefficients: integers.map(|v| v as f64), bits: [normal, length(integers[3])], at_infinity: false }
+        Self::from_scaled(integers.map(|v| v as f64), [normal, length(integers[3])])
+    }
+
+    fn from_scaled(coefficients: [f64; 4], bits: [u8; 2]) -> Self {
+        let [x, y, z, _] = coefficients.map(f64::abs);
+        let largest = x.max(y).max(z);
+        let nearest = largest as f32;
+        let magnitude = if f64::from(nearest) < largest { nearest.next_up() } else { nearest };
+        Self { coefficients, bits, at_infinity: false, magnitude }
+    }
+
+    /// At least the largest magnitude in the normal, and hardly more.
+    #[inline]
+    pub(super) fn magnitude(&self) -> f64 {
+        f64::from(self.magnitude)
     }
 
     /// The scaled coefficients `[nx, ny, nz, d]`.
@@ -80,12 +97,12 @@ impl Row {
         (first, rest.map(|k| c[k] / c[first] + 0.0))
     }
 
-    /// Whether all coefficients are integers (below 2⁵³), coprime.
+    /// Whether all coefficients are integers (below 2⁴⁸), coprime.
     pub(crate) fn is_integer(&self) -> bool {
         self.bits[0] != NOT_INTEGER
     }
 
-    /// The bit length of the largest normal component where all coefficients are (coprime) integers below 2⁵³.
+    /// The bit length of the largest normal component where all coefficients are (coprime) integers below 2⁴⁸.
     #[must_use]
     pub fn integer_bits(&self) -> Option<u32> {
         self.is_integer().then(|| self.bits()[0])
@@ -106,23 +123,30 @@ impl Row {
     }
 }
 
-/// The coefficients as coprime integers below 2⁵³, where they are such up to a power of two.
+/// The coefficients as coprime integers below 2⁴⁸, where they are such up to a power of two.
 fn integer_row(coefficients: [f64; 4]) -> Option<[i64; 4]> {
-    let lowest = coefficients.into_iter().filter(|v| *v != 0.0).map(lowest_bit).min()?;
-    let largest = coefficients.into_iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-    if exponent(largest) - lowest >= 53 {
-        return None;
+    let (mut lowest, mut highest) = (i32::MAX, i32::MIN);
+    for v in coefficients.into_iter().filter(|v| *v != 0.0) {
+        lowest = lowest.min(lowest_bit(v));
+        highest = highest.max(exponent(v));
+        if highest - lowest >= MAX_INTEGER_BITS {
+            return None;
+        }
     }
     let integers = coefficients.map(|v| scale(v, -lowest));
-    debug_assert!(integers.iter().all(|v| v.abs() < MAX_INTEGER && v.fract() == 0.0));
+    debug_assert!(integers.iter().all(|v| v.fract() == 0.0));
     let integers = integers.map(|v| v as i64);
-    let divisor = integers.into_iter().fold(0, |g, v| gcd(g, v.unsigned_abs())) as i64;
+    let divisor = integers.into_iter().fold(0, |g, v| if g == 1 { 1 } else { gcd(g, v.unsigned_abs()) }) as i64;
+    if divisor == 1 {
+        return Some(integers);
+    }
     Some(integers.map(|v| v / divisor))
 }
 
 /// Scaled by a power of two so that the largest normal component lies in `[1, 2)`.
 fn power_of_two_row(coefficients: [f64; 4]) -> [f64; 4] {
-    let largest = coefficients[..3].iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    let [x, y, z, _] = coefficients.map(f64::abs);
+    let largest = x.max(y).max(z);
     coefficients.map(|v| scale(v, -exponent(largest)))
 }
 
@@ -139,9 +163,8 @@ fn lowest_bit(v: f64) -> i32 {
 
 /// `v · 2^power`, exact while neither side under- or overflows, which the accepted coefficient range ensures.
 fn scale(v: f64, power: i32) -> f64 {
-    let half = power / 2;
-    let factor = |p: i32| f64::from_bits(((1023 + p) as u64) << 52);
-    v * factor(half) * factor(power - half)
+    debug_assert!(power.abs() <= 1022);
+    v * f64::from_bits(((1023 + power) as u64) << 52)
 }
 
 /// The product of two numbers as an exact unevaluated sum (Dekker 1971).

@@ -3,17 +3,18 @@
 use std::cell::RefCell;
 
 use planecut_kernel::{DVec3, IncrementalPolytope};
+use planecut_oracle::campaign::Campaign;
+use planecut_oracle::category::Category;
+use planecut_oracle::exact::Coefficients;
+use planecut_oracle::random::Rng;
+use planecut_oracle::replay::Replay;
+use planecut_oracle::settings::{cases, first_seed, operations};
+use planecut_oracle::test_each_category;
 
-use crate::category::{Category, test_each_category};
-use crate::exact::Coefficients;
 use crate::mesh::{Mesh, check_closed, winding_number};
-use crate::random::Rng;
-use crate::replay::Replay;
-use crate::settings::{first_seed, operations};
-use crate::shrink::Campaign;
 
 /// Operations per category unless `PLANECUT_OPS` says otherwise.
-const OPERATIONS: usize = 2_000;
+const OPERATIONS: usize = 1_200;
 /// Random points per operation.
 const POINTS: usize = 16;
 /// Points nearer to a plane than this part of the body's size are not asked about: rounding may decide there.
@@ -29,6 +30,7 @@ test_each_category!(mesh_and_inequalities_agree);
 fn mesh_and_inequalities_agree(category: Category) {
     let campaign = Campaign {
         operations: operations(OPERATIONS),
+        cases: cases(1),
         capacity: 20,
         // Bodies as thin as the default epsilon lose whole faces to contraction, as they should.
         start: if category == Category::MixedExponents {

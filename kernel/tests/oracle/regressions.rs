@@ -1,15 +1,14 @@
 //! Scripts that once failed, as the shrinker printed them, and small ones that are easy to get wrong.
 
 use planecut_kernel::IncrementalPolytope;
-
-use crate::brute_force::compare_with_truth;
-use crate::script::Op;
-use crate::shrink::Campaign;
+use planecut_oracle::campaign::Campaign;
+use planecut_oracle::check::compare_with_truth;
+use planecut_oracle::script::Op;
 
 /// Replays a script against brute force after every operation.
 fn replay(ops: &[Op]) {
     let start = || IncrementalPolytope::with_epsilon(0.0);
-    let campaign = Campaign { operations: ops.len(), capacity: usize::MAX, start, check: compare_with_truth };
+    let campaign = Campaign { operations: ops.len(), cases: 1, capacity: usize::MAX, start, check: compare_with_truth };
     campaign.attempt(ops).unwrap_or_else(|e| panic!("{e}"));
 }
 
@@ -72,5 +71,16 @@ fn the_volume_of_a_needle() {
         add(1, [-0.25960430490149, -0.9657150743757779, 0.0, 1.0]),
         add(2, [0.9, -0.3, -0.3, 1.0]),
         add(3, [-0.45541984073721575, 0.8768831904020253, -0.15384615384615374, 1.0]),
+    ]);
+}
+
+#[test]
+fn an_older_plane_is_moved_so_that_nothing_is_left() {
+    replay(&[
+        add(13, [1.0, 1.0, 1.0, 2.0]),
+        add(14, [1.0, 0.0, 1.0, -0.0]),
+        add(15, [1.0, -1.0, 0.0, 0.0]),
+        add(16, [-0.6, 0.6, -0.5, -8.4]),
+        Op::Move { name: 14, plane: [-1.0, -1.0, 0.0, -6.0] },
     ]);
 }

@@ -1,10 +1,10 @@
 //! The three signs against determinants of big integers.
 
 use planecut_kernel::sign::{Row, Sign, orient3, orient4, radial};
-
-use crate::exact::{Coefficients, cross, det3, det4, half_space, integer_row, normal, sign};
-use crate::random::Rng;
-use crate::settings::first_seed;
+use planecut_oracle::exact::{Coefficients, cross, det3, det4, integer_row, normal, sign};
+use planecut_oracle::kernel_calls::half_space;
+use planecut_oracle::random::Rng;
+use planecut_oracle::settings::first_seed;
 
 /// Draws per family of inputs; each draw asks about forty signs.
 const DRAWS: usize = 1_000;

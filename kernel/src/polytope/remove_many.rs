@@ -1,0 +1,219 @@
+//! Taking several planes back at once: faces that touch are opened together, so that nothing is built between them, and
+//! what the planes hid is looked at once. Where little remains the whole is built anew.
+//!
+//! The faces of a connected patch leave one hole. As for a single face, only the planes around it and the planes whose
+//! certificates the patch carried can bound what comes instead (`docs/kernel.md`), so the same means close it. A patch
+//! whose border is not one simple ring of different planes is taken back face by face.
+
+use super::remove::RingEdge;
+use super::store::{Leaving, Link, NEXT, PlaneState, Steps};
+use super::{IncrementalPolytope, PlaneIdx, RemovePlanesResult, infinity};
+
+impl IncrementalPolytope {
+    /// Takes half-spaces back: the same as [`remove_plane`](Self::remove_plane) one after the other, and never slower than
+    /// the better of that and building the rest anew (the paper's §8, "batch removal").
+    ///
+    /// Handles that are not there, or there twice, do not count.
+    pub fn remove_planes(&mut self, planes: &[PlaneIdx]) -> RemovePlanesResult<'_> {
+        let mut leaving: Vec<u32> = Vec::with_capacity(planes.len());
+        for idx in planes {
+            if let Some(plane) = self.live(*idx).filter(|plane| self.planes.leaving(*plane) == Leaving::No) {
+                self.planes.set_leaving(plane, Leaving::Yes);
+                leaving.push(plane);
+            }
+        }
+        self.begin_change(Steps::Several);
+        if self.is_rebuild_cheaper(&leaving) {
+            self.remove_by_rebuild(&leaving);
+        } else {
+            self.remove_patches(&leaving);
+        }
+        let change = self.finish_change();
+        RemovePlanesResult { count: leaving.len(), removed_vertices: &change.removed, new_vertices: &change.created }
+    }
+
+    /// Whether adding the planes that stay is less work than taking back those that leave. A face taken back and a plane
+    /// added cost about the same; what has no face costs nothing to take back.
+    fn is_rebuild_cheaper(&self, leaving: &[u32]) -> bool {
+        let opened = leaving.iter().filter(|plane| self.planes.has_face(**plane)).count();
+        opened > self.planes.live_count() - leaving.len()
+    }
+
+    fn remove_by_rebuild(&mut self, leaving: &[u32]) {
+        let removed: Vec<_> = if self.is_empty() { Vec::new() } else { self.simple_handles().collect() };
+        for &plane in leaving {
+            self.planes.remove(plane);
+        }
+        self.rebuild();
+        self.change.removed = removed;
+    }
+
+    fn remove_patches(&mut self, leaving: &[u32]) {
+        let was_empty = self.is_empty();
+        self.certify_orphans();
+        let planes = &self.planes;
+        self.pending.retain(|plane| planes.leaving(*plane) == Leaving::No);
+        for &plane in leaving {
+            self.refresh_infinity_planes();
+            if self.planes.has_face(plane) {
+                self.open_patch(plane);
+            } else if self.planes.state(plane) != PlaneState::Pending {
+                self.open_alone(plane);
+            }
+        }
+        for &plane in leaving {
+            self.planes.remove(plane);
+        }
+        self.examine_again();
+        if was_empty {
+            self.after_loss(leaving);
+        }
+    }
+
+    /// Lets go what a leaving plane hides, to be looked at when all have left; what leaves itself lets go with it, because
+    /// from now on it bounds nothing.
+    fn release(&mut self, plane: u32) {
+        let mut examine = std::mem::take(&mut self.scratch.to_examine);
+        let known = examine.len();
+        self.take_certified(plane, &mut examine);
+        let mut at = known;
+        while let Some(&hidden) = examine.get(at) {
+            if self.planes.leaving(hidden) == Leaving::No {
+                at += 1;
+            } else {
+                examine.swap_remove(at);
+                self.take_certified(hidden, &mut examine);
+            }
+        }
+        self.scratch.to_examine = examine;
+    }
+
+    /// Gives the hidden infinity planes certificates by planes that have a face, or shows them.
+    ///
+    /// Hidden planes that wait to be looked at again are missing from the structure, which may reach beyond an infinity
+    /// plane that only they kept hidden; the next hole would then not fit what is around it.
+    fn refresh_infinity_planes(&mut self) {
+        for plane in 0..infinity::COUNT {
+            let is_stale = match self.planes.certificate(plane) {
+                Some(number) => !self.certificates.certifiers(number).iter().all(|p| self.planes.has_face(*p)),
+                None => !self.planes.has_face(plane),
+            };
+            if is_stale {
+                self.forget_certificate(plane);
+                self.insert_into_structure(plane);
+            }
+        }
+        self.certify_orphans();
+    }
+
+    /// Opens the face of `start` and all leaving faces that are connected with it, and closes the hole.
+    fn open_patch(&mut self, start: u32) {
+        let mut ring = std::mem::take(&mut self.scratch.ring);
+        let mut cut = std::mem::take(&mut self.scratch.cut);
+        ring.clear();
+        cut.clear();
+        let mut patch = vec![start];
+        let border = self.collect_patch(&mut patch, &mut cut);
+        for &plane in &patch {
+            self.release(plane);
+        }
+        // Euler's formula for a disc; a face that stays inside the patch may have no corner on its border.
+        let is_disc = cut.len() + 2 == 2 * patch.len() + border.len();
+        let is_whole = patch.len() > 1 && is_disc && self.walk_border(&border, &mut ring);
+        if is_whole {
+            for &vertex in &cut {
+                self.discard_vertex(vertex);
+            }
+            self.close_hole(&ring, &patch);
+            for &plane in &patch {
+                self.planes.set_without_face(plane, PlaneState::Uncertified);
+            }
+        }
+        self.scratch.ring = ring;
+        self.scratch.cut = cut;
+        for plane in patch.into_iter().filter(|_| !is_whole) {
+            self.open_alone(plane);
+        }
+    }
+
+    /// Takes one leaving plane out of the structure.
+    fn open_alone(&mut self, plane: u32) {
+        self.refresh_infinity_planes();
+        self.release(plane);
+        if self.planes.has_face(plane) {
+            self.open_face(plane);
+            self.planes.set_without_face(plane, PlaneState::Uncertified);
+        } else {
+            self.forget_certificate(plane);
+        }
+    }
+
+    /// Grows a patch over its leaving neighbours and collects its vertices; gives those on its border, each as the end
+    /// off its one leaving plane.
+    fn collect_patch(&mut self, patch: &mut Vec<u32>, cut: &mut Vec<u32>) -> Vec<Link> {
+        let mut border = Vec::new();
+        self.vertices.begin_visit();
+        self.planes.set_leaving(patch[0], Leaving::WithPatch);
+        let mut next = 0;
+        while let Some(&plane) = patch.get(next) {
+            next += 1;
+            let first = cut.len();
+            let corners = self.vertices.face_corners(plane, self.planes.face_vertex(plane));
+            cut.extend(corners.map(|(vertex, _)| vertex).filter(|vertex| !self.vertices.is_visited(*vertex)));
+            for &vertex in &cut[first..] {
+                self.vertices.set_visited(vertex);
+                let mut leaving = 0;
+                for (k, p) in self.vertices.planes(vertex).into_iter().enumerate() {
+                    if !self.is_leaving(p) {
+                        continue;
+                    }
+                    leaving += 1;
+                    if leaving == 1 {
+                        border.push(Link::new(vertex, k));
+                    } else if leaving == 2 {
+                        border.pop();
+                    }
+                    if self.planes.leaving(p) == Leaving::Yes {
+                        self.planes.set_leaving(p, Leaving::WithPatch);
+                        patch.push(p);
+                    }
+                }
+            }
+        }
+        border
+    }
+
+    fn is_leaving(&self, plane: u32) -> bool {
+        self.planes.leaving(plane) != Leaving::No
+    }
+
+    /// The ring of planes around a patch; false where the border is not one ring of different planes.
+    fn walk_border(&mut self, border: &[Link], ring: &mut Vec<RingEdge>) -> bool {
+        let Some(&start) = border.first() else { return false };
+        let mut corner = start;
+        loop {
+            let plane = self.vertices.planes(corner.vertex())[NEXT[corner.index()]];
+            self.planes.set_mark(plane, ring.len() as u32);
+            ring.push(RingEdge { plane, end: self.vertices.link(corner.vertex(), corner.index()) });
+            corner = self.next_on_border(corner);
+            if corner == start {
+                break;
+            }
+        }
+        let differ = ring.iter().zip(0..).all(|(edge, at)| self.planes.mark(edge.plane) == at);
+        differ && ring.len() == border.len()
+    }
+
+    /// The next vertex on the border of a patch, along the plane that stays on the border: the planes of the patch that it
+    /// touches before are passed.
+    fn next_on_border(&self, corner: Link) -> Link {
+        let (mut vertex, mut index) = (corner.vertex(), NEXT[corner.index()]);
+        loop {
+            let link = self.vertices.link(vertex, index);
+            (vertex, index) = (link.vertex(), NEXT[link.index()]);
+            if !self.is_leaving(self.vertices.planes(vertex)[link.index()]) {
+                return Link::new(vertex, index);
+            }
+        }
+    }
+}

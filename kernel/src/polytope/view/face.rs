@@ -1,0 +1,79 @@
+//! Seen faces.
+
+use std::collections::HashMap;
+
+use super::super::infinity::is_infinity;
+use super::super::store::{BEFORE, NEXT};
+use super::super::{IncrementalPolytope, PlaneIdx, external};
+use super::cluster::{Clusters, Naming};
+
+/// A face as seen from outside.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Face {
+    /// The plane it lies on.
+    pub plane: PlaneIdx,
+    /// Its finite corners, counter-clockwise seen from outside, as indices into the vertices that
+    /// [`IncrementalPolytope::to_mesh`] gives. Those of an unbounded face begin after its way through infinity; it may
+    /// have none.
+    pub vertices: Vec<usize>,
+    /// Whether it is a polygon; else it reaches infinity.
+    pub is_bounded: bool,
+}
+
+impl IncrementalPolytope {
+    /// The seen faces, unbounded ones included, by plane; corners index the vertices of [`to_mesh`](Self::to_mesh).
+    #[must_use]
+    pub fn faces(&self) -> Vec<Face> {
+        let names: Vec<u32> = self.vertex_names().filter(|slot| !self.vertices.is_ideal(*slot)).collect();
+        self.faces_among(&names)
+    }
+
+    /// The seen faces, their corners as indices into `names`, the slots that name the finite vertices.
+    pub(super) fn faces_among(&self, names: &[u32]) -> Vec<Face> {
+        let number: HashMap<u32, usize> = names.iter().enumerate().map(|(number, slot)| (*slot, number)).collect();
+        let mut clusters = Clusters::whole(self);
+        let mut faces = Vec::new();
+        for plane in self.planes.faces().filter(|plane| !self.is_empty() && !is_infinity(*plane)) {
+            let start = self.planes.face_vertex(plane);
+            if !clusters.is_seen(plane, start, Naming::Settled) {
+                continue;
+            }
+            let mut corners: Vec<u32> =
+                self.vertices.face_ring(plane, start).map(|slot| clusters.cluster(slot)).collect();
+            let at_infinity = corners.iter().rposition(|slot| self.vertices.is_ideal(*slot));
+            corners.rotate_left(at_infinity.map_or(0, |last| last + 1));
+            let mut vertices: Vec<usize> = corners.iter().filter_map(|slot| number.get(slot).copied()).collect();
+            vertices.dedup();
+            if at_infinity.is_none() && vertices.len() > 1 && vertices.first() == vertices.last() {
+                vertices.pop();
+            }
+            faces.push(Face { plane: external(plane), vertices, is_bounded: at_infinity.is_none() });
+        }
+        faces
+    }
+
+    /// The faces that have an area, exactly: for each its plane and the planes of its edges, counter-clockwise seen from
+    /// outside. Edges of exactly zero length are left out; the tolerance takes no part. Corner `i` is where the plane and
+    /// the edge planes `i` and `i + 1` meet, right-handed in this order. Infinity planes are `None`.
+    #[must_use]
+    pub fn facets(&self) -> Vec<(PlaneIdx, Vec<Option<PlaneIdx>>)> {
+        let mut facets = Vec::new();
+        for plane in self.planes.faces().filter(|plane| !self.is_empty() && !is_infinity(*plane)) {
+            let mut edges = Vec::new();
+            for (vertex, k) in self.vertices.face_corners(plane, self.planes.face_vertex(plane)) {
+                // the edge from this vertex (plane, p, q) to the next lies on q
+                let planes = self.vertices.planes(vertex);
+                let next = self.vertices.link(vertex, NEXT[k]);
+                let across = self.vertices.planes(next.vertex())[next.index()];
+                if !self.is_exactly_on(planes, across) {
+                    let q = planes[BEFORE[k]];
+                    edges.push((!is_infinity(q)).then(|| external(q)));
+                }
+            }
+            if edges.len() >= 3 {
+                facets.push((external(plane), edges));
+            }
+        }
+        facets
+    }
+}
