@@ -10,6 +10,10 @@ use super::store::Link;
 use super::{IncrementalPolytope, VertexIdx};
 use crate::sign::{Homogeneous, Sign, orient3};
 
+/// Candidates looked at for each plane of the ring and each doubling of its length: beyond them the parts are uneven. Even
+/// parts need one.
+const PATIENCE: usize = 8;
+
 /// A part of a ring that is still open: the edge between its first and its last plane enters it from `end`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct OpenPart {
@@ -19,8 +23,8 @@ pub(super) struct OpenPart {
 }
 
 impl IncrementalPolytope {
-    /// Closes the hole with new vertices; false where an edge never ends, so that the hole is open at infinity. What was
-    /// made until then is in the change.
+    /// Closes the hole with new vertices; false where an edge never ends, so that the hole is open at infinity, or where
+    /// the parts are so uneven that another way is faster. What was made until then is in the change.
     pub(super) fn fill(&mut self, ring: &[RingEdge]) -> bool {
         let last = ring.len() - 1;
         if last < 2 {
@@ -30,7 +34,14 @@ impl IncrementalPolytope {
         open.clear();
         open.push(OpenPart { first: 0, last: last as u32, end: ring[last].end });
         let mut is_closed = true;
+        let mut patience = PATIENCE * ring.len() * (ring.len().ilog2() as usize + 1);
         while let Some(part) = open.pop() {
+            let candidates = (part.last - part.first) as usize;
+            if candidates > patience {
+                is_closed = false;
+                break;
+            }
+            patience -= candidates;
             let Some((between, planes, point)) = self.first_left(ring, part) else {
                 is_closed = false;
                 break;

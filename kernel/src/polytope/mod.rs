@@ -183,6 +183,8 @@ struct Scratch {
     horizon: Vec<Link>,
     /// The ring of a face that is being removed.
     ring: Vec<remove::RingEdge>,
+    /// The planes of a patch that is being removed.
+    patch: Vec<u32>,
     /// Parts of a ring that are not closed yet.
     open_parts: Vec<fill::OpenPart>,
     /// New positions of the vertices of a face that moves.
@@ -239,7 +241,7 @@ impl IncrementalPolytope {
     pub fn with_epsilon(epsilon: f64) -> Self {
         let mut polytope = Self {
             planes: PlaneStore::with_capacity(16),
-            vertices: VertexStore::with_capacity(24),
+            vertices: VertexStore::with_capacity(32),
             certificates: Certificates::default(),
             pending: Vec::new(),
             witness: [NONE; 4],

@@ -2,14 +2,12 @@
 //!
 //! Only planes adjacent to the removed face, and planes whose certificate it carried, can bound the new region
 //! (`docs/kernel.md`). [`super::fill`] closes the hole from the ring of the face. Where the ring does not close, the
-//! region is open and reaches the infinity planes: like a large ring it is then built as a cap of its own
-//! ([`super::remove_large`]).
+//! region is open and reaches the infinity planes: like a large ring with uneven parts it is then built as a cap of its
+//! own ([`super::remove_large`]).
 
 use super::store::{Link, NEXT, PlaneState, Steps};
 use super::{IncrementalPolytope, PlaneIdx, RemovePlaneResult, VertexIdx};
-
-/// A ring longer than this is built as a cap in random order, O(k log k) instead of O(k²).
-const LARGE_RING: usize = 24;
+use std::hint::black_box;
 
 /// A plane of the ring, and the kept end of the edge between it and the next plane.
 #[derive(Debug, Clone, Copy)]
@@ -90,15 +88,15 @@ impl IncrementalPolytope {
         for &vertex in &cut {
             self.discard_vertex(vertex);
         }
-        self.close_hole(&ring, &[plane]);
+        self.close_hole(&ring, plane);
         self.scratch.ring = ring;
         self.scratch.cut = cut;
     }
 
-    /// Closes a hole with the planes of its ring; `opened` are the planes whose faces were there.
-    pub(super) fn close_hole(&mut self, ring: &[RingEdge], opened: &[u32]) {
+    /// Closes a hole with the planes of its ring; `opened` is a plane whose face was there.
+    pub(super) fn close_hole(&mut self, ring: &[RingEdge], opened: u32) {
         let first = self.change.created.len();
-        if ring.len() > LARGE_RING || !self.fill(ring) {
+        if !self.fill(ring) {
             for VertexIdx(vertex) in self.change.created.split_off(first) {
                 self.vertices.remove(vertex);
             }
@@ -108,9 +106,11 @@ impl IncrementalPolytope {
     }
 
     /// The planes around a face, each with where the edge to the next one continues; and its vertices.
-    fn walk_ring(&self, plane: u32, ring: &mut Vec<RingEdge>, face: &mut Vec<u32>) {
+    pub(super) fn walk_ring(&self, plane: u32, ring: &mut Vec<RingEdge>, face: &mut Vec<u32>) {
         for (vertex, k) in self.vertices.face_corners(plane, self.planes.face_vertex(plane)) {
             let p = self.vertices.planes(vertex)[NEXT[k]];
+            // The walk waits for one vertex after the other; the planes, needed soon, can be fetched meanwhile.
+            black_box(self.planes.stamp(p));
             ring.push(RingEdge { plane: p, end: self.vertices.link(vertex, k) });
             face.push(vertex);
         }

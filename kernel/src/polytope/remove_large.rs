@@ -5,17 +5,23 @@
 //! that is needed beyond an open ring is one that nothing else bounds.
 
 use super::remove::RingEdge;
-use super::store::{Link, NEXT, NONE};
+use super::store::{BEFORE, Link, NEXT, NONE, VertexStore};
 use super::{IncrementalPolytope, VertexIdx, infinity};
 
 impl IncrementalPolytope {
-    /// Closes a hole with the part beyond the planes `opened` of the polytope of the ring planes.
-    pub(super) fn fill_with_cap(&mut self, ring: &[RingEdge], opened: &[u32]) {
-        let (mut body, original) = self.body_of_ring(ring);
-        let beyond = self.vertices_beyond(&mut body, opened);
+    /// Closes a hole with a part of the polytope of the ring planes: what lies beyond `opened`, a plane whose face was there,
+    /// up to the edges that cross the border of the hole.
+    pub(super) fn fill_with_cap(&mut self, ring: &[RingEdge], opened: u32) {
+        let (body, original) = self.body_of_ring(ring);
         for (position, edge) in ring.iter().enumerate() {
             self.planes.set_mark(edge.plane, position as u32);
         }
+        let crossing = |vertex: u32, k: usize| {
+            let planes = body.vertices.planes(vertex).map(|p| original[p as usize]);
+            self.crossing_edge(ring, planes[NEXT[k]], planes[BEFORE[k]])
+        };
+        let top = body.climb(self.row(opened), body.hint);
+        let beyond = connected(&body.vertices, top, |vertex, k| crossing(vertex, k).is_none());
         let mut number = vec![NONE; body.vertices.slot_count()];
         for &vertex in &beyond {
             let planes = body.vertices.planes(vertex).map(|p| original[p as usize]);
@@ -27,12 +33,12 @@ impl IncrementalPolytope {
             }
         }
         for &vertex in &beyond {
+            let slot = number[vertex as usize];
+            let planes = self.vertices.planes(slot);
             for (k, link) in body.vertices.links(vertex).into_iter().enumerate() {
-                let slot = number[vertex as usize];
-                let end = match number[link.vertex() as usize] {
-                    // this edge crosses the removed face: it continues where that ring edge does
-                    NONE => ring[self.planes.mark(self.vertices.planes(slot)[NEXT[k]]) as usize].end,
-                    other => Link::new(other, link.index()),
+                let end = match self.crossing_edge(ring, planes[NEXT[k]], planes[BEFORE[k]]) {
+                    Some(edge) => ring[edge].end,
+                    None => Link::new(number[link.vertex() as usize], link.index()),
                 };
                 self.vertices.join(Link::new(slot, k), end);
             }
@@ -46,7 +52,8 @@ impl IncrementalPolytope {
         let mut order: Vec<u32> = ring.iter().map(|edge| edge.plane).filter(|p| !infinity::is_infinity(*p)).collect();
         shuffle(&mut order);
         for plane in order {
-            let slot = self.lend(plane, &mut body);
+            let stamp = self.planes.stamp(plane);
+            let slot = body.planes.insert_with_stamp(*self.planes.half_space(plane), *self.row(plane), stamp);
             debug_assert_eq!(slot as usize, original.len());
             original.push(plane);
             body.insert_into_structure(slot);
@@ -54,26 +61,12 @@ impl IncrementalPolytope {
         (body, original)
     }
 
-    /// Stores one of the own planes in another polytope.
-    fn lend(&self, plane: u32, body: &mut Self) -> u32 {
-        body.planes.insert_with_stamp(*self.planes.half_space(plane), *self.row(plane), self.planes.stamp(plane))
-    }
-
-    /// The vertices of `body` that violate one of the planes `opened`.
-    fn vertices_beyond(&self, body: &mut Self, opened: &[u32]) -> Vec<u32> {
-        let mut beyond: Vec<u32> = Vec::new();
-        for &plane in opened {
-            let face = self.lend(plane, body);
-            let top = body.climb(self.row(plane), body.hint);
-            debug_assert!(body.is_outside(top, face), "the cap lies beyond each removed face");
-            body.collect_cut(face, top);
-            beyond.extend(&body.scratch.cut);
-        }
-        if opened.len() > 1 {
-            beyond.sort_unstable();
-            beyond.dedup();
-        }
-        beyond
+    /// Which ring edge is the one between two planes, seen from the hole; the marks give the places in the ring.
+    fn crossing_edge(&self, ring: &[RingEdge], p: u32, q: u32) -> Option<usize> {
+        let at = self.planes.mark(p) as usize;
+        let next = if at + 1 == ring.len() { 0 } else { at + 1 };
+        // marks of planes that are not in the ring are left from earlier operations
+        (ring.get(at)?.plane == p && ring[next].plane == q).then_some(at)
     }
 
     /// A plane that takes part in the cap has a face there; an infinity plane may have been hidden until now.
@@ -83,6 +76,24 @@ impl IncrementalPolytope {
         }
         self.planes.set_face(plane, vertex);
     }
+}
+
+/// The vertices that are reached from `start` over edges that `passes` lets through.
+fn connected(vertices: &VertexStore, start: u32, passes: impl Fn(u32, usize) -> bool) -> Vec<u32> {
+    let mut is_reached = vec![false; vertices.slot_count()];
+    is_reached[start as usize] = true;
+    let mut reached = vec![start];
+    let mut next = 0;
+    while let Some(&vertex) = reached.get(next) {
+        next += 1;
+        for (k, neighbour) in vertices.neighbours(vertex).into_iter().enumerate() {
+            if !is_reached[neighbour as usize] && passes(vertex, k) {
+                is_reached[neighbour as usize] = true;
+                reached.push(neighbour);
+            }
+        }
+    }
+    reached
 }
 
 /// Fisher–Yates with a fixed generator: any order gives the same structure, a random one gives it fast.

@@ -9,6 +9,9 @@ use super::remove::RingEdge;
 use super::store::{Leaving, Link, NEXT, PlaneState, Steps};
 use super::{IncrementalPolytope, PlaneIdx, RemovePlanesResult, infinity};
 
+/// So many faces that did not make a patch are a sign that the others will not either.
+const FUTILE: usize = 12;
+
 impl IncrementalPolytope {
     /// Takes half-spaces back: the same as [`remove_plane`](Self::remove_plane) one after the other, and never slower than
     /// the better of that and building the rest anew (the paper's §8, "batch removal").
@@ -32,11 +35,11 @@ impl IncrementalPolytope {
         RemovePlanesResult { count: leaving.len(), removed_vertices: &change.removed, new_vertices: &change.created }
     }
 
-    /// Whether adding the planes that stay is less work than taking back those that leave. A face taken back and a plane
-    /// added cost about the same; what has no face costs nothing to take back.
+    /// Whether adding the planes that stay is less work than taking back those that leave. To take a face back costs
+    /// about two thirds of adding a plane (`docs/benchmarks.md`); what has no face costs nothing to take back.
     fn is_rebuild_cheaper(&self, leaving: &[u32]) -> bool {
         let opened = leaving.iter().filter(|plane| self.planes.has_face(**plane)).count();
-        opened > self.planes.live_count() - leaving.len()
+        2 * opened > 3 * (self.planes.live_count() - leaving.len())
     }
 
     fn remove_by_rebuild(&mut self, leaving: &[u32]) {
@@ -53,10 +56,11 @@ impl IncrementalPolytope {
         self.certify_orphans();
         let planes = &self.planes;
         self.pending.retain(|plane| planes.leaving(*plane) == Leaving::No);
+        let mut futile = 0;
         for &plane in leaving {
             self.refresh_infinity_planes();
             if self.planes.has_face(plane) {
-                self.open_patch(plane);
+                futile += self.open_patch(plane, futile < FUTILE);
             } else if self.planes.state(plane) != PlaneState::Pending {
                 self.open_alone(plane);
             }
@@ -93,6 +97,9 @@ impl IncrementalPolytope {
     /// Hidden planes that wait to be looked at again are missing from the structure, which may reach beyond an infinity
     /// plane that only they kept hidden; the next hole would then not fit what is around it.
     fn refresh_infinity_planes(&mut self) {
+        if self.scratch.to_examine.is_empty() {
+            return;
+        }
         for plane in 0..infinity::COUNT {
             let is_stale = match self.planes.certificate(plane) {
                 Some(number) => !self.certificates.certifiers(number).iter().all(|p| self.planes.has_face(*p)),
@@ -106,34 +113,59 @@ impl IncrementalPolytope {
         self.certify_orphans();
     }
 
-    /// Opens the face of `start` and all leaving faces that are connected with it, and closes the hole.
-    fn open_patch(&mut self, start: u32) {
+    /// Opens the face of `start` and, where it pays, all leaving faces that are connected with it, and closes the hole.
+    ///
+    /// Gives how many faces were looked at in vain.
+    fn open_patch(&mut self, start: u32, grows: bool) -> usize {
         let mut ring = std::mem::take(&mut self.scratch.ring);
         let mut cut = std::mem::take(&mut self.scratch.cut);
+        let mut patch = std::mem::take(&mut self.scratch.patch);
         ring.clear();
         cut.clear();
-        let mut patch = vec![start];
-        let border = self.collect_patch(&mut patch, &mut cut);
+        patch.clear();
+        patch.push(start);
+        self.walk_ring(start, &mut ring, &mut cut);
+        let is_alone = !ring.iter().any(|edge| self.is_leaving(edge.plane));
+        let mut is_whole = true;
+        if grows && !is_alone {
+            is_whole = self.grow_patch(&mut patch, &mut ring, &mut cut);
+        }
         for &plane in &patch {
             self.release(plane);
         }
-        // Euler's formula for a disc; a face that stays inside the patch may have no corner on its border.
-        let is_disc = cut.len() + 2 == 2 * patch.len() + border.len();
-        let is_whole = patch.len() > 1 && is_disc && self.walk_border(&border, &mut ring);
         if is_whole {
             for &vertex in &cut {
                 self.discard_vertex(vertex);
             }
-            self.close_hole(&ring, &patch);
+            self.close_hole(&ring, start);
             for &plane in &patch {
                 self.planes.set_without_face(plane, PlaneState::Uncertified);
             }
         }
         self.scratch.ring = ring;
         self.scratch.cut = cut;
-        for plane in patch.into_iter().filter(|_| !is_whole) {
+        for &plane in patch.iter().filter(|_| !is_whole) {
             self.open_alone(plane);
         }
+        let futile = if is_whole { 0 } else { patch.len() };
+        self.scratch.patch = patch;
+        futile
+    }
+
+    /// Grows a patch over its leaving neighbours, with its vertices and the ring around it; false where its border is not
+    /// one simple ring.
+    fn grow_patch(&mut self, patch: &mut Vec<u32>, ring: &mut Vec<RingEdge>, cut: &mut Vec<u32>) -> bool {
+        let mut border = std::mem::take(&mut self.scratch.horizon);
+        ring.clear();
+        cut.clear();
+        border.clear();
+        self.collect_patch(patch, cut, &mut border);
+        // Euler's formula for a disc; a face that stays inside the patch may have no corner on its border.
+        let is_disc = cut.len() + 2 == 2 * patch.len() + border.len();
+        // Around two planes, the only edge between them would begin and end in the hole.
+        let is_whole = is_disc && border.len() > 2 && self.walk_border(&border, ring);
+        self.scratch.horizon = border;
+        is_whole
     }
 
     /// Takes one leaving plane out of the structure.
@@ -148,15 +180,18 @@ impl IncrementalPolytope {
         }
     }
 
-    /// Grows a patch over its leaving neighbours and collects its vertices; gives those on its border, each as the end
-    /// off its one leaving plane.
-    fn collect_patch(&mut self, patch: &mut Vec<u32>, cut: &mut Vec<u32>) -> Vec<Link> {
-        let mut border = Vec::new();
+    /// Grows a patch over its leaving neighbours and collects its vertices, and those on its border, each as the end off
+    /// its one leaving plane. Gives up, which leaves something that is no disc, where the border grows with the patch: the
+    /// leaving faces are scattered then.
+    fn collect_patch(&mut self, patch: &mut Vec<u32>, cut: &mut Vec<u32>, border: &mut Vec<Link>) {
         self.vertices.begin_visit();
         self.planes.set_leaving(patch[0], Leaving::WithPatch);
         let mut next = 0;
         while let Some(&plane) = patch.get(next) {
             next += 1;
+            if border.len() > next + FUTILE {
+                return;
+            }
             let first = cut.len();
             let corners = self.vertices.face_corners(plane, self.planes.face_vertex(plane));
             cut.extend(corners.map(|(vertex, _)| vertex).filter(|vertex| !self.vertices.is_visited(*vertex)));
@@ -180,7 +215,6 @@ impl IncrementalPolytope {
                 }
             }
         }
-        border
     }
 
     fn is_leaving(&self, plane: u32) -> bool {
