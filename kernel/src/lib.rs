@@ -1,8 +1,13 @@
 //! Exact dynamic convex polyhedra: half-spaces added and taken back in about a microsecond.
 //!
-//! [`IncrementalPolytope`] keeps the vertices, edges and faces of an intersection of [`HalfSpace`]s up to date while planes
-//! come and go. Plane coefficients are taken as exact numbers and every decision is an exact [`sign`]; there is no
-//! epsilon inside. Unbounded, degenerate and empty sets are ordinary cases.
+//! [`IncrementalPolytope`] keeps the vertices, edges and faces of an intersection of [`HalfSpace`]s up to date while
+//! planes come and go. Plane coefficients are taken as exact numbers and every decision is an exact [`sign`]; there is
+//! no epsilon inside. Unbounded, degenerate and empty sets are ordinary cases. What a removal costs does not depend on
+//! the number of planes, because it is known beforehand which of them can bound what is new.
+//!
+//! The idea is that of the paper "Topology-Based Halfspace Deletion for Dynamic Convex Polytopes", whose sections the
+//! documentation names; here it is exact and local. `docs/kernel.md` explains the algorithm, with proofs, costs and what
+//! was rejected.
 //!
 //! ```
 //! use planecut_kernel::{DVec3, HalfSpace, IncrementalPolytope};

@@ -1,8 +1,9 @@
 //! The convex hull of points as a polytope.
 //!
 //! [`quick`] finds the facets with exact signs (quickhull: Barber, Dobkin, Huhdanpaa 1996); coplanar ones are joined
-//! exactly; [`plane`] makes each a half-space that contains every point.
+//! exactly; [`plane`] makes each a half-space that contains every point, climbing over [`neighbours`].
 
+mod neighbours;
 mod plane;
 mod quick;
 
@@ -49,14 +50,17 @@ pub enum HullError {
 /// The convex hull of points, in any order and as degenerate as they come: duplicates, collinear and coplanar ones.
 ///
 /// The combinatorics are decided exactly. One plane is made for each facet, coplanar parts joined. Where its coefficients fit
-/// (integers below 2⁵³ after scaling, as on grids) the plane is exact; otherwise its normal is the exact one rounded, and
-/// its offset that of the farthest point in this direction, rounded up. So the hull **contains every point, exactly**, and
-/// each plane touches the points to within one rounding of its offset. In a facet's direction the hull thus exceeds the true
-/// one by at most `2⁻⁵¹` of the largest coordinate, at a vertex by that over the sine of half its angle; between facets that are
-/// coplanar but for rounding there can be vertices that are none of the points. Where facets meet at less than about two
-/// degrees, as on a nearly flat hull, one more plane through their edge keeps rounding from opening it. The epsilon of the polytope is `2⁻³²` of the size of the points, so that vertices where more than three rounded planes meet are seen as one.
+/// (integers below 2⁵³ after scaling) the plane is exact, if all three coordinates of the points lie on a grid of less than
+/// 2²⁴ steps or the normal can be written with whole numbers below 2²⁴, as along the axes; otherwise its normal is the exact
+/// one rounded, and its offset that of the farthest point in this direction, rounded up. So the hull **contains every point,
+/// exactly**, and each plane touches the points to within one rounding of its offset. In a facet's direction the hull thus
+/// exceeds the true one by at most `2⁻⁵¹` of the largest coordinate, at a vertex by that over the sine of half its angle;
+/// between facets that are coplanar but for rounding there can be vertices that are none of the points. Where facets meet at
+/// less than about two degrees, as on a nearly flat hull, one more plane through their edge keeps rounding from opening it.
+/// The epsilon of the polytope is `2⁻³²` of the size of the points, so that vertices where more than three rounded planes meet
+/// are seen as one. The order of the planes is random, the same each time for the same points.
 ///
-/// Cost: about `n log n`, and a few microseconds for each facet.
+/// Cost: about `n log n`, and about five microseconds for each facet; more where many points lie on a line or on a circle.
 ///
 /// # Errors
 /// [`HullError`] where a point is not finite or out of range, or the hull has no interior.
@@ -79,7 +83,7 @@ pub fn hull(points: &[DVec3]) -> Result<IncrementalPolytope, HullError> {
     let (low, high) = bounds(points);
     let mut polytope = IncrementalPolytope::with_epsilon((high - low).max_element() * CONTRACTED);
     let neighbours = triangulation.vertex_neighbours();
-    for facet in triangulation.facets() {
+    for facet in in_random_rounds(triangulation.facets()) {
         polytope.add_plane(plane::through(points, triangulation.corners(facet), &neighbours));
     }
     for edge in triangulation.sharp_edges() {
@@ -97,6 +101,21 @@ pub fn hull(points: &[DVec3]) -> Result<IncrementalPolytope, HullError> {
     }
     debug_assert!(!polytope.is_empty(), "the hull of points that span space has an interior");
     Ok(polytope)
+}
+
+/// In rounds that double, each in the order given: a random half of all last, a random half of the others before that, and so
+/// on (Amenta, Choi, Rote 2003). Neighbours stay near each other, but no order of the facets makes every plane cut a large
+/// part of what is there away.
+fn in_random_rounds(mut facets: Vec<u32>) -> Vec<u32> {
+    // the finalizer of splitmix64 (Steele, Lea, Flood 2014)
+    let random = |facet: u32| {
+        let z = (u64::from(facet) + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+        let z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^ (z >> 31)
+    };
+    facets.sort_by_cached_key(|facet| std::cmp::Reverse(random(*facet).trailing_zeros()));
+    facets
 }
 
 fn check_range(points: &[DVec3]) -> Result<(), HullError> {

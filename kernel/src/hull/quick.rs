@@ -7,6 +7,7 @@ use glam::DVec3;
 use robust::{Coord, Coord3D, orient2d, orient3d};
 
 use super::HullError;
+use super::neighbours::Neighbours;
 
 /// A triangle of the hull, counter-clockwise seen from outside.
 #[derive(Debug, Clone)]
@@ -241,14 +242,25 @@ impl<'a> Triangulation<'a> {
     }
 
     /// For each point the points that it shares an edge with; nothing for a point inside.
-    pub(super) fn vertex_neighbours(&self) -> Vec<Vec<u32>> {
-        let mut neighbours = vec![Vec::new(); self.points.len()];
-        for triangle in self.triangles.iter().filter(|triangle| triangle.alive) {
-            for k in 0..3 {
-                neighbours[triangle.corners[k] as usize].push(triangle.corners[(k + 1) % 3]);
+    pub(super) fn vertex_neighbours(&self) -> Neighbours {
+        let alive = (0u32..).zip(&self.triangles).filter(|(_, triangle)| triangle.alive);
+        let mut neighbours = Neighbours::of_none(self.points.len());
+        for (triangle, corner) in alive.flat_map(|(t, triangle)| triangle.corners.map(|corner| (t, corner))) {
+            if !neighbours.has(corner) {
+                neighbours.push(self.points, corner, self.ring(corner, triangle));
             }
         }
         neighbours
+    }
+
+    /// The points around another one, in order, beginning at one of its triangles.
+    fn ring(&self, point: u32, first: u32) -> impl Iterator<Item = u32> + '_ {
+        let place = move |triangle: u32| self.corners(triangle).iter().position(|p| *p == point).unwrap_or(0);
+        std::iter::successors(Some(first), move |&triangle| {
+            let next = self.triangles[triangle as usize].across[(place(triangle) + 2) % 3];
+            (next != first).then_some(next)
+        })
+        .map(move |triangle| self.corners(triangle)[(place(triangle) + 1) % 3])
     }
 }
 

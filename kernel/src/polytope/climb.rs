@@ -2,25 +2,46 @@
 
 use super::IncrementalPolytope;
 use super::store::{BEFORE, NEXT};
-use crate::sign::{Row, Sign, certain_climb, orient3};
+use crate::sign::{Ascent, Row, Sign, Slope, orient3};
+
+/// Indices counted on from any of the three.
+const INDEX: [usize; 5] = [0, 1, 2, 0, 1];
 
 impl IncrementalPolytope {
     /// A vertex at which `normal·x` is largest, reached from `start` along ever better edges.
     ///
-    /// Each step asks `orient3` only: leaving plane `a` of a vertex `(a, b, c)`, the edge runs along `−n_b × n_c`. Where
+    /// Each step asks for `orient3` only: leaving plane `a` of a vertex `(a, b, c)`, the edge runs along `−n_b × n_c`. Where
     /// no edge is better, the direction is a non-negative combination of the three normals (linear programming).
     pub(super) fn climb(&self, normal: &Row, start: u32) -> u32 {
         let mut vertex = start;
         loop {
-            let rows = self.vertices.planes(vertex).map(|plane| self.row(plane));
-            let better = match certain_climb(normal, rows) {
-                Ok(better) => better,
-                Err(()) => (0..3).find(|k| orient3(normal, rows[NEXT[*k]], rows[BEFORE[*k]]) == Sign::Negative),
+            vertex = match self.climb_quickly(normal, vertex) {
+                Ok(top) => return top,
+                Err(open) => open,
             };
-            match better {
+            let rows = self.vertices.planes(vertex).map(|plane| self.row(plane));
+            match (0..3).find(|k| orient3(normal, rows[NEXT[*k]], rows[BEFORE[*k]]) == Sign::Negative) {
                 Some(k) => vertex = self.vertices.link(vertex, k).vertex(),
                 None => return vertex,
             }
+        }
+    }
+
+    /// Climbs while the filter decides; else the vertex at which it does not.
+    fn climb_quickly(&self, normal: &Row, start: u32) -> Result<u32, u32> {
+        let (mut ascent, mut slope) = Ascent::begin(normal, self.vertices.planes(start).map(|plane| self.row(plane)));
+        let mut vertex = start;
+        let mut entered = 0;
+        loop {
+            let k = match slope {
+                Slope::Top => return Ok(vertex),
+                Slope::Open => return Err(vertex),
+                Slope::Up(k) => k,
+            };
+            // `k` counts from the plane that the last edge did not lie on
+            let link = self.vertices.link(vertex, INDEX[entered + k]);
+            (vertex, entered) = (link.vertex(), link.index());
+            slope = ascent.step(normal, self.row(self.vertices.planes(vertex)[entered]));
         }
     }
 }

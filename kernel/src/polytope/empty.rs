@@ -1,4 +1,8 @@
 //! The empty state: a witness of at most four planes, and the planes that wait for its end.
+//!
+//! The structure stays as it was before the plane with which the set became empty. Planes that are added wait, and
+//! planes of the structure are taken back as always; only where the witness loses one of its planes, those that wait are
+//! tried again.
 
 use super::IncrementalPolytope;
 use super::add::Insertion;
@@ -12,7 +16,7 @@ impl IncrementalPolytope {
     /// the three planes and this one have no interior in common (Farkas, Helly).
     pub(super) fn become_empty(&mut self, plane: u32) {
         let opposite: Row = self.row(plane).flipped();
-        let bottom = self.climb(&opposite, self.hint);
+        let bottom = self.climb(&opposite, self.start(&opposite));
         let [a, b, c] = self.vertices.planes(bottom);
         self.witness = [a, b, c, plane];
         self.planes.set_without_face(plane, PlaneState::Pending);

@@ -1,4 +1,8 @@
 //! The four hidden planes that close every polyhedron at infinity.
+//!
+//! Their offset is the symbolic `M`, larger than every number; for the rest they are planes like others, hidden and
+//! revealed by the same means, only never removed. A set is bounded where none of them has a face. A vertex on one of
+//! them is the ideal end of a ray along its other two planes; vertices on two or three are not shown.
 
 use super::IncrementalPolytope;
 use super::store::Link;
@@ -33,7 +37,7 @@ impl IncrementalPolytope {
 
     /// Makes the tetrahedron of the infinity planes, which must be there, the first vertices.
     pub(super) fn close_at_infinity(&mut self) {
-        self.hint = 0;
+        self.starts.reset(0);
         for planes in VERTICES {
             let point = self.meeting_point(planes);
             let vertex = self.vertices.insert(planes, point);

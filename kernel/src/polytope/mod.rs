@@ -7,12 +7,24 @@
 //!
 //! **Unbounded** polyhedra need no special case: four hidden infinity planes, offset `M → ∞`, close every one of them.
 //!
-//! One room per stage: [`climb`] finds the extreme vertex, [`add`] cuts, [`remove`] takes back and [`fill`] closes the hole,
-//! [`redundant`] keeps the certificates of planes without a face, [`empty`] remembers why a set has no interior; [`view`]
-//! and [`measure`] report it with coincident vertices merged, and [`validate`] checks all of it.
+//! **Local.** A plane without a face keeps a certificate: three planes that make it redundant for as long as they are
+//! there. When planes are taken back, a face can only grow across an edge that it had with one of theirs, and a plane
+//! can only show itself whose certificate named one of them (the locality lemma, proved in `docs/kernel.md`). So a
+//! removal looks at the ring around the hole and at the certificates that the removed planes carried, and at nothing
+//! else.
+//!
+//! One room per stage:
+//! - [`store`] holds planes and vertices, [`side`] decides where a vertex lies, [`infinity`] closes what is unbounded;
+//! - [`climb`] finds the extreme vertex, [`add`] cuts, [`redundant`] keeps the certificates, [`empty`] remembers why a
+//!   set has no interior;
+//! - [`remove`] takes a plane back, [`remove_many`] several; [`fill`] closes the hole from its ring, [`remove_large`] by
+//!   a cap; [`move_plane`] and [`rebuild`] are made of these;
+//! - [`view`] reports with coincident vertices merged, [`query`] answers questions, [`measure`] sums up, [`validate`]
+//!   checks all of it.
 
 mod add;
 mod climb;
+mod cut;
 mod empty;
 mod fill;
 mod infinity;
@@ -25,6 +37,7 @@ mod remove;
 mod remove_large;
 mod remove_many;
 mod side;
+mod starts;
 mod store;
 mod validate;
 mod view;
@@ -164,8 +177,8 @@ pub struct IncrementalPolytope {
     pending: Vec<u32>,
     /// The planes whose intersection has no interior, while `pending` is not empty.
     witness: [u32; 4],
-    /// A vertex near the last change, from which the next climb starts.
-    hint: u32,
+    /// Vertices from which climbs start.
+    starts: starts::Starts,
     epsilon: f64,
     /// What the last operation changed.
     change: Change,
@@ -181,6 +194,8 @@ struct Scratch {
     cut: Vec<u32>,
     /// The edges that leave them, named from the cut end.
     horizon: Vec<Link>,
+    /// Edges along which the search for such vertices has still to go.
+    waiting: Vec<Link>,
     /// The ring of a face that is being removed.
     ring: Vec<remove::RingEdge>,
     /// The planes of a patch that is being removed.
@@ -202,7 +217,7 @@ impl Clone for IncrementalPolytope {
             certificates: self.certificates.clone(),
             pending: self.pending.clone(),
             witness: self.witness,
-            hint: self.hint,
+            starts: self.starts.clone(),
             epsilon: self.epsilon,
             change: Change::default(),
             rebuilds: self.rebuilds,
@@ -216,7 +231,7 @@ impl Clone for IncrementalPolytope {
         self.certificates.clone_from(&source.certificates);
         self.pending.clone_from(&source.pending);
         self.witness = source.witness;
-        self.hint = source.hint;
+        self.starts.clone_from(&source.starts);
         self.epsilon = source.epsilon;
         self.rebuilds = source.rebuilds;
     }
@@ -245,7 +260,7 @@ impl IncrementalPolytope {
             certificates: Certificates::default(),
             pending: Vec::new(),
             witness: [NONE; 4],
-            hint: 0,
+            starts: starts::Starts::default(),
             epsilon,
             change: Change::default(),
             rebuilds: 0,
@@ -261,7 +276,6 @@ impl IncrementalPolytope {
         self.vertices.clear();
         self.certificates.clear();
         self.pending.clear();
-        self.hint = 0;
         self.close_by_infinity_planes();
     }
 

@@ -1,4 +1,8 @@
 //! Moving a plane: where no vertex changes its planes, only the positions of one face are made anew.
+//!
+//! That is so where the plane hides no other and, with the corners at their new places, every edge at the face is still
+//! convex: a closed surface that is convex at each edge is convex. Else the plane is taken out and added again with its
+//! old stamp, which gives the structure that it would have had there from the beginning.
 
 use super::add::Insertion;
 use super::store::{BEFORE, NEXT, NONE, PlaneState, Steps};

@@ -1,4 +1,7 @@
 //! A fresh build of the planes that are there: handles and stamps stay, vertices are made anew.
+//!
+//! It takes over where so many planes leave at once that adding the others is less work, and where a validation fails
+//! (which should never happen).
 
 use super::IncrementalPolytope;
 use super::add::Insertion;

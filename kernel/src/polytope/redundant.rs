@@ -1,9 +1,12 @@
 //! Certificates of redundant planes.
 //!
 //! Where a climb ends at vertex `(a, b, c)`, the normal is a non-negative combination of the three normals there, so the
-//! plane stays redundant for as long as `a`, `b`, `c` exist, whatever else is added. Each plane keeps the list of
-//! the planes it helps to certify; removing it re-examines exactly that list. The lists are doubly linked through arrays,
-//! three places for each certificate, so that an entry is never there twice and leaves in constant time.
+//! plane stays redundant for as long as `a`, `b`, `c` exist, whatever else is added, and whether or not they keep their
+//! faces. Each plane keeps the list of the planes it helps to certify; removing it, with a face or without, re-examines
+//! exactly that list. The lists are doubly linked through arrays, three places for each certificate, so that an entry is
+//! never there twice and leaves in constant time.
+//!
+//! A plane that loses its face to another gets its certificate when the next removal or move needs it.
 
 use super::IncrementalPolytope;
 use super::store::{NONE, PlaneState, PlaneStore};
@@ -24,7 +27,7 @@ struct Certificate {
     previous: [u32; 3],
 }
 
-/// The certificates of all planes. Place `3·certificate + k` is an entry in the list of the `k`-th certifier.
+/// The certificates of all planes. Place `4·certificate + k` is an entry in the list of the `k`-th certifier.
 #[derive(Debug, Default)]
 pub(super) struct Certificates {
     entries: Vec<Certificate>,
@@ -67,10 +70,10 @@ impl Certificates {
     /// The planes on the list that begins at a place.
     pub(super) fn list(&self, first: u32) -> impl Iterator<Item = u32> + '_ {
         std::iter::successors((first != NONE).then_some(first), |place| {
-            let following = self.entries[(place / 3) as usize].next[(place % 3) as usize];
+            let following = self.entries[(place >> 2) as usize].next[(place & 3) as usize];
             (following != NONE).then_some(following)
         })
-        .map(|place| self.entries[(place / 3) as usize].plane)
+        .map(|place| self.entries[(place >> 2) as usize].plane)
     }
 
     fn link(&mut self, planes: &mut PlaneStore, plane: u32, certifiers: [u32; 3]) {
@@ -84,12 +87,12 @@ impl Certificates {
         };
         planes.set_certified(plane, number);
         for (k, certifier) in certifiers.into_iter().enumerate() {
-            let place = 3 * number + k as u32;
+            let place = number << 2 | k as u32;
             let first = planes.carried(certifier);
             planes.set_carried(certifier, place);
             self.entries[number as usize].next[k] = first;
             if first != NONE {
-                self.entries[(first / 3) as usize].previous[(first % 3) as usize] = place;
+                self.entries[(first >> 2) as usize].previous[(first & 3) as usize] = place;
             }
         }
     }
@@ -100,10 +103,10 @@ impl Certificates {
             if previous[k] == NONE {
                 planes.set_carried(certifiers[k], next[k]);
             } else {
-                self.entries[(previous[k] / 3) as usize].next[(previous[k] % 3) as usize] = next[k];
+                self.entries[(previous[k] >> 2) as usize].next[(previous[k] & 3) as usize] = next[k];
             }
             if next[k] != NONE {
-                self.entries[(next[k] / 3) as usize].previous[(next[k] % 3) as usize] = previous[k];
+                self.entries[(next[k] >> 2) as usize].previous[(next[k] & 3) as usize] = previous[k];
             }
         }
         self.free.push(number);
@@ -131,7 +134,8 @@ impl IncrementalPolytope {
                 continue;
             }
             let near = self.planes.face_vertex(hidden_by);
-            let top = self.climb(self.row(plane), if near == NONE { self.hint } else { near });
+            let start = if near == NONE { self.start(self.row(plane)) } else { near };
+            let top = self.climb(self.row(plane), start);
             debug_assert!(!self.is_outside(top, plane), "an orphaned plane is redundant");
             self.certify(plane, top);
         }

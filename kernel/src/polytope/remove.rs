@@ -5,9 +5,12 @@
 //! region is open and reaches the infinity planes: like a large ring with uneven parts it is then built as a cap of its
 //! own ([`super::remove_large`]).
 
-use super::store::{Link, NEXT, PlaneState, Steps};
+use super::store::{BEFORE, Link, NEXT, PlaneState, Steps};
 use super::{IncrementalPolytope, PlaneIdx, RemovePlaneResult, VertexIdx};
 use std::hint::black_box;
+
+/// With more vertices than this, the caches near the processor do not hold them.
+const LARGE: usize = 50_000;
 
 /// A plane of the ring, and the kept end of the edge between it and the next plane.
 #[derive(Debug, Clone, Copy)]
@@ -102,17 +105,36 @@ impl IncrementalPolytope {
             }
             self.fill_with_cap(ring, opened);
         }
-        self.hint = self.change.created[first].0;
+        self.starts.set_latest(self.change.created[first].0, self.planes.row(opened));
     }
 
     /// The planes around a face, each with where the edge to the next one continues; and its vertices.
     pub(super) fn walk_ring(&self, plane: u32, ring: &mut Vec<RingEdge>, face: &mut Vec<u32>) {
+        if self.vertices.len() > LARGE {
+            self.fetch_face(plane);
+        }
         for (vertex, k) in self.vertices.face_corners(plane, self.planes.face_vertex(plane)) {
             let p = self.vertices.planes(vertex)[NEXT[k]];
-            // The walk waits for one vertex after the other; the planes, needed soon, can be fetched meanwhile.
-            black_box(self.planes.stamp(p));
             ring.push(RingEdge { plane: p, end: self.vertices.link(vertex, k) });
             face.push(vertex);
+        }
+    }
+
+    /// Touches what the removal of a face will need, both ways around it at once and as far as most faces are long: far
+    /// fewer waits for memory follow one another then.
+    #[inline(never)]
+    fn fetch_face(&self, plane: u32) {
+        let start = self.planes.face_vertex(plane);
+        let mut ends = [(start, self.vertices.index_of(start, plane)); 2];
+        for _ in 0..3 {
+            let [(ahead, i), (behind, j)] = ends;
+            let (next, before) = (self.vertices.link(ahead, NEXT[i]), self.vertices.link(behind, BEFORE[j]));
+            ends = [(next.vertex(), NEXT[next.index()]), (before.vertex(), BEFORE[before.index()])];
+            for (vertex, k) in ends {
+                black_box(self.vertices.point(vertex).value[0]);
+                black_box(self.planes.stamp(self.vertices.planes(vertex)[NEXT[k]]));
+                black_box(self.vertices.planes(self.vertices.link(vertex, k).vertex()));
+            }
         }
     }
 }

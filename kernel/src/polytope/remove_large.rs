@@ -20,7 +20,7 @@ impl IncrementalPolytope {
             let planes = body.vertices.planes(vertex).map(|p| original[p as usize]);
             self.crossing_edge(ring, planes[NEXT[k]], planes[BEFORE[k]])
         };
-        let top = body.climb(self.row(opened), body.hint);
+        let top = body.climb(self.row(opened), body.start(self.row(opened)));
         let beyond = connected(&body.vertices, top, |vertex, k| crossing(vertex, k).is_none());
         let mut number = vec![NONE; body.vertices.slot_count()];
         for &vertex in &beyond {

@@ -2,7 +2,8 @@
 
 use super::IncrementalPolytope;
 use super::infinity::is_infinity;
-use crate::sign::{Homogeneous, OffsetColumn, Row, Sign, orient3};
+use super::store::PlaneStore;
+use crate::sign::{Homogeneous, OffsetColumn, Probe, Row, Sign, orient3};
 
 impl IncrementalPolytope {
     pub(super) fn row(&self, plane: u32) -> &Row {
@@ -23,21 +24,47 @@ impl IncrementalPolytope {
     /// Whether vertex `vertex` violates plane `plane`.
     #[inline]
     pub(super) fn is_outside(&self, vertex: u32, plane: u32) -> bool {
-        if !self.vertices.is_ideal(vertex) && !is_infinity(plane) {
-            match self.vertices.point(vertex).certain_side(self.row(plane), OffsetColumn::Finite) {
-                Sign::Positive => return true,
-                Sign::Negative => return false,
-                Sign::Zero => {}
-            }
-        }
-        self.decide_outside(self.vertices.planes(vertex), self.vertices.point(vertex), plane)
+        self.violates(vertex, plane, &Probe::new(self.row(plane), OffsetColumn::Finite))
+    }
+
+    /// The same where the probe of the plane is at hand.
+    #[inline(always)]
+    pub(super) fn violates(&self, vertex: u32, plane: u32, probe: &Probe) -> bool {
+        let (planes, point) = (self.vertices.planes(vertex), self.vertices.point(vertex));
+        self.planes.is_outside(probe, plane, self.vertices.is_ideal(vertex), planes, point)
     }
 
     /// Whether the meeting point of three planes, counter-clockwise seen from outside, violates `plane`.
     #[inline]
     pub(super) fn is_point_outside(&self, planes: [u32; 3], point: &Homogeneous, plane: u32) -> bool {
-        if !planes.into_iter().any(is_infinity) && !is_infinity(plane) {
-            match point.certain_side(self.row(plane), OffsetColumn::Finite) {
+        let probe = Probe::new(self.row(plane), OffsetColumn::Finite);
+        self.planes.is_outside(&probe, plane, planes.into_iter().any(is_infinity), planes, point)
+    }
+
+    /// Whether four planes meet in one point exactly (or in one ideal point along one line).
+    pub(super) fn is_exactly_on(&self, planes: [u32; 3], plane: u32) -> bool {
+        let [a, b, c] = self.rows(planes);
+        [OffsetColumn::Infinite, OffsetColumn::Finite].into_iter().all(|column| {
+            let all_finite = !planes.iter().chain([&plane]).any(|p| is_infinity(*p));
+            (column == OffsetColumn::Infinite && all_finite)
+                || Homogeneous::of(a, b, c, column).side([a, b, c], self.row(plane), column) == Sign::Zero
+        })
+    }
+}
+
+impl PlaneStore {
+    /// Whether the meeting point of `planes` violates `plane`; `probe` is made from its row for the finite column.
+    #[inline(always)]
+    pub(super) fn is_outside(
+        &self,
+        probe: &Probe,
+        plane: u32,
+        is_ideal: bool,
+        planes: [u32; 3],
+        point: &Homogeneous,
+    ) -> bool {
+        if !is_ideal && !is_infinity(plane) {
+            match probe.certain_side(point) {
                 Sign::Positive => return true,
                 Sign::Negative => return false,
                 Sign::Zero => {}
@@ -55,13 +82,13 @@ impl IncrementalPolytope {
             return false;
         }
         if column == OffsetColumn::Infinite {
-            match point.certain_side(self.row(plane), column) {
+            match Probe::new(self.row(plane), column).certain_side(point) {
                 Sign::Positive => return true,
                 Sign::Negative => return false,
                 Sign::Zero => {}
             }
         }
-        let rows @ [a, b, c] = self.rows(planes);
+        let rows @ [a, b, c] = planes.map(|plane| self.row(plane));
         match Homogeneous::of(a, b, c, column).side(rows, self.row(plane), column) {
             Sign::Positive => true,
             Sign::Negative => false,
@@ -69,22 +96,12 @@ impl IncrementalPolytope {
         }
     }
 
-    /// Whether four planes meet in one point exactly (or in one ideal point along one line).
-    pub(super) fn is_exactly_on(&self, planes: [u32; 3], plane: u32) -> bool {
-        let [a, b, c] = self.rows(planes);
-        [OffsetColumn::Infinite, OffsetColumn::Finite].into_iter().all(|column| {
-            let all_finite = !planes.iter().chain([&plane]).any(|p| is_infinity(*p));
-            (column == OffsetColumn::Infinite && all_finite)
-                || Homogeneous::of(a, b, c, column).side([a, b, c], self.row(plane), column) == Sign::Zero
-        })
-    }
-
     /// The constant part where that in `M` is zero, then the part in the `ε` of the oldest plane that has one.
     ///
     /// Moving plane `a` inward by `ε` changes `n_h·P − d_h·W` by `−ε·det(n_h, n_b, n_c)`, moving `h` inward changes it by
     /// `+ε·W`, and `W > 0`.
     fn breaks_tie_outside(&self, planes: [u32; 3], plane: u32) -> bool {
-        let rows = self.rows(planes);
+        let rows = planes.map(|plane| self.row(plane));
         let h = self.row(plane);
         if leading_column(planes) == OffsetColumn::Infinite {
             let point = Homogeneous::of(rows[0], rows[1], rows[2], OffsetColumn::Finite);
@@ -94,7 +111,7 @@ impl IncrementalPolytope {
                 Sign::Zero => {}
             }
         }
-        let stamp = |plane: u32| self.planes.stamp(plane);
+        let stamp = |plane: u32| self.stamp(plane);
         let [a, b, c] = rows;
         let mut order = [(stamp(planes[0]), 0), (stamp(planes[1]), 1), (stamp(planes[2]), 2)];
         order.sort_unstable();

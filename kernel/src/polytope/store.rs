@@ -284,6 +284,10 @@ struct VertexRecord {
     fresh: bool,
 }
 
+impl VertexRecord {
+    const FREE: Self = Self { planes: [NONE; 3], links: [Link::NONE; 3], visited: 0, ideal: false, fresh: false };
+}
+
 /// Whether an operation can take away vertices that it made itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Steps {
@@ -346,6 +350,29 @@ impl VertexStore {
         slot
     }
 
+    /// Takes slots for new vertices, which must be written at once.
+    pub(super) fn claim(&mut self, count: usize, claimed: &mut Vec<VertexIdx>) {
+        for _ in 0..count {
+            let slot = self.free.pop().unwrap_or_else(|| {
+                self.records.push(VertexRecord::FREE);
+                self.positions.push(Position(Homogeneous::default()));
+                self.records.len() as u32 - 1
+            });
+            claimed.push(VertexIdx(slot));
+        }
+    }
+
+    /// The vertices by slot, for a loop that makes and links many.
+    #[inline(always)]
+    pub(super) fn slots_mut(&mut self) -> VertexSlots<'_> {
+        VertexSlots {
+            records: &mut self.records,
+            positions: &mut self.positions,
+            visit: self.visit,
+            marks_fresh: self.marks_fresh,
+        }
+    }
+
     /// Gives a vertex the position that it has after one of its planes moved.
     pub(super) fn set_point(&mut self, slot: u32, point: Homogeneous) {
         self.positions[slot as usize] = Position(point);
@@ -382,6 +409,14 @@ impl VertexStore {
     /// Whether a slot holds a vertex.
     pub(super) fn is_live(&self, slot: u32) -> bool {
         self.records.get(slot as usize).is_some_and(|record| record.planes[0] != NONE)
+    }
+
+    /// Whether a slot holds a vertex of a plane.
+    #[inline]
+    pub(super) fn is_on(&self, slot: u32, plane: u32) -> bool {
+        let Some(record) = self.records.get(slot as usize) else { return false };
+        let [a, b, c] = record.planes;
+        a != NONE && (a == plane || b == plane || c == plane)
     }
 
     /// The three planes of a vertex, counter-clockwise seen from outside.
@@ -454,6 +489,11 @@ impl VertexStore {
         self.marks_fresh = steps == Steps::Several;
     }
 
+    /// Whether new vertices are marked.
+    pub(super) fn marks_fresh(&self) -> bool {
+        self.marks_fresh
+    }
+
     /// Notes that the operation that runs made a vertex.
     pub(super) fn set_fresh(&mut self, slot: u32) {
         self.records[slot as usize].fresh = true;
@@ -494,6 +534,64 @@ impl VertexStore {
     /// The vertices of the face of `plane` in counter-clockwise order, beginning at `start`.
     pub(super) fn face_ring(&self, plane: u32, start: u32) -> impl Iterator<Item = u32> + '_ {
         self.face_corners(plane, start).map(|(vertex, _)| vertex)
+    }
+}
+
+/// The vertices of a store by slot: a loop over these keeps them at hand, which one over the store cannot.
+pub(super) struct VertexSlots<'a> {
+    records: &'a mut [VertexRecord],
+    positions: &'a mut [Position],
+    visit: u32,
+    marks_fresh: bool,
+}
+
+impl VertexSlots<'_> {
+    /// The three planes of a vertex, counter-clockwise seen from outside.
+    #[inline(always)]
+    pub(super) fn planes(&self, slot: u32) -> [u32; 3] {
+        self.records[slot as usize].planes
+    }
+
+    /// The other end of an edge.
+    #[inline(always)]
+    pub(super) fn other_end(&self, end: Link) -> Link {
+        self.records[end.vertex() as usize].links[end.index()]
+    }
+
+    #[inline(always)]
+    pub(super) fn point(&self, slot: u32) -> &Homogeneous {
+        &self.positions[slot as usize].0
+    }
+
+    /// Whether an infinity plane takes part in a vertex.
+    #[inline(always)]
+    pub(super) fn is_ideal(&self, slot: u32) -> bool {
+        self.records[slot as usize].ideal
+    }
+
+    /// Whether the current visit came to a vertex.
+    #[inline(always)]
+    pub(super) fn is_visited(&self, slot: u32) -> bool {
+        self.records[slot as usize].visited == self.visit
+    }
+
+    /// Notes that the current visit came to a vertex.
+    #[inline(always)]
+    pub(super) fn set_visited(&mut self, slot: u32) {
+        self.records[slot as usize].visited = self.visit;
+    }
+
+    /// Writes a vertex into a claimed slot.
+    #[inline(always)]
+    pub(super) fn put(&mut self, slot: u32, planes: [u32; 3], links: [Link; 3], ideal: bool, point: Homogeneous) {
+        self.records[slot as usize] = VertexRecord { planes, links, visited: 0, ideal, fresh: self.marks_fresh };
+        self.positions[slot as usize] = Position(point);
+    }
+
+    /// Says where the edge at an end leads; the other end is to be told as well.
+    #[inline(always)]
+    pub(super) fn set_other_end(&mut self, end: Link, other: Link) {
+        self.records[end.vertex() as usize].links[end.index()] = other;
     }
 }
 

@@ -11,8 +11,6 @@ use super::{big, small_int};
 
 const U: f64 = f64::EPSILON / 2.0;
 
-/// 2×2 determinants: 2 roundings a term.
-pub(super) const DET2_BOUND: f64 = 4.0 * U;
 /// 3×3 determinants by minors: product, difference, product, two sums: 5 roundings a term.
 pub(super) const DET3_BOUND: f64 = 8.0 * U;
 /// 4×4 determinants through the homogeneous vertex: minor (2), times an offset (1), two sums, times the plane's
@@ -59,29 +57,95 @@ pub(super) fn certain_det3(a: &Row, b: &Row, c: &Row) -> Sign {
     if value.abs() > bound { Sign::of(value) } else { Sign::Zero }
 }
 
-/// Which edge at the vertex of three planes leads on in direction `n`: the one off plane `k` does where the determinant of
-/// `n` and the normals of the other two is negative. The most negative one is taken, all three at once: a branch for each
-/// would be mispredicted. Where the filter leaves a sign open on which this depends, an error.
-#[inline]
-pub(crate) fn certain_climb(n: &Row, rows: [&Row; 3]) -> Result<Option<usize>, ()> {
-    let [a, b, c] = rows.map(Row::magnitude);
-    let scale = (6.0 * DET3_BOUND) * n.magnitude();
-    let bounds = [scale * (b * c), scale * (c * a), scale * (a * b)];
-    let [a, b, c] = rows.map(Row::coefficients);
-    let n = n.coefficients();
-    let cross = |p: &[f64; 4]| [n[1] * p[2] - n[2] * p[1], n[2] * p[0] - n[0] * p[2], n[0] * p[1] - n[1] * p[0]];
-    let dot = |p: [f64; 3], q: &[f64; 4]| p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
-    let (na, nb) = (cross(a), cross(b));
-    let values = [dot(nb, c), -dot(na, c), dot(na, b)];
-    let mut best = 0;
-    for k in 1..3 {
-        best = if values[k] < values[best] { k } else { best };
+/// Where to go on from a vertex.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Slope {
+    /// Along the edge off the plane of this index, counted from the plane that the vertex was reached with.
+    Up(usize),
+    /// Nowhere: no edge is better.
+    Top,
+    /// The filter leaves a sign open on which this depends.
+    Open,
+}
+
+impl Slope {
+    /// Where the edge of index `k` has the lowest value.
+    #[inline(always)]
+    fn of(lowest: f64, bound: f64, k: usize) -> Self {
+        if lowest < -bound {
+            Self::Up(k)
+        } else if lowest > bound {
+            Self::Top
+        } else {
+            Self::Open
+        }
     }
-    if values[best] < -bounds[best] {
-        return Ok(Some(best));
+}
+
+/// A climb in direction `n` along the edges of a simple polytope, as far as bounds from the magnitudes of the rows decide.
+///
+/// The edge off plane `a` of a vertex `(a, b, c)` leads on where `det(n, b, c)` is negative. Across an edge one plane
+/// is new, `r`, and two are known: with their products `n×p` and `n×q` at hand, two dot products with `r` tell
+/// both edges that lead away. The most negative one is taken without a branch, which would be mispredicted.
+pub(crate) struct Ascent {
+    /// `n×p` and `n×q` for the planes `(r, p, q)` of the vertex, counter-clockwise.
+    crosses: [[f64; 3]; 2],
+    magnitudes: [f64; 2],
+    /// The bound for rows of magnitude one.
+    scale: f64,
+}
+
+impl Ascent {
+    /// At a vertex of three planes.
+    #[inline]
+    pub(crate) fn begin(n: &Row, [r, p, q]: [&Row; 3]) -> (Self, Slope) {
+        let scale = (6.0 * DET3_BOUND) * n.magnitude();
+        let (n_p, n_q) = (cross(n, p), cross(n, q));
+        let (mp, mq) = (p.magnitude(), q.magnitude());
+        let off_r = dot(&n_p, q);
+        let bound = scale * mp * mq;
+        if off_r < -bound {
+            // from the other end of this edge, the two planes are seen in the other order
+            return (Self { crosses: [n_q, n_p], magnitudes: [mq, mp], scale }, Slope::Up(0));
+        }
+        let mut ascent = Self { crosses: [n_p, n_q], magnitudes: [mp, mq], scale };
+        let slope = ascent.step(n, r);
+        if slope == Slope::Top && off_r <= bound { (ascent, Slope::Open) } else { (ascent, slope) }
     }
-    let settled = values[0] > bounds[0] && values[1] > bounds[1] && values[2] > bounds[2];
-    if settled { Ok(None) } else { Err(()) }
+
+    /// Across the edge, where plane `r` is new.
+    #[inline]
+    pub(crate) fn step(&mut self, n: &Row, r: &Row) -> Slope {
+        let [p, q] = &self.crosses;
+        let (off_p, off_q) = (dot(q, r), -dot(p, r));
+        let magnitude = r.magnitude();
+        let scale = self.scale * magnitude;
+        let bound = scale * larger(self.magnitudes[0], self.magnitudes[1]);
+        let takes_q = usize::from(off_q < off_p);
+        let lowest = if off_q < off_p { off_q } else { off_p };
+        // the plane left gives its place to `r`; from the other end the order is that of `crosses` again
+        self.crosses[takes_q] = cross(n, r);
+        self.magnitudes[takes_q] = magnitude;
+        Slope::of(lowest, bound, 1 + takes_q)
+    }
+}
+
+#[inline(always)]
+fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+/// The cross product of two normals, rounded.
+#[inline(always)]
+pub(crate) fn cross(n: &Row, p: &Row) -> [f64; 3] {
+    let (n, p) = (n.coefficients(), p.coefficients());
+    [n[1] * p[2] - n[2] * p[1], n[2] * p[0] - n[0] * p[2], n[0] * p[1] - n[1] * p[0]]
+}
+
+#[inline(always)]
+fn dot(p: &[f64; 3], row: &Row) -> f64 {
+    let q = row.coefficients();
+    p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
 }
 
 /// Value and permanent of `det(nₐ, n_b, n_c)`.
@@ -100,7 +164,7 @@ pub(super) fn det3(a: &Row, b: &Row, c: &Row) -> (f64, f64) {
 ///
 /// `W = det(nₐ, n_b, n_c)` and `(X, Y, Z) = dₐ·n_b×n_c + d_b·n_c×nₐ + d_c·nₐ×n_b`: asking on which side of a plane it
 /// lies then takes no division.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Homogeneous {
     /// `(X, Y, Z, W)`, rounded.
     pub value: [f64; 4],
@@ -168,19 +232,16 @@ impl Homogeneous {
         Self { value, permanent: [reach, reach, reach, 6.0 * (ma * mb * mc)] }
     }
 
-    /// The side of `h` that a point made by [`quick`](Self::quick) is certainly on, for the same column; else zero.
-    #[inline]
-    pub(crate) fn certain_side(&self, h: &Row, column: OffsetColumn) -> Sign {
-        let [nx, ny, nz, _] = *h.coefficients();
-        let d = column.of(h);
-        let [x, y, z, w] = self.value;
-        let value = nx * x + ny * y + nz * z - d * w;
-        let permanent = (nx.abs() + ny.abs() + nz.abs()) * self.permanent[0] + d.abs() * self.permanent[3];
-        if value.abs() > DET4_BOUND * permanent {
-            counts::note_total();
-            return Sign::of(value);
-        }
-        Sign::Zero
+    /// The same for finite planes `n`, `p` and `q`, where `n×p` and `n×q` are known.
+    #[inline(always)]
+    pub(crate) fn corner(n: &Row, [p, q]: [&Row; 2], np: &[f64; 3], nq: &[f64; 3]) -> Self {
+        let [mn, mp, mq] = [n.magnitude(), p.magnitude(), q.magnitude()];
+        let [dn, dp, dq] = [n.coefficients()[3], p.coefficients()[3], q.coefficients()[3]];
+        let pq = cross(p, q);
+        let coordinate = |k: usize| dn * pq[k] - dp * nq[k] + dq * np[k];
+        let value = [coordinate(0), coordinate(1), coordinate(2), dot(&pq, n)];
+        let reach = 2.0 * (dn.abs() * (mp * mq) + dp.abs() * (mq * mn) + dq.abs() * (mn * mp));
+        Self { value, permanent: [reach, reach, reach, 6.0 * (mn * mp * mq)] }
     }
 
     /// The sign of `n_h·(X, Y, Z) − d_h·W`; `rows` are the planes that this was made from, in the same order.
@@ -199,6 +260,43 @@ impl Homogeneous {
             return Sign::Zero;
         }
         side_exact(rows, h, column, value, permanent)
+    }
+}
+
+/// A plane that many points are held against.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Probe {
+    normal: [f64; 3],
+    offset: f64,
+    /// Bounds for the two parts of a permanent.
+    bounds: [f64; 2],
+}
+
+impl Probe {
+    /// A plane with its offset in one column.
+    #[inline(always)]
+    pub(crate) fn new(plane: &Row, column: OffsetColumn) -> Self {
+        let [x, y, z, _] = *plane.coefficients();
+        let offset = column.of(plane);
+        let bounds = [DET4_BOUND * (x.abs() + y.abs() + z.abs()), DET4_BOUND * offset.abs()];
+        Self { normal: [x, y, z], offset, bounds }
+    }
+
+    /// The side of the plane that a point made by [`Homogeneous::quick`] is certainly on, for the same column; else zero.
+    #[inline(always)]
+    pub(crate) fn certain_side(&self, point: &Homogeneous) -> Sign {
+        let [x, y, z, w] = point.value;
+        let value = self.normal[0] * x + self.normal[1] * y + self.normal[2] * z - self.offset * w;
+        let bound = self.bounds[0] * point.permanent[0] + self.bounds[1] * point.permanent[3];
+        if value > bound {
+            counts::note_total();
+            Sign::Positive
+        } else if value < -bound {
+            counts::note_total();
+            Sign::Negative
+        } else {
+            Sign::Zero
+        }
     }
 }
 

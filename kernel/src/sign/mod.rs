@@ -15,6 +15,8 @@ mod counts;
 mod filter;
 mod row;
 mod small_int;
+#[cfg(test)]
+mod tests;
 
 pub use counts::Counts;
 pub use row::Row;
@@ -22,7 +24,7 @@ pub(crate) use row::exact_product;
 
 pub(crate) use big::{cross as big_cross, dot as big_dot, integers as big_integers};
 pub use filter::Homogeneous;
-pub(crate) use filter::{OffsetColumn, certain_climb};
+pub(crate) use filter::{Ascent, OffsetColumn, Probe, Slope, cross};
 
 /// A three-way sign.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -113,12 +115,12 @@ pub fn orient4(a: &Row, b: &Row, c: &Row, h: &Row) -> Sign {
 pub fn cross_component(i: &Row, j: &Row, axis: usize) -> Sign {
     let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
     let (p, q) = (i.coefficients()[u] * j.coefficients()[v], i.coefficients()[v] * j.coefficients()[u]);
-    let (value, permanent) = (p - q, p.abs() + q.abs());
     counts::note_total();
-    if value.abs() > filter::DET2_BOUND * permanent {
-        return Sign::of(value);
+    // Rounding keeps the order of the two products: where they still differ, that is the sign, without a bound.
+    if p != q {
+        return Sign::of(p - q);
     }
-    if permanent == 0.0 {
+    if p == 0.0 {
         return Sign::Zero;
     }
     if let Some(sign) = small_int::det2(i, j, [u, v]) {

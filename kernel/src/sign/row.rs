@@ -49,10 +49,7 @@ impl Row {
     }
 
     fn from_scaled(coefficients: [f64; 4], bits: [u8; 2]) -> Self {
-        let [x, y, z, _] = coefficients.map(f64::abs);
-        let largest = x.max(y).max(z);
-        let nearest = largest as f32;
-        let magnitude = if f64::from(nearest) < largest { nearest.next_up() } else { nearest };
+        let magnitude = above(largest_of_normal(&coefficients));
         Self { coefficients, bits, at_infinity: false, magnitude }
     }
 
@@ -125,6 +122,11 @@ impl Row {
 
 /// The coefficients as coprime integers below 2⁴⁸, where they are such up to a power of two.
 fn integer_row(coefficients: [f64; 4]) -> Option<[i64; 4]> {
+    // Decimal numbers mostly use the last bits of the mantissa, which no integer below the limit does.
+    let used = coefficients.into_iter().fold(0, |bits, v| bits | v.to_bits());
+    if used & ((1 << (53 - MAX_INTEGER_BITS)) - 1) != 0 {
+        return None;
+    }
     let (mut lowest, mut highest) = (i32::MAX, i32::MIN);
     for v in coefficients.into_iter().filter(|v| *v != 0.0) {
         lowest = lowest.min(lowest_bit(v));
@@ -145,9 +147,18 @@ fn integer_row(coefficients: [f64; 4]) -> Option<[i64; 4]> {
 
 /// Scaled by a power of two so that the largest normal component lies in `[1, 2)`.
 fn power_of_two_row(coefficients: [f64; 4]) -> [f64; 4] {
-    let [x, y, z, _] = coefficients.map(f64::abs);
-    let largest = x.max(y).max(z);
-    coefficients.map(|v| scale(v, -exponent(largest)))
+    let power = -exponent(largest_of_normal(&coefficients));
+    coefficients.map(|v| scale(v, power))
+}
+
+fn largest_of_normal(coefficients: &[f64; 4]) -> f64 {
+    let larger = |a: f64, b: f64| if a > b { a } else { b };
+    larger(larger(coefficients[0].abs(), coefficients[1].abs()), coefficients[2].abs())
+}
+
+/// A number in single precision that is not below a positive one: the nearest lies at most half a step below.
+fn above(v: f64) -> f32 {
+    f32::from_bits((v as f32).to_bits() + 1)
 }
 
 /// `⌊log₂|v|⌋` of a normal number.

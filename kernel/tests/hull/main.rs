@@ -180,6 +180,43 @@ fn many_points() {
     assert_eq!((cube.planes().count(), cube.vertex_count()), (6, 8));
 }
 
+/// Points in general position on planes whose normals are small whole numbers: each facet's plane is exact.
+#[test]
+fn planes_with_whole_normals_are_exact() {
+    const STEP: f64 = 1.0 / (1u64 << 40) as f64;
+    for k in 0..20 {
+        let seed = first_seed() + k;
+        let mut rng = Rng::new(seed);
+        let (p, q) = (rng.whole(2, 9), rng.whole(-9, -2));
+        // x + p·y + q·z is 0 on one side and 3 on the other, both exactly
+        let corners: Vec<[f64; 2]> =
+            (0..3 + rng.below(4)).map(|_| [(); 2].map(|()| rng.whole(0, 1 << 40) * STEP)).collect();
+        let at = |sum: f64| corners.iter().map(move |[y, z]| DVec3::new(sum - p * y - q * z, *y, *z));
+        let points: Vec<DVec3> = at(0.0).chain(at(3.0)).collect();
+        let polytope = hull(&points).unwrap_or_else(|error| panic!("{error}, seed {seed}, {points:?}"));
+        let has = |sign: f64, offset: f64| {
+            polytope.planes().any(|(_, half_space)| {
+                let n = half_space.normal() * sign;
+                n.y == p * n.x && n.z == q * n.x && n.x > 0.0 && half_space.offset() == offset * n.x
+            })
+        };
+        assert!(has(1.0, 3.0) && has(-1.0, 0.0), "seed {seed}, points {points:?}");
+    }
+}
+
+/// The tips have more neighbours than are looked at one by one.
+#[test]
+fn a_bipyramid_over_many_points() {
+    let mut points: Vec<DVec3> = (0..3000)
+        .map(|k| f64::from(k) * std::f64::consts::TAU / 3000.0)
+        .map(|angle| DVec3::new(angle.cos(), angle.sin(), 0.0))
+        .collect();
+    points.extend([DVec3::new(0.1, 0.2, 1.3), DVec3::new(0.1, -0.2, -0.7)]);
+    let polytope = hull(&points).expect("the points span space");
+    assert_eq!(polytope.planes().count(), 6000);
+    assert!(points.iter().all(|p| polytope.contains(*p)));
+}
+
 #[test]
 fn what_is_not_accepted() {
     assert_eq!(hull(&[]).unwrap_err(), HullError::NoInterior { dimension: 0 });

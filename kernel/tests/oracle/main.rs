@@ -1,7 +1,10 @@
 //! The kernel against its independent oracle, the crate `planecut-oracle`.
 //!
-//! - [`signs`]: the three predicates against determinants of big integers.
+//! - [`signs`]: the predicates against determinants of big integers.
+//! - [`tiers`]: which tier answers them.
 //! - [`fresh_build`]: any history of adds and removes against a fresh build of the planes that are left.
+//! - [`batches`]: batch removal from larger polytopes, the same way.
+//! - [`moves`]: what a move reports.
 //! - [`brute_force`]: small polytopes against all plane triples, symbolic perturbation included.
 //! - [`corpus`]: what the fuzzer found worth keeping.
 //! - [`membership`]: random points against the mesh that leaves the kernel.
@@ -11,10 +14,13 @@
 //! `PLANECUT_OPS=10000000 cargo run --release -p planecut-oracle --bin soak`.
 //! A failing sequence is shrunk and printed as Rust that can be pasted into [`regressions`].
 
+mod batches;
 mod brute_force;
 mod corpus;
 mod fresh_build;
 mod membership;
 mod mesh;
+mod moves;
 mod regressions;
 mod signs;
+mod tiers;

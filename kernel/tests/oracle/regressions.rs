@@ -84,3 +84,17 @@ fn an_older_plane_is_moved_so_that_nothing_is_left() {
         Op::Move { name: 14, plane: [-1.0, -1.0, 0.0, -6.0] },
     ]);
 }
+
+#[test]
+fn two_faces_leave_whose_hidden_planes_kept_an_infinity_plane_hidden() {
+    replay(&[
+        add(0, [0.0, 1.0, 0.0, 4.0]),
+        add(1, [-0.4, -0.5, -0.6, 1.0]),
+        add(2, [0.336, 0.941, 0.161, 1.0]),
+        // nothing, but what lost its face until now gets its certificate
+        Op::RemoveMany { names: vec![] },
+        add(3, [-1.0, 0.0, 0.0, 1.0]),
+        add(4, [0.2, -0.8, -0.4, 1.0]),
+        Op::RemoveMany { names: vec![2, 3] },
+    ]);
+}

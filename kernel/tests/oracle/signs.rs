@@ -1,6 +1,6 @@
-//! The three signs against determinants of big integers.
+//! The signs against determinants of big integers.
 
-use planecut_kernel::sign::{Row, Sign, orient3, orient4, radial};
+use planecut_kernel::sign::{Row, Sign, cross_component, orient3, orient4, radial};
 use planecut_oracle::exact::{Coefficients, cross, det3, det4, integer_row, normal, sign};
 use planecut_oracle::kernel_calls::half_space;
 use planecut_oracle::random::Rng;
@@ -12,7 +12,7 @@ const DRAWS: usize = 1_000;
 type Family = (&'static str, fn(&mut Rng) -> [Coefficients; 4]);
 
 /// Every family, with the names a failure is reported under.
-const FAMILIES: [Family; 15] = [
+const FAMILIES: [Family; 16] = [
     ("uniform floats", uniform),
     ("small grid", |rng| grid(rng, 3)),
     ("grid of 2^20", |rng| grid(rng, 1 << 20)),
@@ -24,6 +24,7 @@ const FAMILIES: [Family; 15] = [
     ("near a common line", near_line),
     ("dependent integers", dependent),
     ("dependent but for one unit", almost_dependent),
+    ("dependent integers of 40 bits and more", long_dependent),
     ("scaled copies", scaled_copies),
     ("near-parallel", near_parallel),
     ("far shifted", far_shifted),
@@ -81,6 +82,10 @@ fn check_all_orders(planes: &[Coefficients; 4], seen: &mut [usize; 3]) -> Result
             let three = sign(&det3(&normals[i], &normals[j], &normals[k]));
             compare("orient3", order, orient3(&rows[i], &rows[j], &rows[k]), three)?;
             let meet = cross(&normals[k], &normals[l]);
+            for (axis, component) in meet.iter().enumerate() {
+                let found = cross_component(&rows[k], &rows[l], axis);
+                compare("cross_component", [k, l, axis, 0], found, sign(component))?;
+            }
             let line = sign(&det3(&normals[i], &normals[j], &meet));
             compare("radial", order, radial(&rows[i], &rows[j], &rows[k], &rows[l]), line)?;
             compare("radial swapped", order, radial(&rows[i], &rows[j], &rows[l], &rows[k]), -line)?;
@@ -197,6 +202,22 @@ fn almost_dependent(rng: &mut Rng) -> [Coefficients; 4] {
     if stays_a_plane {
         rows[row][column] = moved;
     }
+    rows
+}
+
+/// Sums of long integer rows, some of them off by one: where the integers of a determinant fit 128 bits only just, or not.
+fn long_dependent(rng: &mut Rng) -> [Coefficients; 4] {
+    let bits = rng.integer(38, 46);
+    let mut rows = grid(rng, 1 << bits);
+    for k in 2..4 {
+        let factors = [rng.pick(&[1.0, -1.0]), rng.pick(&[1.0, -1.0]), rng.pick(&[0.0, 1.0])];
+        let sum: Coefficients = std::array::from_fn(|c| (0..k).map(|i| factors[i] * rows[i][c]).sum());
+        let moved = sum.map(|v| v + if rng.chance(0.1) { 1.0 } else { 0.0 });
+        if moved[..3] != [0.0; 3] {
+            rows[k] = moved;
+        }
+    }
+    rng.shuffle(&mut rows);
     rows
 }
 

@@ -4,19 +4,20 @@ use std::array::from_fn;
 
 use dashu_ratio::RBig;
 use planecut_kernel::{DMat3, DVec3, PlaneIdx};
+use planecut_oracle::random::Rng;
 
 use crate::cases::{self, Case, build};
 use crate::truth::{Vector, cross, dot, faces, is_close, minus, planes, rational, square_root, vertices};
 
-/// What is this much smaller than the body may be given as zero.
-const ZERO: i32 = -190;
+/// How far off a figure near zero may be, in units of the body.
+const NEAR_ZERO: i32 = -75;
 
 struct Exact {
     volume: RBig,
     areas: Vec<(usize, RBig)>,
     centroid: Vector,
     inertia: [[RBig; 3]; 3],
-    size: RBig,
+    extents: Vector,
 }
 
 /// By tetrahedra from the first vertex; `None` where there is no interior.
@@ -55,7 +56,11 @@ fn exact(case: &Case) -> Option<Exact> {
     let central = |i: usize, j: usize| &second[i][j] / RBig::from(120) - &volume * &from_apex[i] * &from_apex[j];
     let trace = (0..3).fold(RBig::ZERO, |sum, i| sum + central(i, i));
     let inertia = from_fn(|i| from_fn(|j| if i == j { &trace - central(i, i) } else { -central(i, j) }));
-    Some(Exact { volume, areas, centroid: from_fn(|i| &apex[i] + &from_apex[i]), inertia, size: trace })
+    let extents = from_fn(|i| {
+        let along = || vertices.iter().map(|v| v[i].clone());
+        along().max().expect("a solid has vertices") - along().min().expect("a solid has vertices")
+    });
+    Some(Exact { volume, areas, centroid: from_fn(|i| &apex[i] + &from_apex[i]), inertia, extents })
 }
 
 fn check(case: &Case) {
@@ -70,19 +75,21 @@ fn check(case: &Case) {
         let shown = exact.to_f64().value();
         assert!(is_close(got, exact, 1), "{}", case.report(&format!("{what}: got {got:e}, exactly {shown:e}")));
     };
-    let or_zero = |what: &str, got: f64, exact: &RBig, size: &RBig| {
-        let tiny = size * rational(2f64.powi(ZERO));
-        if !(got == 0.0 && *exact <= tiny && -exact <= tiny) {
+    let compare_near_zero = |what: &str, got: f64, exact: &RBig, size: RBig| {
+        let room = size * rational(2f64.powi(NEAR_ZERO));
+        let off = rational(got) - exact;
+        if off > room || -off > room {
             compare(what, got, exact);
         }
     };
     compare("volume", got.volume, &exact.volume);
     compare("area", got.area, &exact.areas.iter().fold(RBig::ZERO, |sum, (_, area)| sum + area));
-    let extent = exact.centroid.iter().fold(square_root(&exact.size), |sum, c| sum + c * c);
     for axis in 0..3 {
-        or_zero("centroid", got.centroid[axis], &exact.centroid[axis], &extent);
-        for other in 0..3 {
-            or_zero("inertia", got.inertia.col(axis)[other], &exact.inertia[axis][other], &exact.size);
+        compare_near_zero("centroid", got.centroid[axis], &exact.centroid[axis], exact.extents[axis].clone());
+        compare("moment of inertia", got.inertia.col(axis)[axis], &exact.inertia[axis][axis]);
+        for other in (0..3).filter(|other| *other != axis) {
+            let size = &exact.volume * &exact.extents[axis] * &exact.extents[other];
+            compare_near_zero("product of inertia", got.inertia.col(axis)[other], &exact.inertia[axis][other], size);
         }
     }
     for (plane, area) in &exact.areas {
@@ -112,6 +119,22 @@ fn analytic_solids() {
     let expected =
         DMat3::from_cols_array(&[moment, product, product, product, moment, product, product, product, moment]);
     assert_eq!(got.inertia, expected);
+}
+
+/// The area, a number like any other, takes integers of more than 1,024 bits.
+#[test]
+fn a_needle_far_longer_than_thick() {
+    let (thin, long) = (2f64.powi(-198), 2f64.powi(199));
+    let (near_one, slope) = (1.0 - f64::EPSILON / 2.0, f64::EPSILON / 2.0 * (1.0 - f64::EPSILON / 2.0));
+    let planes = vec![
+        [3.0, -3.0, 0.0, thin],
+        [-3.0, 3.0, 0.0, thin],
+        [0.0, 3.0, -3.0, thin],
+        [0.0, -3.0, 3.0, thin],
+        [1.0, -near_one, -slope, long],
+        [-1.0, near_one, slope, long],
+    ];
+    check(&Case { seed: 0, planes, rng: Rng::new(0) });
 }
 
 #[test]

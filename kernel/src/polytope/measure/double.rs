@@ -1,52 +1,31 @@
 //! The tier of about 100 bits: double-double sums with an error bound.
 //!
-//! Each axis is scaled by a power of two so that all coordinates, counted from one corner, are at most one. On a face the
-//! coordinate `k` along which its (scaled) normal is largest is a combination `h + α·u + β·v` of the two others with
-//! `|α|, |β| ≤ 1` and `|h| ≤ 3`, so that only six planar sums run over its corners (Mirtich 1996).
+//! In the units of [`corners`](super::corners) all coordinates are at most one. On a face the coordinate `k` along which its
+//! (scaled) normal is largest is a combination `h + α·u + β·v` of the two others with `|α|, |β| ≤ 1` and `|h| ≤ 3`, so that
+//! only six planar sums run over its corners (Mirtich 1996).
 
 use std::array::from_fn;
 
-use dashu_int::IBig;
-use glam::DVec3;
-
-use super::fan::exponent;
+use super::corners::{Bounded, Corner, Corners, distance, exponent, scaled};
 use super::moments::Sums;
 use crate::double_double::DoubleDouble;
-use crate::meet::{ldexp, meet};
+use crate::meet::ldexp;
 use crate::polytope::IncrementalPolytope;
-use crate::sign::big_integers;
 
-/// Relative error of a coordinate's double-double evaluation, in units of its permanent: as for meeting points.
-const CORNER_BOUND: f64 = f64::from_bits((1023 - 98) << 52);
-/// Relative error of a double-double product or sum (`3·2⁻¹⁰⁶`, Joldes, Muller, Popescu 2017), with room for a quotient's.
+/// Relative error of a double-double product or sum (`5·2⁻¹⁰⁶` at most, Joldes, Muller, Popescu 2017), with room.
 const ROUNDING: f64 = f64::from_bits((1023 - 103) << 52);
-/// The same for a chain of a dozen of them.
+/// The same for a chain of a dozen of them, or a quotient.
 const STEP_BOUND: f64 = f64::from_bits((1023 - 99) << 52);
-/// Bits behind the point when the sums become integers; below every double-double error above.
-const FRACTION: usize = 160;
+/// What each further term of a running sum adds to that.
+const TERM_BOUND: f64 = f64::from_bits((1023 - 104) << 52);
 const HALF_UNIT: f64 = f64::from_bits((1023 - 55) << 52);
+/// What the difference of two coordinates that were rounded to single numbers can be off by, twice.
+const EDGE_ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-type Corner = [DoubleDouble; 3];
-
-/// The sums of all faces with bounds of their errors.
+/// The sums of all faces with bounds of their errors, and the area where it is certain.
 pub(super) struct DoubleSums {
-    six_volume: DoubleDouble,
-    first: [DoubleDouble; 3],
-    second: [DoubleDouble; 6],
-    errors: [f64; 3],
-    reference: DVec3,
-    exponents: [i64; 3],
-    /// The area, where it is certain.
+    pub(super) sums: Sums,
     pub(super) area: Option<f64>,
-}
-
-/// Scaled corners by slot.
-struct Corners {
-    corners: Vec<Corner>,
-    /// The largest error of a coordinate of each.
-    errors: Vec<f64>,
-    reference: DVec3,
-    exponents: [i64; 3],
 }
 
 /// Sums over the fan of one face in two coordinates.
@@ -62,153 +41,165 @@ struct PlanarSums {
     error: f64,
 }
 
+/// A face in the units of the axes, seen along the axis that its scaled normal is nearest to.
+struct Projection {
+    /// The axis `k` and the two others, in positive order.
+    axes: [usize; 3],
+    /// The scaled normal, and the inverse of its component `k`.
+    normal: [f64; 3],
+    inverse: DoubleDouble,
+    /// `|n| / |n_k|` of the normal as it is.
+    factor: DoubleDouble,
+}
+
+impl Projection {
+    fn of(normal: [f64; 3], exponents: [i64; 3], largest: i64) -> Self {
+        let scaled: [f64; 3] = from_fn(|k| normal[k] * ldexp(1.0, exponents[k] - largest));
+        let k = (0..3).fold(0, |k, i| if scaled[i].abs() > scaled[k].abs() { i } else { k });
+        let over = |dividend: DoubleDouble, divisor: f64| dividend.over(DoubleDouble::sum(divisor, 0.0));
+        Self {
+            axes: [k, (k + 1) % 3, (k + 2) % 3],
+            normal: scaled,
+            inverse: over(DoubleDouble::sum(1.0, 0.0), scaled[k]),
+            factor: over(length(normal), normal[k].abs()),
+        }
+    }
+
+    /// The intercept `h` of a plane whose scaled distance from the reference is given.
+    fn intercept(&self, distance: Bounded) -> Bounded {
+        let value = self.inverse.times_sum(distance.value);
+        let error = distance.error / self.normal[self.axes[0]].abs() + STEP_BOUND * value.high.abs();
+        Bounded { value, error: 1.01 * error }
+    }
+}
+
+/// The running sums over faces.
+#[derive(Default)]
+struct Running {
+    six_volume: DoubleDouble,
+    first: [DoubleDouble; 3],
+    second: [DoubleDouble; 6],
+    errors: [f64; 3],
+}
+
+impl Running {
+    /// The part of a face whose intercept is `h`; `step` is the relative error of the sums.
+    fn add(&mut self, planar: &PlanarSums, projection: &Projection, h: &Bounded, step: f64) {
+        for (sum, error) in self.errors.iter_mut().zip(face_errors(h, planar, step)) {
+            *sum += 1.01 * error;
+        }
+        let h = h.value;
+        let [k, u, v] = projection.axes;
+        let slope = |axis: usize| projection.inverse.times(-projection.normal[axis]);
+        let (alpha, beta) = (slope(u), slope(v));
+        let combine = |p: DoubleDouble, q: DoubleDouble| alpha.times_sum(p).plus(beta.times_sum(q));
+        let [fu, fv] = planar.first;
+        let [uu, uv, vv] = planar.second;
+        let slanted = combine(fu, fv);
+        let h_twice = h.times_sum(planar.twice);
+        let fk = h_twice.times(3.0).plus(slanted);
+        let (slant_u, slant_v) = (combine(uu, uv), combine(uv, vv));
+        let uk = h.times_sum(fu).times(4.0).plus(slant_u);
+        let vk = h.times_sum(fv).times(4.0).plus(slant_v);
+        let kk = h.times_sum(h_twice.times(12.0).plus(slanted.times(8.0))).plus(combine(slant_u, slant_v));
+        self.six_volume = self.six_volume.plus(h_twice);
+        for (axis, value) in [(u, fu), (v, fv), (k, fk)] {
+            self.first[axis] = self.first[axis].plus(h.times_sum(value));
+        }
+        for (place, value) in [(u, uu), (v, vv), (k, kk), (3 + u, vk), (3 + v, uk), (3 + k, uv)] {
+            self.second[place] = self.second[place].plus(h.times_sum(value));
+        }
+    }
+}
+
 impl IncrementalPolytope {
-    /// The sums, where no number leaves the range in which the bounds hold; only the area unless `with_moments`.
-    pub(super) fn double_sums(&self, with_moments: bool) -> Option<DoubleSums> {
-        let Corners { corners, errors: corner_errors, reference, exponents } = self.double_corners()?;
-        let zero = DoubleDouble::default();
-        let (mut six_volume, mut first, mut second) = (zero, [zero; 3], [zero; 6]);
-        // a running sum of n terms can lose n roundings
-        let step = STEP_BOUND + ROUNDING * 4.0 * self.vertices.len() as f64;
-        let mut errors = [0.0; 3];
-        let (mut area, mut area_error) = (zero, 0.0);
+    /// The sums, where no number leaves the range in which the bounds hold.
+    pub(super) fn double_sums(&self) -> Option<DoubleSums> {
+        let Corners { corners, errors: corner_errors, distances, reference, exponents } = self.double_corners()?;
+        let mut running = Running::default();
+        let step = self.step_bound();
+        let (mut area, mut area_error) = (DoubleDouble::default(), 0.0);
         let largest = exponents.into_iter().max()?;
+        let to_units = ldexp(1.0, -largest);
         for plane in self.face_slots() {
+            let Bounded { value, error } = distances[plane as usize];
+            let distance = Bounded { value: scaled(value, to_units), error: error * to_units };
+            // the cone over a face through the reference has no volume
+            let with_moments = value.high != 0.0 || error != 0.0;
             let [x, y, z, _] = *self.row(plane).coefficients();
-            let normal = [x, y, z];
-            let scaled: [f64; 3] = from_fn(|k| normal[k] * ldexp(1.0, exponents[k] - largest));
-            let k = (0..3).fold(0, |k, i| if scaled[i].abs() > scaled[k].abs() { i } else { k });
-            let (u, v) = ((k + 1) % 3, (k + 2) % 3);
+            let projection = Projection::of([x, y, z], exponents, largest);
+            let [_, u, v] = projection.axes;
             let start = self.planes.face_vertex(plane);
             let slots = || self.vertices.face_ring(plane, start);
             let error = slots().map(|vertex| corner_errors[vertex as usize]).fold(0.0, f64::max);
             let ring = slots().map(|vertex| &corners[vertex as usize]);
             let planar = PlanarSums::of(ring, [u, v], error, with_moments);
-
-            let length = square_root(normal.into_iter().fold(zero, |sum, n| sum.plus(DoubleDouble::product(n, n))));
-            let factor = length.over(DoubleDouble::sum(normal[k].abs(), 0.0));
             let unit = ldexp(1.0, exponents[u] + exponents[v] - 2 * largest);
-            let twice = if planar.twice.high < 0.0 { planar.twice.negated() } else { planar.twice };
-            area = area.plus(twice.times_sum(factor).times(unit));
-            area_error += (planar.error + 4.0 * step * twice.high) * factor.high * unit;
-            if !with_moments {
-                continue;
-            }
-
-            let over_k = |value: DoubleDouble| value.over(DoubleDouble::sum(scaled[k], 0.0));
-            let alpha = over_k(DoubleDouble::sum(-scaled[u], 0.0));
-            let beta = over_k(DoubleDouble::sum(-scaled[v], 0.0));
-            let at = &corners[start as usize];
-            let h = at[k].plus(alpha.times_sum(at[u]).negated()).plus(beta.times_sum(at[v]).negated());
-            let [fu, fv] = planar.first;
-            let [uu, uv, vv] = planar.second;
-            let combine = |p: DoubleDouble, q: DoubleDouble| alpha.times_sum(p).plus(beta.times_sum(q));
-            let slanted = combine(fu, fv);
-            let h_twice = h.times_sum(planar.twice);
-            let fk = h_twice.times(3.0).plus(slanted);
-            let (slant_u, slant_v) = (combine(uu, uv), combine(uv, vv));
-            let uk = h.times_sum(fu).times(4.0).plus(slant_u);
-            let vk = h.times_sum(fv).times(4.0).plus(slant_v);
-            let kk = h.times_sum(h_twice.times(12.0).plus(slanted.times(8.0))).plus(combine(slant_u, slant_v));
-            six_volume = six_volume.plus(h_twice);
-            for (axis, value) in [(u, fu), (v, fv), (k, fk)] {
-                first[axis] = first[axis].plus(h.times_sum(value));
-            }
-            for (place, value) in [(u, uu), (v, vv), (k, kk), (3 + u, vk), (3 + v, uk), (3 + k, uv)] {
-                second[place] = second[place].plus(h.times_sum(value));
-            }
-            let of_face = face_errors(h.high.abs(), planar.error, planar.twice.high.abs(), error, step);
-            for (sum, error) in errors.iter_mut().zip(of_face) {
-                *sum += 1.01 * error;
+            let part = planar.area(&projection.factor, step);
+            area = area.plus(scaled(part.value, unit));
+            area_error += part.error * unit;
+            if with_moments {
+                running.add(&planar, &projection, &projection.intercept(distance), step);
             }
         }
-        let certain = area_error.is_finite() && area_error <= HALF_UNIT * area.high && largest.abs() < 200;
-        let area = certain.then(|| ldexp(area.high / 2.0, 2 * largest));
-        errors.into_iter().all(f64::is_finite).then_some(DoubleSums {
-            six_volume,
-            first,
-            second,
-            errors,
-            reference,
-            exponents,
-            area,
-        })
+        let area = certain_area(area, area_error).map(|area| ldexp(area, 2 * largest));
+        let Running { six_volume, first, second, errors } = running;
+        let sums = Sums { six_volume, first, second, errors, exponent: 0, reference, units: exponents };
+        Some(DoubleSums { sums, area: area.filter(|_| largest.abs() < 200) })
     }
 
-    fn double_corners(&self) -> Option<Corners> {
-        let first = self.vertices.slots().next()?;
-        let [a, b, c] = self.vertices.planes(first).map(|plane| self.row(plane));
-        let reference = meet(a, b, c)?;
-        let mut corners = vec![Corner::default(); self.vertices.slot_count()];
-        let mut errors = vec![[0.0f64; 3]; self.vertices.slot_count()];
-        let mut size = [0.0f64; 3];
-        for vertex in self.vertices.slots() {
-            let (corner, corner_error) = self.double_corner(vertex, reference)?;
-            for axis in 0..3 {
-                size[axis] = size[axis].max(corner[axis].high.abs());
-            }
-            corners[vertex as usize] = corner;
-            errors[vertex as usize] = corner_error;
+    /// The area of one face, where it is certain.
+    pub(super) fn double_face_area(&self, plane: u32) -> Option<f64> {
+        let start = self.planes.face_vertex(plane);
+        let reference = self.rounded_corner(start)?;
+        let (mut corners, mut error, mut size) = (Vec::new(), f64::MIN_POSITIVE, 0.0f64);
+        for vertex in self.vertices.face_ring(plane, start) {
+            let [a, b, c] = self.vertices.planes(vertex).map(|plane| self.row(plane).coefficients());
+            let from = [distance(a, reference)?, distance(b, reference)?, distance(c, reference)?];
+            let (corner, corner_error) = self.double_corner(vertex, from)?;
+            size = corner.iter().fold(size, |size, coordinate| size.max(coordinate.high.abs()));
+            error = corner_error.into_iter().fold(error, f64::max);
+            corners.push(corner);
         }
-        if size.into_iter().any(|s| !(1e-60..1e60).contains(&s)) {
+        if !(1e-60..1e60).contains(&size) {
             return None;
         }
-        let exponents = size.map(|s| i64::from(exponent(s)) + 1);
-        let scale = exponents.map(|e| ldexp(1.0, -e));
-        for corner in &mut corners {
-            for (axis, coordinate) in corner.iter_mut().enumerate() {
-                (coordinate.high, coordinate.low) = (coordinate.high * scale[axis], coordinate.low * scale[axis]);
-            }
-        }
-        let errors = errors.into_iter().map(|e| (0..3).map(|axis| e[axis] * scale[axis]).fold(0.0, f64::max)).collect();
-        Some(Corners { corners, errors, reference, exponents })
+        let unit = i64::from(exponent(size)) + 1;
+        let scale = ldexp(1.0, -unit);
+        corners.iter_mut().flatten().for_each(|coordinate| *coordinate = scaled(*coordinate, scale));
+        let [x, y, z, _] = *self.row(plane).coefficients();
+        let projection = Projection::of([x, y, z], [0; 3], 0);
+        let [_, u, v] = projection.axes;
+        let planar = PlanarSums::of(corners.iter(), [u, v], error * scale, false);
+        let Bounded { value, error } = planar.area(&projection.factor, self.step_bound());
+        certain_area(value, error).map(|area| ldexp(area, 2 * unit))
     }
 
-    /// A vertex counted from the reference, with bounds of the errors.
-    fn double_corner(&self, vertex: u32, reference: DVec3) -> Option<(Corner, [f64; 3])> {
-        let permanent = &self.vertices.point(vertex).permanent;
-        if permanent.iter().any(|p| *p != 0.0 && !(1e-150..=1e150).contains(p)) {
-            return None;
-        }
-        let [a, b, c] = self.vertices.planes(vertex).map(|plane| self.row(plane).coefficients());
-        let minor = |p: &[f64; 4], q: &[f64; 4], u: usize, v: usize| {
-            DoubleDouble::product(p[u], q[v]).plus(DoubleDouble::product(p[v], q[u]).negated())
-        };
-        let mut w = DoubleDouble::default();
-        let mut numerators = Corner::default();
-        for (axis, numerator) in numerators.iter_mut().enumerate() {
-            let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
-            let (bc, ca, ab) = (minor(b, c, u, v), minor(c, a, u, v), minor(a, b, u, v));
-            *numerator = bc.times(a[3]).plus(ca.times(b[3])).plus(ab.times(c[3]));
-            w = w.plus(bc.times(a[axis]));
-        }
-        let w_error = CORNER_BOUND * permanent[3] / w.high.abs();
-        if w_error.is_nan() || w_error > 1e-3 {
-            return None;
-        }
-        let mut error = [0.0; 3];
-        let corner = from_fn(|axis| {
-            let quotient = numerators[axis].over(w);
-            let relative = 2.0 * (w_error + STEP_BOUND);
-            error[axis] = relative * (quotient.high.abs() + reference[axis].abs())
-                + 2.0 * CORNER_BOUND * permanent[axis] / w.high.abs();
-            quotient.plus(DoubleDouble::sum(-reference[axis], 0.0))
-        });
-        Some((corner, error))
+    /// The relative error of a sum of as many terms as there are faces or corners of a face.
+    fn step_bound(&self) -> f64 {
+        STEP_BOUND + TERM_BOUND * (self.vertices.len() + 3) as f64
     }
 }
 
-/// Bounds of the errors that a face brings into the three kinds of sums: `h` its intercept, `twice` its planar area with
-/// error `planar`, `corner` the error of its corners and `step` the relative one of the sums.
+/// An area, from twice of it, where its error moves it by less than half a unit in the last place.
+fn certain_area(twice: DoubleDouble, error: f64) -> Option<f64> {
+    (error <= HALF_UNIT * twice.high).then_some(twice.high / 2.0)
+}
+
+/// Bounds of the errors that a face brings into the three kinds of sums: `h` its intercept and `step` the relative error of
+/// the sums.
 ///
 /// With `F = 6·∫u` and `G = 24·∫u·v` over the planar polygon and all coordinates at most one, an error `e` of twice the area
 /// that comes from moved borders is one of `3·e` and `12·e` there. Through the combinations with `|α|, |β| ≤ 1` this gives
-/// `h`, `h·(3h + 6)` and `h·(12h² + 48h + 48)` times `e`; the derivatives by `h`, which is off by at most three errors of a
-/// corner, are `1`, `6h + 6` and `36h² + 96h + 48` times `twice`.
-fn face_errors(h: f64, planar: f64, twice: f64, corner: f64, step: f64) -> [f64; 3] {
+/// `h`, `h·(3h + 6)` and `h·(12h² + 48h + 48)` times `e`; the derivatives by `h` are `1`, `6h + 6` and `36h² + 96h + 48` times
+/// `twice`.
+fn face_errors(h: &Bounded, planar: &PlanarSums, step: f64) -> [f64; 3] {
+    let Bounded { value, error } = h;
+    let h = value.high.abs() + error;
+    let twice = planar.twice.high.abs() + planar.error;
     let size = [h, h * (3.0 * h + 6.0), h * (12.0 * h * h + 48.0 * h + 48.0)];
     let by_h = [1.0, 6.0 * h + 6.0, 36.0 * h * h + 96.0 * h + 48.0];
-    from_fn(|k| size[k] * (planar + 8.0 * step * twice) + by_h[k] * twice * (3.0 * corner + 4.0 * step))
+    from_fn(|k| size[k] * (planar.error + 8.0 * step * twice) + by_h[k] * twice * error)
 }
 
 impl PlanarSums {
@@ -219,17 +210,17 @@ impl PlanarSums {
         let products = |p: &Corner| [p[u].times_sum(p[u]), p[u].times_sum(p[v]), p[v].times_sum(p[v])];
         let away = |p: &Corner| [p[u].plus(a[u].negated()), p[v].plus(a[v].negated())];
         let length = |[du, dv]: &[DoubleDouble; 2]| du.high.abs() + dv.high.abs();
-        let at_a = products(a);
-        let (mut b, mut at_b, mut to_b) = (b, products(b), away(b));
+        let at_a = if with_moments { products(a) } else { Default::default() };
+        let (mut b, mut at_b, mut to_b) = (b, if with_moments { products(b) } else { at_a }, away(b));
         sums.error = 2.0 * error * (length(&to_b) + 4.0 * error);
         for c in ring {
             let to_c = away(c);
             let twice = to_b[0].times_sum(to_c[1]).plus(to_b[1].times_sum(to_c[0]).negated());
             sums.twice = sums.twice.plus(twice);
             // Moving a corner moves twice the area by the two edges there; and the products are rounded.
-            let edge = length(&[c[u].plus(b[u].negated()), c[v].plus(b[v].negated())]);
+            let edge = (c[u].high - b[u].high).abs() + (c[v].high - b[v].high).abs();
             let (near, far) = (length(&to_b), length(&to_c));
-            sums.error += 2.0 * error * (edge + 4.0 * error) + 8.0 * ROUNDING * near * far;
+            sums.error += 2.0 * error * (edge + EDGE_ROUNDING + 4.0 * error) + 8.0 * ROUNDING * near * far;
             if with_moments {
                 let at_c = products(c);
                 let (su, sv) = (a[u].plus(b[u]).plus(c[u]), a[v].plus(b[v]).plus(c[v]));
@@ -246,34 +237,19 @@ impl PlanarSums {
         sums.error += 2.0 * error * (length(&to_b) + 4.0 * error);
         sums
     }
-}
 
-impl DoubleSums {
-    /// The same as integers.
-    pub(super) fn sums(&self) -> Sums {
-        let whole = |v: &DoubleDouble| {
-            let [high, low, one] = big_integers([v.high, v.low, 1.0]);
-            ((high + low) << FRACTION) / one
-        };
-        let error = |v: f64| {
-            let [error, one] = big_integers([v, 1.0]);
-            (error << FRACTION) / one + IBig::from(2)
-        };
-        Sums {
-            six_volume: whole(&self.six_volume),
-            first: self.first.each_ref().map(whole),
-            second: Some(self.second.each_ref().map(whole)),
-            errors: self.errors.map(error),
-            fraction: FRACTION,
-            reference: self.reference,
-            unit: self.exponents.map(|e| (IBig::ONE, e)),
-        }
+    /// Twice the area of the face itself.
+    fn area(&self, factor: &DoubleDouble, step: f64) -> Bounded {
+        let twice = if self.twice.high < 0.0 { self.twice.negated() } else { self.twice };
+        let error = self.error + 4.0 * step * (twice.high + self.error);
+        Bounded { value: twice.times_sum(*factor), error: 1.01 * error * factor.high }
     }
 }
 
-/// The square root of a positive value.
-fn square_root(value: DoubleDouble) -> DoubleDouble {
-    let root = value.high.sqrt();
-    let rest = value.plus(DoubleDouble::product(root, root).negated());
+/// The length of a vector.
+fn length(vector: [f64; 3]) -> DoubleDouble {
+    let squared = vector.into_iter().fold(DoubleDouble::default(), |sum, n| sum.plus(DoubleDouble::product(n, n)));
+    let root = squared.high.sqrt();
+    let rest = squared.plus(DoubleDouble::product(root, root).negated());
     DoubleDouble::sum(root, rest.high / (2.0 * root))
 }

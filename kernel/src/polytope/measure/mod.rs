@@ -1,11 +1,13 @@
-//! Volume, area, centroid and inertia of a bounded polytope, as those of its exact corners, rounded once.
+//! Volume, area, centroid and inertia of a bounded polytope, as those of its exact corners.
 //!
-//! The sums run over the tetrahedra between a reference point and fans of triangles on the faces. Three tiers, each with
-//! an error bound that is checked: small integers ([`fan`]), where the corners are such on each axis; sums of about 100 bits
-//! ([`double`]); integers of as many bits as it takes ([`wide`]). [`moments`] makes figures from the sums.
+//! The sums run over the cones between a corner and the faces, these cut into fans of triangles. Two tiers, each with an error
+//! bound that is checked: about 100 bits ([`corners`], [`double`]), which is enough but for slivers; integers of as many bits
+//! as it takes ([`wide`]). [`moments`] makes figures from the sums.
 
+#[cfg(test)]
+mod bounds;
+mod corners;
 mod double;
-mod fan;
 mod moments;
 mod wide;
 
@@ -17,9 +19,15 @@ use moments::Figures;
 /// Volume, area, centroid and inertia of a bounded polytope, in the units of its planes.
 ///
 /// # Guarantees
-/// Each figure lies within one unit in the last place of the true one (of the polytope of the planes as given, whose
-/// corners are rational), but that coordinates and products of inertia smaller than `2⁻²⁰⁰` of the body's size (to the
-/// power that fits) may be given as zero.
+/// The true figures are those of the polytope of the planes as given, whose corners are rational. Each figure is within one
+/// unit in the last place of the true one, with one exception for what comes out near zero by symmetry: with `V` the
+/// volume and `e` the extents of the set along the axes,
+///
+/// - coordinate `i` of the centroid may instead be off by up to `2⁻⁷⁵·eᵢ`;
+/// - the product of inertia of the axes `i` and `j` may instead be off by up to `2⁻⁷⁵·V·eᵢ·eⱼ`.
+///
+/// This holds wherever the body lies: the extents are its own, not its distance from the origin. Figures outside the range of
+/// normal numbers are exempt.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measures {
     /// Volume; zero where the set is empty.
@@ -64,21 +72,23 @@ impl IncrementalPolytope {
         if self.is_empty() {
             return Some(Measures { volume: 0.0, area: 0.0, centroid: DVec3::ZERO, inertia: DMat3::ZERO });
         }
-        let mut figures = Figures::default().or(|| self.small_sums());
-        let double = self.double_sums(figures.inertia.is_none());
-        let mut area = double.as_ref().and_then(|double| double.area);
-        figures = figures.or(|| double.map(|double| double.sums()));
-        for width in WIDTHS {
+        let (mut figures, mut area) = (Figures::default(), None);
+        if let Some(double) = self.double_sums() {
+            (figures, area) = (figures.or(&double.sums), double.area);
+        }
+        let mut widths = WIDTHS.into_iter();
+        loop {
             if let Figures { volume: Some(volume), centroid: Some(centroid), inertia: Some(inertia) } = figures
                 && let Some(area) = area
             {
                 return Some(Measures { volume, area, centroid, inertia });
             }
-            let wide = self.wide_corners(width);
-            figures = figures.or(|| Some(wide.sums(self, figures.inertia.is_none())));
+            let wide = self.wide_corners(widths.next()?);
+            if !figures.are_complete() {
+                figures = wide.sums(self).map_or(figures, |sums| figures.or(&sums));
+            }
             area = area.or_else(|| wide.area(self, None));
         }
-        None
     }
 
     /// The area of a plane's face, within one unit in the last place; zero where the plane has no face, `None` where there
@@ -103,6 +113,7 @@ impl IncrementalPolytope {
         if self.is_empty() || self.face_polygon(plane).is_none() {
             return Some(0.0);
         }
-        WIDTHS.into_iter().find_map(|width| self.wide_corners(width).area(self, Some(slot)))
+        let wide = || WIDTHS.into_iter().find_map(|width| self.wide_corners(width).area(self, Some(slot)));
+        self.double_face_area(slot).or_else(wide)
     }
 }

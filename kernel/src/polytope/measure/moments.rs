@@ -2,34 +2,35 @@
 
 use std::array::from_fn;
 
-use dashu_int::{IBig, UBig, ops::BitTest};
 use glam::{DMat3, DVec3};
 
-use crate::meet::{ldexp, round_quotient};
-use crate::sign::big_integers;
+use crate::double_double::DoubleDouble;
+use crate::meet::ldexp;
 
 /// A relative error that moves a result by less than half a unit in its last place.
-const CERTAIN_BITS: usize = 55;
-/// What is zero within an error that is this much smaller than the body counts as zero.
-const ZERO_BITS: usize = 200;
+const CERTAIN: f64 = f64::from_bits((1023 - 55) << 52);
+/// The error, in units of the body, that coordinates of the centroid and products of inertia may have near zero; what is zero
+/// within it is given as zero, which can double it.
+const NEGLIGIBLE: f64 = f64::from_bits((1023 - 76) << 52);
+/// Relative error of a chain of a dozen double-double operations.
+const STEP_BOUND: f64 = f64::from_bits((1023 - 99) << 52);
 
 /// The pairs of axes of the second moments, in their order.
 pub(super) const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (1, 2), (2, 0), (0, 1)];
 
-/// Sums over tetrahedra in coordinates `x = reference + unit·y`: `six_volume = 6·∫dV`, `first = 24·∫y dV`,
-/// `second = 120·∫y·y dV`, each an integer times `2^−fraction` with a bound of its error in the same unit.
-#[derive(Debug, Clone)]
+/// Sums over tetrahedra in coordinates `x = reference + 2^unit·y`, `|y| ≤ 1` and the body at least half a unit long on each
+/// axis: `six_volume = 6·∫dV`, `first = 24·∫y dV`, `second = 120·∫y·y dV`, each times `2^−exponent`.
+#[derive(Debug, Clone, Copy)]
 pub(super) struct Sums {
-    pub(super) six_volume: IBig,
-    pub(super) first: [IBig; 3],
-    /// Left out where nobody asks.
-    pub(super) second: Option<[IBig; 6]>,
-    /// Errors of the three kinds.
-    pub(super) errors: [IBig; 3],
-    pub(super) fraction: usize,
+    pub(super) six_volume: DoubleDouble,
+    pub(super) first: [DoubleDouble; 3],
+    pub(super) second: [DoubleDouble; 6],
+    /// Bounds of the errors of the three kinds.
+    pub(super) errors: [f64; 3],
+    pub(super) exponent: i64,
     pub(super) reference: DVec3,
-    /// The length of one unit of each axis: `mantissa·2^exponent`, positive.
-    pub(super) unit: [(IBig, i64); 3],
+    /// The exponents of the units of the axes.
+    pub(super) units: [i64; 3],
 }
 
 /// The figures of a solid, as far as they are certain.
@@ -42,117 +43,114 @@ pub(super) struct Figures {
 
 impl Figures {
     /// Fills in what is not there yet.
-    pub(super) fn or(self, sums: impl FnOnce() -> Option<Sums>) -> Self {
-        if self.volume.is_some() && self.centroid.is_some() && self.inertia.is_some() {
+    pub(super) fn or(self, sums: &Sums) -> Self {
+        if !sums.has_certain_volume() {
             return self;
         }
-        let Some(sums) = sums() else { return self };
-        let Some(six) = sums.certain_volume() else { return self };
         Self {
-            volume: self.volume.or_else(|| Some(sums.volume(&six))),
-            centroid: self.centroid.or_else(|| sums.centroid(&six)),
-            inertia: self.inertia.or_else(|| sums.inertia(&six)),
+            volume: self.volume.or_else(|| Some(sums.volume())),
+            centroid: self.centroid.or_else(|| sums.centroid()),
+            inertia: self.inertia.or_else(|| sums.inertia()),
         }
     }
-}
 
-fn magnitude(v: &IBig) -> IBig {
-    let magnitude: UBig = v.clone().into_parts().1;
-    IBig::from(magnitude)
-}
-
-/// The value where its error cannot matter.
-fn certified(value: IBig, error: &IBig, size: &IBig) -> Option<IBig> {
-    if error.is_zero() || (error << CERTAIN_BITS) <= magnitude(&value) {
-        return Some(value);
+    pub(super) fn are_complete(&self) -> bool {
+        self.volume.is_some() && self.centroid.is_some() && self.inertia.is_some()
     }
-    (magnitude(&value) <= *error && (error << ZERO_BITS) <= *size).then_some(IBig::ZERO)
 }
 
-/// `numerator / denominator · 2^exponent`, rounded once.
-fn scaled_quotient(numerator: IBig, denominator: &IBig, exponent: i64) -> f64 {
-    // both brought to about the same length, so that the quotient is in range
-    let surplus = numerator.bit_len() as i64 - denominator.bit_len() as i64;
-    if surplus >= 0 {
-        ldexp(round_quotient(numerator, &(denominator << surplus as usize)), exponent + surplus)
-    } else {
-        ldexp(round_quotient(numerator << (-surplus) as usize, denominator), exponent + surplus)
+/// The value where its error cannot matter; one that must be below `negligible` may count as zero.
+fn certain(value: DoubleDouble, error: f64, negligible: f64) -> Option<f64> {
+    let size = value.high.abs();
+    if error <= CERTAIN * size {
+        return Some(value.high);
     }
+    (error <= negligible).then_some(if size <= error { 0.0 } else { value.high })
+}
+
+fn quotient(numerator: DoubleDouble, denominator: f64) -> DoubleDouble {
+    numerator.over(DoubleDouble::sum(denominator, 0.0))
+}
+
+/// Times a power of two.
+fn shifted(value: DoubleDouble, power: i64) -> DoubleDouble {
+    DoubleDouble { high: ldexp(value.high, power), low: ldexp(value.low, power) }
 }
 
 impl Sums {
-    /// Six times the volume in units, where it is certain.
-    fn certain_volume(&self) -> Option<IBig> {
-        certified(self.six_volume.clone(), &self.errors[0], &IBig::ZERO).filter(|six| *six > IBig::ZERO)
+    fn has_certain_volume(&self) -> bool {
+        self.six_volume.high > 0.0 && self.errors[0] <= CERTAIN * self.six_volume.high
     }
 
-    /// The volume of a unit cell: mantissa, and exponent with the fraction of the sums.
-    fn cell(&self) -> (IBig, i64) {
-        let [(x, ex), (y, ey), (z, ez)] = &self.unit;
-        (x * y * z, ex + ey + ez - self.fraction as i64)
+    fn volume(&self) -> f64 {
+        ldexp(quotient(self.six_volume, 6.0).high, self.exponent + self.units.iter().sum::<i64>())
     }
 
-    fn volume(&self, six: &IBig) -> f64 {
-        let (cell, exponent) = self.cell();
-        scaled_quotient(six * cell, &IBig::from(6), exponent)
+    /// The mean of each coordinate, in units from the reference.
+    fn means(&self) -> [DoubleDouble; 3] {
+        self.first.map(|first| first.over(self.six_volume.times(4.0)))
     }
 
-    fn centroid(&self, six: &IBig) -> Option<DVec3> {
-        let [volume_error, first_error, _] = &self.errors;
-        let four = six * IBig::from(4);
+    /// A mean is at most one, so an error of the volume moves it by no more than that error's share in the volume.
+    fn centroid(&self) -> Option<DVec3> {
+        let [volume_error, first_error, _] = self.errors;
+        let mean_error = (first_error + 5.0 * volume_error) / (4.0 * self.six_volume.high) + STEP_BOUND;
         let mut centroid = DVec3::ZERO;
-        for axis in 0..3 {
-            let (mantissa, exponent) = &self.unit[axis];
-            // reference + mantissa·2^exponent·first / four, counted in 2^exponent
-            let [reference, one] = big_integers([ldexp(self.reference[axis], -exponent), 1.0]);
-            let whole = &reference * &four + mantissa * &self.first[axis] * &one;
-            let error = magnitude(&reference) * IBig::from(4) * volume_error + mantissa * first_error * &one;
-            let size = (magnitude(&reference) + mantissa * &one) * &four;
-            centroid[axis] = scaled_quotient(certified(whole, &error, &size)?, &(&four * one), *exponent);
+        for (axis, mean) in self.means().into_iter().enumerate() {
+            let unit = self.units[axis];
+            let reference = ldexp(self.reference[axis], -unit);
+            if reference.is_infinite() {
+                // the body is nothing beside its distance from the origin
+                centroid[axis] = self.reference[axis];
+                continue;
+            }
+            let value = mean.plus(DoubleDouble::sum(reference, 0.0));
+            let error = 1.01 * mean_error + STEP_BOUND * value.high.abs();
+            centroid[axis] = ldexp(certain(value, error, NEGLIGIBLE / 2.0)?, unit);
         }
         Some(centroid)
     }
 
-    fn inertia(&self, six: &IBig) -> Option<DMat3> {
-        let [volume_error, first_error, second_error] = &self.errors;
-        let second_moments = self.second.as_ref()?;
-        let four = six * IBig::from(4);
-        // the central moment ∫ y·y dV is (4·second·six − 5·first·first) / (480·six)
-        let central: [IBig; 6] = from_fn(|at| {
+    /// From the central moments `∫ y·y dV = (second − 5·first·mean) / 120` in units.
+    fn inertia(&self) -> Option<DMat3> {
+        let means = self.means();
+        let central: [DoubleDouble; 6] = from_fn(|at| {
             let (i, j) = PAIRS[at];
-            &second_moments[at] * &four - IBig::from(5) * &self.first[i] * &self.first[j]
+            self.second[at].plus(self.first[i].times_sum(means[j]).times(-5.0))
         });
-        let error: [IBig; 6] = from_fn(|at| {
-            let (i, j) = PAIRS[at];
-            let second = (magnitude(&second_moments[at]) + second_error) * volume_error + six * second_error;
-            let first = (magnitude(&self.first[i]) + magnitude(&self.first[j]) + first_error) * first_error;
-            IBig::from(4) * second + IBig::from(5) * first
-        });
-        // in lengths: times the units of both axes, counted in the smallest power of two
-        let lowest = self.unit.iter().map(|(_, exponent)| *exponent).min().unwrap_or(0);
-        let scaled = |values: &[IBig; 6], at: usize| {
-            let (i, j) = PAIRS[at];
-            let shift = (self.unit[i].1 + self.unit[j].1 - 2 * lowest) as usize;
-            (&values[at] * &self.unit[i].0 * &self.unit[j].0) << shift
-        };
-        let divisor = six * IBig::from(480);
-        let (cell, exponent) = self.cell();
-        let figure = |value: IBig, error: &IBig, size: &IBig| {
-            let value = certified(value, error, size)?;
-            Some(scaled_quotient(value * &cell, &divisor, exponent + 2 * lowest))
-        };
-        let diagonal: [IBig; 3] = from_fn(|at| scaled(&central, at));
-        let size = &diagonal[0] + &diagonal[1] + &diagonal[2];
+        let error = self.central_error();
+        let exponent = self.exponent + self.units.iter().sum::<i64>();
         let mut moments = [0.0; 6];
         for (at, moment) in moments.iter_mut().enumerate() {
-            *moment = if at < 3 {
-                let (u, v) = ((at + 1) % 3, (at + 2) % 3);
-                figure(&diagonal[u] + &diagonal[v], &(scaled(&error, u) + scaled(&error, v)), &IBig::ZERO)?
+            let (i, j) = PAIRS[at];
+            let (value, power) = if at < 3 {
+                // in lengths, counted in the longer unit of the two
+                let [u, v] = [(at + 1) % 3, (at + 2) % 3];
+                let longer = 2 * self.units[u].max(self.units[v]);
+                let [power_u, power_v] = [2 * self.units[u] - longer, 2 * self.units[v] - longer];
+                let sum = shifted(central[u], power_u).plus(shifted(central[v], power_v));
+                let error = ldexp(error, power_u) + ldexp(error, power_v);
+                (certain(quotient(sum, 120.0), error / 120.0, 0.0)?, longer)
             } else {
-                figure(-scaled(&central, at), &scaled(&error, at), &size)?
+                // the body is at least half a unit long
+                let negligible = NEGLIGIBLE * self.six_volume.high / 6.0 / 4.0;
+                let product = quotient(central[at].negated(), 120.0);
+                (certain(product, error / 120.0, negligible)?, self.units[i] + self.units[j])
             };
+            *moment = ldexp(value, exponent + power);
         }
         let [xx, yy, zz, yz, zx, xy] = moments;
         Some(DMat3::from_cols_array(&[xx, xy, zx, xy, yy, yz, zx, yz, zz]))
+    }
+
+    /// A bound of the error of `second − 5·first·mean`, that is of `second − (5/4)·first·first/six_volume`.
+    ///
+    /// With `|y| ≤ 1`, `|first| ≤ 4·six_volume` and `|second| ≤ 20·six_volume`. The derivatives by both `first` and by the
+    /// volume are at most `5 + 5` and `20`; what they leave is of the second order.
+    fn central_error(&self) -> f64 {
+        let [volume_error, first_error, second_error] = self.errors;
+        let second_order = 2.0 * first_error * first_error / self.six_volume.high;
+        let linear = second_error + 10.5 * first_error + 21.0 * volume_error;
+        1.01 * (linear + second_order) + STEP_BOUND * 40.0 * self.six_volume.high
     }
 }

@@ -2,11 +2,12 @@
 
 use std::array::from_fn;
 
-use dashu_int::{IBig, UBig, ops::SquareRoot};
+use dashu_int::{IBig, UBig, ops::BitTest, ops::SquareRoot};
 use glam::DVec3;
 
-use super::fan::{exponent, fan_sums};
-use super::moments::Sums;
+use super::corners::exponent;
+use super::moments::{PAIRS, Sums};
+use crate::double_double::DoubleDouble;
 use crate::meet::{homogeneous_exactly, ldexp, meet, round_quotient};
 use crate::polytope::IncrementalPolytope;
 use crate::polytope::query::exact::integer_row;
@@ -70,29 +71,70 @@ impl IncrementalPolytope {
     }
 }
 
+/// Bits of the volume when the sums become double-double numbers: the others are at most 20 times as large.
+const SUM_BITS: i64 = 120;
+
+/// `6·∫dV`, `24·∫x dV`, `120·∫x·x dV`.
+pub(super) type Totals = (IBig, [IBig; 3], [IBig; 6]);
+
+/// The sums over the fans of all faces, `corner` giving the coordinates of a vertex, and the number of triangles.
+pub(super) fn fan_sums<'p>(
+    polytope: &'p IncrementalPolytope,
+    corner: impl Fn(u32) -> &'p [IBig; 3],
+) -> (Totals, usize) {
+    let (mut six, mut first, mut second): Totals = Default::default();
+    let mut triangles = 0;
+    for plane in polytope.face_slots() {
+        let mut ring = polytope.vertices.face_ring(plane, polytope.planes.face_vertex(plane)).map(&corner);
+        let Some(a) = ring.next() else { continue };
+        let Some(mut b) = ring.next() else { continue };
+        for c in ring {
+            let minor = |u: usize, v: usize| &b[u] * &c[v] - &b[v] * &c[u];
+            let det = &a[0] * minor(1, 2) + &a[1] * minor(2, 0) + &a[2] * minor(0, 1);
+            let sum: [IBig; 3] = from_fn(|k| &a[k] + &b[k] + &c[k]);
+            first = from_fn(|k| &first[k] + &det * &sum[k]);
+            second = from_fn(|at| {
+                let (i, j) = PAIRS[at];
+                let corners = &a[i] * &a[j] + &b[i] * &b[j] + &c[i] * &c[j];
+                &second[at] + &det * (&sum[i] * &sum[j] + corners)
+            });
+            six += det;
+            triangles += 1;
+            b = c;
+        }
+    }
+    ((six, first, second), triangles)
+}
+
 impl WideCorners {
-    /// The sums over the tetrahedra.
+    /// The sums over the tetrahedra, `None` where the volume may be zero for all that these bits tell.
     ///
     /// A coordinate, below `R = 2^width`, is off by less than one. By the product rule a determinant is then off by at most
     /// `18·R²`, its product with the sum of three coordinates by `72·R³`, that with products of two by `360·R⁴`; the bounds
     /// used are twice as large at least.
-    pub(super) fn sums(&self, polytope: &IncrementalPolytope, with_second: bool) -> Sums {
+    pub(super) fn sums(&self, polytope: &IncrementalPolytope) -> Option<Sums> {
         let width = self.width;
-        let ((six, first, second), triangles) =
-            fan_sums(polytope, with_second, |vertex| &self.corners[vertex as usize]);
+        let ((six, first, second), triangles) = fan_sums(polytope, |vertex| &self.corners[vertex as usize]);
+        // brought to a volume of SUM_BITS bits with five times `width` bits behind the point
+        let six = six << (2 * width);
+        let surplus = six.bit_len() as i64 - SUM_BITS;
+        let brought = |value: IBig| if surplus >= 0 { value >> surplus as usize } else { value << (-surplus) as usize };
         let error = |factor: usize, power: usize| {
-            if self.exact { IBig::ZERO } else { IBig::from(factor * triangles) << (power * width) }
+            let error = if self.exact { IBig::ZERO } else { IBig::from(factor * triangles) << (power * width) };
+            whole(&(brought(error) + IBig::from(2))).map(|error| error.high)
         };
-        // all with 5·width bits behind the point
-        Sums {
-            six_volume: six << (2 * width),
-            first: first.map(|v| v << width),
-            second: with_second.then_some(second),
-            errors: [error(64, 4), error(256, 4), error(1024, 4)],
-            fraction: 5 * width,
+        let number = |value: IBig| whole(&brought(value));
+        let [x, y, z] = first.map(|v| number(v << width));
+        let [xx, yy, zz, yz, zx, xy] = second.map(number);
+        Some(Sums {
+            six_volume: number(six)?,
+            first: [x?, y?, z?],
+            second: [xx?, yy?, zz?, yz?, zx?, xy?],
+            errors: [error(64, 4)?, error(256, 4)?, error(1024, 4)?],
+            exponent: surplus - 5 * width as i64,
             reference: self.reference,
-            unit: self.exponents.map(|e| (IBig::ONE, e)),
-        }
+            units: self.exponents,
+        })
     }
 
     /// The area of one face, or of all; `None` where it is not certain to within half a unit in its last place.
@@ -119,7 +161,10 @@ impl WideCorners {
         if (total_error << 55usize) > total {
             return None;
         }
-        Some(ldexp(round_quotient(total, &IBig::from(2)), 2 * largest - 2 * width as i64))
+        // brought into the range of numbers: so many bits are more than enough for one rounding
+        let surplus = total.bit_len().saturating_sub(SUM_BITS as usize);
+        let twice = round_quotient(total >> surplus, &IBig::ONE);
+        Some(ldexp(twice, 2 * largest - 2 * width as i64 + surplus as i64 - 1))
     }
 
     /// Twice the area of a face's projection onto the axes `u`, `v`, and a bound of its error.
@@ -137,4 +182,11 @@ impl WideCorners {
         let error = if self.exact { IBig::ZERO } else { IBig::from(32 * triangles) << self.width };
         (IBig::from(twice.into_parts().1), error)
     }
+}
+
+/// An integer of at most 127 bits, off by less than `2⁻¹⁰⁴` of itself.
+fn whole(value: &IBig) -> Option<DoubleDouble> {
+    let value = i128::try_from(value).ok()?;
+    let high = value as f64;
+    Some(DoubleDouble::sum(high, (value - high as i128) as f64))
 }

@@ -61,7 +61,7 @@ impl IncrementalPolytope {
     #[must_use]
     pub fn support(&self, direction: DVec3) -> Option<Support> {
         let row = direction_row(direction)?;
-        Some(self.support_of_row(&row, self.hint))
+        Some(self.support_of_row(&row, self.start(&row)))
     }
 
     /// [`support`](Self::support), climbing from a vertex that was found before: a few steps where the directions are near
@@ -85,7 +85,7 @@ impl IncrementalPolytope {
     #[must_use]
     pub fn support_from(&self, direction: DVec3, start: VertexIdx) -> Option<Support> {
         let row = direction_row(direction)?;
-        let start = if self.vertices.is_live(start.0) { start.0 } else { self.hint };
+        let start = if self.vertices.is_live(start.0) { start.0 } else { self.start(&row) };
         Some(self.support_of_row(&row, start))
     }
 

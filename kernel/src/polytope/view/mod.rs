@@ -7,7 +7,8 @@
 //! has, and a plane that only touches an edge, a ray, a line or a corner has no face. [`Vertex::planes`], [`Edge::planes`],
 //! [`IncrementalPolytope::faces`] and the faces of Euler's formula all mean seen faces.
 //!
-//! One code answers for a single vertex and for all of them: [`Clusters`] works out what it is asked and remembers it.
+//! One code answers for a single vertex and for all of them: [`cluster::Clusters`] works out what it is asked and
+//! remembers it.
 
 mod cluster;
 mod edge;

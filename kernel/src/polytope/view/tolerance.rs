@@ -1,18 +1,20 @@
 //! Where the tolerance may contract: only where a polytope's topology is left.
 //!
 //! Short edges form chains, and a needle, a plate or a polytope smaller than the tolerance would collapse. The rule:
-//! call *tentative* the clusters that all contractions together give. Two of them belong together where a face has corners
-//! in these two only. A group so connected is contracted where each of its clusters
+//! call *tentative* the clusters that all contractions together give. Two of them belong together where a face has
+//! corners in these two only. A group so connected is contracted where each of its clusters
 //!
 //! 1. is a disk: `V − E + F = 1` for the vertices in it and the edges and faces between them,
 //! 2. meets each face in one run of its ring,
 //! 3. has at least three faces with three different corners or more,
 //!
-//! and where no two such faces that the contraction brings together meet along another edge as well; otherwise none of the group is contracted beyond exact coincidence. Why the result is sound: a sphere with disjoint
-//! disks shrunk to points is a sphere, so Euler's formula holds; by 2 a face is a polygon with different corners; by 3
-//! faces with two corners, which are left out and their edges merged, never go all around a vertex; and by the last
-//! condition two faces have one edge in common at most. A group that
-//! is not contracted has its exact faces, because every face that the contraction would flatten lies in one group.
+//! and where no two such faces that the contraction brings together meet along another edge as well; otherwise none of
+//! the group is contracted beyond exact coincidence.
+//!
+//! Why the result is sound: a sphere with disjoint disks shrunk to points is a sphere, so Euler's formula holds; by 2 a
+//! face is a polygon with different corners; by 3 faces with two corners, which are left out and their edges merged,
+//! never go all around a vertex; and by the last condition two faces have one edge in common at most. A group that is
+//! not contracted has its exact faces, because every face that the contraction would flatten lies in one group.
 
 use std::collections::{BTreeMap, BTreeSet};
 

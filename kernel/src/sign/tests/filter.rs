@@ -1,0 +1,232 @@
+//! The floating-point tier: a value may be off by its bound at most, a permanent is the sum of the magnitudes of the terms,
+//! and what is called certain is.
+
+use dashu_ratio::RBig;
+use planecut_oracle::random::Rng;
+
+use super::super::filter::{
+    self, Ascent, DET3_BOUND, DET4_BOUND, Homogeneous, OffsetColumn, Probe, Slope, certain_det3, cross,
+};
+use super::super::{Row, Sign};
+use super::{DRAWS, dense_rows, exact, magnitude, normal, rows, shifted, sign_of, sum, terms_of_det3};
+
+/// Below `2^-SURE` of the permanent a filter may leave the sign of dense rows open, above it may not.
+const SURE: usize = 45;
+
+/// The coordinates of a meeting point, then the side of `h`, each with its permanent.
+struct Meeting {
+    point: [[RBig; 2]; 4],
+    side: [RBig; 2],
+}
+
+impl Meeting {
+    fn of(planes: &[Row; 3], h: &Row, column: OffsetColumn) -> Self {
+        let offsets = [0, 1, 2].map(|k| exact(column.of(&planes[k])));
+        let normals = [0, 1, 2].map(|k| normal(&planes[k]));
+        let axis = |k: usize| [0, 1, 2].map(|i| RBig::from(u8::from(i == k)));
+        // coordinate k is the determinant with the unit vector of the axis in the place of each normal in turn
+        let coordinate = |k: usize| -> Vec<RBig> {
+            let unit = axis(k);
+            let terms = (0..3).flat_map(|i| {
+                let mut rows = [&normals[0], &normals[1], &normals[2]];
+                rows[i] = &unit;
+                terms_of_det3(rows).map(|term| term * &offsets[i])
+            });
+            terms.collect()
+        };
+        let determinant = terms_of_det3([&normals[0], &normals[1], &normals[2]]);
+        let (n, d) = (normal(h), exact(column.of(h)));
+        let side = (0..3)
+            .flat_map(|k| coordinate(k).into_iter().map(|term| term * &n[k]).collect::<Vec<_>>())
+            .chain(determinant.iter().map(|term| -(term * &d)));
+        let side = sum(side);
+        let [x, y, z] = [0, 1, 2].map(|k| sum(coordinate(k)));
+        Self { point: [x, y, z, sum(determinant)], side }
+    }
+}
+
+/// Whether a computed value is as near to the exact one as the bound on its permanent says.
+fn is_within(value: f64, exact_value: &RBig, bound: f64, permanent: f64) -> bool {
+    magnitude(&(exact(value) - exact_value)) <= exact(bound) * exact(permanent)
+}
+
+/// Whether a permanent is right up to its own roundings, of which there are fewer than 16.
+fn is_permanent(permanent: f64, exact_permanent: &RBig) -> bool {
+    magnitude(&(exact(permanent) - exact_permanent)) <= shifted(exact_permanent, 49)
+}
+
+/// Three planes and a fourth; some of them at infinity where the column asks.
+fn with_infinity(rng: &mut Rng, column: OffsetColumn) -> ([Row; 3], Row) {
+    let [mut a, mut b, mut c, mut h] = rows(rng);
+    if column == OffsetColumn::Infinite {
+        for row in [&mut a, &mut b, &mut c, &mut h] {
+            if rng.chance(0.4) {
+                *row = Row::infinity(rng.lattice(100).map(|v| v as i64));
+            }
+        }
+    }
+    ([a, b, c], h)
+}
+
+#[test]
+fn a_determinant_of_normals_is_within_its_bound() {
+    let mut rng = Rng::new(1);
+    for _ in 0..DRAWS {
+        let [a, b, c]: [Row; 3] = rows(&mut rng);
+        let [value, size] = sum(terms_of_det3([&normal(&a), &normal(&b), &normal(&c)]));
+        let (found, permanent) = filter::det3(&a, &b, &c);
+        assert!(is_within(found, &value, DET3_BOUND, permanent), "{a:?} {b:?} {c:?}: {found}");
+        assert!(is_permanent(permanent, &size), "{a:?} {b:?} {c:?}: {permanent}");
+    }
+}
+
+#[test]
+fn a_meeting_point_is_within_its_bound() {
+    let mut rng = Rng::new(2);
+    for draw in 0..DRAWS {
+        let column = [OffsetColumn::Finite, OffsetColumn::Infinite][draw % 2];
+        let (planes, h) = with_infinity(&mut rng, column);
+        let [a, b, c] = &planes;
+        let truth = Meeting::of(&planes, &h, column);
+        let (point, quick) = (Homogeneous::of(a, b, c, column), Homogeneous::quick(a, b, c, column));
+        for (k, [value, size]) in truth.point.iter().enumerate() {
+            let (found, permanent) = (point.value[k], point.permanent[k]);
+            assert!(is_within(found, value, DET4_BOUND, permanent), "{planes:?} {column:?}: {point:?}");
+            assert!(is_permanent(permanent, size), "{planes:?} {column:?}: {point:?}");
+            assert!(
+                is_within(quick.value[k], value, DET4_BOUND, quick.permanent[k]),
+                "{planes:?} {column:?}: {quick:?}"
+            );
+            let reach = exact(quick.permanent[k]);
+            assert!(&reach + shifted(&reach, 49) >= *size, "{planes:?} {column:?}: {quick:?}");
+        }
+        if column == OffsetColumn::Finite {
+            assert_eq!(Homogeneous::meet(a, b, c), point);
+            assert_eq!(point.side_of([a, b, c], &h), sign_of(&truth.side[0]));
+        }
+    }
+}
+
+#[test]
+fn a_certain_side_is_the_side() {
+    let mut rng = Rng::new(3);
+    let mut certain = 0;
+    for draw in 0..DRAWS {
+        let column = [OffsetColumn::Finite, OffsetColumn::Infinite][draw % 2];
+        let (planes, h) = with_infinity(&mut rng, column);
+        let [a, b, c] = &planes;
+        let found = Probe::new(&h, column).certain_side(&Homogeneous::quick(a, b, c, column));
+        let truth = sign_of(&Meeting::of(&planes, &h, column).side[0]);
+        assert!(found == truth || found == Sign::Zero, "{planes:?} {h:?} {column:?}: {found:?}, exactly {truth:?}");
+        assert_eq!(Homogeneous::of(a, b, c, column).side([a, b, c], &h, column), truth, "{planes:?} {h:?} {column:?}");
+        certain += usize::from(found != Sign::Zero);
+    }
+    assert!(certain > DRAWS / 4 && certain < DRAWS, "{certain} of {DRAWS}");
+}
+
+/// The quick permanents are a few times too large, not more, and sides that are clear are found.
+#[test]
+fn quick_bounds_fit_dense_rows() {
+    let mut rng = Rng::new(4);
+    let mut clear = 0;
+    for _ in 0..DRAWS {
+        let [a, b, c, h]: [Row; 4] = dense_rows(&mut rng);
+        let truth = Meeting::of(&[a, b, c], &h, OffsetColumn::Finite);
+        let quick = Homogeneous::quick(&a, &b, &c, OffsetColumn::Finite);
+        for (k, [_, size]) in truth.point.iter().enumerate() {
+            assert!(exact(quick.permanent[k]) <= size * RBig::from(9), "{a:?} {b:?} {c:?}: {quick:?}");
+        }
+        let [value, size] = &truth.side;
+        if magnitude(value) > shifted(size, SURE) {
+            clear += 1;
+            assert_eq!(
+                Probe::new(&h, OffsetColumn::Finite).certain_side(&quick),
+                sign_of(value),
+                "{a:?} {b:?} {c:?} {h:?}"
+            );
+        }
+        let [value, size] = sum(terms_of_det3([&normal(&a), &normal(&b), &normal(&c)]));
+        if magnitude(&value) > shifted(&size, SURE) {
+            assert_eq!(certain_det3(&a, &b, &c), sign_of(&value), "{a:?} {b:?} {c:?}");
+        }
+    }
+    assert!(clear > DRAWS / 2, "{clear} of {DRAWS}");
+}
+
+#[test]
+fn a_certain_determinant_has_the_sign() {
+    let mut rng = Rng::new(5);
+    let mut certain = 0;
+    for _ in 0..DRAWS {
+        let [a, b, c]: [Row; 3] = rows(&mut rng);
+        let [value, _] = sum(terms_of_det3([&normal(&a), &normal(&b), &normal(&c)]));
+        let (found, truth) = (certain_det3(&a, &b, &c), sign_of(&value));
+        assert!(found == truth || found == Sign::Zero, "{a:?} {b:?} {c:?}: {found:?}, exactly {truth:?}");
+        certain += usize::from(found != Sign::Zero);
+    }
+    assert!(certain > DRAWS / 4 && certain < DRAWS, "{certain} of {DRAWS}");
+}
+
+/// The determinants of `n` with two planes each, and the sums of the magnitudes of their terms.
+fn slopes<const N: usize>(n: &Row, pairs: [[&Row; 2]; N]) -> [[RBig; 2]; N] {
+    pairs.map(|[p, q]| sum(terms_of_det3([&normal(n), &normal(p), &normal(q)])))
+}
+
+/// Checks where a climb goes on, of edges counted from `first`; whether it told.
+fn check_slope<const N: usize>(found: Slope, edges: &[[RBig; 2]; N], first: usize, must_tell: bool) -> bool {
+    match found {
+        Slope::Up(k) => assert!(edges[k - first][0] < RBig::ZERO, "{found:?}: {edges:?}"),
+        Slope::Top => assert!(edges.iter().all(|[value, _]| *value > RBig::ZERO), "{edges:?}"),
+        Slope::Open => {
+            let clear = edges.iter().all(|[value, size]| magnitude(value) > shifted(size, SURE));
+            assert!(!(must_tell && clear), "{edges:?}: open");
+        }
+    }
+    found != Slope::Open
+}
+
+/// The climb at the vertex of three planes, and where it goes up, at one that the edge leads to, on plane `r`.
+fn check_ascent(n: &Row, planes: &[Row; 3], r: &Row, must_tell: bool) -> [Option<bool>; 2] {
+    let [a, b, c] = planes;
+    let (mut ascent, slope) = Ascent::begin(n, [a, b, c]);
+    let told = check_slope(slope, &slopes(n, [[b, c], [c, a], [a, b]]), 0, must_tell);
+    let Slope::Up(k) = slope else { return [Some(told), None] };
+    // seen from the other end, the two planes of the edge change places
+    let (p, q) = (&planes[(k + 2) % 3], &planes[(k + 1) % 3]);
+    let slope = ascent.step(n, r);
+    [Some(told), Some(check_slope(slope, &slopes(n, [[q, r], [r, p]]), 1, must_tell))]
+}
+
+#[test]
+fn a_climb_goes_up_and_ends_at_the_top() {
+    let mut rng = Rng::new(6);
+    let mut told = [0; 2];
+    for _ in 0..4 * DRAWS {
+        let [n, a, b, c, r]: [Row; 5] = rows(&mut rng);
+        for (count, answer) in told.iter_mut().zip(check_ascent(&n, &[a, b, c], &r, false)) {
+            *count += usize::from(answer == Some(true));
+        }
+        let [n, a, b, c, r]: [Row; 5] = dense_rows(&mut rng);
+        check_ascent(&n, &[a, b, c], &r, true);
+    }
+    assert!(told.iter().all(|count| (DRAWS / 2..4 * DRAWS).contains(count)), "{told:?} of {}", 4 * DRAWS);
+}
+
+/// A corner made with products that are known is off by as little as one made at once, and has the same permanents.
+#[test]
+fn a_corner_is_the_meeting_point() {
+    let mut rng = Rng::new(7);
+    for _ in 0..DRAWS {
+        let [n, p, q, h]: [Row; 4] = rows(&mut rng);
+        let corner = Homogeneous::corner(&n, [&p, &q], &cross(&n, &p), &cross(&n, &q));
+        let quick = Homogeneous::quick(&n, &p, &q, OffsetColumn::Finite);
+        let truth = Meeting::of(&[n, p, q], &h, OffsetColumn::Finite);
+        for (k, [value, _]) in truth.point.iter().enumerate() {
+            assert!(
+                is_within(corner.value[k], value, DET4_BOUND, corner.permanent[k]),
+                "{n:?} {p:?} {q:?}: {corner:?}"
+            );
+        }
+        assert_eq!(corner.permanent, quick.permanent, "{n:?} {p:?} {q:?}");
+    }
+}
