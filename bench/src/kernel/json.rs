@@ -1,7 +1,7 @@
 //! The results as JSON.
 
 use crate::plan::{ADD, ADD_FAR, BUILD, CLONE_REMOVE, PYRAMID_BASE, PYRAMID_SIDES, REMOVE, REMOVE_ADD, REMOVE_NEAR};
-use crate::queries::QUERIES;
+use crate::queries::BESIDE_PARRY;
 use crate::report::{Line, Report};
 use crate::robustness::{Fault, Tally};
 use crate::voronoi::{FACES, NEAREST};
@@ -18,7 +18,7 @@ pub(crate) fn json(report: &Report) -> Value {
         let of = report.lines_of(name);
         of.map(|line| (format!("{} {}", line.library, line.size), json!(line.median()))).collect()
     };
-    value["query_us"] = QUERIES.iter().map(|name| (name.to_string(), Value::Object(query(name)))).collect();
+    value["query_us"] = BESIDE_PARRY.iter().map(|name| (name.to_string(), Value::Object(query(name)))).collect();
     let memory = |m: &crate::memory::Memory| {
         json!({
             "library": m.library, "planes": m.planes, "vertices": m.vertices,

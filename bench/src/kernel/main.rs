@@ -4,6 +4,7 @@
 mod batch;
 mod case;
 mod contestant;
+mod hulls;
 mod json;
 mod machine;
 mod markdown;

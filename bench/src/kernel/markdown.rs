@@ -3,7 +3,7 @@
 use crate::batch::{self, ARRANGEMENTS, WAYS};
 use crate::machine;
 use crate::plan::OPERATIONS;
-use crate::queries::{PARRY, QUERIES};
+use crate::queries::{BESIDE_PARRY, PARRY};
 use crate::report::{Line, Report};
 use crate::rings::{FORK_ALONE, FORK_SHARED, RING, ROOF};
 use crate::robustness::Tally;
@@ -89,9 +89,10 @@ fn voronoi(report: &Report) -> String {
 }
 
 fn queries(report: &Report) -> String {
-    let mut table = String::from("| query | planes | library | median µs | min – max µs | parry3d / ours |\n");
+    let mut table =
+        String::from("| query | planes or points | library | median µs | min – max µs | parry3d / ours |\n");
     table += "|---|---:|---|---:|---:|---:|\n";
-    for line in QUERIES.iter().flat_map(|query| report.lines_of(query)) {
+    for line in BESIDE_PARRY.iter().flat_map(|query| report.lines_of(query)) {
         let ours = report.line(&line.operation, line.size, Planecut::NAME).filter(|_| line.library == PARRY);
         let ratio = ours.map_or(String::new(), |ours| format!("{}×", significant(line.median() / ours.median())));
         let (query, size, library) = (&line.operation, thousands(line.size), line.library);

@@ -1,7 +1,7 @@
 //! Which cases are run, on which inputs, and how much of each makes one sample.
 
 use crate::case::{self, Order, Sampler};
-use crate::{batch, queries, rings, verify, voronoi};
+use crate::{batch, hulls, queries, rings, verify, voronoi};
 use planecut_bench::inputs::{fibonacci_sphere, pyramid};
 use planecut_bench::library::{Library, Planecut, PolySurge};
 
@@ -97,6 +97,7 @@ pub(crate) fn prepare(quick: bool, voronoi: &[voronoi::Set]) -> Result<Vec<Case>
     cases.extend(batch::cases(quick)?);
     cases.extend(rings::cases(quick));
     cases.extend(queries::cases(quick)?);
+    cases.extend(hulls::cases(quick)?);
     Ok(cases)
 }
 

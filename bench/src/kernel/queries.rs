@@ -17,8 +17,13 @@ use std::hint::black_box;
 
 /// The name of parry3d in the report.
 pub(crate) const PARRY: &str = "parry3d-f64";
-/// The queries, in the order of the report.
-pub(crate) const QUERIES: [&str; 4] = ["support point", "contains", "cast a ray", "distance"];
+const QUERIES: [&str; 4] = ["support point", "contains", "cast a ray", "distance"];
+pub(crate) const MEASURES: &str = "volume, centroid, inertia";
+pub(crate) const HULL_BALL: &str = "hull of points in a ball";
+pub(crate) const HULL_SPHERE: &str = "hull of points on a sphere";
+/// All that is held against parry3d, in the order of the report.
+pub(crate) const BESIDE_PARRY: [&str; 7] =
+    [QUERIES[0], QUERIES[1], QUERIES[2], QUERIES[3], MEASURES, HULL_BALL, HULL_SPHERE];
 
 /// How many different questions take turns.
 const QUESTIONS: usize = 256;

@@ -20,7 +20,7 @@ impl IncrementalPolytope {
     /// Adds a half-space: the set becomes its intersection with it (paper §3 and Appendix C; orphaned faces need no
     /// repair here, because the structure is simple).
     ///
-    /// Cost: a climb from the place of the last change, then proportional to the vertices cut away.
+    /// Cost: a short climb, from where one in about this direction ended before, then proportional to the vertices cut away.
     pub fn add_plane(&mut self, half_space: HalfSpace) -> AddPlaneResult<'_> {
         let slot = self.planes.insert(half_space, Row::new(&half_space));
         let plane = external(slot);

@@ -251,7 +251,8 @@ impl IncrementalPolytope {
     }
 
     /// All of space; edges shorter than `epsilon` (a length, in the units of the planes) are contracted in what is
-    /// reported. The tolerance decides nothing inside.
+    /// reported, but where that would not leave the topology of a polyhedron, as with a needle thinner than `epsilon`. The
+    /// tolerance decides nothing inside.
     #[must_use]
     pub fn with_epsilon(epsilon: f64) -> Self {
         let mut polytope = Self {

@@ -14,7 +14,7 @@ impl IncrementalPolytope {
     /// Puts another half-space in the place of a plane, which keeps its handle and its age (its stamp): the set becomes
     /// what it would be had the plane been added so.
     ///
-    /// `None` where there is no such plane. Cost: while the faces keep their corners, one position and two signs a corner
+    /// `None` where there is no such plane. Cost: while the faces keep their corners, one position and three signs a corner
     /// of the face; else that of taking back and adding.
     pub fn move_plane(&mut self, idx: PlaneIdx, half_space: HalfSpace) -> Option<MovePlaneResult<'_>> {
         let plane = self.live(idx)?;

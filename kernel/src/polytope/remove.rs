@@ -1,7 +1,7 @@
 //! Taking a plane back: the edges that ended on its face grow until they meet the next plane (paper §3), made local.
 //!
 //! Only planes adjacent to the removed face, and planes whose certificate it carried, can bound the new region
-//! (`docs/kernel.md`). [`super::fill`] closes the hole from the ring of the face. Where the ring does not close, the
+//! (the locality lemma, `docs/kernel.md`). [`super::fill`] closes the hole from the ring of the face. Where the ring does not close, the
 //! region is open and reaches the infinity planes: like a large ring with uneven parts it is then built as a cap of its
 //! own ([`super::remove_large`]).
 
@@ -22,8 +22,8 @@ pub(super) struct RingEdge {
 impl IncrementalPolytope {
     /// Takes a half-space back: the set becomes what it would be had the plane never been added (paper §3.3).
     ///
-    /// `None` where there is no such plane. Cost: proportional to the face's ring and to the planes it hid, not to the
-    /// polytope.
+    /// `None` where there is no such plane. Cost: `k log k` for a face with `k` neighbours, and adding the planes it hid; not
+    /// that of the polytope.
     pub fn remove_plane(&mut self, idx: PlaneIdx) -> Option<RemovePlaneResult<'_>> {
         let plane = self.live(idx)?;
         let half_space = *self.planes.half_space(plane);

@@ -1,8 +1,8 @@
-//! The cap of a large or open ring: a polytope of the ring planes alone, built in random order, and the part of it that
-//! lies beyond the removed faces.
+//! The cap of a large or open ring: a polytope of the ring planes and the four infinity planes, built in random order, and
+//! the part of it that lies beyond the removed faces.
 //!
-//! The caps of ring planes and infinity planes together are what the polytope shows there, because a hidden infinity plane
-//! that is needed beyond an open ring is one that nothing else bounds.
+//! The polytope lies inside all infinity planes, so a cap that is cut by all four fits what is around it; an infinity plane
+//! that was hidden can get a face there.
 
 use super::remove::RingEdge;
 use super::store::{BEFORE, Link, NEXT, NONE, VertexStore};
@@ -11,6 +11,9 @@ use super::{IncrementalPolytope, VertexIdx, infinity};
 impl IncrementalPolytope {
     /// Closes a hole with a part of the polytope of the ring planes: what lies beyond `opened`, a plane whose face was there,
     /// up to the edges that cross the border of the hole.
+    ///
+    /// The vertex of that polytope that is farthest beyond `opened` is a new one, for the planes of the ring alone meet at
+    /// the farthest vertex of the new region; the others are reached from it along edges that stay in the hole.
     pub(super) fn fill_with_cap(&mut self, ring: &[RingEdge], opened: u32) {
         let (body, original) = self.body_of_ring(ring);
         for (position, edge) in ring.iter().enumerate() {

@@ -1,9 +1,9 @@
-//! The last tier: big integers, always right.
+//! The last tier: integers of a fixed length where they suffice ([`wide`](super::wide)), else big integers, always right.
 
 use dashu_int::IBig;
 
 use super::filter::OffsetColumn;
-use super::{Row, Sign};
+use super::{Row, Sign, wide};
 
 /// Numbers, such as a row's coefficients, as big integers, up to one positive scale.
 pub(crate) fn integers<const N: usize>(row: [f64; N]) -> [IBig; N] {
@@ -54,16 +54,29 @@ pub(crate) fn dot(a: &[IBig; 4], v: &[IBig; 3]) -> IBig {
 }
 
 pub(super) fn det2(i: &Row, j: &Row, [u, v]: [usize; 2]) -> Sign {
+    wide::det2(i, j, [u, v]).unwrap_or_else(|| det2_of_any(i, j, [u, v]))
+}
+
+pub(super) fn det2_of_any(i: &Row, j: &Row, [u, v]: [usize; 2]) -> Sign {
     sign(&det2_of(&integers(*i.coefficients()), &integers(*j.coefficients()), u, v))
 }
 
 pub(super) fn det3(a: &Row, b: &Row, c: &Row) -> Sign {
+    wide::det3(a, b, c).unwrap_or_else(|| det3_of_any(a, b, c))
+}
+
+pub(super) fn det3_of_any(a: &Row, b: &Row, c: &Row) -> Sign {
     let [a, b, c] = [a, b, c].map(|row| of(row, OffsetColumn::Infinite));
     sign(&dot(&a, &cross(&b, &c)))
 }
 
 /// The sign of the 4×4 determinant of the rows with the offsets of `column`.
 pub(super) fn det4(rows: [&Row; 4], column: OffsetColumn) -> Sign {
+    wide::det4(rows, column).unwrap_or_else(|| det4_of_any(rows, column))
+}
+
+/// The same whatever the lengths of the coefficients.
+pub(super) fn det4_of_any(rows: [&Row; 4], column: OffsetColumn) -> Sign {
     let [a, b, c, h] = rows.map(|row| of(row, column));
     let (bc, ca, ab) = (cross(&b, &c), cross(&c, &a), cross(&a, &b));
     let point: [IBig; 3] = std::array::from_fn(|k| &a[3] * &bc[k] + &b[3] * &ca[k] + &c[3] * &ab[k]);

@@ -5,7 +5,7 @@
 //!
 //! 1. floating point with a proven error bound (`filter`);
 //! 2. `i128`, where the rows are small integers (`small_int`): on grids about a fifth of all signs are true zeros;
-//! 3. big integers (`big`), always.
+//! 3. longer integers (`big`), always: of a fixed length (`wide`) or, where that does not suffice, of any.
 //!
 //! Rows are scaled by exact powers of two (or, for integers, by their greatest common divisor), never normalised to
 //! unit length: dividing by a length would destroy exact coincidences.
@@ -17,6 +17,7 @@ mod row;
 mod small_int;
 #[cfg(test)]
 mod tests;
+mod wide;
 
 pub use counts::Counts;
 pub use row::Row;

@@ -167,7 +167,7 @@ pub(crate) fn exponent(v: f64) -> i32 {
 }
 
 /// The exponent of the lowest set bit of a non-zero normal number.
-fn lowest_bit(v: f64) -> i32 {
+pub(super) fn lowest_bit(v: f64) -> i32 {
     let mantissa = (v.to_bits() & ((1 << 52) - 1)) | (1 << 52);
     exponent(v) - 52 + mantissa.trailing_zeros() as i32
 }

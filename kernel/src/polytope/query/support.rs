@@ -38,7 +38,7 @@ pub enum Support {
 }
 
 impl IncrementalPolytope {
-    /// Where the set lies farthest in a direction, by climbing from the place of the last change (paper §3).
+    /// Where the set lies farthest in a direction, by climbing from a vertex that is known to lie in about this direction (paper §3).
     ///
     /// The direction needs no unit length; its numbers are taken as exact and so is every step. `None` where it is
     /// zero or not accepted as a normal (see [`HalfSpace::new`]).

@@ -5,8 +5,8 @@ use planecut_oracle::exact::{self as truth, integer_row};
 use planecut_oracle::random::Rng;
 
 use super::super::filter::OffsetColumn;
-use super::super::{Row, Sign, big, small_int};
-use super::{DRAWS, row};
+use super::super::{Row, Sign, big, small_int, wide};
+use super::{DRAWS, row, rows};
 
 /// A permanent for which the floating-point value says nothing.
 const LARGE: f64 = 1e300;
@@ -135,20 +135,62 @@ fn big_integers_are_the_numbers_up_to_one_positive_scale() {
     }
 }
 
+/// Rows whose coefficients lie `spread` powers of two apart at most, some of them as far as that.
+fn spread_rows(rng: &mut Rng, spread: i32) -> [[f64; 4]; 4] {
+    std::array::from_fn(|_| {
+        let mut row: [f64; 4] = std::array::from_fn(|_| {
+            let odd = (2 * rng.integer(1 << 51, (1 << 52) - 1) + 1) as f64;
+            rng.pick(&[1.0, -1.0]) * odd * 2f64.powi(rng.integer(0, i64::from(spread - 52)) as i32)
+        });
+        // the lowest bit of the one is at 0, the highest of the other at `spread`
+        let (i, j) = (rng.below(3), rng.below(3));
+        row[i] = row[i].signum() * (2f64.powi(53) - 1.0);
+        row[(i + 1 + j) % 4] = (2f64.powi(53) - 1.0) * 2f64.powi(spread - 52);
+        row
+    })
+}
+
+/// All determinants of the last tier, by integers of fixed length if `fits`, and by those of any.
+fn check_determinants(rows: &[Row; 4], fits: bool) {
+    let planes = rows.map(|row| integer_row(*row.coefficients()));
+    let [a, b, c, h] = rows;
+    let n = [0, 1, 2, 3].map(|k| truth::normal(&planes[k]));
+    let crossed = truth::cross(&n[0], &n[1]);
+    let three = sign(&truth::det3(&n[0], &n[1], &n[2]));
+    let four = sign(&truth::det4([&planes[0], &planes[1], &planes[2], &planes[3]]));
+    assert_eq!(big::det3(a, b, c), three, "{rows:?}");
+    assert_eq!(big::det3_of_any(a, b, c), three, "{rows:?}");
+    assert_eq!(big::det4([a, b, c, h], OffsetColumn::Finite), four, "{rows:?}");
+    assert_eq!(big::det4_of_any([a, b, c, h], OffsetColumn::Finite), four, "{rows:?}");
+    assert_eq!(big::radial(a, b, c, h), sign(&truth::dot(&crossed, &truth::cross(&n[2], &n[3]))), "{rows:?}");
+    for (k, value) in crossed.iter().enumerate() {
+        let columns = [(k + 1) % 3, (k + 2) % 3];
+        assert_eq!(big::det2(a, b, columns), sign(value), "{rows:?}");
+        assert_eq!(big::det2_of_any(a, b, columns), sign(value), "{rows:?}");
+    }
+    assert_eq!(wide::det4([a, b, c, h], OffsetColumn::Finite), fits.then_some(four), "{rows:?}");
+}
+
 /// The last tier alone, for rows that the others would have answered.
 #[test]
 fn big_determinants_are_exact() {
     let mut rng = Rng::new(3);
     for _ in 0..DRAWS {
-        let rows: [Row; 4] = super::rows(&mut rng);
-        let planes = rows.map(|row| integer_row(*row.coefficients()));
-        let [a, b, c, h] = &rows;
-        let n = [0, 1, 2, 3].map(|k| truth::normal(&planes[k]));
-        let crossed = truth::cross(&n[0], &n[1]);
-        assert_eq!(big::det3(a, b, c), sign(&truth::det3(&n[0], &n[1], &n[2])));
-        let four = sign(&truth::det4([&planes[0], &planes[1], &planes[2], &planes[3]]));
-        assert_eq!(big::det4([a, b, c, h], OffsetColumn::Finite), four);
-        assert_eq!(big::radial(a, b, c, h), sign(&truth::dot(&crossed, &truth::cross(&n[2], &n[3]))));
-        assert_eq!([0, 1, 2].map(|k| big::det2(a, b, [(k + 1) % 3, (k + 2) % 3])), crossed.map(|v| sign(&v)));
+        check_determinants(&rows(&mut rng), true);
+    }
+}
+
+/// Up to the largest spread of a row, and just beyond it; exact zeros too.
+#[test]
+fn integers_of_fixed_length_are_exact_up_to_their_capacity() {
+    let mut rng = Rng::new(4);
+    for draw in 0..DRAWS {
+        let spread = [53, 64, 100, 124, 125, 130][draw % 6];
+        let mut planes = spread_rows(&mut rng, spread);
+        if rng.chance(0.3) {
+            // three planes through one line, or twice the same plane
+            planes[3] = rng.pick(&[planes[0], planes[1].map(|v| -v)]);
+        }
+        check_determinants(&planes.map(row), spread < 125);
     }
 }
