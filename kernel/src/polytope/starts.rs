@@ -9,10 +9,13 @@ use super::IncrementalPolytope;
 use super::store::NONE;
 use crate::sign::Row;
 
-/// Cells along the edge of a face of the cube map at first.
-const FIRST_RESOLUTION: u32 = 2;
+/// Up to so many planes, the octants do.
+const PLANES_FOR_OCTANTS: u32 = 192;
 
-/// The table grows when there are more than so many planes for each cell.
+/// Cells along the edge of a face of the first cube map.
+const FIRST_RESOLUTION: u32 = 4;
+
+/// A cube map grows when there are more than so many planes for each cell.
 const PLANES_PER_CELL: u32 = 8;
 
 /// Where a climb ended; the slots may be free by now, or hold others.
@@ -30,6 +33,7 @@ impl Start {
 #[derive(Debug)]
 pub(super) struct Starts {
     cells: Vec<Start>,
+    /// Cells along the edge of a face of the cube map, a power of two; zero for the octants.
     resolution: u32,
     /// A vertex near the last change, which is there, and the normal of the plane that came or went.
     latest: u32,
@@ -38,12 +42,7 @@ pub(super) struct Starts {
 
 impl Default for Starts {
     fn default() -> Self {
-        Self {
-            cells: vec![Start::UNKNOWN; cell_count(FIRST_RESOLUTION)],
-            resolution: FIRST_RESOLUTION,
-            latest: 0,
-            latest_normal: [1.0; 4],
-        }
+        Self { cells: vec![Start::UNKNOWN; 8], resolution: 0, latest: 0, latest_normal: [1.0; 4] }
     }
 }
 
@@ -64,8 +63,8 @@ impl Starts {
     /// Forgets everything but that `latest` is there.
     pub(super) fn reset(&mut self, latest: u32) {
         self.cells.clear();
-        self.cells.resize(cell_count(FIRST_RESOLUTION), Start::UNKNOWN);
-        self.resolution = FIRST_RESOLUTION;
+        self.cells.resize(8, Start::UNKNOWN);
+        self.resolution = 0;
         self.latest = latest;
     }
 
@@ -73,7 +72,7 @@ impl Starts {
     #[inline]
     pub(super) fn set_latest(&mut self, vertex: u32, row: &Row) {
         self.latest = vertex;
-        if self.resolution > FIRST_RESOLUTION {
+        if self.resolution > 0 {
             self.latest_normal = *row.coefficients();
         }
     }
@@ -81,10 +80,7 @@ impl Starts {
     /// The cell of a direction.
     #[inline(always)]
     fn cell(&self, coefficients: &[f64; 4]) -> usize {
-        if self.resolution == FIRST_RESOLUTION {
-            return octant(coefficients);
-        }
-        self.cell_of_cube_map(coefficients)
+        if self.resolution == 0 { octant(coefficients) } else { self.cell_of_cube_map(coefficients) }
     }
 
     #[inline(never)]
@@ -100,18 +96,24 @@ impl Starts {
         (face * self.resolution as usize + place(*u)) * self.resolution as usize + place(*v)
     }
 
-    /// Doubles the resolution; new cells begin with what the cell they come from knew.
+    /// Makes the cells smaller; those of a cube map begin with what the cell they come from knew.
     fn refine(&mut self) {
         let old = self.resolution as usize;
-        let new = 2 * old;
+        let new = if old == 0 { FIRST_RESOLUTION as usize } else { 2 * old };
         let known = std::mem::take(&mut self.cells);
-        self.cells = (0..cell_count(new as u32))
-            .map(|cell| {
-                let (face, u, v) = (cell / (new * new), cell / new % new, cell % new);
-                known[(face * old + u / 2) * old + v / 2]
-            })
-            .collect();
+        let parent = |cell: usize| {
+            let (face, u, v) = (cell / (new * new), cell / new % new, cell % new);
+            (face * old + u / 2) * old + v / 2
+        };
+        let begin = |cell: usize| if old == 0 { Start::UNKNOWN } else { known[parent(cell)] };
+        self.cells = (0..6 * new * new).map(begin).collect();
         self.resolution = new as u32;
+    }
+
+    /// How many planes the table is fine enough for.
+    #[inline]
+    fn capacity(&self) -> u32 {
+        if self.resolution == 0 { PLANES_FOR_OCTANTS } else { PLANES_PER_CELL * self.cells.len() as u32 }
     }
 }
 
@@ -119,7 +121,7 @@ impl IncrementalPolytope {
     /// Lets the table grow with the number of planes.
     #[inline]
     pub(super) fn grow_starts(&mut self) {
-        if self.planes.slot_count() > PLANES_PER_CELL * self.starts.cells.len() as u32 {
+        if self.planes.slot_count() > self.starts.capacity() {
             self.refine_starts();
         }
     }
@@ -137,7 +139,7 @@ impl IncrementalPolytope {
     /// A vertex from which a climb in direction `normal` is short.
     #[inline(always)]
     pub(super) fn start(&self, normal: &Row) -> u32 {
-        if self.starts.resolution == FIRST_RESOLUTION {
+        if self.starts.resolution == 0 {
             let Start { plane, vertex } = self.starts.cells[octant(normal.coefficients())];
             return if self.vertices.is_on(vertex, plane) { vertex } else { self.starts.latest };
         }
@@ -188,8 +190,4 @@ fn is_near(a: &Row, b: &Row) -> bool {
 fn octant([x, y, z, _]: &[f64; 4]) -> usize {
     let sign = |v: &f64| (v.to_bits() >> 63) as usize;
     sign(x) << 2 | sign(y) << 1 | sign(z)
-}
-
-const fn cell_count(resolution: u32) -> usize {
-    6 * (resolution * resolution) as usize
 }

@@ -5,6 +5,8 @@
 //! - [`fresh_build`]: any history of adds and removes against a fresh build of the planes that are left.
 //! - [`batches`]: batch removal from larger polytopes, the same way.
 //! - [`moves`]: what a move reports.
+//! - [`copies`]: `clone_from` into what is there.
+//! - [`points`]: order and turn of meeting points against rationals.
 //! - [`brute_force`]: small polytopes against all plane triples, symbolic perturbation included.
 //! - [`corpus`]: what the fuzzer found worth keeping.
 //! - [`membership`]: random points against the mesh that leaves the kernel.
@@ -16,11 +18,13 @@
 
 mod batches;
 mod brute_force;
+mod copies;
 mod corpus;
 mod fresh_build;
 mod membership;
 mod mesh;
 mod moves;
+mod points;
 mod regressions;
 mod signs;
 mod tiers;

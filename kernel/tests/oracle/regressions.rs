@@ -98,3 +98,14 @@ fn two_faces_leave_whose_hidden_planes_kept_an_infinity_plane_hidden() {
         Op::RemoveMany { names: vec![2, 3] },
     ]);
 }
+
+/// So many faces leave at once that the rest is built anew, and the rest is empty as before.
+#[test]
+fn an_empty_set_is_built_anew_and_stays_empty() {
+    let cube = [[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]];
+    let mut ops = vec![add(0, [0.0, 0.0, -1.0, 1.0])];
+    ops.extend(cube.iter().zip(1..).map(|([x, y, z], name)| add(name, [*x, *y, *z, 1.0])));
+    ops.extend([add(6, [0.0, 0.0, 1.0, -5.0]), add(7, [1.0, 0.0, 0.0, 0.5])]);
+    ops.extend([Op::RemoveMany { names: vec![1, 2, 3, 4, 5] }, remove(6)]);
+    replay(&ops);
+}
