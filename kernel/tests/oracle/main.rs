@@ -3,6 +3,7 @@
 //! - [`signs`]: the predicates against determinants of big integers.
 //! - [`tiers`]: which tier answers them.
 //! - [`fresh_build`]: any history of adds and removes against a fresh build of the planes that are left.
+//! - [`large`]: polytopes of hundreds of planes, the same way.
 //! - [`batches`]: batch removal from larger polytopes, the same way.
 //! - [`moves`]: what a move reports.
 //! - [`copies`]: `clone_from` into what is there.
@@ -21,6 +22,7 @@ mod brute_force;
 mod copies;
 mod corpus;
 mod fresh_build;
+mod large;
 mod membership;
 mod mesh;
 mod moves;
