@@ -206,6 +206,10 @@ struct Scratch {
     points: Vec<Homogeneous>,
     /// Planes whose certificate a removed plane carried.
     to_examine: Vec<u32>,
+    /// Planes that are being removed together.
+    leaving: Vec<u32>,
+    /// How many planes waited to be examined when the infinity planes were last found to need nothing.
+    waited: usize,
 }
 
 /// `clone_from` keeps the memory: the fast way to begin again and again with the same polytope, such as a box.

@@ -10,19 +10,20 @@ use super::store::{Leaving, Link, NEXT, PlaneState, Steps};
 use super::{IncrementalPolytope, PlaneIdx, RemovePlanesResult, infinity};
 
 /// So many faces that did not make a patch are a sign that the others will not either.
-const FUTILE: usize = 12;
+const FUTILE: usize = 8;
 
 impl IncrementalPolytope {
     /// Takes half-spaces back: the same as [`remove_plane`](Self::remove_plane) one after the other (the paper's §8, "batch
     /// removal").
     ///
     /// Cost: what the neighbours around each patch of faces cost that leave together, several times less than one by one;
-    /// where they are scattered, that of one by one (up to a tenth more, for the search for patches); where few planes stay,
+    /// where they are scattered, that of one by one (up to a sixth more, for the search for patches); where few planes stay,
     /// that of adding these.
     ///
     /// Handles that are not there, or there twice, do not count.
     pub fn remove_planes(&mut self, planes: &[PlaneIdx]) -> RemovePlanesResult<'_> {
-        let mut leaving: Vec<u32> = Vec::with_capacity(planes.len());
+        let mut leaving = std::mem::take(&mut self.scratch.leaving);
+        leaving.clear();
         for idx in planes {
             if let Some(plane) = self.live(*idx).filter(|plane| self.planes.leaving(*plane) == Leaving::No) {
                 self.planes.set_leaving(plane, Leaving::Yes);
@@ -35,8 +36,10 @@ impl IncrementalPolytope {
         } else {
             self.remove_patches(&leaving);
         }
+        let count = leaving.len();
+        self.scratch.leaving = leaving;
         let change = self.finish_change();
-        RemovePlanesResult { count: leaving.len(), removed_vertices: &change.removed, new_vertices: &change.created }
+        RemovePlanesResult { count, removed_vertices: &change.removed, new_vertices: &change.created }
     }
 
     /// Whether adding the planes that stay is less work than taking back those that leave. To take a face back costs
@@ -61,6 +64,7 @@ impl IncrementalPolytope {
         let planes = &self.planes;
         self.pending.retain(|plane| planes.leaving(*plane) == Leaving::No);
         let mut futile = 0;
+        self.scratch.waited = 0;
         for &plane in leaving {
             self.refresh_infinity_planes();
             if self.planes.has_face(plane) {
@@ -101,20 +105,25 @@ impl IncrementalPolytope {
     /// Hidden planes that wait to be looked at again are missing from the structure, which may reach beyond an infinity
     /// plane that only they kept hidden; the next hole would then not fit what is around it.
     fn refresh_infinity_planes(&mut self) {
-        if self.scratch.to_examine.is_empty() {
+        // What certifies an infinity plane loses its face only by leaving, and then the infinity plane waits as well.
+        if self.scratch.to_examine.len() == self.scratch.waited {
             return;
         }
+        let mut all_hold = true;
         for plane in 0..infinity::COUNT {
             let is_stale = match self.planes.certificate(plane) {
                 Some(number) => !self.certificates.certifiers(number).iter().all(|p| self.planes.has_face(*p)),
                 None => !self.planes.has_face(plane),
             };
             if is_stale {
+                all_hold = false;
                 self.forget_certificate(plane);
                 self.insert_into_structure(plane);
             }
         }
         self.certify_orphans();
+        // One that was shown may have hidden what certifies another.
+        self.scratch.waited = if all_hold { self.scratch.to_examine.len() } else { 0 };
     }
 
     /// Opens the face of `start` and, where it pays, all leaving faces that are connected with it, and closes the hole.
@@ -162,11 +171,11 @@ impl IncrementalPolytope {
         ring.clear();
         cut.clear();
         border.clear();
-        self.collect_patch(patch, cut, &mut border);
+        let is_collected = self.collect_patch(patch, cut, &mut border);
         // Euler's formula for a disc; a face that stays inside the patch may have no corner on its border.
         let is_disc = cut.len() + 2 == 2 * patch.len() + border.len();
         // Around two planes, the only edge between them would begin and end in the hole.
-        let is_whole = is_disc && border.len() > 2 && self.walk_border(&border, ring);
+        let is_whole = is_collected && is_disc && border.len() > 2 && self.walk_border(&border, ring);
         self.scratch.horizon = border;
         is_whole
     }
@@ -184,16 +193,16 @@ impl IncrementalPolytope {
     }
 
     /// Grows a patch over its leaving neighbours and collects its vertices, and those on its border, each as the end off
-    /// its one leaving plane. Gives up, which leaves something that is no disc, where the border grows with the patch: the
-    /// leaving faces are scattered then.
-    fn collect_patch(&mut self, patch: &mut Vec<u32>, cut: &mut Vec<u32>, border: &mut Vec<Link>) {
+    /// its one leaving plane. Gives up, and gives false, where the border grows with the patch: the leaving faces are
+    /// scattered then. What was collected until then is only a part.
+    fn collect_patch(&mut self, patch: &mut Vec<u32>, cut: &mut Vec<u32>, border: &mut Vec<Link>) -> bool {
         self.vertices.begin_visit();
         self.planes.set_leaving(patch[0], Leaving::WithPatch);
         let mut next = 0;
         while let Some(&plane) = patch.get(next) {
             next += 1;
-            if border.len() > next + FUTILE {
-                return;
+            if border.len() > 2 * next / 3 + FUTILE {
+                return false;
             }
             let first = cut.len();
             let corners = self.vertices.face_corners(plane, self.planes.face_vertex(plane));
@@ -218,6 +227,7 @@ impl IncrementalPolytope {
                 }
             }
         }
+        true
     }
 
     fn is_leaving(&self, plane: u32) -> bool {
