@@ -7,6 +7,10 @@ use std::time::{Duration, Instant};
 /// How long a case is sampled in one round; one sample is always taken.
 const SLICE: Duration = Duration::from_millis(10);
 
+/// Samples of polytopes with so many planes fill a large part of the caches: they are taken after a while.
+const LARGE: usize = 10_000;
+const WARM_UP: Duration = Duration::from_millis(30);
+
 /// All samples of all cases.
 ///
 /// # Errors
@@ -17,18 +21,19 @@ pub(crate) fn run(mut cases: Vec<Case>, rounds: usize) -> Result<Vec<Line>, Stri
     for round in 0..=rounds {
         for (case, samples) in cases.iter_mut().zip(&mut samples) {
             let start = Instant::now();
-            // The first sample finds the caches full of other cases; where there is time for another it is not kept.
+            let warm_up = if case.size < LARGE { Duration::ZERO } else { WARM_UP };
+            // The first samples find the caches full of other cases; where there is time for another they are not kept.
             let mut times = (case.sampler)()?;
-            let mut keep = start.elapsed() >= SLICE;
+            let mut keep = start.elapsed() >= warm_up + SLICE;
             loop {
                 if keep && round > 0 {
                     samples.iter_mut().zip(&times).for_each(|(samples, time)| samples.push(*time));
                 }
-                if keep && start.elapsed() >= SLICE {
+                if keep && start.elapsed() >= warm_up + SLICE {
                     break;
                 }
+                keep = start.elapsed() >= warm_up;
                 times = (case.sampler)()?;
-                keep = true;
             }
         }
     }
