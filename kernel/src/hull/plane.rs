@@ -12,7 +12,7 @@ use crate::double_double::DoubleDouble;
 use crate::half_space::HalfSpace;
 use crate::meet::round_quotient;
 use crate::polytope::exact_side;
-use crate::sign::{Row, Sign, big_integers};
+use crate::sign::{Row, Sign, big_integers, exponent, lowest_bit};
 
 use super::neighbours::Neighbours;
 
@@ -114,19 +114,13 @@ fn certain_normal(corners: [DVec3; 3]) -> Option<DVec3> {
 fn is_on_coarse_grid(corners: [DVec3; 3]) -> bool {
     let (mut lowest, mut highest) = (i32::MAX, i32::MIN);
     for v in corners.iter().flat_map(|p| p.to_array()).filter(|v| *v != 0.0) {
-        let mantissa = (v.to_bits() & ((1 << 52) - 1)) | (1 << 52);
-        lowest = lowest.min(exponent(v) - 52 + mantissa.trailing_zeros() as i32);
+        lowest = lowest.min(lowest_bit(v));
         highest = highest.max(exponent(v));
         if highest - lowest >= WHOLE_BITS {
             return false;
         }
     }
     true
-}
-
-/// `⌊log₂|v|⌋` of a normal number.
-fn exponent(v: f64) -> i32 {
-    ((v.to_bits() >> 52) & 0x7ff) as i32 - 1023
 }
 
 /// Whether a number in `[0, 1]`, off by at most one rounding, may be a quotient of whole numbers below `2^WHOLE_BITS`: one of

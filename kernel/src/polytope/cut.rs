@@ -55,7 +55,9 @@ impl IncrementalPolytope {
         if self.scratch.horizon.len() != cut.len() + 2 {
             self.hide_orphans(plane, &cut);
         }
-        self.discard_vertices(&cut);
+        for &vertex in &cut {
+            self.discard_vertex(vertex);
+        }
         self.scratch.cut = cut;
         let face_vertex = self.change.created[first].0;
         self.planes.set_face(plane, face_vertex);
@@ -105,20 +107,6 @@ impl IncrementalPolytope {
                     self.planes.set_without_face(p, PlaneState::Uncertified);
                     self.certificates.push_uncertified(Orphan { plane: p, hidden_by: plane });
                 }
-            }
-        }
-    }
-
-    /// Takes the vertices away that were cut off.
-    fn discard_vertices(&mut self, cut: &[u32]) {
-        if self.vertices.marks_fresh() {
-            for &vertex in cut {
-                self.discard_vertex(vertex);
-            }
-        } else {
-            for &vertex in cut {
-                self.change.removed.push(VertexIdx(vertex));
-                self.vertices.remove(vertex);
             }
         }
     }

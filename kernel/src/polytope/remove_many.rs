@@ -66,9 +66,10 @@ impl IncrementalPolytope {
         let mut futile = 0;
         self.scratch.waited = 0;
         for &plane in leaving {
+            // first, because an infinity plane that comes back can take the face away
             self.refresh_infinity_planes();
-            if self.planes.has_face(plane) {
-                futile += self.open_patch(plane, futile < FUTILE);
+            if futile < FUTILE && self.planes.has_face(plane) {
+                futile += self.open_patch(plane);
             } else if self.planes.state(plane) != PlaneState::Pending {
                 self.open_alone(plane);
             }
@@ -129,7 +130,7 @@ impl IncrementalPolytope {
     /// Opens the face of `start` and, where it pays, all leaving faces that are connected with it, and closes the hole.
     ///
     /// Gives how many faces were looked at in vain.
-    fn open_patch(&mut self, start: u32, grows: bool) -> usize {
+    fn open_patch(&mut self, start: u32) -> usize {
         let mut ring = std::mem::take(&mut self.scratch.ring);
         let mut cut = std::mem::take(&mut self.scratch.cut);
         let mut patch = std::mem::take(&mut self.scratch.patch);
@@ -139,7 +140,7 @@ impl IncrementalPolytope {
         patch.push(start);
         self.walk_ring(start, &mut ring, &mut cut);
         let mut is_whole = true;
-        if grows && ring.iter().any(|edge| self.is_leaving(edge.plane)) {
+        if ring.iter().any(|edge| self.is_leaving(edge.plane)) {
             is_whole = self.grow_patch(&mut patch, &mut ring, &mut cut);
         }
         for &plane in &patch {

@@ -3,6 +3,7 @@
 use dashu_int::IBig;
 
 use super::filter::OffsetColumn;
+use super::row::decompose;
 use super::{Row, Sign, wide};
 
 /// Numbers, such as a row's coefficients, as big integers, up to one positive scale.
@@ -17,16 +18,8 @@ pub(crate) fn integers<const N: usize>(row: [f64; N]) -> [IBig; N] {
     })
 }
 
-/// `v = mantissa · 2^exponent` for a finite number.
-fn decompose(v: f64) -> (i64, i32) {
-    let bits = v.to_bits();
-    let field = ((bits >> 52) & 0x7ff) as i32;
-    let fraction = (bits & ((1 << 52) - 1)) as i64;
-    let (mantissa, exponent) = if field == 0 { (fraction, -1074) } else { (fraction | (1 << 52), field - 1075) };
-    (if v.is_sign_negative() { -mantissa } else { mantissa }, exponent)
-}
-
-fn sign(v: &IBig) -> Sign {
+/// The sign of a big integer.
+pub(crate) fn sign(v: &IBig) -> Sign {
     match v.cmp(&IBig::ZERO) {
         std::cmp::Ordering::Less => Sign::Negative,
         std::cmp::Ordering::Equal => Sign::Zero,

@@ -23,9 +23,9 @@ pub(super) const RADIAL_BOUND: f64 = 12.0 * U;
 pub(super) const EXACT_PERMANENT: f64 = (1u64 << 52) as f64;
 
 /// The index after 0, 1, 2 in cyclic order.
-pub(super) const NEXT: [usize; 3] = [1, 2, 0];
+pub(crate) const NEXT: [usize; 3] = [1, 2, 0];
 /// The index before.
-pub(super) const BEFORE: [usize; 3] = [2, 0, 1];
+pub(crate) const BEFORE: [usize; 3] = [2, 0, 1];
 
 /// Which coefficient of the offsets `d + m·M` is meant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -21,11 +21,11 @@ mod wide;
 
 pub use counts::Counts;
 pub use row::Row;
-pub(crate) use row::exact_product;
+pub(crate) use row::{exact_product, exponent, lowest_bit};
 
-pub(crate) use big::{cross as big_cross, dot as big_dot, integers as big_integers};
+pub(crate) use big::{cross as big_cross, dot as big_dot, integers as big_integers, sign as big_sign};
 pub use filter::Homogeneous;
-pub(crate) use filter::{Ascent, OffsetColumn, Probe, Slope, cross};
+pub(crate) use filter::{Ascent, BEFORE, NEXT, OffsetColumn, Probe, Slope, cross};
 
 /// A three-way sign.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -167,9 +167,18 @@ pub(crate) fn exponent(v: f64) -> i32 {
 }
 
 /// The exponent of the lowest set bit of a non-zero normal number.
-pub(super) fn lowest_bit(v: f64) -> i32 {
-    let mantissa = (v.to_bits() & ((1 << 52) - 1)) | (1 << 52);
-    exponent(v) - 52 + mantissa.trailing_zeros() as i32
+pub(crate) fn lowest_bit(v: f64) -> i32 {
+    let (mantissa, exponent) = decompose(v);
+    exponent + mantissa.trailing_zeros() as i32
+}
+
+/// `v = mantissa · 2^exponent` for a finite number.
+pub(super) fn decompose(v: f64) -> (i64, i32) {
+    let bits = v.to_bits();
+    let field = ((bits >> 52) & 0x7ff) as i32;
+    let fraction = (bits & ((1 << 52) - 1)) as i64;
+    let (mantissa, exponent) = if field == 0 { (fraction, -1074) } else { (fraction | (1 << 52), field - 1075) };
+    (if v.is_sign_negative() { -mantissa } else { mantissa }, exponent)
 }
 
 /// `v · 2^power`, exact while neither side under- or overflows, which the accepted coefficient range ensures.

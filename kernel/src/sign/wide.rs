@@ -4,7 +4,7 @@
 //! Each function gives `None` where they do not.
 
 use super::filter::{BEFORE, NEXT, OffsetColumn};
-use super::row::{exponent, lowest_bit};
+use super::row::{decompose, exponent, lowest_bit};
 use super::{Row, Sign};
 
 /// A row's coefficients are below two to this power, so that two words hold them, and eight a 4×4 determinant: 24 products
@@ -93,12 +93,10 @@ fn coefficients(row: &Row, column: OffsetColumn) -> Option<Coefficients> {
             if v == 0.0 {
                 return Wide([0; 2]);
             }
-            let bits = v.to_bits();
-            let mantissa = i128::from((bits & ((1 << 52) - 1)) | (1 << 52));
-            let shift = exponent(v) - 52 - lowest;
+            let (mantissa, unit) = decompose(v);
+            let (mantissa, shift) = (i128::from(mantissa), unit - lowest);
             // what is shifted out is zero: no bit of the value lies below `lowest`
-            let magnitude = if shift < 0 { mantissa >> -shift } else { mantissa << shift };
-            let integer = if v < 0.0 { -magnitude } else { magnitude } as u128;
+            let integer = if shift < 0 { mantissa >> -shift } else { mantissa << shift } as u128;
             Wide([integer as u64, (integer >> 64) as u64])
         })
     })

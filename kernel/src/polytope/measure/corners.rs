@@ -11,7 +11,7 @@ use glam::DVec3;
 use crate::double_double::DoubleDouble;
 use crate::meet::{ldexp, meet};
 use crate::polytope::IncrementalPolytope;
-use crate::sign::exact_product;
+use crate::sign::{exact_product, exponent};
 
 /// Error of a corner's double-double evaluation in units of the magnitudes of its terms: at most 16 times `2⁻¹⁰⁶` (operations
 /// of relative error `3·2⁻¹⁰⁶` and `5·2⁻¹⁰⁶`: Joldes, Muller, Popescu 2017), with room for the rounding of the magnitudes.
@@ -166,9 +166,4 @@ pub(super) fn distance(row: &[f64; 4], point: DVec3) -> Option<Bounded> {
 /// Times a power of two.
 pub(super) fn scaled(v: DoubleDouble, power: f64) -> DoubleDouble {
     DoubleDouble { high: v.high * power, low: v.low * power }
-}
-
-/// `⌊log₂|v|⌋` of a normal number.
-pub(super) fn exponent(v: f64) -> i32 {
-    ((v.to_bits() >> 52) & 0x7ff) as i32 - 1023
 }

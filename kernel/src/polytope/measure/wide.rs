@@ -5,13 +5,12 @@ use std::array::from_fn;
 use dashu_int::{IBig, UBig, ops::BitTest, ops::SquareRoot};
 use glam::DVec3;
 
-use super::corners::exponent;
 use super::moments::{PAIRS, Sums};
 use crate::double_double::DoubleDouble;
 use crate::meet::{homogeneous_exactly, ldexp, meet, round_quotient};
 use crate::polytope::IncrementalPolytope;
 use crate::polytope::query::exact::integer_row;
-use crate::sign::big_integers;
+use crate::sign::{big_integers, exponent};
 
 /// Corners as integers in units of `2^(exponent − width)` of each axis, counted from the first of them (rounded).
 pub(super) struct WideCorners {

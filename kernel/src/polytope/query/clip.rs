@@ -194,7 +194,7 @@ impl Line {
         let mut parameter = Parameter { plane: Some(plane), low: f64::NEG_INFINITY, high: f64::INFINITY, exact: None };
         let certain = slope.abs() > slope_error;
         if !certain {
-            return (super::exact::sign_of(&self.exact(row).1), parameter);
+            return (crate::sign::big_sign(&self.exact(row).1), parameter);
         }
         let at = -start / slope;
         let error = 1.01 * (start_error + at.abs() * slope_error) / (slope.abs() - slope_error)

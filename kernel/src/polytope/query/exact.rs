@@ -4,7 +4,7 @@ use dashu_int::{IBig, UBig, ops::BitTest, ops::SquareRoot};
 use glam::DVec3;
 
 use crate::meet::{ldexp, round_quotient};
-use crate::sign::{Row, Sign, big_integers};
+use crate::sign::{Row, Sign, big_integers, big_sign};
 
 const U: f64 = f64::EPSILON / 2.0;
 /// `n·p − d` for a given point: a product and three sums, 4 roundings a term, with room for those of the permanent.
@@ -35,15 +35,6 @@ impl ExactPoint {
     }
 }
 
-/// The sign of a big integer.
-pub(crate) fn sign_of(value: &IBig) -> Sign {
-    match value.cmp(&IBig::ZERO) {
-        std::cmp::Ordering::Less => Sign::Negative,
-        std::cmp::Ordering::Equal => Sign::Zero,
-        std::cmp::Ordering::Greater => Sign::Positive,
-    }
-}
-
 /// A row as integers, up to one positive scale.
 pub(crate) fn integer_row(row: &Row) -> [IBig; 4] {
     big_integers(*row.coefficients())
@@ -69,7 +60,7 @@ pub(crate) fn side_of_point(row: &Row, point: DVec3) -> Sign {
     if error < EXACT && row.is_integer() && point == point.trunc() {
         return Sign::of(value);
     }
-    sign_of(&ExactPoint::of(point).residual(&integer_row(row)))
+    big_sign(&ExactPoint::of(point).residual(&integer_row(row)))
 }
 
 /// The unit vector along a vector of integers, each component accurate to a few roundings; zero for the zero vector.

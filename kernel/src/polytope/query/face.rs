@@ -4,7 +4,6 @@ use glam::DVec3;
 
 use crate::meet::{direction, meet};
 use crate::polytope::infinity::is_infinity;
-use crate::polytope::store::{BEFORE, NEXT};
 use crate::polytope::{IncrementalPolytope, PlaneIdx};
 
 /// A whole line that bounds a face.
@@ -81,19 +80,5 @@ impl IncrementalPolytope {
             }
         }
         Some(polygon)
-    }
-
-    /// The planes of a face's edges in order, without those of exactly no length.
-    fn edge_planes(&self, slot: u32) -> Vec<u32> {
-        let mut edges = Vec::new();
-        for (vertex, k) in self.vertices.face_corners(slot, self.planes.face_vertex(slot)) {
-            let planes = self.vertices.planes(vertex);
-            let next = self.vertices.link(vertex, NEXT[k]);
-            let across = self.vertices.planes(next.vertex())[next.index()];
-            if !self.is_exactly_on(planes, across) {
-                edges.push(planes[BEFORE[k]]);
-            }
-        }
-        edges
     }
 }

@@ -6,6 +6,7 @@
 mod plane;
 mod vertex;
 
+pub(super) use crate::sign::{BEFORE, NEXT};
 pub(super) use plane::{Leaving, PlaneState, PlaneStore};
 pub(super) use vertex::{Link, Steps, VertexStore};
 
@@ -13,11 +14,6 @@ use super::VertexIdx;
 
 /// No plane, no vertex.
 pub(super) const NONE: u32 = u32::MAX;
-
-/// The index that follows 0, 1, 2 in the cyclic order of the three planes of a vertex.
-pub(super) const NEXT: [usize; 3] = [1, 2, 0];
-/// The index before.
-pub(super) const BEFORE: [usize; 3] = [2, 0, 1];
 
 /// The vertices that an operation took away, made and moved.
 #[derive(Debug, Default)]

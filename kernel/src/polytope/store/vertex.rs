@@ -244,11 +244,6 @@ impl VertexStore {
         self.marks_fresh = steps == Steps::Several;
     }
 
-    /// Whether new vertices are marked.
-    pub(in crate::polytope) fn marks_fresh(&self) -> bool {
-        self.marks_fresh
-    }
-
     /// Notes that the operation that runs made a vertex.
     pub(in crate::polytope) fn set_fresh(&mut self, slot: u32) {
         self.records[slot as usize].fresh = true;

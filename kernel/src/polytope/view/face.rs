@@ -59,21 +59,27 @@ impl IncrementalPolytope {
     pub fn facets(&self) -> Vec<(PlaneIdx, Vec<Option<PlaneIdx>>)> {
         let mut facets = Vec::new();
         for plane in self.planes.faces().filter(|plane| !self.is_empty() && !is_infinity(*plane)) {
-            let mut edges = Vec::new();
-            for (vertex, k) in self.vertices.face_corners(plane, self.planes.face_vertex(plane)) {
-                // the edge from this vertex (plane, p, q) to the next lies on q
-                let planes = self.vertices.planes(vertex);
-                let next = self.vertices.link(vertex, NEXT[k]);
-                let across = self.vertices.planes(next.vertex())[next.index()];
-                if !self.is_exactly_on(planes, across) {
-                    let q = planes[BEFORE[k]];
-                    edges.push((!is_infinity(q)).then(|| external(q)));
-                }
-            }
+            let edges = self.edge_planes(plane);
             if edges.len() >= 3 {
-                facets.push((external(plane), edges));
+                let seen = |edge: u32| (!is_infinity(edge)).then(|| external(edge));
+                facets.push((external(plane), edges.into_iter().map(seen).collect()));
             }
         }
         facets
+    }
+
+    /// The planes of a face's edges in order, without those of exactly no length.
+    pub(in crate::polytope) fn edge_planes(&self, plane: u32) -> Vec<u32> {
+        let mut edges = Vec::new();
+        for (vertex, k) in self.vertices.face_corners(plane, self.planes.face_vertex(plane)) {
+            // the edge from this vertex (plane, p, q) to the next lies on q
+            let planes = self.vertices.planes(vertex);
+            let next = self.vertices.link(vertex, NEXT[k]);
+            let across = self.vertices.planes(next.vertex())[next.index()];
+            if !self.is_exactly_on(planes, across) {
+                edges.push(planes[BEFORE[k]]);
+            }
+        }
+        edges
     }
 }
