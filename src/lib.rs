@@ -18,27 +18,15 @@
 //! Two boxes that share a part, from planes to the bytes of a file:
 //!
 //! ```
-//! use planecut::csg::{Brush, BrushFace, Material, MaterialId, Model, evaluate};
+//! use planecut::csg::{Brush, Material, MaterialId, Model, Tree, evaluate};
 //! use planecut::export::{ExportOptions, Format, encode};
-//! use planecut::kernel::{DVec3, HalfSpace, HalfSpaceError};
-//!
-//! fn block(min: DVec3, max: DVec3) -> Result<Brush, HalfSpaceError> {
-//!     let mut faces = Vec::new();
-//!     for axis in DVec3::AXES {
-//!         for (normal, offset) in [(axis, axis.dot(max)), (-axis, -axis.dot(min))] {
-//!             faces.push(BrushFace { half_space: HalfSpace::new(normal, offset)?, material: MaterialId(0) });
-//!         }
-//!     }
-//!     Ok(Brush { faces, ..Brush::default() })
-//! }
+//! use planecut::kernel::DVec3;
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let block = |min: f64, max: f64| Tree::from(Brush::cuboid(DVec3::splat(min), DVec3::splat(max), MaterialId(0)));
 //! let model = Model {
 //!     materials: vec![Material { name: "stone".to_owned(), color: None }],
-//!     brushes: vec![
-//!         block(DVec3::ZERO, DVec3::splat(2.0))?,
-//!         block(DVec3::splat(1.0), DVec3::splat(3.0))?,
-//!     ],
+//!     tree: block(0.0, 2.0) | block(1.0, 3.0),
 //! };
 //! let evaluation = evaluate(&model)?;
 //! assert!((evaluation.solid.volume - 15.0).abs() < 1e-12); // 8 + 8 − 1

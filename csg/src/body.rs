@@ -43,17 +43,18 @@ pub(crate) enum BrushBody {
 /// Interns the planes of a model and builds the body of every brush, in parallel.
 pub(crate) fn build_bodies(model: &Model) -> (PlaneTable, Vec<BrushBody>, Counts) {
     let half_spaces: Vec<HalfSpace> =
-        model.brushes.iter().flat_map(|brush| brush.faces.iter().map(|face| face.half_space)).collect();
+        model.tree.brushes().iter().flat_map(|brush| brush.faces.iter().map(|face| face.half_space)).collect();
     let (table, ids) = PlaneTable::intern(&half_spaces);
-    let mut ends: Vec<(usize, usize)> = Vec::with_capacity(model.brushes.len());
+    let mut ends: Vec<(usize, usize)> = Vec::with_capacity(model.tree.brushes().len());
     let mut start = 0;
-    for brush in &model.brushes {
+    for brush in model.tree.brushes() {
         ends.push((start, start + brush.faces.len()));
         start += brush.faces.len();
     }
-    let chunk = (model.brushes.len() / (4 * rayon::current_num_threads()).max(1)).max(16);
+    let chunk = (model.tree.brushes().len() / (4 * rayon::current_num_threads()).max(1)).max(16);
     let parts: Vec<(Vec<BrushBody>, Counts)> = model
-        .brushes
+        .tree
+        .brushes()
         .par_chunks(chunk)
         .zip(ends.par_chunks(chunk))
         .map(|(brushes, ends)| {
@@ -68,7 +69,7 @@ pub(crate) fn build_bodies(model: &Model) -> (PlaneTable, Vec<BrushBody>, Counts
         })
         .collect();
     let mut counts = Counts::default();
-    let mut bodies = Vec::with_capacity(model.brushes.len());
+    let mut bodies = Vec::with_capacity(model.tree.brushes().len());
     for (part, counted) in parts {
         bodies.extend(part);
         counts += counted;

@@ -1,6 +1,9 @@
 //! What a model is made of: convex bodies with a material on each face.
 
+use glam::DVec3;
 use planecut_kernel::HalfSpace;
+
+use crate::tree::Tree;
 
 /// Index into [`Model::materials`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -35,11 +38,32 @@ pub struct Brush {
     pub line: u32,
 }
 
-/// A list of brushes whose union is the solid, and the materials that they name.
+impl Brush {
+    /// The body of all points within every half-space; may be unbounded or empty.
+    #[must_use]
+    pub fn from_half_spaces(half_spaces: impl IntoIterator<Item = HalfSpace>, material: MaterialId) -> Self {
+        let faces = half_spaces.into_iter().map(|half_space| BrushFace { half_space, material }).collect();
+        Self { faces, ..Self::default() }
+    }
+
+    /// The box between two corners; empty where a minimum is not below its maximum.
+    ///
+    /// # Panics
+    /// Where a coordinate is not finite or beyond `±2^200`.
+    #[must_use]
+    pub fn cuboid(min: DVec3, max: DVec3, material: MaterialId) -> Self {
+        let sides = DVec3::AXES.into_iter().flat_map(|axis| [(axis, axis.dot(max)), (-axis, -axis.dot(min))]);
+        let half_spaces =
+            sides.map(|(normal, offset)| HalfSpace::new(normal, offset).expect("finite corners, not too far away"));
+        Self::from_half_spaces(half_spaces, material)
+    }
+}
+
+/// A tree of brushes, and the materials that their faces name.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Model {
     /// The materials, each name once.
     pub materials: Vec<Material>,
-    /// The brushes, in the input's order.
-    pub brushes: Vec<Brush>,
+    /// The brushes, in the input's order, and how they are combined.
+    pub tree: Tree,
 }

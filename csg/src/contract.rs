@@ -167,7 +167,7 @@ mod tests {
         });
         let brush = Brush { faces: faces.collect(), ..Brush::default() };
         let materials = vec![Material { name: "m".into(), color: None }];
-        evaluate(&Model { materials, brushes: vec![brush] }).expect("a closed boundary").mesh
+        evaluate(&Model { materials, tree: brush.into() }).expect("a closed boundary").mesh
     }
 
     #[test]

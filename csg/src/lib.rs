@@ -5,21 +5,13 @@
 //! coordinates of the finished mesh. [`check`] tells whether any mesh is watertight, manifold and free of crossings.
 //!
 //! ```
-//! use planecut_csg::{Brush, BrushFace, Material, MaterialId, Model, evaluate};
-//! use planecut_kernel::{DVec3, HalfSpace};
+//! use planecut_csg::{Brush, Material, MaterialId, Model, Tree, evaluate};
+//! use planecut_kernel::DVec3;
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
-//! let cube = |x: f64| -> Result<Brush, planecut_kernel::HalfSpaceError> {
-//!     let mut faces = Vec::new();
-//!     for (axis, low, high) in [(DVec3::X, x, x + 2.0), (DVec3::Y, 0.0, 2.0), (DVec3::Z, 0.0, 2.0)] {
-//!         for half_space in [HalfSpace::new(axis, high)?, HalfSpace::new(-axis, -low)?] {
-//!             faces.push(BrushFace { half_space, material: MaterialId(0) });
-//!         }
-//!     }
-//!     Ok(Brush { faces, ..Brush::default() })
-//! };
+//! let cube = |x: f64| Brush::cuboid(DVec3::new(x, 0.0, 0.0), DVec3::new(x + 2.0, 2.0, 2.0), MaterialId(0));
 //! let materials = vec![Material { name: "stone".into(), color: None }];
-//! let union = evaluate(&Model { materials, brushes: vec![cube(0.0)?, cube(1.0)?] })?;
+//! let union = evaluate(&Model { materials, tree: Tree::from(cube(0.0)) | cube(1.0).into() })?;
 //! assert_eq!(union.solid.volume, 12.0);
 //! assert_eq!(union.mesh.faces.len(), 6);
 //! # Ok(())
@@ -39,6 +31,8 @@ mod neighbours;
 mod plane_table;
 mod skin;
 mod sum;
+mod transform;
+mod tree;
 mod weld;
 
 pub use brush::{Brush, BrushFace, Material, MaterialId, Model};
@@ -46,4 +40,6 @@ pub use contract::{contract_edges, contract_short_edges};
 pub use evaluate::{Evaluation, ModelSummary, SolidMeasures, StageTimes, evaluate, summarize};
 pub use mesh::{Mesh, MeshFace};
 pub use plane_table::{PlaneId, PlaneTable, SNAP_TOLERANCE};
+pub use transform::{Transform, TransformError, sine_and_cosine};
+pub use tree::{Operation, Tree, TreeNode};
 pub use weld::WeldError;

@@ -30,7 +30,7 @@ fn warnings_of(name: &str) -> (MapImport, Vec<String>) {
 #[test]
 fn the_undamaged_map_is_read() {
     let (import, warnings) = warnings_of("whole");
-    assert_eq!((import.model.brushes.len(), import.model.brushes[0].faces.len()), (1, 6));
+    assert_eq!((import.model.tree.brushes().len(), import.model.tree.brushes()[0].faces.len()), (1, 6));
     assert!(warnings.is_empty(), "{warnings:?}");
 }
 
@@ -135,7 +135,7 @@ damaged! {
 #[test]
 fn a_face_without_area_is_left_out() {
     let (import, warnings) = warnings_of("zero_area_face");
-    assert_eq!((import.model.brushes.len(), import.model.brushes[0].faces.len()), (1, 5));
+    assert_eq!((import.model.tree.brushes().len(), import.model.tree.brushes()[0].faces.len()), (1, 5));
     assert_eq!(import.faces_left_out, 1);
     assert_eq!(warnings, ["line 8: left out a face whose three points lie on one line"]);
 }
@@ -143,7 +143,7 @@ fn a_face_without_area_is_left_out() {
 #[test]
 fn a_brush_of_such_faces_is_left_out() {
     let (import, warnings) = warnings_of("all_faces_without_area");
-    assert_eq!((import.brushes_read, import.model.brushes.len()), (1, 0));
+    assert_eq!((import.brushes_read, import.model.tree.brushes().len()), (1, 0));
     assert_eq!((import.brushes_left_out, import.faces_left_out), (1, 2));
     assert_eq!(
         warnings,

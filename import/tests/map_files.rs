@@ -48,7 +48,7 @@ fn brush_counts_are_those_of_the_reference() {
     for (name, text) in maps() {
         let Some(brushes) = reference[&name]["brushes"].as_u64() else { continue };
         let import = read_map(&text, &name, &MapOptions::default()).unwrap_or_else(|error| panic!("{error}"));
-        assert_eq!(import.model.brushes.len() as u64, brushes, "{name}");
+        assert_eq!(import.model.tree.brushes().len() as u64, brushes, "{name}");
         assert_eq!(import.warnings, [], "{name}");
         compared += 1;
     }
@@ -76,7 +76,7 @@ fn lines_are_those_of_opening_braces() {
         let Ok(import) = read_map(&text, &name, &MapOptions::default()) else { continue };
         let text = String::from_utf8_lossy(&text);
         let lines: Vec<&str> = text.lines().collect();
-        for brush in &import.model.brushes {
+        for brush in import.model.tree.brushes() {
             assert_eq!(lines[brush.line as usize - 1].trim(), "{", "{name}:{}", brush.line);
             assert!(lines[brush.line as usize].trim_start().starts_with('('), "{name}:{}", brush.line);
         }
@@ -90,7 +90,7 @@ fn boxes_have_the_bounds_of_the_reference() {
     for name in ["ericw/q1_cube.map", "trenchbroom/cube.map"] {
         let import = read(name).expect("the folder is there");
         let mut bounds = [f64::NAN; 6];
-        for face in &import.model.brushes[0].faces {
+        for face in &import.model.tree.brushes()[0].faces {
             let normal = face.half_space.normal().to_array();
             let axis = normal.iter().position(|n| *n != 0.0).expect("a normal");
             let slot = if normal[axis] < 0.0 { axis } else { axis + 3 };
@@ -124,7 +124,7 @@ fn editor_fixtures() {
             continue;
         };
         let found = read_map(&text, &name, &MapOptions::default())
-            .map(|import| (import.model.brushes.len(), import.patches_left_out, import.faces_left_out))
+            .map(|import| (import.model.tree.brushes().len(), import.patches_left_out, import.faces_left_out))
             .map_err(|error| error.line());
         let stated = expected.iter().find(|(stated, _)| *stated == fixture).map(|(_, result)| *result);
         assert_eq!(Some(found), stated, "{name}");
@@ -138,5 +138,5 @@ fn a_quoted_template_read_as_a_map() {
     let text = template.replace("{{", "{").replace("}}", "}").replace("{0}", r#""some \"quoted\" {name}""#);
     let import = read_map(text.as_bytes(), "m", &MapOptions::default()).expect("a map");
     let names: Vec<&str> = import.model.materials.iter().map(|material| material.name.as_str()).collect();
-    assert_eq!((import.model.brushes.len(), names), (1, vec![r#"some "quoted" {name}"#]));
+    assert_eq!((import.model.tree.brushes().len(), names), (1, vec![r#"some "quoted" {name}"#]));
 }

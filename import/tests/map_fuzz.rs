@@ -43,10 +43,10 @@ impl Random {
 fn check(text: &[u8]) -> bool {
     match read_map(text, "m", &MapOptions::default()) {
         Ok(import) => {
-            let accounted = import.model.brushes.len() + import.brushes_skipped + import.brushes_left_out;
+            let accounted = import.model.tree.brushes().len() + import.brushes_skipped + import.brushes_left_out;
             assert_eq!(import.brushes_read, accounted);
             let materials = import.model.materials.len();
-            let faces = || import.model.brushes.iter().flat_map(|brush| &brush.faces);
+            let faces = || import.model.tree.brushes().iter().flat_map(|brush| &brush.faces);
             assert!(faces().all(|face| (face.material.0 as usize) < materials));
             true
         }

@@ -22,7 +22,7 @@ fn world(faces: &[String]) -> String {
 /// The material name of each face, brush by brush.
 fn textures(model: &Model) -> Vec<Vec<&str>> {
     let name = |id: planecut_csg::MaterialId| model.materials[id.0 as usize].name.as_str();
-    model.brushes.iter().map(|brush| brush.faces.iter().map(|face| name(face.material)).collect()).collect()
+    model.tree.brushes().iter().map(|brush| brush.faces.iter().map(|face| name(face.material)).collect()).collect()
 }
 
 fn warnings(import: &MapImport) -> Vec<String> {
@@ -47,23 +47,23 @@ fn every_dialect_of_a_face() {
         ("CR alone", format!("{POINTS} a 1 2 3 4 5").replace(' ', "\r")),
         ("exponents and signs", "( 0e5 -0 +0 ) ( 0 1e0 0. ) ( .0 -0.00 10E-1 ) a 1e-5 -2. +.3 4 5".to_owned()),
     ];
-    let reference = read(world(&[dialects[0].1.clone()])).model.brushes[0].faces[0];
+    let reference = read(world(&[dialects[0].1.clone()])).model.tree.brushes()[0].faces[0];
     for (dialect, face) in &dialects {
         let import = read(world(std::slice::from_ref(face)));
-        assert_eq!(import.model.brushes.len(), 1, "{dialect}");
-        assert_eq!(import.model.brushes[0].faces, [reference], "{dialect}");
+        assert_eq!(import.model.tree.brushes().len(), 1, "{dialect}");
+        assert_eq!(import.model.tree.brushes()[0].faces, [reference], "{dialect}");
         assert!(import.warnings.is_empty(), "{dialect}");
     }
     // All of them one after the other in the same brush.
     let faces: Vec<String> = dialects.iter().map(|(_, face)| face.clone()).collect();
-    assert_eq!(read(world(&faces)).model.brushes[0].faces, vec![reference; dialects.len()]);
+    assert_eq!(read(world(&faces)).model.tree.brushes()[0].faces, vec![reference; dialects.len()]);
 }
 
 #[test]
 fn the_normal_points_outward() {
     // The left side of a body that extends to positive x.
     let model = read(world(&[format!("{POINTS} a 0 0 0 1 1")])).model;
-    let plane = model.brushes[0].faces[0].half_space;
+    let plane = model.tree.brushes()[0].faces[0].half_space;
     assert_eq!((plane.normal().to_array(), plane.offset()), ([-1.0, 0.0, 0.0], 0.0));
 }
 
@@ -135,8 +135,8 @@ fn comments_and_line_ends() {
     );
     for end in ["\n", "\r\n", "\r"] {
         let import = read(text.replace('\n', end));
-        assert_eq!((import.entities, import.model.brushes.len()), (1, 1));
-        assert_eq!(import.model.brushes[0].line, 6, "line ends {end:?}");
+        assert_eq!((import.entities, import.model.tree.brushes().len()), (1, 1));
+        assert_eq!(import.model.tree.brushes()[0].line, 6, "line ends {end:?}");
     }
 }
 
@@ -159,7 +159,7 @@ fn keys_and_values() {
         "\"bronze\" \"\u{81}\u{ff}\"",
     ] {
         let text = format!("{{\n{pairs}\n\"classname\" \"func_wall\"\n{{\n{POINTS} a 0 0 0 1 1\n}}\n}}");
-        let name = read(text).model.brushes[0].name.clone();
+        let name = read(text).model.tree.brushes()[0].name.clone();
         assert_eq!(name.as_deref(), Some("func_wall #0"), "{pairs}");
     }
 }
@@ -172,7 +172,7 @@ fn names_and_lines_of_brushes() {
     );
     let import = read(&text);
     let found: Vec<(Option<&str>, u32)> =
-        import.model.brushes.iter().map(|brush| (brush.name.as_deref(), brush.line)).collect();
+        import.model.tree.brushes().iter().map(|brush| (brush.name.as_deref(), brush.line)).collect();
     let door = Some("func_door #2");
     assert_eq!(found, [(None, 3), (None, 6), (door, 14), (door, 18), (Some("entity #3"), 23)]);
     assert_eq!((import.entities, import.brushes_read), (4, 5));
@@ -187,7 +187,8 @@ fn brushes_outside_any_entity_belong_to_the_world() {
     let options = MapOptions { world_only: true, ..MapOptions::default() };
     let import = read_with(format!("{brush}{brush}{{ \"classname\" \"func_wall\" {brush} }} {brush}"), &options);
     assert_eq!((import.entities, import.brushes_read, import.brushes_skipped), (1, 4, 1));
-    let found: Vec<(Option<&str>, u32)> = import.model.brushes.iter().map(|b| (b.name.as_deref(), b.line)).collect();
+    let found: Vec<(Option<&str>, u32)> =
+        import.model.tree.brushes().iter().map(|b| (b.name.as_deref(), b.line)).collect();
     assert_eq!(found, [(None, 1), (None, 2), (None, 4)]);
 }
 
@@ -197,10 +198,10 @@ fn brush_primitives_with_points_are_brushes() {
     let faces = format!("{POINTS} {matrix} common/caulk 0 0 0\n{POINTS} {matrix} (x)");
     let import = read(format!("{{\n\"classname\" \"worldspawn\"\n{{\nbrushDef\n{{\n{faces}\n}}\n}}\n}}"));
     assert_eq!(textures(&import.model), [["common/caulk", "(x)"]]);
-    assert_eq!((import.model.brushes[0].line, import.primitives_left_out), (3, 0));
+    assert_eq!((import.model.tree.brushes()[0].line, import.primitives_left_out), (3, 0));
     assert!(import.warnings.is_empty());
-    let plain = read(world(&[format!("{POINTS} a 0 0 0 1 1")])).model.brushes[0].faces[0].half_space;
-    assert!(import.model.brushes[0].faces.iter().all(|face| face.half_space == plain));
+    let plain = read(world(&[format!("{POINTS} a 0 0 0 1 1")])).model.tree.brushes()[0].faces[0].half_space;
+    assert!(import.model.tree.brushes()[0].faces.iter().all(|face| face.half_space == plain));
 }
 
 #[test]
@@ -217,7 +218,7 @@ fn other_primitives_are_left_out_with_a_warning() {
         patch("patchDefNew"),
     );
     let import = read(&text);
-    assert_eq!((import.model.brushes.len(), import.patches_left_out, import.primitives_left_out), (2, 3, 2));
+    assert_eq!((import.model.tree.brushes().len(), import.patches_left_out, import.primitives_left_out), (2, 3, 2));
     let line = |keyword| 1 + text.lines().position(|line| line == keyword).expect("in the text");
     let expected = [
         format!("line {}: left out 3 patches, the first of them here", line("patchDef2")),
@@ -229,7 +230,7 @@ fn other_primitives_are_left_out_with_a_warning() {
 #[test]
 fn a_map_without_brushes_is_no_error() {
     let import = read("{ \"classname\" \"worldspawn\" }");
-    assert_eq!((import.entities, import.model.brushes.len()), (1, 0));
+    assert_eq!((import.entities, import.model.tree.brushes().len()), (1, 0));
     assert_eq!(warnings(&import), ["the map holds no brushes"]);
 }
 
@@ -249,7 +250,7 @@ fn classes_and_textures() -> String {
 
 fn kept(options: &MapOptions) -> (Vec<Vec<String>>, usize) {
     let import = read_with(classes_and_textures(), options);
-    assert_eq!(import.brushes_read, import.model.brushes.len() + import.brushes_skipped);
+    assert_eq!(import.brushes_read, import.model.tree.brushes().len() + import.brushes_skipped);
     let textures = textures(&import.model);
     (textures.iter().map(|brush| brush.iter().map(ToString::to_string).collect()).collect(), import.brushes_skipped)
 }

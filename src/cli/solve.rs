@@ -53,7 +53,7 @@ pub(crate) fn solve(input: &Input, options: &MapOptions, progress: &Progress) ->
 fn brush_warnings(model: &Model, summary: &ModelSummary) -> impl Iterator<Item = Warning> {
     let kinds = [(&summary.empty, "without interior"), (&summary.unbounded, "that is not bounded")];
     kinds.into_iter().filter_map(|(numbers, kind)| {
-        let line = model.brushes[*numbers.first()?].line;
+        let line = model.tree.brushes()[*numbers.first()?].line;
         let message = match numbers.len() {
             1 => format!("left out a brush {kind}"),
             count => {

@@ -41,7 +41,7 @@ fn nothing_gives_nothing() {
         assert!(evaluation.mesh.triangles.is_empty() && evaluation.mesh.positions.is_empty());
         assert_eq!(evaluation.solid, Default::default());
         // without planes a brush is all of space
-        assert_eq!(evaluation.model.unbounded.len(), model.brushes.len());
+        assert_eq!(evaluation.model.unbounded.len(), model.tree.brushes().len());
     }
 }
 

@@ -141,7 +141,7 @@ pub(crate) fn split(brushes: &mut Vec<Brush>, cuts: usize, mut cut: impl FnMut()
 
 /// Moves each coefficient of each plane by up to `relative` of the largest one.
 pub(crate) fn with_noise(rng: &mut Rng, mut model: Model, relative: f64) -> Model {
-    for face in model.brushes.iter_mut().flat_map(|brush| &mut brush.faces) {
+    for face in model.tree.brushes_mut().iter_mut().flat_map(|brush| &mut brush.faces) {
         let (normal, offset) = (face.half_space.normal(), face.half_space.offset());
         let size = normal.abs().max_element() * relative;
         let moved = offset + rng.real(-1.0, 1.0) * size.max(offset.abs() * relative);
@@ -152,7 +152,7 @@ pub(crate) fn with_noise(rng: &mut Rng, mut model: Model, relative: f64) -> Mode
 
 /// Scales a model about the origin, then moves it, in rounded coefficients.
 pub(crate) fn placed(mut model: Model, scale: f64, shift: DVec3) -> Model {
-    for face in model.brushes.iter_mut().flat_map(|brush| &mut brush.faces) {
+    for face in model.tree.brushes_mut().iter_mut().flat_map(|brush| &mut brush.faces) {
         let (normal, offset) = (face.half_space.normal(), face.half_space.offset());
         face.half_space = half_space(normal, offset * scale + normal.dot(shift));
     }
@@ -161,7 +161,7 @@ pub(crate) fn placed(mut model: Model, scale: f64, shift: DVec3) -> Model {
 
 /// Gives each face, or each brush as a whole, a material at random.
 pub(crate) fn with_materials(rng: &mut Rng, scene: Model, count: i32) -> Model {
-    let mut brushes = scene.brushes;
+    let mut brushes = scene.tree.into_brushes();
     for brush in &mut brushes {
         let (one, mixed) = (rng.integer(0, count - 1), rng.chance(0.5));
         for face in &mut brush.faces {

@@ -7,7 +7,7 @@ use crate::generate::{
     general_scene, kindred_scene, placed, sloped_brush, sloped_scene, split, with_materials, with_noise,
 };
 use crate::rng::Rng;
-use crate::scene::{brush, cuboid, ensure, ensure_eq, half_space, model, sweep};
+use crate::scene::{brush, cuboid, ensure, ensure_eq, half_space, model, sweep, with_brushes};
 use crate::soundness::evaluate_soundly;
 
 /// Every part of two outcomes that must agree.
@@ -39,12 +39,12 @@ fn any_scene(rng: &mut Rng) -> Model {
 
 /// Brushes, and the planes of each, in another order.
 fn shuffled(model: &Model, rng: &mut Rng) -> Model {
-    let mut shuffled = model.clone();
-    rng.shuffle(&mut shuffled.brushes);
-    for brush in &mut shuffled.brushes {
-        rng.shuffle(&mut brush.faces);
-    }
-    shuffled
+    with_brushes(model, |brushes| {
+        rng.shuffle(brushes);
+        for brush in brushes {
+            rng.shuffle(&mut brush.faces);
+        }
+    })
 }
 
 #[test]
@@ -63,8 +63,7 @@ fn the_order_of_brushes_of_many_materials_changes_nothing() {
     };
     sweep(300, generate, |model| {
         let expected = evaluate_soundly(model)?;
-        let mut other = model.clone();
-        Rng::new(1).shuffle(&mut other.brushes);
+        let other = with_brushes(model, |brushes| Rng::new(1).shuffle(brushes));
         same(&evaluate_soundly(&other)?, &expected, "shuffled")
     });
 }
@@ -75,7 +74,7 @@ fn the_number_of_threads_changes_nothing() {
     let pools = [pool(1), pool(2), pool(5)];
     let generate = |rng: &mut Rng| {
         let scenes = (0..8).map(|k| placed(any_scene(rng), 1.0, DVec3::splat(0.7 * f64::from(k))));
-        model(scenes.flat_map(|scene| scene.brushes).collect())
+        model(scenes.flat_map(|scene| scene.tree.into_brushes()).collect())
     };
     sweep(20, generate, |model| {
         let outcome = |k: usize| pools[k].install(|| evaluate(model)).map_err(|error| error.to_string());
@@ -88,8 +87,7 @@ fn the_number_of_threads_changes_nothing() {
 fn repeated_brushes_change_nothing() {
     sweep(200, any_scene, |model| {
         let expected = evaluate_soundly(model)?;
-        let mut repeated = model.clone();
-        repeated.brushes.extend(model.brushes.iter().rev().cloned());
+        let repeated = with_brushes(model, |brushes| brushes.extend(model.tree.brushes().iter().rev().cloned()));
         same(&evaluate_soundly(&repeated)?, &expected, "repeated")
     });
 }
@@ -100,8 +98,8 @@ fn brushes_inside_others_change_nothing() {
     sweep(200, generate, |model| {
         let expected = evaluate_soundly(model)?;
         let mut rng = Rng::new(7);
-        let mut nested = model.clone();
-        for outer in &model.brushes {
+        let mut nested = model.tree.brushes().to_vec();
+        for outer in model.tree.brushes() {
             // Some of its planes stay, so that faces coincide; others move inward.
             let mut inner = outer.clone();
             for face in &mut inner.faces {
@@ -110,9 +108,9 @@ fn brushes_inside_others_change_nothing() {
                     face.half_space = half_space(normal, offset - normal.length() * rng.real(0.01, 0.2));
                 }
             }
-            nested.brushes.push(inner);
+            nested.push(inner);
         }
-        same(&evaluate_soundly(&nested)?, &expected, "nested")
+        same(&evaluate_soundly(&with_brushes(model, |brushes| *brushes = nested))?, &expected, "nested")
     });
 }
 
@@ -124,8 +122,8 @@ fn walls_between_the_parts_of_a_split_body_dissolve() {
         |rng| model(vec![sloped_brush(rng)]),
         |scene| {
             let expected = evaluate_soundly(scene)?;
-            let mut rng = Rng::new(scene.brushes.iter().flat_map(|b| &b.faces).count() as u64);
-            let mut parts = scene.brushes.clone();
+            let mut rng = Rng::new(scene.tree.brushes().iter().flat_map(|b| &b.faces).count() as u64);
+            let mut parts = scene.tree.brushes().to_vec();
             if parts.is_empty() {
                 return Ok(());
             }
@@ -150,11 +148,11 @@ fn walls_between_the_parts_of_split_scenes_dissolve() {
     let generate = |rng: &mut Rng| if rng.chance(0.5) { general_scene(rng) } else { kindred_scene(rng) };
     sweep(200, generate, |scene| {
         let expected = evaluate_soundly(scene)?;
-        if scene.brushes.is_empty() {
+        if scene.tree.brushes().is_empty() {
             return Ok(());
         }
         let mut rng = Rng::new(3);
-        let mut parts = scene.brushes.clone();
+        let mut parts = scene.tree.brushes().to_vec();
         split(&mut parts, 5, || {
             let normal = rng.direction();
             half_space(normal, normal.dot(rng.point(-1.0, 1.0)))

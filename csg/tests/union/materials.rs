@@ -21,12 +21,12 @@ fn the_shape_does_not_depend_on_materials() {
     sweep(300, scene, |model| {
         let found = evaluate_soundly(model)?;
         let mut plain = model.clone();
-        for face in plain.brushes.iter_mut().flat_map(|brush| &mut brush.faces) {
+        for face in plain.tree.brushes_mut().iter_mut().flat_map(|brush| &mut brush.faces) {
             face.material = MaterialId(0);
         }
         let plain = evaluate_soundly(&plain)?;
         let (a, b) = (&found.solid, &plain.solid);
-        let (size, slack) = ((a.max - a.min).length(), contraction(a) * model.brushes.len() as f64);
+        let (size, slack) = ((a.max - a.min).length(), contraction(a) * model.tree.brushes().len() as f64);
         ensure!(
             (a.volume - b.volume).abs() <= slack * b.area + slack * size.powi(2),
             "volume {}, {}",
@@ -51,7 +51,7 @@ fn the_order_of_the_list_of_materials_changes_nothing() {
         let last = model.materials.len() as u32 - 1;
         let mut reversed = model.clone();
         reversed.materials.reverse();
-        for face in reversed.brushes.iter_mut().flat_map(|brush| &mut brush.faces) {
+        for face in reversed.tree.brushes_mut().iter_mut().flat_map(|brush| &mut brush.faces) {
             face.material = MaterialId(last - face.material.0);
         }
         let mut found = evaluate_soundly(&reversed)?.mesh;

@@ -24,7 +24,7 @@ pub(crate) struct UnionVolume {
 /// `Σ over non-empty subsets of (−1)^(k+1) vol(intersection)`; intersections by the kernel. Unbounded brushes are left out.
 pub(crate) fn inclusion_exclusion(model: &Model) -> UnionVolume {
     let bounded = |brush: &&Brush| intersect(IncrementalPolytope::with_epsilon(0.0), brush).is_bounded();
-    let brushes: Vec<&Brush> = model.brushes.iter().filter(bounded).collect();
+    let brushes: Vec<&Brush> = model.tree.brushes().iter().filter(bounded).collect();
     let mut out = UnionVolume::default();
     add_terms(&brushes, &IncrementalPolytope::with_epsilon(0.0), 0, &mut out);
     out
@@ -70,7 +70,7 @@ pub(crate) fn check_volume(model: &Model, evaluation: &Evaluation) -> Result<(),
     let expected = inclusion_exclusion(model);
     let solid = &evaluation.solid;
     let distance = |plane: &HalfSpace| plane.signed_distance(DVec3::ZERO).abs();
-    let planes = model.brushes.iter().flat_map(|brush| &brush.faces).map(|face| distance(&face.half_space));
+    let planes = model.tree.brushes().iter().flat_map(|brush| &brush.faces).map(|face| distance(&face.half_space));
     let reach = planes.fold(solid.min.abs().max(solid.max.abs()).max_element(), f64::max);
     let displacement = 64.0 * f64::EPSILON * reach + snap_distance(evaluation, reach);
     // Sums over tetrahedra round as the cube of the size of a body, however thin it is.
@@ -123,7 +123,7 @@ fn winding_number(mesh: &Mesh, point: DVec3, ray: DVec3) -> Option<i32> {
 /// Whether a point lies inside some brush; `None` within `margin` of any plane.
 fn is_member(model: &Model, bounded: &[bool], point: DVec3, margin: f64) -> Option<bool> {
     let mut inside = false;
-    for (brush, _) in model.brushes.iter().zip(bounded).filter(|(_, bounded)| **bounded) {
+    for (brush, _) in model.tree.brushes().iter().zip(bounded).filter(|(_, bounded)| **bounded) {
         let distances = brush.faces.iter().map(|face| face.half_space.signed_distance(point));
         let mut all = true;
         for distance in distances {
@@ -143,7 +143,8 @@ pub(crate) fn check_membership(model: &Model, evaluation: &Evaluation, points: u
     if mesh.triangles.is_empty() {
         return Ok(());
     }
-    let bounded: Vec<bool> = (0..model.brushes.len()).map(|k| !evaluation.model.unbounded.contains(&k)).collect();
+    let bounded: Vec<bool> =
+        (0..model.tree.brushes().len()).map(|k| !evaluation.model.unbounded.contains(&k)).collect();
     let extent = solid.max - solid.min;
     let reach = solid.min.abs().max(solid.max.abs()).max_element();
     let margin = 1e-9 * extent.length() + contraction(solid) + snap_distance(evaluation, reach);

@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use glam::DVec3;
-use planecut_csg::{Brush, BrushFace, Material, MaterialId, Model, summarize};
+use planecut_csg::{Brush, BrushFace, Material, MaterialId, Model, Tree, summarize};
 use planecut_kernel::HalfSpace;
 
 use crate::rng::Rng;
@@ -32,7 +32,14 @@ pub(crate) fn cuboid(low: DVec3, high: DVec3) -> Brush {
 pub(crate) fn model(brushes: Vec<Brush>) -> Model {
     let used = brushes.iter().flat_map(|brush| &brush.faces).map(|face| face.material.0 + 1).max().unwrap_or(1);
     let material = |k| Material { name: format!("material {:03}", 999 - k), color: None };
-    Model { materials: (0..used).map(material).collect(), brushes }
+    Model { materials: (0..used).map(material).collect(), tree: Tree::union_of(brushes) }
+}
+
+/// The model with another list of brushes.
+pub(crate) fn with_brushes(model: &Model, change: impl FnOnce(&mut Vec<Brush>)) -> Model {
+    let mut brushes = model.tree.brushes().to_vec();
+    change(&mut brushes);
+    Model { materials: model.materials.clone(), tree: Tree::union_of(brushes) }
 }
 
 /// A model from plain numbers, as failures are printed.
@@ -59,17 +66,10 @@ impl Scene for Model {
 
     /// One brush less; then one plane less, where no brush becomes unbounded by that.
     fn smaller(&self) -> Vec<Self> {
-        let without_brush = (0..self.brushes.len()).map(|k| {
-            let mut smaller = self.clone();
-            smaller.brushes.remove(k);
-            smaller
-        });
-        let planes = (0..self.brushes.len()).flat_map(|b| (0..self.brushes[b].faces.len()).map(move |f| (b, f)));
-        let without_plane = planes.map(|(b, f)| {
-            let mut smaller = self.clone();
-            smaller.brushes[b].faces.remove(f);
-            smaller
-        });
+        let brushes = self.tree.brushes();
+        let without_brush = (0..brushes.len()).map(|k| with_brushes(self, |brushes| drop(brushes.remove(k))));
+        let planes = brushes.iter().enumerate().flat_map(|(b, brush)| (0..brush.faces.len()).map(move |f| (b, f)));
+        let without_plane = planes.map(|(b, f)| with_brushes(self, |brushes| drop(brushes[b].faces.remove(f))));
         let unbounded = summarize(self).unbounded.len();
         let still_bounded = without_plane.filter(|smaller| summarize(smaller).unbounded.len() == unbounded);
         without_brush.chain(still_bounded).collect()
@@ -110,7 +110,7 @@ pub(crate) fn sweep<S: Scene>(count: u64, generate: impl Fn(&mut Rng) -> S, judg
 /// A model as an argument of [`model_of`].
 pub(crate) fn as_rust(model: &Model) -> String {
     let mut text = String::from("let model = model_of(&[\n");
-    for brush in &model.brushes {
+    for brush in model.tree.brushes() {
         text.push_str("    &[\n");
         for face in &brush.faces {
             let (normal, offset) = (face.half_space.normal().to_array(), face.half_space.offset());

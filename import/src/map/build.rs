@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use planecut_csg::{Brush, BrushFace, Material, MaterialId};
+use planecut_csg::{Brush, BrushFace, Material, MaterialId, Tree};
 use rustc_hash::FxHashMap;
 
 use super::error::MapError;
@@ -24,6 +24,7 @@ pub(super) struct Builder<'a> {
     patches_left_out: Tally,
     primitives_left_out: Tally,
     is_empty: bool,
+    brushes: Vec<Brush>,
     import: MapImport,
 }
 
@@ -40,6 +41,7 @@ impl<'a> Builder<'a> {
             patches_left_out: Tally::default(),
             primitives_left_out: Tally::default(),
             is_empty: true,
+            brushes: Vec::new(),
             import: MapImport::default(),
         }
     }
@@ -90,7 +92,7 @@ impl<'a> Builder<'a> {
         if faces.is_empty() {
             self.brushes_left_out.add(line);
         } else {
-            self.import.model.brushes.push(Brush { faces, name: name.map(str::to_owned), line });
+            self.brushes.push(Brush { faces, name: name.map(str::to_owned), line });
         }
         Ok(())
     }
@@ -124,6 +126,7 @@ impl<'a> Builder<'a> {
         if self.is_empty {
             return Err(MapError::Empty { name: self.name.to_owned() });
         }
+        self.import.model.tree = Tree::union_of(std::mem::take(&mut self.brushes));
         self.import.warnings = self.warnings();
         self.import.faces_left_out = self.faces_left_out.count;
         self.import.brushes_left_out = self.brushes_left_out.count;
@@ -146,7 +149,7 @@ impl<'a> Builder<'a> {
         .flatten()
         .collect();
         warnings.sort_by_key(|warning| warning.line);
-        if self.import.model.brushes.is_empty() {
+        if self.import.model.tree.brushes().is_empty() {
             let message = match (self.import.brushes_read, self.import.brushes_skipped) {
                 (0, _) => "the map holds no brushes".to_owned(),
                 (read, skipped) => format!("no brush is left: {read} read, {skipped} of them skipped by option"),
