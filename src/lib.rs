@@ -25,7 +25,7 @@
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let block = |min: f64, max: f64| Tree::from(Brush::cuboid(DVec3::splat(min), DVec3::splat(max), MaterialId(0)));
 //! let model = Model {
-//!     materials: vec![Material { name: "stone".to_owned(), color: None }],
+//!     materials: vec![Material::named("stone")],
 //!     tree: block(0.0, 2.0) | block(1.0, 3.0),
 //! };
 //! let evaluation = evaluate(&model)?;

@@ -6,7 +6,7 @@ use planecut_kernel::{HalfSpace, IncrementalPolytope, PlaneIdx};
 use rayon::prelude::*;
 
 use crate::bounds::Bounds;
-use crate::brush::{MaterialId, Model};
+use crate::brush::{Brush, MaterialId};
 use crate::plane_table::{PlaneId, PlaneTable};
 
 /// A face of a [`Body`].
@@ -40,44 +40,55 @@ pub(crate) enum BrushBody {
     Unbounded,
 }
 
-/// Interns the planes of a model and builds the body of every brush, in parallel.
-pub(crate) fn build_bodies(model: &Model) -> (PlaneTable, Vec<BrushBody>, Counts) {
+/// The bodies of the brushes of a model.
+pub(crate) struct BrushBodies {
+    pub(crate) table: PlaneTable,
+    /// The planes of each brush, in its order.
+    pub(crate) planes: Vec<Vec<PlaneId>>,
+    pub(crate) bodies: Vec<BrushBody>,
+    pub(crate) signs: Counts,
+}
+
+/// Interns the planes of brushes and builds the body of each, in parallel.
+pub(crate) fn build_bodies(brushes: &[Brush]) -> BrushBodies {
     let half_spaces: Vec<HalfSpace> =
-        model.tree.brushes().iter().flat_map(|brush| brush.faces.iter().map(|face| face.half_space)).collect();
+        brushes.iter().flat_map(|brush| brush.faces.iter().map(|face| face.half_space)).collect();
     let (table, ids) = PlaneTable::intern(&half_spaces);
-    let mut ends: Vec<(usize, usize)> = Vec::with_capacity(model.tree.brushes().len());
-    let mut start = 0;
-    for brush in model.tree.brushes() {
-        ends.push((start, start + brush.faces.len()));
-        start += brush.faces.len();
-    }
-    let chunk = (model.tree.brushes().len() / (4 * rayon::current_num_threads()).max(1)).max(16);
-    let parts: Vec<(Vec<BrushBody>, Counts)> = model
-        .tree
-        .brushes()
+    let mut rest = ids.as_slice();
+    let planes: Vec<Vec<PlaneId>> = brushes
+        .iter()
+        .map(|brush| {
+            let (own, others) = rest.split_at(brush.faces.len());
+            rest = others;
+            own.to_vec()
+        })
+        .collect();
+    let chunk = (brushes.len() / (4 * rayon::current_num_threads()).max(1)).max(16);
+    let parts: Vec<(Vec<BrushBody>, Counts)> = brushes
         .par_chunks(chunk)
-        .zip(ends.par_chunks(chunk))
-        .map(|(brushes, ends)| {
+        .zip(planes.par_chunks(chunk))
+        .map(|(brushes, planes)| {
             let before = Counts::now();
             let mut polytope = IncrementalPolytope::with_epsilon(0.0);
-            let bodies = brushes.iter().zip(ends).map(|(brush, (start, end))| {
+            let bodies = brushes.iter().zip(planes).map(|(brush, planes)| {
                 let materials: Vec<MaterialId> = brush.faces.iter().map(|face| face.material).collect();
-                build(&table, &ids[*start..*end], &materials, &mut polytope)
+                build(&table, planes, &materials, &mut polytope)
             });
             let bodies = bodies.collect();
             (bodies, Counts::since(before))
         })
         .collect();
-    let mut counts = Counts::default();
-    let mut bodies = Vec::with_capacity(model.tree.brushes().len());
+    let mut signs = Counts::default();
+    let mut bodies = Vec::with_capacity(brushes.len());
     for (part, counted) in parts {
         bodies.extend(part);
-        counts += counted;
+        signs += counted;
     }
-    (table, bodies, counts)
+    BrushBodies { table, planes, bodies, signs }
 }
 
-fn build(
+/// The body that planes bound, each with the material of its face; `polytope` is a buffer.
+pub(crate) fn build(
     table: &PlaneTable,
     planes: &[PlaneId],
     materials: &[MaterialId],
@@ -93,13 +104,28 @@ fn build(
     if !polytope.is_bounded() {
         return BrushBody::Unbounded;
     }
+    match body_of(table, polytope, |idx| (planes[idx.0], materials[idx.0])) {
+        Some(body) => {
+            let redundant = planes.len() - body.faces.len();
+            BrushBody::Bounded(body, redundant)
+        }
+        None => BrushBody::Unbounded,
+    }
+}
+
+/// The body of a bounded polytope, whose planes are those of a table; nothing where it is not bounded.
+pub(crate) fn body_of(
+    table: &PlaneTable,
+    polytope: &IncrementalPolytope,
+    face_of: impl Fn(PlaneIdx) -> (PlaneId, MaterialId),
+) -> Option<Body> {
     let facets = polytope.facets();
     let mut body = Body { faces: Vec::with_capacity(facets.len()), bounds: Bounds::EMPTY, volume: 0.0 };
-    let id = |idx: &Option<PlaneIdx>| idx.map(|idx| planes[idx.0]);
     let mut polygons = Vec::with_capacity(facets.len());
     for (plane, edges) in &facets {
-        let Some(edges) = edges.iter().map(id).collect::<Option<Vec<PlaneId>>>() else { return BrushBody::Unbounded };
-        let face = body_face(table, planes[plane.0], materials[plane.0], edges);
+        let edges = edges.iter().map(|idx| idx.map(|idx| face_of(idx).0)).collect::<Option<Vec<PlaneId>>>()?;
+        let (plane, material) = face_of(*plane);
+        let face = body_face(table, plane, material, edges);
         let triples =
             (0..face.edges.len()).map(|i| [face.plane, face.edges[i], face.edges[(i + 1) % face.edges.len()]]);
         let polygon: Vec<DVec3> = triples.filter_map(|triple| table.position(triple)).collect();
@@ -108,8 +134,7 @@ fn build(
         body.faces.push(face);
     }
     body.volume = volume(&polygons);
-    let redundant = planes.len() - body.faces.len();
-    BrushBody::Bounded(body, redundant)
+    Some(body)
 }
 
 fn body_face(table: &PlaneTable, plane: PlaneId, material: MaterialId, edges: Vec<PlaneId>) -> BodyFace {

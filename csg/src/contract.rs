@@ -166,7 +166,7 @@ mod tests {
             material: MaterialId(0),
         });
         let brush = Brush { faces: faces.collect(), ..Brush::default() };
-        let materials = vec![Material { name: "m".into(), color: None }];
+        let materials = vec![Material::named("m")];
         evaluate(&Model { materials, tree: brush.into() }).expect("a closed boundary").mesh
     }
 

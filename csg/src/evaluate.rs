@@ -4,11 +4,16 @@ use std::time::{Duration, Instant};
 
 use glam::DVec3;
 use planecut_kernel::sign::Counts;
+use thiserror::Error;
 
-use crate::body::{Body, BrushBody, build_bodies};
-use crate::brush::Model;
+use crate::body::{Body, BrushBodies, BrushBody, build_bodies};
+use crate::brush::{Material, MaterialId, Model};
+use crate::expression::Expression;
 use crate::mesh::Mesh;
-use crate::skin::skin_of_union;
+use crate::outer::OuterBox;
+use crate::plane_table::PlaneTable;
+use crate::skin::{BoundaryEdge, Scene, skin};
+use crate::tree::{Operation, TreeNode};
 use crate::weld::{WeldError, Welded, weld};
 
 /// What a model holds.
@@ -20,13 +25,13 @@ pub struct ModelSummary {
     pub planes: usize,
     /// Numbers of the brushes without interior.
     pub empty: Vec<usize>,
-    /// Numbers of the brushes that are not bounded; they are left out.
+    /// Numbers of the brushes that are not bounded.
     pub unbounded: Vec<usize>,
     /// Planes of bounded brushes that have no face.
     pub redundant_planes: usize,
     /// Different planes replaced by one that was nearly the same.
     pub snapped_planes: usize,
-    /// The sum of the volumes of the brushes.
+    /// The sum of the volumes of the bounded brushes.
     pub brush_volume_sum: f64,
 }
 
@@ -71,26 +76,91 @@ pub struct Evaluation {
     pub times: StageTimes,
 }
 
-/// Counts planes and brushes and finds empty and unbounded ones, without evaluating the union.
-#[must_use]
-pub fn summarize(model: &Model) -> ModelSummary {
-    let (table, bodies, _) = build_bodies(model);
-    split_bodies(table.len(), table.snapped(), bodies).0
+/// What becomes of brushes that are not bounded.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum UnboundedBrushes {
+    /// They are operands like others.
+    #[default]
+    Keep,
+    /// They are taken for nothing.
+    LeaveOut,
 }
 
-/// The union of a model's brushes as a watertight mesh. Unbounded and empty brushes are left out and counted.
+/// Why there is no mesh.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum EvaluateError {
+    /// The solid is unbounded.
+    #[error("found a solid that reaches infinity, expected one that is bounded")]
+    Unbounded,
+    /// A face names a material that is not in the list.
+    #[error("found a face of material number {}, expected a number below {count}", .material.0)]
+    UnknownMaterial {
+        /// The material.
+        material: MaterialId,
+        /// How many there are.
+        count: usize,
+    },
+    /// The boundary does not close.
+    #[error(transparent)]
+    Weld(#[from] WeldError),
+}
+
+/// Counts planes and brushes and finds empty and unbounded ones, without evaluating the tree.
+#[must_use]
+pub fn summarize(model: &Model) -> ModelSummary {
+    let BrushBodies { table, bodies, .. } = build_bodies(model.tree.brushes());
+    summary_of(&table, &bodies)
+}
+
+/// The solid of a model's tree as a watertight mesh. Empty brushes are counted; they take part as nothing. Unbounded brushes
+/// are operands like others; the solid itself must be bounded.
 ///
 /// Runs on rayon's current thread pool; the outcome does not depend on the number of threads, nor, where materials of
-/// overlapping coplanar faces agree, on the order of the brushes.
+/// overlapping coplanar faces agree, on the order of the brushes in a union.
 ///
 /// # Errors
-/// [`WeldError`] where the boundary does not close: a bug in this crate, never the user's mistake.
-pub fn evaluate(model: &Model) -> Result<Evaluation, WeldError> {
+/// [`EvaluateError::Unbounded`], [`EvaluateError::UnknownMaterial`], and [`EvaluateError::Weld`] where the boundary does not close: a bug in this crate, never
+/// the user's mistake.
+pub fn evaluate(model: &Model) -> Result<Evaluation, EvaluateError> {
+    evaluate_with(model, UnboundedBrushes::Keep)
+}
+
+/// The same as [`evaluate`], with a choice for unbounded brushes.
+///
+/// # Errors
+/// As [`evaluate`].
+pub fn evaluate_with(model: &Model, unbounded: UnboundedBrushes) -> Result<Evaluation, EvaluateError> {
     let begin = Instant::now();
-    let (table, bodies, mut signs) = build_bodies(model);
-    let (summary, bodies) = split_bodies(table.len(), table.snapped(), bodies);
-    let rank = material_ranks(model);
-    let (edges, counted) = skin_of_union(&table, &bodies, &rank);
+    check_materials(model)?;
+    let BrushBodies { mut table, planes, bodies, mut signs } = build_bodies(model.tree.brushes());
+    let summary = summary_of(&table, &bodies);
+    let expression = Expression::new(model.tree.nodes());
+    let keeps = unbounded == UnboundedBrushes::Keep && !summary.unbounded.is_empty();
+    let mut leaves = Leaves::default();
+    let outer = (keeps || expression.base()).then(|| OuterBox::new(&mut table));
+    for (leaf, (body, planes)) in bodies.into_iter().zip(&planes).enumerate() {
+        match (body, outer) {
+            (BrushBody::Bounded(body, _), _) => leaves.push(leaf, body),
+            (BrushBody::Unbounded, Some(outer)) if keeps => {
+                let materials: Vec<MaterialId> =
+                    model.tree.brushes()[leaf].faces.iter().map(|face| face.material).collect();
+                if let BrushBody::Bounded(body, _) = outer.cut(&table, planes, &materials) {
+                    leaves.push(leaf, body);
+                }
+            }
+            _ => {}
+        }
+    }
+    let mut rank = material_ranks(&model.materials);
+    if rank.is_empty() {
+        // The outer box is of the first material.
+        rank.push(0);
+    }
+    let (edges, counted) = match outer {
+        None => leaves.skin(&table, &expression, &rank),
+        Some(outer) => leaves.skin_within(&table, &outer, model.tree.nodes(), &rank)?,
+    };
     signs += counted;
     let evaluated = Instant::now();
     let Welded { mesh, solid, signs: counted, triangulation } = weld(&table, &edges, &rank, &model.materials)?;
@@ -103,27 +173,79 @@ pub fn evaluate(model: &Model) -> Result<Evaluation, WeldError> {
     Ok(Evaluation { mesh, solid, model: summary, signs, times })
 }
 
-fn split_bodies(planes: usize, snapped_planes: usize, brushes: Vec<BrushBody>) -> (ModelSummary, Vec<Body>) {
-    let mut summary = ModelSummary { brushes: brushes.len(), planes, snapped_planes, ..ModelSummary::default() };
-    let mut bodies = Vec::with_capacity(brushes.len());
-    for (number, brush) in brushes.into_iter().enumerate() {
+fn check_materials(model: &Model) -> Result<(), EvaluateError> {
+    let count = model.materials.len();
+    let mut used = model.tree.brushes().iter().flat_map(|brush| &brush.faces).map(|face| face.material);
+    match used.find(|material| material.0 as usize >= count) {
+        Some(material) => Err(EvaluateError::UnknownMaterial { material, count }),
+        None => Ok(()),
+    }
+}
+
+/// The bodies that take part, and the leaf of each.
+#[derive(Default)]
+struct Leaves {
+    bodies: Vec<Body>,
+    leaf_of_body: Vec<u32>,
+}
+
+impl Leaves {
+    fn push(&mut self, leaf: usize, body: Body) {
+        self.bodies.push(body);
+        self.leaf_of_body.push(leaf as u32);
+    }
+
+    fn skin(&self, table: &PlaneTable, expression: &Expression, rank: &[u32]) -> (Vec<BoundaryEdge>, Counts) {
+        skin(&Scene { table, bodies: &self.bodies, leaf_of_body: &self.leaf_of_body, expression, rank })
+    }
+
+    /// The skin of the tree cut by the outer box, which it must not reach.
+    fn skin_within(
+        mut self,
+        table: &PlaneTable,
+        outer: &OuterBox,
+        nodes: &[TreeNode],
+        rank: &[u32],
+    ) -> Result<(Vec<BoundaryEdge>, Counts), EvaluateError> {
+        // Where the tree holds what no leaf holds, the box is a body of its own, so that it ends somewhere.
+        let count = nodes.iter().filter(|node| **node == TreeNode::Leaf).count();
+        let mut nodes = nodes.to_vec();
+        nodes.push(TreeNode::Leaf);
+        nodes.push(TreeNode::Operation { operation: Operation::Intersection, operands: 2 });
+        if let BrushBody::Bounded(body, _) = outer.cut(table, &[], &[]) {
+            self.push(count, body);
+        }
+        let (edges, counted) = self.skin(table, &Expression::new(&nodes), rank);
+        let reaches =
+            |edge: &BoundaryEdge| [edge.face, edge.edge, edge.start, edge.end].iter().any(|p| outer.holds(*p));
+        if edges.iter().any(reaches) { Err(EvaluateError::Unbounded) } else { Ok((edges, counted)) }
+    }
+}
+
+fn summary_of(table: &PlaneTable, brushes: &[BrushBody]) -> ModelSummary {
+    let mut summary = ModelSummary {
+        brushes: brushes.len(),
+        planes: table.len(),
+        snapped_planes: table.snapped(),
+        ..ModelSummary::default()
+    };
+    for (number, brush) in brushes.iter().enumerate() {
         match brush {
             BrushBody::Bounded(body, redundant) => {
                 summary.redundant_planes += redundant;
                 summary.brush_volume_sum += body.volume;
-                bodies.push(body);
             }
             BrushBody::Empty => summary.empty.push(number),
             BrushBody::Unbounded => summary.unbounded.push(number),
         }
     }
-    (summary, bodies)
+    summary
 }
 
 /// The place of each material by name: an order that does not depend on that of the brushes.
-fn material_ranks(model: &Model) -> Vec<u32> {
-    let mut order: Vec<usize> = (0..model.materials.len()).collect();
-    order.sort_by(|a, b| model.materials[*a].name.cmp(&model.materials[*b].name));
+pub(crate) fn material_ranks(materials: &[Material]) -> Vec<u32> {
+    let mut order: Vec<usize> = (0..materials.len()).collect();
+    order.sort_by(|a, b| materials[*a].name.cmp(&materials[*b].name));
     let mut rank = vec![0; order.len()];
     for (place, material) in order.into_iter().enumerate() {
         rank[material] = place as u32;

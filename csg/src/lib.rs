@@ -10,7 +10,7 @@
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let cube = |x: f64| Brush::cuboid(DVec3::new(x, 0.0, 0.0), DVec3::new(x + 2.0, 2.0, 2.0), MaterialId(0));
-//! let materials = vec![Material { name: "stone".into(), color: None }];
+//! let materials = vec![Material::named("stone")];
 //! let union = evaluate(&Model { materials, tree: Tree::from(cube(0.0)) | cube(1.0).into() })?;
 //! assert_eq!(union.solid.volume, 12.0);
 //! assert_eq!(union.mesh.faces.len(), 6);
@@ -26,10 +26,16 @@ mod brush;
 pub mod check;
 mod contract;
 mod evaluate;
+mod expression;
 mod mesh;
 mod neighbours;
+mod outer;
+pub mod outline;
 mod plane_table;
+pub mod primitives;
+pub mod shaping;
 mod skin;
+mod solid;
 mod sum;
 mod transform;
 mod tree;
@@ -37,9 +43,15 @@ mod weld;
 
 pub use brush::{Brush, BrushFace, Material, MaterialId, Model};
 pub use contract::{contract_edges, contract_short_edges};
-pub use evaluate::{Evaluation, ModelSummary, SolidMeasures, StageTimes, evaluate, summarize};
+pub use evaluate::{
+    EvaluateError, Evaluation, ModelSummary, SolidMeasures, StageTimes, UnboundedBrushes, evaluate, evaluate_with,
+    summarize,
+};
 pub use mesh::{Mesh, MeshFace};
+pub use outline::Outline;
 pub use plane_table::{PlaneId, PlaneTable, SNAP_TOLERANCE};
+pub use primitives::ShapeError;
+pub use solid::{Cell, CellPlane, CutId, RayHit, Solid};
 pub use transform::{Transform, TransformError, sine_and_cosine};
 pub use tree::{Operation, Tree, TreeNode};
 pub use weld::WeldError;

@@ -26,6 +26,11 @@ impl PlaneId {
         Self((index as u32) << 1 | u32::from(flipped))
     }
 
+    /// The unsided plane of an index.
+    pub(crate) fn of_index(index: u32) -> Self {
+        Self::new(index as usize, false)
+    }
+
     /// The same plane, its normal reversed.
     #[must_use]
     pub fn flipped(self) -> Self {
@@ -47,17 +52,25 @@ impl PlaneId {
 
 /// All planes of a model, each once, and the signs among them.
 ///
-/// The numbering depends on the planes alone, not on the order in which they were given.
+/// [`PlaneTable::intern`] numbers the planes of a model at once; [`PlaneTable::insert`] adds to a table. An id, once given,
+/// keeps its plane.
 #[derive(Debug, Clone, Default)]
 pub struct PlaneTable {
     /// Two rows a plane: the side with the positive first coefficient, and the other.
     rows: Vec<Row>,
     half_spaces: Vec<HalfSpace>,
-    snapped: usize,
+    /// The planes that were replaced by one that was nearly the same: their sides with a positive first coefficient.
+    replaced: Vec<(Row, PlaneId)>,
+    /// The largest distance of a plane from the origin, exactly inserted planes left out.
+    reach: f64,
+    /// Where to find what is there, made when a plane is first inserted.
+    index: Option<Index>,
 }
 
 impl PlaneTable {
     /// Interns half-spaces; gives the table and the id of each half-space in the order given.
+    ///
+    /// The numbering depends on the planes alone, not on the order in which they were given.
     #[must_use]
     pub fn intern(half_spaces: &[HalfSpace]) -> (Self, Vec<PlaneId>) {
         let rows: Vec<Row> = half_spaces.iter().map(Row::new).collect();
@@ -70,6 +83,45 @@ impl PlaneTable {
         });
         let of_input = of_input.collect();
         (table, of_input)
+    }
+
+    /// The id of a half-space, whose plane is added where it is not there yet. A plane that is nearly the same as one that
+    /// is there ([`SNAP_TOLERANCE`], relative to the largest distance from the origin so far) is taken to be that one,
+    /// unless its normal is made of short integers.
+    ///
+    /// ```
+    /// use planecut_csg::PlaneTable;
+    /// use planecut_kernel::{DVec3, HalfSpace};
+    ///
+    /// # fn main() -> Result<(), planecut_kernel::HalfSpaceError> {
+    /// let mut table = PlaneTable::default();
+    /// let wall = table.insert(&HalfSpace::new(DVec3::X, 0.5)?);
+    /// assert_eq!(table.insert(&HalfSpace::new(DVec3::X * -4.0, -2.0)?), wall.flipped());
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn insert(&mut self, half_space: &HalfSpace) -> PlaneId {
+        self.find_or_add(
+            half_space,
+            |_, _| true,
+            |table, row| {
+                let place = unit(row);
+                table.reach = table.reach.max(place[3].abs());
+                let near = if is_exact(row) { None } else { table.find_near(&place) };
+                if let Some(near) = near {
+                    table.replaced.push((*row, near));
+                    return near;
+                }
+                table.add(row)
+            },
+        )
+    }
+
+    /// The id of a half-space, whose plane is added where it is not there yet; it is never taken for one that is merely
+    /// near, nor does its distance from the origin count for later ones. For planes that a computation needs beside those
+    /// that the user gave.
+    pub fn insert_exact(&mut self, half_space: &HalfSpace) -> PlaneId {
+        self.find_or_add(half_space, |table, (row, id)| table.row(*id).is_same_plane(row), Self::add)
     }
 
     /// How many planes there are, both sides counting once.
@@ -87,7 +139,12 @@ impl PlaneTable {
     /// How many different planes were replaced by one that was nearly the same.
     #[must_use]
     pub fn snapped(&self) -> usize {
-        self.snapped
+        self.replaced.len()
+    }
+
+    /// The largest distance of a plane from the origin, those aside that were added exactly.
+    pub(crate) fn reach(&self) -> f64 {
+        self.reach
     }
 
     /// The exact coefficients of a plane.
@@ -139,42 +196,116 @@ impl PlaneTable {
     /// the input.
     fn snap(&mut self, planes: &[Row]) -> Vec<PlaneId> {
         let units: Vec<[f64; 4]> = planes.iter().map(unit).collect();
-        let size = units.iter().map(|unit| unit[3].abs()).fold(f64::MIN_POSITIVE, f64::max);
-        let is_exact = |row: &Row| row.integer_bits().is_some_and(|bits| bits <= EXACT_BITS);
+        self.reach = units.iter().map(|unit| unit[3].abs()).fold(0.0, f64::max);
         let mut order: Vec<usize> = (0..planes.len()).collect();
         order.sort_unstable_by(|a, b| {
             let (p, q) = (&planes[*a], &planes[*b]);
             is_exact(q).cmp(&is_exact(p)).then_with(|| compare_coefficients(p, q))
         });
         let any_noise = order.last().is_some_and(|last| !is_exact(&planes[*last]));
-        let mut near = NearPlanes::default();
+        let mut near = NearPlanes::new(self.reach);
         let mut ids = vec![PlaneId(0); planes.len()];
         for plane in order {
             let row = &planes[plane];
-            let [x, y, z, d] = units[plane];
-            let place = [x, y, z, d / size];
-            let found = if is_exact(row) { None } else { near.find(&place) };
-            ids[plane] = if let Some((index, opposite)) = found {
-                self.snapped += 1;
-                PlaneId::new(index, opposite)
-            } else {
+            let found = if is_exact(row) { None } else { near.find(&units[plane], self.reach) };
+            ids[plane] = found.unwrap_or_else(|| {
+                let id = self.push(row);
                 if any_noise {
-                    near.insert(place, self.len());
+                    near.insert(units[plane], id);
                 }
-                let id = PlaneId::new(self.len(), false);
-                self.push(row);
                 id
-            };
+            });
+            if let Some(id) = found {
+                self.replaced.push((*row, id));
+            }
         }
         ids
     }
 
-    fn push(&mut self, row: &Row) {
+    /// The id of a half-space where exactly its plane is known and `serves`, else what `add` gives for the side with a
+    /// positive first coefficient.
+    fn find_or_add(
+        &mut self,
+        half_space: &HalfSpace,
+        serves: impl Fn(&Self, &(Row, PlaneId)) -> bool,
+        add: impl FnOnce(&mut Self, &Row) -> PlaneId,
+    ) -> PlaneId {
+        let row = Row::new(half_space);
+        let reversed = is_reversed(&row);
+        let row = if reversed { row.flipped() } else { row };
+        if self.index.is_none() {
+            self.index = Some(Index::of(&self.rows, &self.replaced));
+        }
+        let bucket = self.index.as_ref().and_then(|index| index.exact.get(&key(&row)));
+        let known = bucket.and_then(|bucket| bucket.iter().find(|k| k.0.is_same_plane(&row) && serves(self, k)));
+        let id = known.map(|(_, id)| *id);
+        let id = id.unwrap_or_else(|| {
+            let id = add(self, &row);
+            self.index.get_or_insert_default().exact.entry(key(&row)).or_default().push((row, id));
+            id
+        });
+        if reversed { id.flipped() } else { id }
+    }
+
+    fn find_near(&mut self, place: &[f64; 4]) -> Option<PlaneId> {
+        let (reach, rows) = (self.reach, &self.rows);
+        let index = self.index.get_or_insert_default();
+        let near = index.near.take().filter(|near| reach <= near.size);
+        // twice the reach, so that tables that grow are hashed again only now and then
+        let near = near.unwrap_or_else(|| NearPlanes::of(rows, 2.0 * reach));
+        index.near.insert(near).find(place, reach)
+    }
+
+    /// Adds a plane that is not there; `row` is the side with a positive first coefficient.
+    fn add(&mut self, row: &Row) -> PlaneId {
+        let id = self.push(row);
+        if let Some(near) = self.index.as_mut().and_then(|index| index.near.as_mut()) {
+            near.insert(unit(row), id);
+        }
+        id
+    }
+
+    fn push(&mut self, row: &Row) -> PlaneId {
+        let id = PlaneId::new(self.len(), false);
         let [x, y, z, d] = *row.coefficients();
         let half_space = HalfSpace::new(DVec3::new(x, y, z), d).expect("scaled from a valid half-space");
         self.half_spaces.extend([half_space, half_space.flipped()]);
         self.rows.extend([*row, row.flipped()]);
+        id
     }
+}
+
+/// Finds planes of a table.
+#[derive(Debug, Clone, Default)]
+struct Index {
+    /// By their ratios the rows with a positive first coefficient.
+    exact: FxHashMap<Key, Vec<(Row, PlaneId)>>,
+    /// Made when a plane is first inserted that is not exact.
+    near: Option<NearPlanes>,
+}
+
+impl Index {
+    fn of(rows: &[Row], replaced: &[(Row, PlaneId)]) -> Self {
+        let mut index = Self::default();
+        let first_sides = rows.iter().step_by(2).enumerate().map(|(k, row)| (*row, PlaneId::new(k, false)));
+        for (row, id) in first_sides.chain(replaced.iter().copied()) {
+            index.exact.entry(key(&row)).or_default().push((row, id));
+        }
+        index
+    }
+}
+
+/// Numbers that equal planes share.
+type Key = (usize, [u64; 3]);
+
+fn key(row: &Row) -> Key {
+    let (first, ratios) = row.ratios();
+    (first, ratios.map(f64::to_bits))
+}
+
+/// Whether a plane is surely meant as it is.
+fn is_exact(row: &Row) -> bool {
+    row.integer_bits().is_some_and(|bits| bits <= EXACT_BITS)
 }
 
 /// Whether the first coefficient of the normal that is not zero is negative.
@@ -191,13 +322,12 @@ fn compare_coefficients(p: &Row, q: &Row) -> Ordering {
 /// Groups rows that describe the same plane: for each group its side with a positive first coefficient, and the group of
 /// each row. Of rows of different scale the least stands for the group, so that the order of the input does not matter.
 fn group_exactly(rows: &[Row]) -> (Vec<Row>, Vec<u32>) {
-    let mut buckets: FxHashMap<(usize, [u64; 3]), Vec<u32>> = FxHashMap::default();
+    let mut buckets: FxHashMap<Key, Vec<u32>> = FxHashMap::default();
     let mut exact: Vec<Row> = Vec::new();
     let mut class = Vec::with_capacity(rows.len());
     for row in rows {
         let row = if is_reversed(row) { row.flipped() } else { *row };
-        let (first, ratios) = row.ratios();
-        let bucket = buckets.entry((first, ratios.map(f64::to_bits))).or_default();
+        let bucket = buckets.entry(key(&row)).or_default();
         let known = bucket.iter().copied().find(|g| exact[*g as usize].is_same_plane(&row));
         let group = known.unwrap_or_else(|| {
             exact.push(row);
@@ -221,35 +351,52 @@ fn unit(row: &Row) -> [f64; 4] {
 }
 
 /// A hash of planes by their unit normal and relative offset.
-#[derive(Default)]
+#[derive(Debug, Clone)]
 struct NearPlanes {
-    cells: FxHashMap<[i64; 4], Vec<(usize, [f64; 4])>>,
+    cells: FxHashMap<[i64; 4], Vec<([f64; 4], PlaneId)>>,
+    /// Distances from the origin are hashed as shares of this.
+    size: f64,
 }
 
 impl NearPlanes {
-    fn insert(&mut self, unit: [f64; 4], index: usize) {
-        self.cells.entry(unit.map(cell)).or_default().push((index, unit));
+    fn new(size: f64) -> Self {
+        Self { cells: FxHashMap::default(), size: size.max(f64::MIN_POSITIVE) }
     }
 
-    /// A plane within the tolerance, and whether it is the opposite side that is near.
-    fn find(&self, unit: &[f64; 4]) -> Option<(usize, bool)> {
-        [false, true].into_iter().find_map(|opposite| {
-            let wanted = if opposite { unit.map(|v| -v) } else { *unit };
-            self.find_side(&wanted).map(|index| (index, opposite))
-        })
+    fn of(rows: &[Row], size: f64) -> Self {
+        let mut near = Self::new(size);
+        for (k, row) in rows.iter().step_by(2).enumerate() {
+            near.insert(unit(row), PlaneId::new(k, false));
+        }
+        near
     }
 
-    fn find_side(&self, unit: &[f64; 4]) -> Option<usize> {
-        let low = unit.map(|v| cell(v - SNAP_TOLERANCE));
-        let high = unit.map(|v| cell(v + SNAP_TOLERANCE));
-        let near = |other: &[f64; 4]| (0..4).all(|k| (unit[k] - other[k]).abs() <= SNAP_TOLERANCE);
+    fn insert(&mut self, unit: [f64; 4], id: PlaneId) {
+        self.cells.entry(self.shares(unit).map(cell)).or_default().push((unit, id));
+    }
+
+    /// The side of a plane that is within the tolerance; `reach` is the largest distance from the origin.
+    fn find(&self, unit: &[f64; 4], reach: f64) -> Option<PlaneId> {
+        let opposite = unit.map(|v| -v);
+        self.find_side(unit, reach).or_else(|| self.find_side(&opposite, reach).map(PlaneId::flipped))
+    }
+
+    fn find_side(&self, unit: &[f64; 4], reach: f64) -> Option<PlaneId> {
+        let tolerances = [SNAP_TOLERANCE, SNAP_TOLERANCE, SNAP_TOLERANCE, SNAP_TOLERANCE * reach];
+        let near = |other: &[f64; 4]| (0..4).all(|k| (unit[k] - other[k]).abs() <= tolerances[k]);
+        let low = self.shares(std::array::from_fn(|k| unit[k] - tolerances[k])).map(cell);
+        let high = self.shares(std::array::from_fn(|k| unit[k] + tolerances[k])).map(cell);
         (0..16usize)
             .map(|corner| std::array::from_fn(|k| if corner >> k & 1 == 0 { low[k] } else { high[k] }))
             .filter_map(|key: [i64; 4]| self.cells.get(&key))
             .flatten()
-            .filter(|(_, other)| near(other))
-            .map(|(index, _)| *index)
+            .filter(|(other, _)| near(other))
+            .map(|(_, id)| *id)
             .min()
+    }
+
+    fn shares(&self, [x, y, z, d]: [f64; 4]) -> [f64; 4] {
+        [x, y, z, d / self.size]
     }
 }
 
@@ -296,6 +443,52 @@ mod tests {
         assert_eq!(ids[0], ids[1].flipped());
         assert_ne!(ids[2], ids[3]);
         assert_eq!(table.snapped(), 1);
+    }
+
+    #[test]
+    fn planes_that_are_inserted_join_those_that_are_there() {
+        let (s, c) = 0.3_f64.sin_cos();
+        let (mut table, ids) = PlaneTable::intern(&[plane(s, c, 0.0, 7.0), plane(1.0, 2.0, 3.0, 4.0)]);
+        let noise = 1.0 + 4.0 * f64::EPSILON;
+        assert_eq!(table.insert(&plane(-2.0, -4.0, -6.0, -8.0)), ids[1].flipped());
+        assert_eq!(table.insert(&plane(-s * noise, -c, 0.0, -7.0)), ids[0].flipped());
+        assert_eq!((table.len(), table.snapped()), (2, 1));
+        // the same noise once more is known, and does not count again
+        assert_eq!(table.insert(&plane(s * noise, c, 0.0, 7.0)), ids[0]);
+        assert_eq!(table.snapped(), 1);
+        let third = table.insert(&plane(s, c, 0.0, 9.0));
+        assert_eq!((third.index(), table.len()), (2, 3));
+        // of planes that were added later, too, noise is taken away
+        assert_eq!(table.insert(&plane(s * noise, c, 0.0, 9.0)), third);
+        assert_eq!(table.insert(&plane(1e9, 2.0, 0.0, 0.0)), table.insert(&plane(1e9, 2.0, 0.0, 0.0)));
+        assert_ne!(table.insert(&plane(1e9, 1.0, 0.0, 0.0)), table.insert(&plane(1e9, 2.0, 0.0, 0.0)));
+    }
+
+    #[test]
+    fn exactly_inserted_planes_are_not_snapped_and_do_not_widen_the_tolerance() {
+        let (s, c) = 0.3_f64.sin_cos();
+        let noise = 1.0 + 4.0 * f64::EPSILON;
+        let mut table = PlaneTable::default();
+        let wall = table.insert(&plane(s, c, 0.0, 7.0));
+        let beside = table.insert_exact(&plane(s * noise, c, 0.0, 7.0));
+        assert_ne!(wall, beside);
+        let noisier = plane(s * noise * noise, c, 0.0, 7.0);
+        assert_eq!(table.insert(&noisier), wall);
+        assert!(![wall, beside].contains(&table.insert_exact(&noisier)));
+        table.insert_exact(&plane(1.0, 0.0, 0.0, 1e12));
+        assert_ne!(table.insert(&plane(s, c, 0.0, 7.0 + 1e-6)), wall);
+        assert_eq!(table.snapped(), 1);
+    }
+
+    #[test]
+    fn a_table_that_grows_is_hashed_again() {
+        let (s, c) = 0.3_f64.sin_cos();
+        let mut table = PlaneTable::default();
+        let ids: Vec<PlaneId> = (0..60).map(|k| table.insert(&plane(s, c, 0.0, 1.5_f64.powi(k)))).collect();
+        let noisy = |k: i32| plane(s, c, 0.0, 1.5_f64.powi(k) * (1.0 + 2.0 * f64::EPSILON));
+        assert_eq!(table.len(), 60);
+        assert!((0..60).all(|k| table.insert(&noisy(k)) == ids[k as usize]));
+        assert_eq!(table.len(), 60);
     }
 
     #[test]

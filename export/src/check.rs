@@ -69,7 +69,7 @@ mod tests {
             triangles: vec![[0, 1, 2]],
             triangle_faces: vec![0],
             faces: vec![MeshFace { normal: DVec3::Z, material: MaterialId(0) }],
-            materials: vec![Material { name: "m".into(), color: None }],
+            materials: vec![Material::named("m")],
         }
     }
 

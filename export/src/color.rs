@@ -62,7 +62,7 @@ mod tests {
 
     #[test]
     fn a_stated_colour_is_kept_within_range() {
-        let material = Material { name: "m".into(), color: Some([0.25, 2.0, f32::NAN]) };
+        let material = Material { color: Some([0.25, 2.0, f32::NAN]), ..Material::named("m") };
         assert_eq!(material_color(&material), [0.25, 1.0, 0.0]);
     }
 

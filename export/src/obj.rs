@@ -149,8 +149,7 @@ mod tests {
 
     #[test]
     fn material_names_are_single_words_and_distinct() {
-        let named = |name: &str| Material { name: name.to_owned(), color: None };
-        let names = material_names(&["a b", "a_b", "a\nb", "", "a_b_2"].map(named));
+        let names = material_names(&["a b", "a_b", "a\nb", "", "a_b_2"].map(Material::named));
         assert_eq!(names, ["a_b", "a_b_2", "a_b_3", "material", "a_b_2_2"]);
     }
 }

@@ -57,7 +57,7 @@ mod tests {
             triangles,
             triangle_faces,
             faces,
-            materials: vec![Material { name: "m".into(), color: None }],
+            materials: vec![Material::named("m")],
         }
     }
 

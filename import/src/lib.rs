@@ -1,9 +1,11 @@
-//! Readers of brush maps and meshes.
+//! Readers of brush maps, model files and meshes.
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+mod lines;
 pub mod map;
 pub mod mesh;
+pub mod model;
 mod warning;
 
 pub use warning::Warning;

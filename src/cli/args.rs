@@ -6,8 +6,10 @@ use clap::error::ErrorKind;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use planecut::export::{Format, MAX_IMAGE_SIDE, PreviewOptions, PreviewStyle};
 use planecut::import::map::MapOptions;
+use planecut::import::model::ModelOptions;
 
 use super::error::CliError;
+use super::input::ModelKind;
 use super::terminal;
 
 /// Convex-CSG modeling kernel: exact half-spaces in, watertight meshes out.
@@ -21,11 +23,11 @@ struct Cli {
 /// One variant for each command.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// Unite the brushes of a map and write the boundary as a mesh
+    /// Make the solid of a model or a map and write it as a mesh
     Build(BuildArgs),
     /// Print what a file holds as JSON: the report that `build` would write
     Info(InfoArgs),
-    /// Draw the solid of a map as a picture
+    /// Draw the solid of a model or a map as a picture
     Render(RenderArgs),
     /// Check that a mesh is watertight, manifold and not self-crossing; exit status 1 if not
     Check(CheckArgs),
@@ -34,7 +36,7 @@ pub(crate) enum Command {
 /// Arguments of `build`.
 #[derive(Debug, Args)]
 pub(crate) struct BuildArgs {
-    /// The map to read (.map)
+    /// The model or map to read (.json, .map); `-` is standard input
     #[arg(value_name = "INPUT")]
     pub(crate) input: PathBuf,
     /// Mesh to write, by its ending .glb, .gltf, .obj or .stl; may be given several times; `-` is standard output
@@ -43,6 +45,9 @@ pub(crate) struct BuildArgs {
     /// Format of `-o -`: glb, gltf, obj or stl
     #[arg(long, value_name = "FORMAT", value_parser = parse_format)]
     pub(crate) format: Option<Format>,
+    /// Write the convex cells of the solid, one mesh each, instead of its skin
+    #[arg(long)]
+    pub(crate) cells: bool,
     /// Factor from the input's units to those of the meshes
     #[arg(long, value_name = "S", default_value_t = 1.0, value_parser = parse_scale)]
     pub(crate) scale: f64,
@@ -56,7 +61,7 @@ pub(crate) struct BuildArgs {
     #[arg(long, value_name = "JSON")]
     pub(crate) report: Option<PathBuf>,
     #[command(flatten)]
-    pub(crate) map: MapArgs,
+    pub(crate) reading: ReadingArgs,
     #[command(flatten)]
     pub(crate) common: CommonArgs,
 }
@@ -64,11 +69,11 @@ pub(crate) struct BuildArgs {
 /// Arguments of `info`.
 #[derive(Debug, Args)]
 pub(crate) struct InfoArgs {
-    /// The file to look into (.map, .obj, .stl, .ply, .glb, .gltf)
+    /// The file to look into (.json, .map, .obj, .stl, .ply, .glb, .gltf); `-` is standard input
     #[arg(value_name = "INPUT")]
     pub(crate) input: PathBuf,
     #[command(flatten)]
-    pub(crate) map: MapArgs,
+    pub(crate) reading: ReadingArgs,
     #[command(flatten)]
     pub(crate) common: CommonArgs,
 }
@@ -76,7 +81,7 @@ pub(crate) struct InfoArgs {
 /// Arguments of `render`.
 #[derive(Debug, Args)]
 pub(crate) struct RenderArgs {
-    /// The map to read (.map)
+    /// The model or map to read (.json, .map); `-` is standard input
     #[arg(value_name = "INPUT")]
     pub(crate) input: PathBuf,
     /// Picture to write (.png); `-` is standard output
@@ -89,7 +94,7 @@ pub(crate) struct RenderArgs {
     #[arg(long, value_name = "WxH", default_value = "1280x960", value_parser = parse_size)]
     pub(crate) size: Size,
     #[command(flatten)]
-    pub(crate) map: MapArgs,
+    pub(crate) reading: ReadingArgs,
     #[command(flatten)]
     pub(crate) common: CommonArgs,
 }
@@ -107,10 +112,60 @@ pub(crate) struct CheckArgs {
     pub(crate) common: CommonArgs,
 }
 
+/// How to read the input.
+#[derive(Debug, Args)]
+pub(crate) struct ReadingArgs {
+    /// What the input is, whatever its name: json or map; by default what its ending says, and json for `-`
+    #[arg(long, value_enum, value_name = "FORMAT")]
+    pub(crate) input_format: Option<ModelKind>,
+    #[command(flatten)]
+    model: ModelArgs,
+    #[command(flatten)]
+    map: MapArgs,
+}
+
+impl ReadingArgs {
+    /// The options for model files.
+    pub(crate) fn model_options(&self) -> ModelOptions {
+        ModelOptions { parameters: self.model.set.clone() }
+    }
+
+    /// The options for maps.
+    pub(crate) fn map_options(&self) -> MapOptions {
+        self.map.options()
+    }
+
+    /// Sees that no option is for another kind of input.
+    ///
+    /// # Errors
+    /// [`CliError::Usage`]; `kind` is that of the input, none for a mesh.
+    pub(crate) fn check(&self, kind: Option<ModelKind>) -> Result<(), CliError> {
+        let refuse = |option: &str, expected: &str| {
+            Err(CliError::Usage(format!("found {option} with another input, expected it with {expected}")))
+        };
+        if kind != Some(ModelKind::Json) && !self.model.set.is_empty() {
+            return refuse("--set", "a model file (.json)");
+        }
+        if kind != Some(ModelKind::Map) && self.map.options() != MapOptions::default() {
+            return refuse("--world-only, --skip-texture or --skip-class", "a map (.map)");
+        }
+        Ok(())
+    }
+}
+
+/// What to change in a model file.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Options for .json")]
+struct ModelArgs {
+    /// Give a parameter of the file another value; may be given several times
+    #[arg(long, value_name = "NAME=VALUE", num_args = 1, value_parser = parse_setting)]
+    set: Vec<(String, f64)>,
+}
+
 /// Which brushes of a map to take.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Options for .map")]
-pub(crate) struct MapArgs {
+struct MapArgs {
     /// Take only the brushes of the world, of `func_group` and of `func_detail…`
     #[arg(long)]
     world_only: bool,
@@ -124,7 +179,7 @@ pub(crate) struct MapArgs {
 
 impl MapArgs {
     /// The same as the reader wants it.
-    pub(crate) fn options(&self) -> MapOptions {
+    fn options(&self) -> MapOptions {
         MapOptions {
             world_only: self.world_only,
             skip_textures: self.skip_texture.clone(),
@@ -201,6 +256,14 @@ fn parse_scale(text: &str) -> Result<f64, String> {
     scale.ok_or_else(|| "expected a number between 1e-30 and 1e30".to_owned())
 }
 
+fn parse_setting(text: &str) -> Result<(String, f64), String> {
+    let setting = text.split_once('=').and_then(|(name, value)| Some((name.trim(), value.trim().parse::<f64>().ok()?)));
+    match setting {
+        Some((name, value)) if !name.is_empty() && value.is_finite() => Ok((name.to_owned(), value)),
+        _ => Err("expected NAME=VALUE, the value a number".to_owned()),
+    }
+}
+
 fn parse_tolerance(text: &str) -> Result<f64, String> {
     let tolerance = text.parse().ok().filter(|tolerance| (0.0..=1.0).contains(tolerance));
     tolerance.ok_or_else(|| "expected a number between 0 and 1".to_owned())
@@ -246,6 +309,14 @@ mod tests {
         }
         for text in ["-1e-9", "nan", "inf", "2", "", "x"] {
             assert!(parse_tolerance(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn settings_are_names_and_finite_numbers() {
+        assert_eq!(parse_setting("width = -1.5e2"), Ok(("width".to_owned(), -150.0)));
+        for text in ["", "width", "width=", "=1", "width=wide", "width=nan", "width=1e999", "width==1"] {
+            assert!(parse_setting(text).is_err(), "{text}");
         }
     }
 

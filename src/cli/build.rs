@@ -1,4 +1,4 @@
-//! `planecut build`: a map into meshes, a picture and a report.
+//! `planecut build`: a model or a map into meshes, a picture and a report.
 
 use std::time::{Duration, Instant};
 
@@ -7,7 +7,7 @@ use planecut::export::{ExportOptions, encode, render_preview};
 
 use super::args::{BuildArgs, Style};
 use super::error::CliError;
-use super::input::Input;
+use super::input::{Input, ModelKind};
 use super::output::{MeshTarget, Target, check_targets};
 use super::pool::on_threads;
 use super::progress::Progress;
@@ -19,6 +19,7 @@ use super::terminal;
 struct Plan<'a> {
     args: &'a BuildArgs,
     input: Input,
+    kind: ModelKind,
     meshes: Vec<MeshTarget>,
     preview: Option<Target>,
     report: Option<Target>,
@@ -64,20 +65,23 @@ pub(crate) fn run(args: &BuildArgs) -> Result<(), CliError> {
 
 impl<'a> Plan<'a> {
     fn resolve(args: &'a BuildArgs) -> Result<Self, CliError> {
+        let (input, kind) = Input::resolve_model(&args.input, args.reading.input_format)?;
+        args.reading.check(Some(kind))?;
         let plan = Self {
             args,
-            input: Input::resolve_map(&args.input)?,
+            input,
+            kind,
             meshes: MeshTarget::resolve_all(&args.outputs, args.format)?,
             preview: args.preview.as_deref().map(Target::picture).transpose()?,
             report: args.report.as_deref().map(Target::new),
         };
         let meshes = plan.meshes.iter().map(|mesh| &mesh.target);
-        check_targets(&args.input, meshes.chain(&plan.preview).chain(&plan.report))?;
+        check_targets(plan.input.file(), meshes.chain(&plan.preview).chain(&plan.report))?;
         Ok(plan)
     }
 
     fn carry_out(&self, progress: &Progress) -> Result<Product, CliError> {
-        let mut solved = solve(&self.input, &self.args.map.options(), progress)?;
+        let mut solved = solve(&self.input, self.kind, &self.args.reading, progress)?;
         let begin = Instant::now();
         progress.stage("encoding");
         let mut outputs = self.encode(&solved.mesh)?;

@@ -18,9 +18,9 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), CliError> {
     let expected = "a mesh: `.obj`, `.stl`, `.ply`, `.glb` or `.gltf`";
     let mesh_format = |kind| match kind {
         Kind::Mesh(format) => Some(format),
-        Kind::Map => None,
+        Kind::Model(_) => None,
     };
-    let (input, format) = Input::resolve(&args.mesh, mesh_format, expected)?;
+    let (input, format) = Input::resolve(&args.mesh, None, mesh_format, expected)?;
     let progress = Progress::start(args.common.quiet);
     let report = on_threads(args.common.threads, || check(&input, format, args.tolerance, &progress))?;
     drop(progress);

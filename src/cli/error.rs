@@ -3,11 +3,12 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use planecut::csg::WeldError;
+use planecut::csg::EvaluateError;
 use planecut::csg::check::MeshProblem;
 use planecut::export::ExportError;
 use planecut::import::map::MapError;
 use planecut::import::mesh::MeshError;
+use planecut::import::model::ModelError;
 use rayon::ThreadPoolBuildError;
 use thiserror::Error;
 
@@ -51,6 +52,9 @@ pub(crate) enum CliError {
     /// The input is no map.
     #[error(transparent)]
     Map(#[from] MapError),
+    /// The input is no model.
+    #[error(transparent)]
+    Model(#[from] ModelError),
     /// The input is no mesh.
     #[error(transparent)]
     Mesh(#[from] MeshError),
@@ -62,13 +66,21 @@ pub(crate) enum CliError {
         /// The first problem.
         problem: MeshProblem,
     },
-    /// The boundary does not close.
-    #[error("{}: found a bug in planecut, expected a closed boundary: {source}", .path.display())]
-    Weld {
+    /// The solid has no mesh.
+    #[error("{}: {source}", .path.display())]
+    Evaluate {
         /// The input.
         path: PathBuf,
-        /// Where the boundary is open.
-        source: WeldError,
+        /// Why.
+        source: EvaluateError,
+    },
+    /// The boundary does not close, or something else that no input should lead to.
+    #[error("{}: found a bug in planecut, expected a closed boundary: {source}", .path.display())]
+    Bug {
+        /// The input.
+        path: PathBuf,
+        /// What happened.
+        source: EvaluateError,
     },
     /// A mesh or picture cannot be encoded.
     #[error("{output}: {source}")]
@@ -103,9 +115,11 @@ impl CliError {
             | Self::Output { .. }
             | Self::Read { .. }
             | Self::Map(_)
+            | Self::Model(_)
             | Self::Mesh(_) => UNUSABLE,
             Self::NotSound { .. }
-            | Self::Weld { .. }
+            | Self::Evaluate { .. }
+            | Self::Bug { .. }
             | Self::Encode { .. }
             | Self::Write { .. }
             | Self::Stdout(_)

@@ -15,17 +15,22 @@ use super::report::{Report, milliseconds};
 use super::solve::solve;
 use super::terminal;
 
-/// Runs the command. A map is evaluated; a mesh is taken as it is.
+/// Runs the command. A model or a map is evaluated; a mesh is taken as it is.
 ///
 /// # Errors
-/// [`CliError`] where the input is unusable, or where a map's boundary does not close.
+/// [`CliError`] where the input is unusable, or where the solid has no mesh.
 pub(crate) fn run(args: &InfoArgs) -> Result<(), CliError> {
     let begin = Instant::now();
-    let (input, kind) = Input::resolve(&args.input, Some, "`.map`, `.obj`, `.stl`, `.ply`, `.glb` or `.gltf`")?;
+    let expected = "`.json`, `.map`, `.obj`, `.stl`, `.ply`, `.glb` or `.gltf`";
+    let (input, kind) = Input::resolve(&args.input, args.reading.input_format, Some, expected)?;
+    args.reading.check(match kind {
+        Kind::Model(kind) => Some(kind),
+        Kind::Mesh(_) => None,
+    })?;
     let progress = Progress::start(args.common.quiet);
     let (mut report, warnings) = on_threads(args.common.threads, || match kind {
-        Kind::Map => {
-            let solved = solve(&input, &args.map.options(), &progress)?;
+        Kind::Model(kind) => {
+            let solved = solve(&input, kind, &args.reading, &progress)?;
             Ok((solved.report, solved.warnings))
         }
         Kind::Mesh(format) => report_on_mesh(&input, format),
@@ -43,7 +48,7 @@ fn report_on_mesh(input: &Input, format: MeshFormat) -> Result<(Report, Vec<Warn
     let mesh = read_mesh(&input.read()?, format, &input.name())?;
     let import_time = begin.elapsed();
     let topology = check_topology(&mesh.positions, &mesh.triangles);
-    let mut report = Report::of_mesh(input.name(), format_name(format), &topology);
+    let mut report = Report::of_mesh(input.given(), format_name(format), &topology);
     report.time_ms.import = milliseconds(import_time);
     let warning = topology.first_defect.map(|defect| Warning { line: 0, message: defect.to_string() });
     report.warnings = warning.iter().map(ToString::to_string).collect();

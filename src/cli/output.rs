@@ -97,8 +97,8 @@ impl MeshTarget {
 ///
 /// # Errors
 /// [`CliError::Output`] or, for standard output used twice, [`CliError::Usage`].
-pub(crate) fn check_targets<'a>(input: &Path, targets: impl Iterator<Item = &'a Target>) -> Result<(), CliError> {
-    let input = same_name(input);
+pub(crate) fn check_targets<'a>(input: Option<&Path>, targets: impl Iterator<Item = &'a Target>) -> Result<(), CliError> {
+    let input = input.map(same_name);
     let mut taken: Vec<PathBuf> = Vec::new();
     let mut stdout_is_taken = false;
     for target in targets {
@@ -114,7 +114,7 @@ pub(crate) fn check_targets<'a>(input: &Path, targets: impl Iterator<Item = &'a 
         if path.is_dir() {
             return refused("a folder", "the name of a file to write");
         }
-        if name == input {
+        if Some(&name) == input.as_ref() {
             return refused("the input", "another name for an output");
         }
         if taken.contains(&name) {

@@ -1,4 +1,4 @@
-//! `planecut render`: the solid of a map as a picture.
+//! `planecut render`: the solid of a model or a map as a picture.
 
 use planecut::export::render_preview;
 
@@ -16,12 +16,13 @@ use super::terminal;
 /// # Errors
 /// [`CliError`] where the arguments or the input are unusable, or the picture cannot be written.
 pub(crate) fn run(args: &RenderArgs) -> Result<(), CliError> {
-    let input = Input::resolve_map(&args.input)?;
+    let (input, kind) = Input::resolve_model(&args.input, args.reading.input_format)?;
+    args.reading.check(Some(kind))?;
     let target = Target::picture(&args.output)?;
-    check_targets(&args.input, [&target].into_iter())?;
+    check_targets(input.file(), [&target].into_iter())?;
     let progress = Progress::start(args.common.quiet);
     let (solved, picture) = on_threads(args.common.threads, || {
-        let solved = solve(&input, &args.map.options(), &progress)?;
+        let solved = solve(&input, kind, &args.reading, &progress)?;
         progress.stage("drawing");
         let picture = render_preview(&solved.mesh, &args.size.preview(args.style))
             .map_err(|source| CliError::Encode { output: target.to_string(), source })?;

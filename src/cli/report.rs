@@ -36,11 +36,11 @@ pub(crate) struct Report {
 
 impl Report {
     /// The report on a model that was evaluated; export, preview and total times are still to be filled in.
-    pub(crate) fn of_model(input: String, materials: usize, evaluation: &Evaluation, mesh: MeshPart) -> Self {
+    pub(crate) fn of_model(input: String, format: &'static str, materials: usize, evaluation: &Evaluation, mesh: MeshPart) -> Self {
         Self {
             planecut: env!("CARGO_PKG_VERSION"),
             input,
-            format: "map",
+            format,
             model: Some(ModelPart::new(&evaluation.model, materials)),
             solid: Some(SolidPart::new(&evaluation.solid)),
             mesh,

@@ -1,20 +1,24 @@
-//! From a map to its solid and the report on it: what `build`, `info` and `render` share.
+//! From a model or a map to its solid and the report on it: what `build`, `info` and `render` share.
 
 use std::time::Instant;
 
 use planecut::csg::check::check_topology;
-use planecut::csg::{Mesh, Model, ModelSummary, evaluate};
+use planecut::csg::{EvaluateError, Evaluation, Mesh, Model, ModelSummary, UnboundedBrushes, evaluate_with};
 use planecut::import::Warning;
-use planecut::import::map::{MapOptions, read_map};
+use planecut::import::map::read_map;
+use planecut::import::model::read_model;
 
+use super::args::ReadingArgs;
 use super::error::CliError;
-use super::input::Input;
+use super::input::{Input, ModelKind};
 use super::progress::Progress;
 use super::report::{MeshPart, Report, milliseconds};
 
-/// The solid of a map.
+/// The solid of a model.
 pub(crate) struct Solved {
-    /// Its boundary.
+    /// What was read.
+    pub(crate) model: Model,
+    /// The boundary of its solid.
     pub(crate) mesh: Mesh,
     /// The report, without the times of what comes after.
     pub(crate) report: Report,
@@ -22,36 +26,70 @@ pub(crate) struct Solved {
     pub(crate) warnings: Vec<Warning>,
 }
 
-/// Reads a map and evaluates the union of its brushes on the current thread pool.
+/// Reads an input and evaluates its tree on the current thread pool.
 ///
 /// # Errors
-/// [`CliError::Read`] or [`CliError::Map`] for unusable input, [`CliError::Weld`] for a bug.
-pub(crate) fn solve(input: &Input, options: &MapOptions, progress: &Progress) -> Result<Solved, CliError> {
+/// [`CliError::Read`], [`CliError::Map`] or [`CliError::Model`] for unusable input, [`CliError::Evaluate`] for a solid without
+/// a mesh, [`CliError::Bug`] for a bug.
+pub(crate) fn solve(
+    input: &Input,
+    kind: ModelKind,
+    reading: &ReadingArgs,
+    progress: &Progress,
+) -> Result<Solved, CliError> {
     let begin = Instant::now();
     progress.stage("reading");
-    let mut import = read_map(&input.read()?, &input.name(), options)?;
+    let (model, mut warnings) = read(input, kind, reading)?;
     let import_time = begin.elapsed();
     progress.stage("evaluating");
-    let weld_error = |source| CliError::Weld { path: input.path.clone(), source };
-    let evaluation = evaluate(&import.model).map_err(weld_error)?;
+    let evaluation = evaluate_model(input, kind, &model)?;
     progress.stage("checking");
     let topology = check_topology(&evaluation.mesh.positions, &evaluation.mesh.triangles);
 
-    let mut warnings = std::mem::take(&mut import.warnings);
-    warnings.extend(brush_warnings(&import.model, &evaluation.model));
+    warnings.extend(brush_warnings(kind, &model, &evaluation.model));
     if evaluation.mesh.triangles.is_empty() {
         warnings.push(Warning { line: 0, message: "the result is empty".to_owned() });
     }
     let mesh = MeshPart::of_solid(&topology, &evaluation.mesh);
-    let mut report = Report::of_model(input.name(), import.model.materials.len(), &evaluation, mesh);
+    let mut report = Report::of_model(input.given(), kind.name(), model.materials.len(), &evaluation, mesh);
     report.time_ms.import = milliseconds(import_time);
     report.warnings = warnings.iter().map(ToString::to_string).collect();
-    Ok(Solved { mesh: evaluation.mesh, report, warnings })
+    Ok(Solved { model, mesh: evaluation.mesh, report, warnings })
+}
+
+fn read(input: &Input, kind: ModelKind, reading: &ReadingArgs) -> Result<(Model, Vec<Warning>), CliError> {
+    let bytes = input.read()?;
+    Ok(match kind {
+        ModelKind::Json => {
+            let import = read_model(&bytes, &input.name(), &reading.model_options())?;
+            (import.model, import.warnings)
+        }
+        ModelKind::Map => {
+            let import = read_map(&bytes, &input.name(), &reading.map_options())?;
+            (import.model, import.warnings)
+        }
+    })
+}
+
+fn evaluate_model(input: &Input, kind: ModelKind, model: &Model) -> Result<Evaluation, CliError> {
+    let unbounded = match kind {
+        ModelKind::Json => UnboundedBrushes::Keep,
+        // Nobody means half of space in a map: the brush lacks a face.
+        ModelKind::Map => UnboundedBrushes::LeaveOut,
+    };
+    evaluate_with(model, unbounded).map_err(|source| {
+        let path = input.path.clone();
+        match source {
+            EvaluateError::Unbounded => CliError::Evaluate { path, source },
+            source => CliError::Bug { path, source },
+        }
+    })
 }
 
 /// One warning for each kind of brush that adds nothing to the solid, on the line of the first of them.
-fn brush_warnings(model: &Model, summary: &ModelSummary) -> impl Iterator<Item = Warning> {
-    let kinds = [(&summary.empty, "without interior"), (&summary.unbounded, "that is not bounded")];
+fn brush_warnings(kind: ModelKind, model: &Model, summary: &ModelSummary) -> impl Iterator<Item = Warning> {
+    let unbounded: &[usize] = if kind == ModelKind::Map { &summary.unbounded } else { &[] };
+    let kinds = [(&summary.empty[..], "without interior"), (unbounded, "that is not bounded")];
     kinds.into_iter().filter_map(|(numbers, kind)| {
         let line = model.tree.brushes()[*numbers.first()?].line;
         let message = match numbers.len() {

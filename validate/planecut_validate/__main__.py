@@ -1,53 +1,99 @@
 """`validate/run [options] PATH…`: checks models, prints a table, exits with 1 where anything differs."""
 
 import argparse
-import json
-import math
 import os
 import sys
-from dataclasses import asdict
+from collections.abc import Iterable
+from concurrent.futures import ProcessPoolExecutor
+from functools import partial
 from importlib.metadata import version
 from pathlib import Path
 
-from .checks import Result, check
+from . import table
+from .batch import check_many_identities, check_random
+from .checks import check
 from .model import FORMATS
+from .report import write_report
+from .result import Options, Result
 
 WORKSPACE = Path(__file__).resolve().parents[2]
 
 
 def main() -> int:
     arguments = _arguments()
-    binary = str(arguments.planecut)
-    if not os.access(binary, os.X_OK):
-        return _unusable(f"{binary}: no such program; build it with `cargo build --release` or name one with --planecut")
+    options = Options(str(arguments.planecut), arguments.lines, arguments.seed, not arguments.no_cells)
+    if not os.access(options.binary, os.X_OK):
+        return _unusable(
+            f"{options.binary}: no such program; build it with `cargo build --release` or name one with --planecut"
+        )
     models: list[Path] = []
     for path in arguments.paths:
         found = _models(path)
         if not found:
             return _unusable(f"{path}: no model found, expected {', '.join(FORMATS)}")
         models += found
-    print(f"{len(models)} models, {arguments.lines} lines each, seed {arguments.seed}, manifold3d {version('manifold3d')}")
-    width = min(44, max(len(_short(str(m))) for m in models))
-    print(_ROW.format(*_HEAD, w=width))
-    results = []
-    for path in models:
-        result = check(path, binary, arguments.lines, arguments.seed)
-        results.append(result)
-        _print_row(result, width)
+    if not (models or arguments.random or arguments.identities):
+        return _unusable("nothing to check: no PATH, no --random, no --identities")
+    with ProcessPoolExecutor(max(1, arguments.jobs)) as pool:
+        results = _check_all(models, arguments, options, pool)
+    for path in arguments.report or [WORKSPACE / "out/validate.html"]:
+        write_report(path, results, options)
+    return 1 if any(r.failures for r in results) else 0
+
+
+def _check_all(
+    models: list[Path], arguments: argparse.Namespace, options: Options, pool: ProcessPoolExecutor
+) -> list[Result]:
+    """Runs what was asked for, and prints it as it goes."""
+    results: list[Result] = []
+    if models:
+        print(
+            f"{len(models)} models, {options.lines} lines each, seed {options.seed}, manifold3d {version('manifold3d')}"
+        )
+        # Large ones first would be faster, but the table should come in the order of the names.
+        results += _told(pool.map(partial(check, options=options), models), [str(m) for m in models])
+    if arguments.random:
+        print(f"{arguments.random} random trees of up to {arguments.leaves} leaves, from seed {options.seed}")
+        results += table.summed(check_random(arguments.random, arguments.leaves, options, arguments.keep, pool))
+    if arguments.identities:
+        print(f"{arguments.identities} identities over random solids, from seed {options.seed}")
+        results += table.summed(
+            check_many_identities(arguments.identities, arguments.leaves, options, arguments.keep, pool)
+        )
+    return results
+
+
+def _told(found: Iterable[Result], names: list[str]) -> list[Result]:
+    results = list(table.rows(found, names))
     failed = sum(bool(r.failures) for r in results)
     print(f"{len(results) - failed} of {len(results)} models agree")
-    if arguments.report:
-        _write_report(arguments, results)
-    return 1 if failed else 0
+    return results
 
 
 def _arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="validate/run", description="Checks planecut's output against manifold3d.")
-    parser.add_argument("paths", nargs="+", type=Path, metavar="PATH", help="a model, or a folder to search for models")
-    parser.add_argument("--planecut", type=Path, default=WORKSPACE / "target/release/planecut", help="the program to check")
-    parser.add_argument("--lines", type=int, default=20_000, help="random lines per model (default %(default)s)")
-    parser.add_argument("--seed", type=int, default=1, help="seed of the lines (default %(default)s)")
-    parser.add_argument("--report", type=Path, help="write all figures as JSON")
+    add = parser.add_argument
+    add("paths", nargs="*", type=Path, metavar="PATH", help="a model, or a folder to search for models")
+    add("--planecut", type=Path, default=WORKSPACE / "target/release/planecut", help="the program to check")
+    add("--lines", type=int, default=20_000, help="random lines per model (default %(default)s)")
+    add("--seed", type=int, default=1, help="seed of the lines, and of the first random tree (default %(default)s)")
+    add("--random", type=int, default=0, metavar="N", help="check N random trees")
+    add("--identities", type=int, default=0, metavar="N", help="check N identities of set algebra over random solids")
+    add("--leaves", type=int, default=60, help="most leaves of a random tree (default %(default)s)")
+    add(
+        "--keep",
+        type=Path,
+        default=WORKSPACE / "out/failures",
+        help="where failing random trees are written, made small",
+    )
+    add("--no-cells", action="store_true", help="check skins only")
+    add("--jobs", type=int, default=len(os.sched_getaffinity(0)), help="models at once (default: one per core)")
+    add(
+        "--report",
+        type=Path,
+        action="append",
+        help="all figures as .json, or table and plot as .html (default out/validate.html)",
+    )
     return parser.parse_args()
 
 
@@ -60,54 +106,6 @@ def _models(path: Path) -> list[Path]:
     """The file itself, or all models below the folder."""
     files = sorted(path.rglob("*")) if path.is_dir() else [path]
     return [file for file in files if file.is_file() and file.suffix.lower() in FORMATS]
-
-
-_ROW = "{:<{w}} {:>7} {:>16} {:>8} {:>8} {:>8} {:>9} {:>6} {:>7} {:>5}  {}"
-_HEAD = ("model", "brushes", "volume", "solid", "mesh", "all", "triangles", "lines", "redrawn", "s", "status")
-
-
-def _short(name: str) -> str:
-    return "/".join(Path(name).parts[-2:])
-
-
-def _print_row(result: Result, width: int) -> None:
-    """Columns `solid`, `mesh`, `all`: relative volume difference of report and OBJ, and the largest of all differences."""
-    difference = result.differences
-    exact = [value for name, value in difference.items() if name != "GLB volume"]
-    print(
-        _ROW.format(
-            _short(result.model)[-width:],
-            result.brushes,
-            "" if math.isnan(result.reference_volume) else f"{result.reference_volume:.6f}"[:16],
-            f"{difference['solid.volume']:.0e}" if "solid.volume" in difference else "",
-            f"{difference['OBJ volume']:.0e}" if "OBJ volume" in difference else "",
-            f"{max(exact):.0e}" if exact else "",
-            result.triangles,
-            result.lines.get("mismatches", ""),
-            result.lines.get("redrawn", ""),
-            f"{result.seconds:.1f}",
-            "; ".join([result.status, *result.notes]),
-            w=width,
-        ),
-        flush=True,
-    )
-    for failure in result.failures:
-        print(f"    {failure}", flush=True)
-
-
-def _write_report(arguments: argparse.Namespace, results: list[Result]) -> None:
-    rows = [asdict(r) for r in results]
-    for row in rows:
-        if math.isnan(row["reference_volume"]):
-            row["reference_volume"] = None
-    report = {
-        "manifold3d": version("manifold3d"),
-        "lines": arguments.lines,
-        "seed": arguments.seed,
-        "agree": not any(r.failures for r in results),
-        "models": rows,
-    }
-    arguments.report.write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

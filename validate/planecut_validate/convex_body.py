@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from fractions import Fraction
 
 import numpy as np
 
@@ -51,6 +52,15 @@ def convex_body(planes: list[IntPlane]) -> ConvexBody:
         bounded=bool(vertices) and not _has_ray(planes, unit),
         redundant=sum(count < 3 for count in on_plane),
     )
+
+
+def exact_plane(row: list[float]) -> IntPlane:
+    """The half-space of four doubles, as they are, in integers."""
+    exact = [Fraction(value) for value in row]
+    scale = math.lcm(*(value.denominator for value in exact))
+    plane = [int(value * scale) for value in exact]
+    factor = math.gcd(*plane)
+    return tuple(value // factor for value in plane)
 
 
 def _unit(plane: IntPlane) -> list[float]:

@@ -16,9 +16,13 @@ _TRIANGLES = 4
 
 @dataclass
 class GlbScene:
-    """`mesh`: all primitives in place, nothing merged. `manifolds`: the merged meshes of `EXT_mesh_manifold`, if any."""
+    """`mesh`: all primitives in place, nothing merged. `nodes`: the same by mesh nodes.
+
+    `manifolds`: the merged meshes of `EXT_mesh_manifold`, if any.
+    """
 
     mesh: Mesh
+    nodes: list[Mesh]
     manifolds: list[Mesh]
 
 
@@ -29,7 +33,7 @@ def read_glb(path: Path) -> GlbScene:
     scene = document["scenes"][document.get("scene", 0)]
     for node in scene.get("nodes", []):
         reader.node(node, np.eye(4))
-    return GlbScene(_joined(reader.meshes), reader.manifolds)
+    return GlbScene(_joined(reader.nodes), reader.nodes, reader.manifolds)
 
 
 def _chunks(data: bytes) -> tuple[dict, bytes]:
@@ -61,7 +65,7 @@ class _Reader:
     def __init__(self, document: dict, binary: bytes):
         self.document = document
         self.binary = binary
-        self.meshes: list[Mesh] = []
+        self.nodes: list[Mesh] = []
         self.manifolds: list[Mesh] = []
 
     def node(self, index: int, parent: np.ndarray) -> None:
@@ -69,7 +73,7 @@ class _Reader:
         world = parent @ _matrix(node)
         if "mesh" in node:
             mesh = self.document["meshes"][node["mesh"]]
-            self.meshes += [self.primitive(p, world) for p in mesh["primitives"]]
+            self.nodes.append(_joined([self.primitive(p, world) for p in mesh["primitives"]]))
             extension = mesh.get("extensions", {}).get("EXT_mesh_manifold")
             if extension:
                 self.manifolds.append(self.primitive(extension["manifoldPrimitive"], world))

@@ -5,17 +5,28 @@ that were written. Which lines are unclear is decided by the model alone, never 
 """
 
 from dataclasses import dataclass, field
+from typing import Protocol
 
 import numpy as np
 
+from .lines import TOUCHING, Coverage, Crossings, Lines
 from .mesh import Mesh
 from .mesh_lines import TriangleTree
-from .model import TOUCHING, Coverage, Crossings, Lines, ReferenceModel
 
 POSITION = 1e-6
 """Largest distance of a crossing from its place, relative to the model's diagonal."""
 _TRIES = 8
 """How often an unclear line is drawn anew."""
+
+
+class Covered(Protocol):
+    """What lines are drawn through."""
+
+    low: np.ndarray
+    high: np.ndarray
+
+    def coverage(self, lines: Lines) -> Coverage:
+        """Where the lines cross it."""
 
 
 @dataclass
@@ -37,29 +48,52 @@ class LineReport:
     examples: list[str] = field(default_factory=list)
 
 
-def compare(model: ReferenceModel, mesh: Mesh, lines: int, seed: int) -> LineReport:
-    """Compares `lines` random lines; the same seed draws the same lines."""
+@dataclass
+class Drawn:
+    """Lines through a model and what it says of them; `redrawn` of them were unclear at first."""
+
+    lines: Lines
+    coverage: Coverage
+    size: float
+    redrawn: int
+
+
+def draw(model: Covered, lines: int, seed: int) -> Drawn:
+    """Draws `lines` random lines; the same seed draws the same lines."""
     random = np.random.default_rng(seed)
     size = float(np.linalg.norm(model.high - model.low))
-    report = LineReport(lines)
     drawn = _draw(model, lines, random)
-    coverage = model.coverage(drawn)
-    drawn, coverage = _redraw(model, drawn, coverage, size, random, report)
-    crossed = TriangleTree(mesh).crossings(drawn)
-    report.crossings = len(crossed.t)
-    report.unclear = int(coverage.unclear.sum())
-    wrong = np.zeros(lines, dtype=bool)
-    _compare_clear(coverage, crossed, size, wrong, report)
+    return _redraw(model, Drawn(drawn, model.coverage(drawn), size, 0), random)
+
+
+def compare(drawn: Drawn, mesh: Mesh) -> LineReport:
+    """Compares the mesh with the model along the lines."""
+    found = TriangleTree(mesh).crossings(drawn.lines) if len(mesh.triangles) else no_crossings()
+    return compare_crossings(drawn, found)
+
+
+def compare_crossings(drawn: Drawn, found: Crossings) -> LineReport:
+    """Compares what crosses the lines with the model."""
+    coverage, count = drawn.coverage, len(drawn.lines)
+    report = LineReport(count, len(found.t), redrawn=drawn.redrawn, unclear=int(coverage.unclear.sum()))
+    wrong = coverage.endless.copy()
+    _compare_clear(coverage, found, drawn.size, wrong, report)
     for line in np.nonzero(coverage.unclear)[0]:
-        expected, found = (_closed(c, line, TOUCHING * size) for c in (coverage.crossings, crossed))
-        same = len(expected) == len(found) and np.abs(expected - found).max(initial=0.0) <= POSITION * size
+        expected, seen = (_closed(c.of(line), TOUCHING * drawn.size) for c in (coverage.crossings, found))
+        same = len(expected) == len(seen) and np.abs(expected - seen).max(initial=0.0) <= POSITION * drawn.size
         wrong[line] = not same
     report.mismatches = int(wrong.sum())
-    report.examples = [_describe(line, drawn, coverage.crossings, crossed) for line in np.nonzero(wrong)[0][:3]]
+    report.examples = [_describe(line, drawn.lines, coverage.crossings, found) for line in np.nonzero(wrong)[0][:3]]
     return report
 
 
-def _draw(model: ReferenceModel, count: int, random: np.random.Generator) -> Lines:
+def no_crossings() -> Crossings:
+    """Those with nothing."""
+    none = np.zeros(0, dtype=np.int64)
+    return Crossings(none, np.zeros(0), none)
+
+
+def _draw(model: Covered, count: int, random: np.random.Generator) -> Lines:
     """Lines through uniform points of the bounding box in uniform directions."""
     origins = model.low + random.random((count, 3)) * (model.high - model.low)
     return Lines(origins, _unit(random.normal(size=(count, 3))))
@@ -69,29 +103,33 @@ def _unit(vectors: np.ndarray) -> np.ndarray:
     return vectors / np.linalg.norm(vectors, axis=1)[:, None]
 
 
-def _redraw(model, lines: Lines, coverage: Coverage, size: float, random, report) -> tuple[Lines, Coverage]:
+def _redraw(model: Covered, drawn: Drawn, random: np.random.Generator) -> Drawn:
     """Moves unclear lines aside: near enough to look at the same edge or face, far enough to be sure."""
+    lines, coverage = drawn.lines, drawn.coverage
+    drawn.redrawn = int(coverage.unclear.sum())
     for attempt in range(_TRIES):
         which = np.nonzero(coverage.unclear)[0]
-        if attempt == 0:
-            report.redrawn = len(which)
         if not len(which):
             break
         step = 1e-5 * 2**attempt
-        origins = lines.origins[which] + step * size * random.normal(size=(len(which), 3))
+        origins = lines.origins[which] + step * drawn.size * random.normal(size=(len(which), 3))
         directions = _unit(lines.directions[which] + 100.0 * step * random.normal(size=(len(which), 3)))
         lines.origins[which], lines.directions[which] = origins, directions
-        again = model.coverage(lines[which])
-        old = coverage.crossings
-        keep = ~np.isin(old.line, which)
-        line = np.concatenate([old.line[keep], which[again.crossings.line]])
-        t = np.concatenate([old.t[keep], again.crossings.t])
-        sign = np.concatenate([old.sign[keep], again.crossings.sign])
-        order = np.lexsort((t, line))
-        unclear = coverage.unclear.copy()
-        unclear[which] = again.unclear
-        coverage = Coverage(Crossings(line[order], t[order], sign[order]), unclear)
-    return lines, coverage
+        coverage = _replaced(coverage, which, model.coverage(lines[which]))
+    return Drawn(lines, coverage, drawn.size, drawn.redrawn)
+
+
+def _replaced(old: Coverage, which: np.ndarray, new: Coverage) -> Coverage:
+    """The coverage with the lines `which` told anew."""
+    before, after = old.crossings, new.crossings
+    keep = ~np.isin(before.line, which)
+    line = np.concatenate([before.line[keep], which[after.line]])
+    t = np.concatenate([before.t[keep], after.t])
+    sign = np.concatenate([before.sign[keep], after.sign])
+    order = np.lexsort((t, line))
+    unclear, endless = old.unclear.copy(), old.endless.copy()
+    unclear[which], endless[which] = new.unclear, new.endless
+    return Coverage(Crossings(line[order], t[order], sign[order]), unclear, endless)
 
 
 def _compare_clear(coverage: Coverage, found: Crossings, size: float, wrong: np.ndarray, report: LineReport) -> None:
@@ -103,17 +141,16 @@ def _compare_clear(coverage: Coverage, found: Crossings, size: float, wrong: np.
     comparable = clear & ~wrong
     left, right = (comparable[c.line] for c in (expected, found))
     line = expected.line[left]
-    distance = np.abs(expected.t[left] - found.t[right]) / size
+    distance = np.abs(expected.t[left] - found.t[right]) / size if size else np.zeros(len(line))
     bad = (distance > POSITION) | (expected.sign[left] != found.sign[right])
     wrong[line[bad]] = True
     report.deviation = float(distance.max(initial=0.0))
 
 
-def _closed(crossings: Crossings, line: int, gap: float) -> np.ndarray:
+def _closed(crossings: Crossings, gap: float) -> np.ndarray:
     """The crossings of one line without the pairs that bound a gap or a sliver no longer than `gap`."""
-    begin, end = np.searchsorted(crossings.line, [line, line + 1])
     kept: list[tuple[float, int]] = []
-    for t, sign in zip(crossings.t[begin:end], crossings.sign[begin:end]):
+    for t, sign in zip(crossings.t, crossings.sign):
         if kept and t - kept[-1][0] <= gap and sign != kept[-1][1]:
             kept.pop()
         else:
@@ -123,8 +160,8 @@ def _closed(crossings: Crossings, line: int, gap: float) -> np.ndarray:
 
 def _describe(line: int, lines: Lines, expected: Crossings, found: Crossings) -> str:
     def places(crossings: Crossings) -> str:
-        begin, end = np.searchsorted(crossings.line, [line, line + 1])
-        return " ".join(f"{'+' if s > 0 else '-'}{t:.6g}" for t, s in zip(crossings.t[begin:end], crossings.sign[begin:end]))
+        own = crossings.of(line)
+        return " ".join(f"{'+' if s > 0 else '-'}{t:.6g}" for t, s in zip(own.t, own.sign))
 
     origin, direction = lines.origins[line].tolist(), lines.directions[line].tolist()
     return f"line {line} from {origin} along {direction}: expected [{places(expected)}], mesh [{places(found)}]"

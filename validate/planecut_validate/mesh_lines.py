@@ -9,7 +9,7 @@ convex combination of the corners, which stays accurate on slivers, where a norm
 import numpy as np
 
 from .mesh import Mesh
-from .model import Crossings, Lines
+from .lines import Crossings, Lines
 
 _LEAF = 4
 """Triangles in a leaf of the tree."""
@@ -35,22 +35,32 @@ class TriangleTree:
             self.levels.append((low, high))
         self.levels.reverse()
 
-    def crossings(self, lines: Lines, chunk: int = 1024) -> Crossings:
+    def crossings(self, lines: Lines) -> Crossings:
         """All crossings, sorted by line, then by place."""
-        parts = [self._crossings(lines[at : at + chunk], at) for at in range(0, len(lines), chunk)]
-        line, t, sign = (np.concatenate(column) for column in zip(*parts))
-        order = np.lexsort((t, line))
-        return Crossings(line[order], t[order], sign[order])
+        return self.crossings_and_cosines(lines)[0]
 
-    def _crossings(self, lines: Lines, first_line: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def crossings_and_cosines(self, lines: Lines, chunk: int = 1024) -> tuple[Crossings, np.ndarray]:
+        """All crossings, and the cosine between line and normal at each."""
+        parts = [self._crossings(lines[at : at + chunk], at) for at in range(0, len(lines), chunk)]
+        if not parts:
+            none = np.zeros(0, dtype=np.int64)
+            return Crossings(none, np.zeros(0), none), np.zeros(0)
+        line, t, sign, cosine = (np.concatenate(column) for column in zip(*parts))
+        order = np.lexsort((t, line))
+        return Crossings(line[order], t[order], sign[order]), cosine[order]
+
+    def _crossings(self, lines: Lines, first_line: int) -> tuple[np.ndarray, ...]:
         leaf, line = self._leaves(lines)
         slot = (leaf[:, None] * _LEAF + np.arange(_LEAF)).ravel()
         line = np.repeat(line, _LEAF)
         real = slot < len(self.order)
         triangles = self.mesh.triangles[self.order[slot[real]]]
         line = line[real]
-        hit, t, sign = _cross(self.mesh.vertices, triangles, lines, line)
-        return line[hit] + first_line, t, sign
+        hit, t, sign, seen = _cross(self.mesh.vertices, triangles, lines, line)
+        a, b, c = (self.mesh.vertices[triangles[hit, i]] for i in range(3))
+        whole = np.linalg.norm(np.cross(b - a, c - a), axis=1)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return line[hit] + first_line, t, sign, seen / whole
 
     def _leaves(self, lines: Lines) -> tuple[np.ndarray, np.ndarray]:
         """Pairs of a leaf and a line that meet in the leaf's box."""
@@ -81,8 +91,8 @@ def _morton(points: np.ndarray) -> np.ndarray:
     return code
 
 
-def _cross(vertices, triangles, lines: Lines, line) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Which of the pairs of a triangle and a line cross; the place and the sign of those."""
+def _cross(vertices, triangles, lines: Lines, line) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Which of the pairs of a triangle and a line cross; place, sign and twice the area seen along the line of those."""
     across, up = _frames(lines.directions)
     right, above, along = [], [], []
     for corner in range(3):
@@ -101,7 +111,7 @@ def _cross(vertices, triangles, lines: Lines, line) -> tuple[np.ndarray, np.ndar
     total = weights[0] + weights[1] + weights[2]
     hit = (sides[0] == sides[1]) & (sides[1] == sides[2]) & (total != 0.0)
     t = sum(w[hit] * a[hit] for w, a in zip(weights, along)) / total[hit]
-    return hit, t, sides[0][hit]
+    return hit, t, sides[0][hit], total[hit]
 
 
 def _dot(a: np.ndarray, b: np.ndarray) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""One run of the `planecut` command line."""
+"""Runs of the `planecut` command line."""
 
 import json
 import subprocess
@@ -19,19 +19,23 @@ class Broken(Exception):
 
 @dataclass
 class Build:
-    """What one `planecut build` left: the mesh files and the report."""
+    """What one `planecut build` left: the mesh files, the report, and what it said on standard error."""
 
     obj: Path
     glb: Path
     report: dict
+    said: str
 
 
-def build(binary: str, model: Path, folder: Path) -> Build:
-    """Runs `planecut build` into `folder`. Raises `Refused` or `Broken`."""
-    obj, glb, report = folder / "out.obj", folder / "out.glb", folder / "report.json"
+def build(binary: str, model: Path, folder: Path, cells: bool = False) -> Build:
+    """Runs `planecut build` into `folder`, of cells on demand. Raises `Refused` or `Broken`."""
+    name = "cells" if cells else "out"
+    obj, glb, report = (folder / f"{name}{ending}" for ending in (".obj", ".glb", ".report.json"))
     command = [binary, "build", str(model), "-o", str(obj), "-o", str(glb), "--report", str(report), "--quiet"]
     try:
-        done = subprocess.run(command, capture_output=True, text=True, timeout=TIMEOUT, check=False)
+        done = subprocess.run(
+            command + ["--cells"] * cells, capture_output=True, text=True, timeout=TIMEOUT, check=False
+        )
     except subprocess.TimeoutExpired as error:
         raise Broken(f"no end within {TIMEOUT} s") from error
     if done.returncode != 0:
@@ -43,4 +47,4 @@ def build(binary: str, model: Path, folder: Path) -> Build:
     missing = [p.name for p in (obj, glb, report) if not p.exists()]
     if missing:
         raise Broken(f"exit status 0 but no {', '.join(missing)}")
-    return Build(obj, glb, json.loads(report.read_text(encoding="utf-8")))
+    return Build(obj, glb, json.loads(report.read_text(encoding="utf-8")), done.stderr)

@@ -1,12 +1,11 @@
-"""Stands in for `planecut build`, with manifold3d's union as the mesh, so that the checks can be tried on known damage.
+"""Stands in for `planecut build`, with manifold3d's solid as the mesh, so that the checks can be tried on known damage.
 
-`FAKE_DAMAGE` names what to do to the mesh before it is written; see `DAMAGES`.
+`FAKE_DAMAGE` names what to do to the mesh before it is written; see `DAMAGES`, `CELL_DAMAGES` and `OPERATION_DAMAGES`.
 """
 
 import argparse
 import json
 import os
-import struct
 import sys
 from pathlib import Path
 
@@ -15,8 +14,13 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
+from fake_files import write_glb, write_obj  # noqa: E402
+
+from planecut_validate.leaf import manifold_of, mesh_of  # noqa: E402
 from planecut_validate.mesh import Mesh  # noqa: E402
 from planecut_validate.model import load  # noqa: E402
+from planecut_validate.solid_tree import SolidTree  # noqa: E402
+from planecut_validate.tree_model import TreeModel  # noqa: E402
 
 
 def main() -> int:
@@ -27,41 +31,69 @@ def main() -> int:
     parser.add_argument("--report", type=Path)
     parser.add_argument("--threads", type=int)
     parser.add_argument("--quiet", action="store_true")
+    parser.add_argument("--cells", action="store_true")
     arguments = parser.parse_args()
     try:
         model = load(arguments.input)
     except ValueError as error:
         print(f"error: {arguments.input}: {error}", file=sys.stderr)
         return 2
-    if model.is_empty:
-        print(f"error: {arguments.input}: no solid brush", file=sys.stderr)
+    if model.is_unbounded or (model.is_empty and model.empty_may_be_refused):
+        print(f"error: {arguments.input}: nothing that has a mesh", file=sys.stderr)
         return 1
-    union = manifold3d.Manifold.batch_boolean(model.hulls, manifold3d.OpType.Add).to_mesh64()
-    mesh = Mesh(np.array(union.vert_properties)[:, :3], _merged(union))
+    damage = os.environ.get("FAKE_DAMAGE", "none")
+    mesh = mesh_of(_solid(model, damage))
     report = _report(model, mesh)
-    mesh = DAMAGES[os.environ.get("FAKE_DAMAGE", "none")](mesh, report)
+    if arguments.cells:
+        pieces = CELL_DAMAGES.get(damage, lambda cells: cells)(_cells(model))
+        report["solid"]["cells"] = len(pieces)
+    else:
+        mesh = DAMAGES.get(damage, _none)(mesh, report)
+        pieces = [mesh]
     for path in arguments.o:
-        (_write_obj if path.suffix == ".obj" else _write_glb)(mesh, path)
+        (write_obj if path.suffix == ".obj" else write_glb)(pieces, path)
     if arguments.report:
         arguments.report.write_text(json.dumps(report))
     return 0
 
 
-def _merged(union) -> np.ndarray:
-    merged = np.arange(len(union.vert_properties))
-    merged[np.array(union.merge_from_vert, dtype=np.int64)] = np.array(union.merge_to_vert, dtype=np.int64)
-    return merged[np.array(union.tri_verts, dtype=np.int64)]
+def _solid(model, damage: str) -> manifold3d.Manifold:
+    if damage in OPERATION_DAMAGES:
+        wrong = SolidTree(model.tree.leaves, OPERATION_DAMAGES[damage](model.tree.nodes))
+        return TreeModel(wrong).solid()
+    return (
+        manifold3d.Manifold.batch_boolean(model.hulls, manifold3d.OpType.Add)
+        if hasattr(model, "hulls")
+        else model.solid()
+    )
+
+
+def _cells(model) -> list[Mesh]:
+    """A grid through all coordinates of a solid of boxes along the axes: each cell of it that lies inside."""
+    mesh = mesh_of(_solid(model, "none"))
+    axes = [np.unique(np.round(mesh.vertices[:, k], 9)) for k in range(3)]
+    solid = manifold_of(mesh) if len(mesh.triangles) else manifold3d.Manifold()
+    cells = []
+    for x0, x1 in zip(axes[0], axes[0][1:]):
+        for y0, y1 in zip(axes[1], axes[1][1:]):
+            for z0, z1 in zip(axes[2], axes[2][1:]):
+                box = manifold3d.Manifold.cube([x1 - x0, y1 - y0, z1 - z0]).translate([x0, y0, z0])
+                if (box ^ solid).volume() > 0.5 * box.volume():
+                    cells.append(mesh_of(box))
+    return cells
 
 
 def _report(model, mesh: Mesh) -> dict:
+    used = mesh.vertices if len(mesh.triangles) else np.zeros((1, 3))
     return {
-        "model": {"brushes": model.brushes, "brush_volume_sum": model.brush_volume_sum},
+        "model": {"brushes": model.brushes, "brush_volume_sum": getattr(model, "brush_volume_sum", None)},
         "solid": {
             "volume": mesh.volume(),
             "area": mesh.area(),
-            "centroid": mesh.centroid().tolist(),
-            "min": model.low.tolist(),
-            "max": model.high.tolist(),
+            "centroid": mesh.centroid().tolist() if len(mesh.triangles) else None,
+            "min": used.min(0).tolist(),
+            "max": used.max(0).tolist(),
+            "cells": None,
         },
         "mesh": {
             "vertices": len(mesh.vertices),
@@ -73,6 +105,7 @@ def _report(model, mesh: Mesh) -> dict:
             "volume": mesh.volume(),
         },
         "time_ms": {"total": 0.0},
+        "warnings": [] if len(mesh.triangles) else ["nothing is left"],
     }
 
 
@@ -156,56 +189,46 @@ DAMAGES = {
 }
 
 
-def _write_obj(mesh: Mesh, path: Path) -> None:
-    lines = [f"v {x!r} {y!r} {z!r}\n" for x, y, z in mesh.vertices.tolist()]
-    lines += [f"f {a} {b} {c}\n" for a, b, c in (mesh.triangles + 1).tolist()]
-    path.write_text("".join(lines))
+def _without_first(cells: list[Mesh]) -> list[Mesh]:
+    return cells[1:]
 
 
-def _write_glb(mesh: Mesh, path: Path) -> None:
-    """Two primitives that share no vertex, Y up by the node's rotation, merged again by `EXT_mesh_manifold`."""
-    used, flat = np.unique(mesh.triangles, return_inverse=True)
-    flat = flat.reshape(-1)
-    half = 3 * (len(mesh.triangles) // 2)
-    split = flat + np.where(np.arange(len(flat)) < half, 0, len(used))
-    points = np.tile(mesh.vertices[used].astype("<f4"), (2, 1))
-    where = np.arange(half, len(flat), dtype="<u4")
-    pieces = [points.tobytes(), split.astype("<u4").tobytes(), where.tobytes(), flat[half:].astype("<u4").tobytes()]
-    starts = np.cumsum([0] + [len(p) for p in pieces]).tolist()
-    indices = {"bufferView": 1, "componentType": 5125, "type": "SCALAR"}
-    sparse = {
-        "count": len(where),
-        "indices": {"bufferView": 2, "componentType": 5125},
-        "values": {"bufferView": 3},
-    }
-    document = {
-        "asset": {"version": "2.0"},
-        "scenes": [{"nodes": [0]}],
-        "nodes": [{"children": [1], "rotation": [-(0.5**0.5), 0, 0, 0.5**0.5]}, {"mesh": 0}],
-        "meshes": [{
-            "primitives": [{"attributes": {"POSITION": 0}, "indices": i} for i in (1, 2)],
-            "extensions": {"EXT_mesh_manifold": {
-                "manifoldPrimitive": {"attributes": {"POSITION": 0}, "indices": 3}, "mergeIndices": 4, "mergeValues": 5,
-            }},
-        }],
-        "accessors": [
-            {"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": len(points)},
-            indices | {"count": half},
-            indices | {"count": len(flat) - half, "byteOffset": 4 * half},
-            indices | {"count": len(flat), "sparse": sparse},
-            indices | {"count": len(where), "bufferView": 2},
-            indices | {"count": len(where), "bufferView": 3},
-        ],
-        "bufferViews": [{"buffer": 0, "byteOffset": s, "byteLength": len(p)} for s, p in zip(starts, pieces)],
-        "buffers": [{"byteLength": starts[-1]}],
-    }
-    text = json.dumps(document).encode()
-    text += b" " * (-len(text) % 4)
-    binary = b"".join(pieces)
-    length = 12 + 8 + len(text) + 8 + len(binary)
-    header = struct.pack("<4sII", b"glTF", 2, length)
-    chunks = [(b"JSON", text), (b"BIN\0", binary)]
-    path.write_bytes(header + b"".join(struct.pack("<I4s", len(data), kind) + data for kind, data in chunks))
+def _grown(cells: list[Mesh]) -> list[Mesh]:
+    """The first cell reaches into its neighbours."""
+    first = cells[0]
+    middle = first.vertices.mean(0)
+    return [Mesh(middle + 1.1 * (first.vertices - middle), first.triangles), *cells[1:]]
+
+
+def _dented(cells: list[Mesh]) -> list[Mesh]:
+    """A corner of the first cell is pushed in."""
+    vertices = cells[0].vertices.copy()
+    vertices[0] += 0.6 * (vertices.mean(0) - vertices[0])
+    return [Mesh(vertices, cells[0].triangles), *cells[1:]]
+
+
+def _twice(cells: list[Mesh]) -> list[Mesh]:
+    return [*cells, cells[-1]]
+
+
+CELL_DAMAGES = {"missing cell": _without_first, "grown cell": _grown, "dented cell": _dented, "doubled cell": _twice}
+
+
+def _turned(old: str, new: str):
+    """The first operation of one kind becomes another."""
+
+    def turn(nodes: list) -> list:
+        at = next(i for i, (kind, _) in enumerate(nodes) if kind == old)
+        return [*nodes[:at], (new, nodes[at][1]), *nodes[at + 1 :]]
+
+    return turn
+
+
+OPERATION_DAMAGES = {
+    "union for xor": _turned("xor", "union"),
+    "union for difference": _turned("difference", "union"),
+    "difference for intersection": _turned("intersection", "difference"),
+}
 
 
 if __name__ == "__main__":

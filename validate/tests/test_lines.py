@@ -7,9 +7,10 @@ import manifold3d
 import numpy as np
 
 from planecut_validate import line_oracle
+from planecut_validate.brush_union import BrushUnion
 from planecut_validate.convex_body import convex_body
+from planecut_validate.lines import Lines
 from planecut_validate.mesh import Mesh
-from planecut_validate.model import BrushUnion, Lines
 
 
 def box(low, high) -> list[tuple[int, int, int, int]]:
@@ -35,7 +36,7 @@ class AimedLines(unittest.TestCase):
 
     def compare(self, lines: Lines, mesh: Mesh, model: BrushUnion):
         with mock.patch.object(line_oracle, "_draw", lambda *_: lines):
-            return line_oracle.compare(model, mesh, len(lines), seed=3)
+            return line_oracle.compare(line_oracle.draw(model, len(lines), seed=3), mesh)
 
     def test_lines_through_edges_and_corners_are_redrawn_and_agree(self):
         model, mesh = union(self.BOXES)

@@ -6,9 +6,10 @@ from pathlib import Path
 
 import numpy as np
 
+from planecut_validate.brush_union import BrushUnion
 from planecut_validate.convex_body import convex_body
 from planecut_validate.map_file import MapSyntaxError, read_map
-from planecut_validate.model import BrushUnion, load
+from planecut_validate.model import load
 
 WORKSPACE = Path(__file__).resolve().parents[2]
 SHARED = WORKSPACE.parent / "shared/data/map"

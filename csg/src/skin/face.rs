@@ -1,196 +1,313 @@
-//! One face of one body: what other bodies swallow of it, and where the rest ends.
+//! One face of one body: which part of it is boundary, and where that part ends.
 
-use planecut_kernel::DVec3;
-
-use super::BoundaryEdge;
+use super::contact::{Contact, Facing, Owner, misses};
 use super::section::{Clip, Cover, Line, Piece, Polygon};
+use super::sweep::{Label, Side, Sweep};
+use super::{BoundaryEdge, Scene};
 use crate::body::{Body, BodyFace};
 use crate::bounds::Bounds;
-use crate::plane_table::{PlaneId, PlaneTable};
+use crate::expression::Restriction;
+use crate::plane_table::PlaneTable;
 
-/// A part of the face that another body swallows.
-#[derive(Debug, Clone, Default)]
-struct Swallowed {
-    polygon: Polygon,
-    bounds: Option<Bounds>,
+/// A body that reaches the plane of the face.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Reaching {
+    body: usize,
+    /// Its place among the leaves of the restriction.
+    pub(super) leaf: usize,
+    pub(super) contact: Contact,
+    /// The place of its face on the plane, where it has one, among all of them.
+    pub(super) owner: Owner,
 }
 
-/// How another body stands to the plane of a face.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Contact {
-    /// It has a face on the same plane, facing the same way, with this place in the order of owners.
-    SameWay((u32, usize)),
-    /// It has a face on the same plane, facing the other way, or none at all.
-    Other,
+/// A part of the face that another body covers.
+#[derive(Debug, Clone)]
+pub(super) struct Section {
+    pub(super) polygon: Polygon,
+    pub(super) bounds: Bounds,
+    pub(super) of: Reaching,
+}
+
+/// What a body does to the face.
+enum Role {
+    /// Nothing.
+    None,
+    /// Outside of it there is no boundary.
+    Required,
+    /// Inside of it there is none.
+    Covers,
+    /// It depends on others.
+    Open,
 }
 
 /// Emits the boundary edges of faces, reusing its buffers.
 pub(super) struct FaceWorker<'a> {
-    table: &'a PlaneTable,
-    bodies: &'a [Body],
-    rank: &'a [u32],
-    swallowed: Vec<Swallowed>,
+    scene: &'a Scene<'a>,
+    restriction: Restriction,
+    bodies: Vec<usize>,
+    leaves: Vec<u32>,
+    covering: Vec<Reaching>,
+    open: Vec<Reaching>,
+    region: Polygon,
+    sections: Vec<Section>,
     live: usize,
     spare: Polygon,
     pieces: Vec<Piece>,
+    label: Label,
+    sweep: Sweep,
 }
 
 impl<'a> FaceWorker<'a> {
-    pub(super) fn new(table: &'a PlaneTable, bodies: &'a [Body], rank: &'a [u32]) -> Self {
-        Self { table, bodies, rank, swallowed: Vec::new(), live: 0, spare: Polygon::default(), pieces: Vec::new() }
+    pub(super) fn new(scene: &'a Scene<'a>) -> Self {
+        Self {
+            scene,
+            restriction: Restriction::default(),
+            bodies: Vec::new(),
+            leaves: Vec::new(),
+            covering: Vec::new(),
+            open: Vec::new(),
+            region: Polygon::default(),
+            sections: Vec::new(),
+            live: 0,
+            spare: Polygon::default(),
+            pieces: Vec::new(),
+            label: Label::default(),
+            sweep: Sweep::default(),
+        }
     }
 
-    /// Emits the boundary of what is left of face `face` of body `body`; `near` are the bodies whose boxes touch it.
+    /// Emits the boundary of what face `face` of body `body` is of the boundary; `near` are the bodies whose boxes touch it,
+    /// by number.
     pub(super) fn emit(&mut self, body: usize, face: usize, near: &[u32], out: &mut Vec<BoundaryEdge>) {
-        let this = &self.bodies[body].faces[face];
-        if self.collect_swallowed(body, this, near) {
+        let scene = self.scene;
+        let this = &scene.bodies[body].faces[face];
+        let own = self.restrict(body, this, near);
+        if !self.restriction.matters(own) {
             return;
         }
-        self.emit_own_edges(this, out);
-        self.emit_section_edges(this, out);
-    }
-
-    /// Collects what the bodies near swallow; true where that is the whole face.
-    fn collect_swallowed(&mut self, body: usize, face: &BodyFace, near: &[u32]) -> bool {
+        let owner = scene.owner(body, this);
+        let own = Reaching { body, leaf: own, contact: Contact::SameWay, owner };
+        self.label.begin(scene.expression, &mut self.restriction, &own);
+        self.region.copy_from(&this.edges, &this.corners);
+        if !self.sort_out(&own, this) {
+            return;
+        }
+        if self.open.is_empty() && self.label_of_region().is_none() {
+            return;
+        }
         self.live = 0;
-        let half_space = self.table.half_space(face.plane);
-        let (normal, offset) = (half_space.normal(), half_space.offset());
-        let own = (self.rank[face.material.0 as usize], body);
-        for &other in near {
-            let other = other as usize;
-            let candidate = &self.bodies[other];
-            if !candidate.bounds.touches(&face.bounds) || misses(&candidate.bounds, normal, offset) {
-                continue;
-            }
-            if let Contact::SameWay(owner) = self.contact(face.plane, other)
-                && owner > own
-            {
-                continue;
-            }
-            match self.section(face, candidate) {
-                Clip::Whole => return true,
+        for k in 0..self.covering.len() {
+            match self.cover(this, self.covering[k]) {
+                Clip::Whole => return,
                 Clip::Part => self.live += 1,
                 Clip::Nothing => {}
             }
         }
-        false
-    }
-
-    fn contact(&self, plane: PlaneId, other: usize) -> Contact {
-        let same = self.bodies[other].faces.iter().find(|face| face.plane == plane);
-        same.map_or(Contact::Other, |face| Contact::SameWay((self.rank[face.material.0 as usize], other)))
-    }
-
-    /// Clips the face by a body into the next free buffer.
-    fn section(&mut self, face: &BodyFace, body: &Body) -> Clip {
-        if self.swallowed.len() == self.live {
-            self.swallowed.push(Swallowed::default());
-        }
-        let section = &mut self.swallowed[self.live];
-        section.polygon.copy_from(&face.edges, &face.corners);
-        section.bounds = None;
-        let mut whole = true;
-        for cut in body.faces.iter().map(|face| face.plane).filter(|cut| cut.index() != face.plane.index()) {
-            match section.polygon.clip(self.table, face.plane, cut, &mut self.spare) {
-                Clip::Nothing => return Clip::Nothing,
-                Clip::Part => whole = false,
-                Clip::Whole => {}
+        let covering = self.live;
+        for k in 0..self.open.len() {
+            match self.cover(this, self.open[k]) {
+                Clip::Whole => self.label.fix(scene.expression, &mut self.restriction, &self.open[k]),
+                Clip::Part => self.live += 1,
+                Clip::Nothing => {}
             }
         }
-        if whole { Clip::Whole } else { Clip::Part }
+        if self.live > covering {
+            self.sweep.emit(
+                scene,
+                this,
+                &self.region,
+                &self.sections[..self.live],
+                &mut self.restriction,
+                &mut self.label,
+                out,
+            );
+        } else if let Some(facing) = self.label_of_region() {
+            self.emit_own_edges(this, facing, out);
+            self.emit_section_edges(this, facing, out);
+        }
     }
 
-    /// The pieces of the face's own edges along which nothing is swallowed.
-    fn emit_own_edges(&mut self, face: &BodyFace, out: &mut Vec<BoundaryEdge>) {
-        for (i, &edge) in face.edges.iter().enumerate() {
-            let line = Line { plane: face.plane, edge };
-            self.pieces.clear();
-            self.pieces.push(Piece::of_edge(&face.edges, &face.corners, i));
-            for section in &self.swallowed[..self.live] {
-                if let Some(k) = section.polygon.edges.iter().position(|other| *other == edge) {
-                    line.subtract(
-                        self.table,
-                        &mut self.pieces,
-                        &Piece::of_edge(&section.polygon.edges, &section.polygon.corners, k),
-                    );
+    /// Which boundary the face is where nothing is covered that depends on several bodies.
+    fn label_of_region(&mut self) -> Option<Facing> {
+        self.label.of(self.scene.expression, &mut self.restriction, Side::Left)
+    }
+
+    /// Restricts the tree to the bodies that may reach the face; gives the place of its own body.
+    fn restrict(&mut self, body: usize, face: &BodyFace, near: &[u32]) -> usize {
+        let scene = self.scene;
+        let half_space = scene.table.half_space(face.plane);
+        let (normal, offset) = (half_space.normal(), half_space.offset());
+        let reaches = |other: usize| {
+            let bounds = &scene.bodies[other].bounds;
+            bounds.touches(&face.bounds) && !misses(bounds, normal, offset)
+        };
+        self.bodies.clear();
+        self.bodies.extend(near.iter().map(|other| *other as usize).filter(|other| reaches(*other)));
+        let own = self.bodies.partition_point(|other| *other < body);
+        self.bodies.insert(own, body);
+        self.leaves.clear();
+        self.leaves.extend(self.bodies.iter().map(|body| scene.leaf_of_body[*body]));
+        self.restriction.restrict(scene.expression, &self.leaves);
+        own
+    }
+
+    /// Finds what each body does to the face and cuts the face down to what is required; false where nothing is left.
+    fn sort_out(&mut self, own: &Reaching, face: &BodyFace) -> bool {
+        let scene = self.scene;
+        self.covering.clear();
+        self.open.clear();
+        for leaf in 0..self.bodies.len() {
+            if leaf == own.leaf || !self.restriction.matters(leaf) {
+                continue;
+            }
+            let reaching = self.reaching(leaf, face);
+            match self.role(own, &reaching) {
+                Role::None => {}
+                Role::Covers => self.covering.push(reaching),
+                Role::Open => self.open.push(reaching),
+                Role::Required => {
+                    let other = &scene.bodies[reaching.body];
+                    if clip_by(scene.table, face, other, &mut self.region, &mut self.spare) == Clip::Nothing {
+                        return false;
+                    }
+                    self.label.fix(scene.expression, &mut self.restriction, &reaching);
                 }
             }
-            out.extend(self.pieces.iter().map(|piece| BoundaryEdge {
-                face: face.plane,
-                edge,
-                start: piece.start,
-                end: piece.end,
-                material: face.material,
-            }));
+        }
+        true
+    }
+
+    fn reaching(&self, leaf: usize, face: &BodyFace) -> Reaching {
+        let body = self.bodies[leaf];
+        let same_plane = |other: &&BodyFace| other.plane.index() == face.plane.index();
+        let other = self.scene.bodies[body].faces.iter().find(same_plane);
+        let contact = match other {
+            None => Contact::Across,
+            Some(other) if other.plane == face.plane => Contact::SameWay,
+            Some(_) => Contact::OtherWay,
+        };
+        Reaching { body, leaf, contact, owner: self.scene.owner(body, other.unwrap_or(face)) }
+    }
+
+    /// What a body does, as far as it can be told from it and the face's own body alone.
+    fn role(&self, own: &Reaching, other: &Reaching) -> Role {
+        let decides = |leaf: usize, value: bool| self.restriction.decides(leaf, value);
+        let by_own = [decides(own.leaf, true), decides(own.leaf, false)];
+        // Whether the solid side is known to be empty, or the empty one solid.
+        let is_impossible = |facing: Facing, by_other: [Option<bool>; 2]| {
+            let forced = [by_own[0].or(by_other[0]), by_own[1].or(by_other[1])];
+            facing.solid_of(forced) == Some(false) || facing.empty_of(forced) == Some(true)
+        };
+        let sides = other.contact.sides();
+        let by_other = sides.map(|value| decides(other.leaf, value));
+        let (is_coplanar, is_before) = (other.contact != Contact::Across, other.owner < own.owner);
+        // Whether the tree becomes solid before the own face's turn, or not until after it.
+        let is_preceded = |facing: Facing| {
+            let by_its_turn = is_before && facing.solid_of(by_other) == Some(true);
+            let not_before = !is_before && facing.empty_of(by_other) == Some(false);
+            is_coplanar && (by_its_turn || not_before)
+        };
+        if Facing::BOTH.into_iter().all(|facing| is_impossible(facing, by_other) || is_preceded(facing)) {
+            return Role::Covers;
+        }
+        let if_absent = [decides(other.leaf, false); 2];
+        if Facing::BOTH.into_iter().all(|facing| is_impossible(facing, if_absent)) {
+            return Role::Required;
+        }
+        // Whether all is the same without it: the side on which it lies is decided, and it changes nothing at the own turn.
+        let is_idle = |facing: Facing| {
+            let is_solid = facing.solid_of(by_own).is_some() && facing.solid_of(sides) && !is_before;
+            let is_empty = facing.empty_of(by_own).is_some() && facing.empty_of(sides) && is_before;
+            is_impossible(facing, [None; 2]) || is_coplanar && (is_solid || is_empty)
+        };
+        let is_alone = by_own.iter().all(Option::is_some);
+        if is_alone || Facing::BOTH.into_iter().all(is_idle) { Role::None } else { Role::Open }
+    }
+
+    /// Clips the region by a body into the next free section.
+    fn cover(&mut self, face: &BodyFace, of: Reaching) -> Clip {
+        if self.sections.len() == self.live {
+            self.sections.push(Section { polygon: Polygon::default(), bounds: Bounds::EMPTY, of });
+        }
+        let section = &mut self.sections[self.live];
+        section.of = of;
+        section.polygon.copy_from(&self.region.edges, &self.region.corners);
+        let body = &self.scene.bodies[of.body];
+        let clip = clip_by(self.scene.table, face, body, &mut section.polygon, &mut self.spare);
+        if clip == Clip::Part {
+            section.bounds = section.polygon.bounds();
+        }
+        clip
+    }
+
+    /// The pieces of the region's own edges along which nothing is covered.
+    fn emit_own_edges(&mut self, face: &BodyFace, facing: Facing, out: &mut Vec<BoundaryEdge>) {
+        let table = self.scene.table;
+        for (i, &edge) in self.region.edges.iter().enumerate() {
+            let line = Line { plane: face.plane, edge };
+            self.pieces.clear();
+            self.pieces.push(Piece::of_edge(&self.region.edges, &self.region.corners, i));
+            for section in &self.sections[..self.live] {
+                let polygon = &section.polygon;
+                if let Some(k) = polygon.edges.iter().position(|other| *other == edge) {
+                    let covered = Piece::of_edge(&polygon.edges, &polygon.corners, k);
+                    line.subtract(table, &mut self.pieces, &covered);
+                }
+            }
+            out.extend(self.pieces.iter().map(|piece| BoundaryEdge::left(face, facing, edge, piece.start, piece.end)));
         }
     }
 
-    /// The pieces of section edges outside of which nothing is swallowed: there the kept region ends, too.
-    fn emit_section_edges(&mut self, face: &BodyFace, out: &mut Vec<BoundaryEdge>) {
-        if self.live > 1 {
-            for section in &mut self.swallowed[..self.live] {
-                section.bounds = Some(section.polygon.bounds());
-            }
-        }
-        for k in 0..self.live {
-            let section = &self.swallowed[k];
+    /// The pieces of section edges outside of which nothing is covered: there the boundary ends, too.
+    fn emit_section_edges(&mut self, face: &BodyFace, facing: Facing, out: &mut Vec<BoundaryEdge>) {
+        let sections = &self.sections[..self.live];
+        for (k, section) in sections.iter().enumerate() {
             for (i, &edge) in section.polygon.edges.iter().enumerate() {
-                if face.edges.contains(&edge) {
+                if self.region.edges.contains(&edge) {
                     continue;
                 }
                 let line = Line { plane: face.plane, edge };
                 self.pieces.clear();
                 self.pieces.push(Piece::of_edge(&section.polygon.edges, &section.polygon.corners, i));
-                subtract_others(self.table, line, &self.swallowed[..self.live], k, &mut self.pieces);
-                out.extend(self.pieces.iter().map(|piece| BoundaryEdge {
-                    face: face.plane,
-                    edge: edge.flipped(),
-                    start: piece.end,
-                    end: piece.start,
-                    material: face.material,
-                }));
+                subtract_others(self.scene.table, line, sections, k, &mut self.pieces);
+                let right = |piece: &Piece| BoundaryEdge::right(face, facing, edge, piece.start, piece.end);
+                out.extend(self.pieces.iter().map(right));
             }
         }
     }
 }
 
+/// Keeps of a polygon on the plane of a face what a body covers.
+fn clip_by(table: &PlaneTable, face: &BodyFace, body: &Body, polygon: &mut Polygon, spare: &mut Polygon) -> Clip {
+    let mut whole = true;
+    for cut in body.faces.iter().map(|face| face.plane).filter(|cut| cut.index() != face.plane.index()) {
+        match polygon.clip(table, face.plane, cut, spare) {
+            Clip::Nothing => return Clip::Nothing,
+            Clip::Part => whole = false,
+            Clip::Whole => {}
+        }
+    }
+    if whole { Clip::Whole } else { Clip::Part }
+}
+
 /// Takes out of `pieces`, which lie on an edge of section `own`, what other sections cover on the outer side.
 ///
 /// Along a shared edge line a section on the outer side covers; of two on the same side the first keeps the edge.
-fn subtract_others(table: &PlaneTable, line: Line, sections: &[Swallowed], own: usize, pieces: &mut Vec<Piece>) {
+fn subtract_others(table: &PlaneTable, line: Line, sections: &[Section], own: usize, pieces: &mut Vec<Piece>) {
     let Some(whole) = pieces.first().copied() else { return };
     let bounds = whole.bounds();
     for (k, other) in sections.iter().enumerate() {
-        if k == own || pieces.is_empty() || other.bounds.is_some_and(|b| !b.touches(&bounds)) {
+        if k == own || pieces.is_empty() || !other.bounds.touches(&bounds) {
             continue;
         }
         match line.cover(table, &whole, &other.polygon) {
             Cover::Apart => {}
             Cover::Across(part) => line.subtract(table, pieces, &part),
             Cover::Along(part, edge) => {
-                if !same_side(table, line, edge) || k < own {
+                if !line.is_same_side(table, edge) || k < own {
                     line.subtract(table, pieces, &part);
                 }
             }
         }
     }
-}
-
-/// Whether two polygons on `line.plane` lie on the same side of the line that `line.edge` and `edge` both bound.
-///
-/// Both normals are perpendicular to the line, so the directions agree where the lines `n_plane × n_edge` do.
-fn same_side(table: &PlaneTable, line: Line, edge: PlaneId) -> bool {
-    if edge.index() == line.edge.index() {
-        return edge == line.edge;
-    }
-    let along = |axis: usize| {
-        (table.cross_component(line.plane, line.edge, axis), table.cross_component(line.plane, edge, axis))
-    };
-    (0..3).map(along).find(|(a, _)| *a != planecut_kernel::sign::Sign::Zero).is_none_or(|(a, b)| a == b)
-}
-
-/// Whether a box surely has no point on the plane's outer side and none on the plane, or none on its inner side.
-fn misses(bounds: &Bounds, normal: DVec3, offset: f64) -> bool {
-    let (low, high) = bounds.extent_along(normal, offset);
-    high < 0.0 || low > 0.0
 }

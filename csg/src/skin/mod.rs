@@ -1,20 +1,26 @@
-//! The boundary of a union of bodies, as directed boundary edges of the kept regions; no cells, no fragments.
+//! The boundary of a tree of bodies, as directed boundary edges of the kept regions; no cells, no fragments.
 //!
-//! On each face of each body ([`face`]) the regions that other bodies swallow are convex polygons ([`section`]). What the
-//! weld needs are only the edges where the kept region ends: pieces of the face's own edges, and pieces of the section
-//! edges, each clipped in one dimension by the other sections. Coplanar faces: of two that face the same way one owner
-//! emits; two that face each other vanish.
+//! A place on a face is boundary where the tree differs between just inside and just outside. On each face of each body
+//! ([`face`]) other bodies cover convex polygons ([`section`]). What the weld needs are only the edges where the boundary
+//! ends: pieces of the face's own edges, and pieces of the section edges, each clipped in one dimension. Mostly each body
+//! alone decides what is inside or outside of its polygon, and intervals are subtracted; where several decide together,
+//! [`sweep`] evaluates the tree along each edge. Only the part of the tree that reaches a face is ever looked at. Of coplanar
+//! faces one owner emits ([`contact`]).
 
+mod contact;
 mod face;
 mod section;
+mod sweep;
 
 use planecut_kernel::sign::Counts;
 use rayon::prelude::*;
 
-use crate::body::Body;
+use crate::body::{Body, BodyFace};
 use crate::brush::MaterialId;
+use crate::expression::{Expression, Polarity};
 use crate::neighbours::Neighbours;
 use crate::plane_table::{PlaneId, PlaneTable};
+use contact::{Facing, Owner};
 
 /// A piece of the boundary of the kept region of a plane: on the line of `face` and `edge`, directed along
 /// `n_face × n_edge`, so that the region lies to the left.
@@ -31,9 +37,49 @@ pub(crate) struct BoundaryEdge {
     pub(crate) material: MaterialId,
 }
 
-/// The boundary edges of the union of bodies. `rank` orders materials: where coplanar faces overlap, the lower rank wins,
-/// so that the outcome does not depend on the order of the bodies.
-pub(crate) fn skin_of_union(table: &PlaneTable, bodies: &[Body], rank: &[u32]) -> (Vec<BoundaryEdge>, Counts) {
+impl BoundaryEdge {
+    /// The edge of a region that lies left of `n_face × n_edge`, from `start` to `end` in that direction; `facing` tells
+    /// whether the region faces as `face` does.
+    fn left(face: &BodyFace, facing: Facing, edge: PlaneId, start: PlaneId, end: PlaneId) -> Self {
+        let BodyFace { plane, material, .. } = *face;
+        match facing {
+            Facing::Out => Self { face: plane, edge, start, end, material },
+            // seen from the other side it runs back
+            Facing::In => Self { face: plane.flipped(), edge, start: end, end: start, material },
+        }
+    }
+
+    /// The same for a region to the right.
+    fn right(face: &BodyFace, facing: Facing, edge: PlaneId, start: PlaneId, end: PlaneId) -> Self {
+        Self::left(face, facing, edge.flipped(), end, start)
+    }
+}
+
+/// Bodies, and the tree over them.
+pub(crate) struct Scene<'a> {
+    pub(crate) table: &'a PlaneTable,
+    pub(crate) bodies: &'a [Body],
+    /// The leaf of each body, ascending.
+    pub(crate) leaf_of_body: &'a [u32],
+    pub(crate) expression: &'a Expression,
+    /// Orders materials: where coplanar faces overlap, the lower rank wins, so that the outcome does not depend on the
+    /// order of the bodies.
+    pub(crate) rank: &'a [u32],
+}
+
+impl Scene<'_> {
+    fn polarity(&self, body: usize) -> Polarity {
+        self.expression.polarity(self.leaf_of_body[body])
+    }
+
+    fn owner(&self, body: usize, face: &BodyFace) -> Owner {
+        (self.polarity(body), self.rank[face.material.0 as usize], body)
+    }
+}
+
+/// The boundary edges of a tree of bodies.
+pub(crate) fn skin(scene: &Scene<'_>) -> (Vec<BoundaryEdge>, Counts) {
+    let bodies = scene.bodies;
     let neighbours = Neighbours::new(bodies);
     let chunk = (bodies.len() / (8 * rayon::current_num_threads()).max(1)).clamp(1, 256);
     let parts: Vec<(Vec<BoundaryEdge>, Counts)> = (0..bodies.len())
@@ -42,7 +88,7 @@ pub(crate) fn skin_of_union(table: &PlaneTable, bodies: &[Body], rank: &[u32]) -
         .map(|chunk| {
             let before = Counts::now();
             let mut edges = Vec::new();
-            let mut worker = face::FaceWorker::new(table, bodies, rank);
+            let mut worker = face::FaceWorker::new(scene);
             let mut near = Vec::new();
             for &body in chunk {
                 neighbours.of(body, &bodies[body].bounds, &mut near);
@@ -60,4 +106,12 @@ pub(crate) fn skin_of_union(table: &PlaneTable, bodies: &[Body], rank: &[u32]) -
         counts += counted;
     }
     (edges, counts)
+}
+
+/// The boundary edges of the union of bodies.
+pub(crate) fn skin_of_union(table: &PlaneTable, bodies: &[Body], rank: &[u32]) -> (Vec<BoundaryEdge>, Counts) {
+    let count = bodies.len();
+    let leaves: Vec<u32> = (0..count as u32).collect();
+    let expression = Expression::union_of(count);
+    skin(&Scene { table, bodies, leaf_of_body: &leaves, expression: &expression, rank })
 }

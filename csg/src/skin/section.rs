@@ -136,6 +136,14 @@ impl Piece {
         table.side(line.end(self.end), &self.end_point, plane)
     }
 
+    pub(super) fn start_point(&self) -> Homogeneous {
+        self.start_point
+    }
+
+    pub(super) fn end_point(&self) -> Homogeneous {
+        self.end_point
+    }
+
     pub(super) fn bounds(&self) -> Bounds {
         Bounds::EMPTY.with_point(&self.start_point).with_point(&self.end_point)
     }
@@ -160,12 +168,12 @@ pub(super) enum Cover {
 
 impl Line {
     /// The right-handed planes of a point at which a piece starts.
-    fn start(self, start: PlaneId) -> [PlaneId; 3] {
+    pub(super) fn start(self, start: PlaneId) -> [PlaneId; 3] {
         [self.plane, start, self.edge]
     }
 
     /// The right-handed planes of a point at which a piece ends.
-    fn end(self, end: PlaneId) -> [PlaneId; 3] {
+    pub(super) fn end(self, end: PlaneId) -> [PlaneId; 3] {
         [self.plane, self.edge, end]
     }
 
@@ -241,6 +249,19 @@ impl Line {
                 }
             }
         }
+    }
+
+    /// Whether two polygons on `plane` lie on the same side of the line, which `edge` of this and `other` both bound.
+    ///
+    /// Both normals are perpendicular to the line, so the directions agree where the lines `n_plane × n_edge` do.
+    pub(super) fn is_same_side(self, table: &PlaneTable, other: PlaneId) -> bool {
+        if other.index() == self.edge.index() {
+            return other == self.edge;
+        }
+        let along = |axis: usize| {
+            (table.cross_component(self.plane, self.edge, axis), table.cross_component(self.plane, other, axis))
+        };
+        (0..3).map(along).find(|(a, _)| *a != Sign::Zero).is_none_or(|(a, b)| a == b)
     }
 
     /// Where the start of a cover becomes the end of what is left before it (or its end the start of what is left after).

@@ -25,22 +25,28 @@ pub(super) struct Run {
     pub(super) forward: bool,
 }
 
-/// The surviving runs of all edges, ordered by line, then region.
+/// The surviving runs of all edges, ordered by line; `planes` are those of the regions.
 pub(super) fn surviving_runs(
     table: &PlaneTable,
     points: &Points,
     lines: &[Line],
+    planes: &[PlaneId],
     edges: &mut [Run],
 ) -> Result<Vec<Run>, WeldError> {
     edges.sort_unstable_by_key(|edge| (edge.line, edge.region, edge.from, edge.to));
     let mut runs = Vec::with_capacity(edges.len());
     let mut sweep = Sweep::default();
-    for group in edges.chunk_by(|a, b| (a.line, a.region) == (b.line, b.region)) {
-        if let [edge] = group {
-            runs.push(*edge);
-        } else {
-            sweep.run_group(table, points, &lines[group[0].line as usize], group, &mut runs)?;
+    for of_line in edges.chunk_by(|a, b| a.line == b.line) {
+        let line = &lines[of_line[0].line as usize];
+        sweep.cancelled.clear();
+        for group in of_line.chunk_by(|a, b| a.region == b.region) {
+            if let [edge] = group {
+                runs.push(*edge);
+            } else {
+                sweep.run_group(table, points, line, group, &mut runs)?;
+            }
         }
+        sweep.cut_crossing(table, points, line, planes, &mut runs);
     }
     Ok(runs)
 }
@@ -49,7 +55,10 @@ pub(super) fn surviving_runs(
 #[derive(Default)]
 struct Sweep {
     stops: Vec<u32>,
-    change: Vec<i32>,
+    /// For each stop what changes there: the sum of directed edges, and how many there are.
+    change: Vec<(i32, i32)>,
+    /// Where edges of a region cancelled, so that it lies on both sides of the line; all forward.
+    cancelled: Vec<Run>,
 }
 
 impl Sweep {
@@ -65,34 +74,75 @@ impl Sweep {
         self.stops.extend(group.iter().flat_map(|edge| [edge.from, edge.to]));
         sort_along(table, points, line, &mut self.stops);
         self.change.clear();
-        self.change.resize(self.stops.len(), 0);
+        self.change.resize(self.stops.len(), (0, 0));
         for edge in group {
             let step = if edge.forward { 1 } else { -1 };
             let (low, high) = if edge.forward { (edge.from, edge.to) } else { (edge.to, edge.from) };
-            for (point, step) in [(low, step), (high, -step)] {
-                self.change[place(table, points, line, &self.stops, point)] += step;
+            for (point, sign) in [(low, 1), (high, -1)] {
+                let change = &mut self.change[place(table, points, line, &self.stops, point)];
+                *change = (change.0 + sign * step, change.1 + sign);
             }
         }
-        let mut sum = 0;
-        let mut began = 0;
+        // the sum so far, and whether there is any edge
+        let mut now = (0, false);
+        let (mut count, mut began) = (0, 0);
         for at in 0..self.stops.len() {
-            let before = sum;
-            sum += self.change[at];
-            if sum.abs() > 1 {
+            let before = now;
+            count += self.change[at].1;
+            now = (now.0 + self.change[at].0, count > 0);
+            if now.0.abs() > 1 {
                 return Err(WeldError::Overlap { region: group[0].region });
             }
-            if sum == before {
+            if now == before {
                 continue;
             }
-            if before != 0 {
-                let (low, high, forward) = (self.stops[began], self.stops[at], before > 0);
+            let (low, high) = (self.stops[began], self.stops[at]);
+            let run = |forward: bool| {
                 let (from, to) = if forward { (low, high) } else { (high, low) };
                 let edge = group.iter().find(|edge| edge.forward == forward).unwrap_or(&group[0]).edge;
-                runs.push(Run { line: group[0].line, region: group[0].region, edge, from, to, forward });
+                Run { line: group[0].line, region: group[0].region, edge, from, to, forward }
+            };
+            match before {
+                (0, true) => self.cancelled.push(run(true)),
+                (0, false) => {}
+                (sum, _) => runs.push(run(sum > 0)),
             }
             began = at;
         }
         Ok(())
+    }
+
+    /// Cuts regions of different planes that cross in the line, each lying on both sides of it: both directions of each
+    /// survive there. It takes three planes in one line for that, and solids that alternate around it.
+    fn cut_crossing(
+        &mut self,
+        table: &PlaneTable,
+        points: &Points,
+        line: &Line,
+        planes: &[PlaneId],
+        runs: &mut Vec<Run>,
+    ) {
+        let plane = |run: &Run| planes[run.region as usize].index();
+        let Some(first) = self.cancelled.first().map(plane) else { return };
+        if self.cancelled.iter().all(|run| plane(run) == first) {
+            return;
+        }
+        self.stops.clear();
+        self.stops.extend(self.cancelled.iter().flat_map(|run| [run.from, run.to]));
+        sort_along(table, points, line, &mut self.stops);
+        let stops = &self.stops;
+        let at = |point: u32| place(table, points, line, stops, point);
+        let ranges: Vec<(usize, usize)> = self.cancelled.iter().map(|run| (at(run.from), at(run.to))).collect();
+        for k in 1..self.stops.len() {
+            let crossing = || ranges.iter().zip(&self.cancelled).filter(|((low, high), _)| *low < k && k <= *high);
+            if crossing().any(|(_, run)| Some(plane(run)) != crossing().next().map(|(_, run)| plane(run))) {
+                let (low, high) = (self.stops[k - 1], self.stops[k]);
+                for (_, run) in crossing() {
+                    runs.push(Run { from: low, to: high, ..*run });
+                    runs.push(Run { from: high, to: low, edge: run.edge.flipped(), forward: false, ..*run });
+                }
+            }
+        }
     }
 }
 
@@ -195,12 +245,16 @@ fn pair_around(
     if around.len() > 2 {
         sort_around(table, line, planes, out, &mut around);
     }
-    // Seen along the line, solid lies counter-clockwise of a face whose edge points back, up to one that points along.
-    let start = around.iter().position(|k| !out[*k as usize].forward).unwrap_or(0);
-    around.rotate_left(start);
+    // Seen along the line, solid lies counter-clockwise of a face whose edge points back, up to one that points along. Where
+    // two that follow each other point the same way, a face between them lies on both sides of the line, uncut; what is on
+    // its one side stays apart from what is on the other.
+    let points_along = |k: usize| out[around[k % around.len()] as usize].forward;
+    let gap = (1..=around.len()).find(|k| points_along(k - 1) == points_along(*k));
+    let start = gap.or_else(|| (0..around.len()).find(|k| !points_along(*k))).unwrap_or(0);
+    around.rotate_left(start % interval.len());
     for pair in around.chunks(2) {
         let &[a, b] = pair else { continue };
-        if out[a as usize].forward || !out[b as usize].forward {
+        if out[a as usize].forward == out[b as usize].forward {
             let piece = &out[a as usize];
             return Err(WeldError::Wedge { from: piece.from, to: piece.to });
         }

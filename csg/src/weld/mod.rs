@@ -105,7 +105,7 @@ pub(crate) fn weld(
 ) -> Result<Welded, WeldError> {
     let before = Counts::now();
     let (regions, numbers) = Regions::number(edges, rank);
-    let (mut points, runs, lines) = runs_of(table, edges, &numbers)?;
+    let (mut points, runs, lines) = runs_of(table, edges, &regions.planes, &numbers)?;
     let runs = points.renumber(table, runs);
     let pinches = pinches::find(table, &points, &runs, regions.planes.len());
     let pieces = cancel::half_edges(table, &points, &lines, &regions.planes, &runs, &pinches)?;
@@ -147,6 +147,7 @@ impl Regions {
 fn runs_of(
     table: &PlaneTable,
     edges: &[BoundaryEdge],
+    planes: &[PlaneId],
     regions: &[u32],
 ) -> Result<(Points, Vec<Run>, Vec<lines::Line>), WeldError> {
     let triples: Vec<[PlaneId; 3]> =
@@ -166,7 +167,7 @@ fn runs_of(
             forward: lines[of_pair[k] as usize].is_along(table, edge.face, edge.edge),
         })
         .collect();
-    let runs = cancel::surviving_runs(table, &points, &lines, &mut numbered)?;
+    let runs = cancel::surviving_runs(table, &points, &lines, planes, &mut numbered)?;
     Ok((points, runs, lines))
 }
 

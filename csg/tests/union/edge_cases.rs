@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use planecut_csg::check::check_topology;
-use planecut_csg::{Brush, Evaluation, Model, evaluate, summarize};
+use planecut_csg::{Brush, Evaluation, Model, UnboundedBrushes, evaluate_with, summarize};
 use planecut_kernel::IncrementalPolytope;
 
 use crate::generate::{ball, turned_box};
@@ -37,7 +37,7 @@ fn components_and_genus(evaluation: &Evaluation) -> (usize, Option<i64>) {
 #[test]
 fn nothing_gives_nothing() {
     for model in [Model::default(), model(vec![]), model(vec![Brush::default()])] {
-        let evaluation = evaluate(&model).expect("an empty mesh");
+        let evaluation = evaluate_with(&model, UnboundedBrushes::LeaveOut).expect("an empty mesh");
         assert!(evaluation.mesh.triangles.is_empty() && evaluation.mesh.positions.is_empty());
         assert_eq!(evaluation.solid, Default::default());
         // without planes a brush is all of space

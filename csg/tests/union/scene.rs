@@ -31,7 +31,7 @@ pub(crate) fn cuboid(low: DVec3, high: DVec3) -> Brush {
 /// A model of brushes and as many materials as they name. Names run backwards, so that their order is not that of the ids.
 pub(crate) fn model(brushes: Vec<Brush>) -> Model {
     let used = brushes.iter().flat_map(|brush| &brush.faces).map(|face| face.material.0 + 1).max().unwrap_or(1);
-    let material = |k| Material { name: format!("material {:03}", 999 - k), color: None };
+    let material = |k| Material::named(format!("material {:03}", 999 - k));
     Model { materials: (0..used).map(material).collect(), tree: Tree::union_of(brushes) }
 }
 
@@ -57,6 +57,10 @@ pub(crate) trait Scene: Sized {
     fn model(&self) -> Model;
     /// Smaller scenes to try when this one fails.
     fn smaller(&self) -> Vec<Self>;
+    /// The scene as Rust, for a regression test.
+    fn as_rust(&self) -> String {
+        as_rust(&self.model())
+    }
 }
 
 impl Scene for Model {
@@ -67,9 +71,17 @@ impl Scene for Model {
     /// One brush less; then one plane less, where no brush becomes unbounded by that.
     fn smaller(&self) -> Vec<Self> {
         let brushes = self.tree.brushes();
-        let without_brush = (0..brushes.len()).map(|k| with_brushes(self, |brushes| drop(brushes.remove(k))));
+        let without_brush = (0..brushes.len()).map(|k| {
+            with_brushes(self, |brushes| {
+                brushes.remove(k);
+            })
+        });
         let planes = brushes.iter().enumerate().flat_map(|(b, brush)| (0..brush.faces.len()).map(move |f| (b, f)));
-        let without_plane = planes.map(|(b, f)| with_brushes(self, |brushes| drop(brushes[b].faces.remove(f))));
+        let without_plane = planes.map(|(b, f)| {
+            with_brushes(self, |brushes| {
+                brushes[b].faces.remove(f);
+            })
+        });
         let unbounded = summarize(self).unbounded.len();
         let still_bounded = without_plane.filter(|smaller| summarize(smaller).unbounded.len() == unbounded);
         without_brush.chain(still_bounded).collect()
@@ -103,7 +115,7 @@ pub(crate) fn sweep<S: Scene>(count: u64, generate: impl Fn(&mut Rng) -> S, judg
         while let Some((smaller, still)) = scene.smaller().into_iter().find_map(|s| Some((fails(&s)?, s))) {
             (message, scene) = (smaller, still);
         }
-        panic!("seed {seed}: {first}\nsmallest failing scene: {message}\n{}", as_rust(&scene.model()));
+        panic!("seed {seed}: {first}\nsmallest failing scene: {message}\n{}", scene.as_rust());
     }
 }
 

@@ -4,13 +4,18 @@ use std::collections::HashSet;
 
 use glam::DVec3;
 use planecut_csg::check::check_topology;
-use planecut_csg::{Evaluation, Mesh, Model, SolidMeasures, evaluate};
+use planecut_csg::{Evaluation, Mesh, Model, SolidMeasures, UnboundedBrushes, evaluate_with};
 
 use crate::scene::{ensure, ensure_eq};
 
-/// Evaluates a model and checks what holds for every solid.
+/// Evaluates a model without its unbounded brushes and checks what holds for every solid.
 pub(crate) fn evaluate_soundly(model: &Model) -> Result<Evaluation, String> {
-    let evaluation = evaluate(model).map_err(|error| error.to_string())?;
+    evaluate_soundly_with(model, UnboundedBrushes::LeaveOut)
+}
+
+/// Evaluates a model and checks what holds for every solid.
+pub(crate) fn evaluate_soundly_with(model: &Model, unbounded: UnboundedBrushes) -> Result<Evaluation, String> {
+    let evaluation = evaluate_with(model, unbounded).map_err(|error| error.to_string())?;
     check(&evaluation)?;
     ensure_eq!(evaluation.mesh.materials, model.materials, "materials");
     Ok(evaluation)

@@ -24,12 +24,16 @@ use crate::{ExportError, ExportOptions, Part};
 /// <https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Vendor/EXT_mesh_manifold>
 const MESH_MANIFOLD: &str = "EXT_mesh_manifold";
 
+/// What a material is where it does not say: matt and no metal.
+const METALLIC: f32 = 0.0;
+const ROUGHNESS: f32 = 0.9;
+
 /// A glTF document under construction. The root node has index 0, the parts' nodes follow.
 pub(super) struct Document {
     root: Root,
     /// Translation of each part's node, kept apart because the JSON types of the library are single precision.
     translations: Vec<[f64; 3]>,
-    materials: FxHashMap<(String, [u32; 3]), Index<Material>>,
+    materials: FxHashMap<(String, [u32; 5]), Index<Material>>,
 }
 
 /// The views that the accessors of a mesh look through.
@@ -179,24 +183,31 @@ impl Document {
         extension
     }
 
-    /// The glTF material for one of the mesh's; parts share those with equal name and colour.
+    /// The glTF material for one of the mesh's; parts share those that are equal.
     fn material(&mut self, mesh: &InputMesh, id: MaterialId) -> Index<Material> {
         let material = &mesh.materials[id.0 as usize];
         let [r, g, b] = material_color(material);
-        let key = (material.name.clone(), [r, g, b].map(f32::to_bits));
+        let metallic = share(material.metallic).unwrap_or(METALLIC);
+        let roughness = share(material.roughness).unwrap_or(ROUGHNESS);
+        let key = (material.name.clone(), [r, g, b, metallic, roughness].map(f32::to_bits));
         *self.materials.entry(key).or_insert_with(|| {
             self.root.push(Material {
                 name: name(&material.name),
                 pbr_metallic_roughness: PbrMetallicRoughness {
                     base_color_factor: PbrBaseColorFactor([r, g, b, 1.0]),
-                    metallic_factor: StrengthFactor(0.0),
-                    roughness_factor: StrengthFactor(0.9),
+                    metallic_factor: StrengthFactor(metallic),
+                    roughness_factor: StrengthFactor(roughness),
                     ..Default::default()
                 },
                 ..Default::default()
             })
         })
     }
+}
+
+/// A factor from 0 to 1; none where it is not a number.
+fn share(factor: Option<f32>) -> Option<f32> {
+    factor.filter(|factor| !factor.is_nan()).map(|factor| factor.clamp(0.0, 1.0))
 }
 
 fn new_root() -> Root {

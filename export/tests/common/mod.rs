@@ -110,7 +110,7 @@ fn push_quad(mesh: &mut Mesh, [a, b, c, d]: [u32; 4], normal: DVec3, material: &
 fn push_face(mesh: &mut Mesh, normal: DVec3, material: &str) -> u32 {
     let known = mesh.materials.iter().position(|m| m.name == material);
     let material = known.unwrap_or_else(|| {
-        mesh.materials.push(Material { name: material.to_owned(), color: None });
+        mesh.materials.push(Material::named(material));
         mesh.materials.len() - 1
     });
     mesh.faces.push(MeshFace { normal, material: MaterialId(material as u32) });

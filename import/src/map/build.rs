@@ -8,10 +8,10 @@ use rustc_hash::FxHashMap;
 use super::error::MapError;
 use super::glob::matches_any;
 use super::grammar::{self, Entity};
-use super::lines::LineTable;
 use super::plane::PlaneError;
 use super::{MapImport, MapOptions};
 use crate::Warning;
+use crate::lines::LineTable;
 
 /// Collects the brushes of one map.
 pub(super) struct Builder<'a> {
@@ -113,7 +113,7 @@ impl<'a> Builder<'a> {
         }
         let materials = &mut self.import.model.materials;
         let id = MaterialId(u32::try_from(materials.len()).unwrap_or(u32::MAX));
-        materials.push(Material { name: name.to_owned(), color: None });
+        materials.push(Material::named(name));
         self.materials.insert(name.to_owned(), id);
         id
     }

@@ -4,8 +4,8 @@ use thiserror::Error;
 
 use planecut_kernel::HalfSpaceError;
 
-use super::lines::LineTable;
 use super::token::is_delimiter;
+use crate::lines::LineTable;
 
 /// Why a map could not be read; displays as one line that names file and line.
 #[derive(Debug, Clone, PartialEq, Error)]

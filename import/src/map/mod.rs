@@ -23,7 +23,6 @@ mod decimal;
 mod error;
 mod glob;
 mod grammar;
-mod lines;
 mod plane;
 mod token;
 
@@ -33,8 +32,8 @@ use winnow::stream::LocatingSlice;
 pub use error::MapError;
 
 use crate::Warning;
+use crate::lines::LineTable;
 use build::Builder;
-use lines::LineTable;
 
 /// Which brushes of a map to leave aside.
 ///

@@ -1,21 +1,21 @@
 //! From byte offsets to line numbers.
 
 /// Where each line of a text begins. Lines end with LF, CR LF, or a CR alone.
-pub(super) struct LineTable {
+pub(crate) struct LineTable {
     /// Offset of the first byte of each line, ascending; the first entry is 0.
     starts: Vec<usize>,
 }
 
 impl LineTable {
     /// The table of `text`.
-    pub(super) fn new(text: &[u8]) -> Self {
+    pub(crate) fn new(text: &[u8]) -> Self {
         let ends_line = |i: usize| text[i] == b'\n' || (text[i] == b'\r' && text.get(i + 1) != Some(&b'\n'));
         let starts = std::iter::once(0).chain((0..text.len()).filter(|&i| ends_line(i)).map(|i| i + 1)).collect();
         Self { starts }
     }
 
     /// The line of the byte at `offset`, counted from 1.
-    pub(super) fn line_of(&self, offset: usize) -> u32 {
+    pub(crate) fn line_of(&self, offset: usize) -> u32 {
         let line = self.starts.partition_point(|&start| start <= offset);
         u32::try_from(line).unwrap_or(u32::MAX)
     }

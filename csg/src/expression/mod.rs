@@ -1,0 +1,249 @@
+//! A tree of set operations made ready for asking it about a few leaves at a time.
+//!
+//! Far from a leaf its value is 0. So near a face only the leaves that reach it are unknown; all others are 0, and what
+//! they leave of the tree ([`Restriction`]) is as small as their number, however large or deep the tree is: chains of
+//! operations between two branchings come to nothing, a negation, or a constant, which is looked up.
+
+mod restriction;
+
+use crate::tree::{Operation, TreeNode};
+pub(crate) use restriction::Restriction;
+
+/// No node.
+const NONE: u32 = u32::MAX;
+
+/// What is known of a node of the tree. *Base* is the value where all leaves are 0.
+#[derive(Debug, Clone, Copy)]
+struct Node {
+    /// `None` for a leaf.
+    operation: Option<Operation>,
+    depth: u32,
+    /// The leaves below are `first_leaf..end_leaf`.
+    first_leaf: u32,
+    end_leaf: u32,
+    operands: u32,
+    base: bool,
+    /// Operands with base 1; for a difference without the first operand.
+    true_operands: u32,
+    /// For a difference: the end of the leaves of its first operand, and the base of that.
+    first_operand: (u32, bool),
+    /// Whether the root sees the negation of this node where all that is beside its way to the root is at base; not
+    /// counting constants on that way.
+    is_negated: bool,
+    /// The largest depth of a node on the way to the root (this one included) whose parent is constant whatever the node is,
+    /// as long as its siblings are at base; counted from 1, 0 where there is none.
+    blocked_at: u32,
+    polarity: Polarity,
+}
+
+/// Whether a node adds to the solid or takes from it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Polarity {
+    /// What is added to the node can only take from the solid.
+    Takes,
+    /// Either, depending on other operands of an exclusive or.
+    Both,
+    /// What is added to the node can only add to the solid.
+    Adds,
+}
+
+impl Polarity {
+    fn flipped(self) -> Self {
+        match self {
+            Self::Adds => Self::Takes,
+            Self::Both => Self::Both,
+            Self::Takes => Self::Adds,
+        }
+    }
+}
+
+/// A tree of set operations over leaves that are numbered from left to right.
+#[derive(Debug, Clone)]
+pub(crate) struct Expression {
+    nodes: Vec<Node>,
+    leaves: Vec<u32>,
+    /// For the leaves `k` and `k + 1` the lowest node above both, then minima over ranges of powers of two of it.
+    between: Vec<Vec<u32>>,
+}
+
+impl Expression {
+    /// Reads the postfix order of a tree.
+    pub(crate) fn new(entries: &[TreeNode]) -> Self {
+        let mut nodes: Vec<Node> = Vec::with_capacity(entries.len());
+        let mut parents: Vec<u32> = Vec::with_capacity(entries.len());
+        let mut open: Vec<u32> = Vec::new();
+        let mut leaves = Vec::new();
+        for entry in entries {
+            let number = nodes.len() as u32;
+            let node = match *entry {
+                TreeNode::Leaf => {
+                    leaves.push(number);
+                    Node::leaf(leaves.len() as u32 - 1)
+                }
+                TreeNode::Operation { operation, operands } => {
+                    let taken = open.split_off(open.len() - operands as usize);
+                    for operand in &taken {
+                        parents[*operand as usize] = number;
+                    }
+                    let operands: Vec<&Node> = taken.iter().map(|k| &nodes[*k as usize]).collect();
+                    Node::operation(operation, &operands, leaves.len() as u32)
+                }
+            };
+            nodes.push(node);
+            parents.push(NONE);
+            open.push(number);
+        }
+        descend(&mut nodes, &parents);
+        let between = lowest_between(&nodes, &leaves, &parents);
+        Self { nodes, leaves, between }
+    }
+
+    /// The union of as many leaves.
+    pub(crate) fn union_of(leaves: usize) -> Self {
+        let mut entries = vec![TreeNode::Leaf; leaves];
+        entries.push(TreeNode::Operation { operation: Operation::Union, operands: leaves as u32 });
+        Self::new(&entries)
+    }
+
+    /// The value where all leaves are 0.
+    pub(crate) fn base(&self) -> bool {
+        self.nodes.last().is_some_and(|root| root.base)
+    }
+
+    /// Whether a leaf adds to the solid or takes from it.
+    pub(crate) fn polarity(&self, leaf: u32) -> Polarity {
+        self.nodes[self.leaves[leaf as usize] as usize].polarity
+    }
+
+    /// The lowest node above two different leaves, `p < q`.
+    fn lowest_above(&self, p: u32, q: u32) -> u32 {
+        let level = (q - p).ilog2() as usize;
+        let (a, b) = (self.between[level][p as usize], self.between[level][q as usize - (1 << level)]);
+        shallower(&self.nodes, a, b)
+    }
+}
+
+impl Node {
+    fn leaf(number: u32) -> Self {
+        Self {
+            operation: None,
+            depth: 0,
+            first_leaf: number,
+            end_leaf: number + 1,
+            operands: 0,
+            base: false,
+            true_operands: 0,
+            first_operand: (number, false),
+            is_negated: false,
+            blocked_at: 0,
+            polarity: Polarity::Adds,
+        }
+    }
+
+    /// An operation on operands, of which the last leaf before it is `end_leaf - 1`.
+    fn operation(operation: Operation, operands: &[&Self], end_leaf: u32) -> Self {
+        let first_leaf = operands.first().map_or(end_leaf, |first| first.first_leaf);
+        let first_operand = operands.first().map_or((end_leaf, false), |first| (first.end_leaf, first.base));
+        let counted = if operation == Operation::Difference { operands.get(1..).unwrap_or_default() } else { operands };
+        let true_operands = counted.iter().filter(|operand| operand.base).count() as u32;
+        let mut node = Self {
+            operation: Some(operation),
+            first_leaf,
+            end_leaf,
+            operands: operands.len() as u32,
+            true_operands,
+            first_operand,
+            ..Self::leaf(0)
+        };
+        node.base = node.value(true_operands, first_operand.1);
+        node
+    }
+
+    /// The value for a number of true operands; `first` is that of a difference's first operand.
+    fn value(&self, true_operands: u32, first: bool) -> bool {
+        match self.operation {
+            None => false,
+            Some(Operation::Union) => true_operands > 0,
+            Some(Operation::Intersection) => true_operands == self.operands,
+            Some(Operation::Difference) => first && true_operands == 0,
+            Some(Operation::Xor) => true_operands % 2 == 1,
+            Some(Operation::Complement) => true_operands == 0,
+        }
+    }
+
+    /// Whether `leaf`, which is below, is below the first operand of this difference.
+    fn is_in_first(&self, leaf: u32) -> bool {
+        self.operation == Some(Operation::Difference) && leaf < self.first_operand.0
+    }
+
+    /// Whether an operand changes nothing while all others are at base; one without leaves never changes.
+    fn ignores(&self, operand: &Self) -> bool {
+        if operand.first_leaf == operand.end_leaf {
+            return true;
+        }
+        let is_first = self.is_in_first(operand.first_leaf);
+        let others_true = self.true_operands - u32::from(operand.base && !is_first);
+        match self.operation {
+            None => true,
+            Some(Operation::Union | Operation::Complement) => others_true > 0,
+            Some(Operation::Intersection) => others_true + 1 < self.operands,
+            Some(Operation::Difference) => others_true > 0 || !(is_first || self.first_operand.1),
+            Some(Operation::Xor) => false,
+        }
+    }
+
+    /// Whether the value falls as the operand that holds `leaf` rises; of an exclusive or this is not told.
+    fn negates(&self, leaf: u32) -> bool {
+        match self.operation {
+            Some(Operation::Difference) => !self.is_in_first(leaf),
+            Some(Operation::Complement) => true,
+            _ => false,
+        }
+    }
+}
+
+/// Fills in what depends on the way to the root.
+fn descend(nodes: &mut [Node], parents: &[u32]) {
+    for k in (0..nodes.len()).rev() {
+        let Some(parent) = nodes.get(parents[k] as usize).copied() else { continue };
+        let depth = parent.depth + 1;
+        let node = &mut nodes[k];
+        let negates = parent.negates(node.first_leaf);
+        let is_odd = parent.operation == Some(Operation::Xor) && (parent.true_operands % 2 == 1) != node.base;
+        node.depth = depth;
+        node.is_negated = parent.is_negated ^ negates ^ is_odd;
+        node.blocked_at = if parent.ignores(node) { depth + 1 } else { parent.blocked_at };
+        node.polarity = match parent.operation {
+            Some(Operation::Xor) => Polarity::Both,
+            _ if negates => parent.polarity.flipped(),
+            _ => parent.polarity,
+        };
+    }
+}
+
+fn shallower(nodes: &[Node], a: u32, b: u32) -> u32 {
+    if nodes[b as usize].depth < nodes[a as usize].depth { b } else { a }
+}
+
+/// The lowest nodes above neighbouring leaves, and minima over their ranges.
+fn lowest_between(nodes: &[Node], leaves: &[u32], parents: &[u32]) -> Vec<Vec<u32>> {
+    // In postfix order a node's way up from its last leaf ends where the node that follows has it as an operand, so the
+    // ways climbed from all leaves together are as long as the tree has nodes.
+    let mut lowest: Vec<u32> = Vec::with_capacity(leaves.len());
+    for pair in leaves.windows(2) {
+        let next_leaf = nodes[pair[1] as usize].first_leaf;
+        let mut node = pair[0];
+        while nodes[node as usize].end_leaf <= next_leaf {
+            node = parents[node as usize];
+        }
+        lowest.push(node);
+    }
+    let mut levels = vec![lowest];
+    let mut width = 1;
+    while let Some(last) = levels.last().filter(|last| last.len() > width) {
+        let next = (0..last.len() - width).map(|k| shallower(nodes, last[k], last[k + width])).collect();
+        levels.push(next);
+        width *= 2;
+    }
+    levels
+}

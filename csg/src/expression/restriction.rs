@@ -1,0 +1,336 @@
+//! What a few leaves leave of an expression while all others are 0.
+
+use super::{Expression, NONE, Node};
+use crate::tree::Operation;
+
+/// One evaluation among several that are kept side by side.
+pub(crate) type Channel = usize;
+
+/// How many evaluations are kept side by side.
+pub(crate) const CHANNELS: usize = 4;
+
+/// A node of a restriction: a leaf, or a node of the expression where ways of several leaves meet.
+#[derive(Debug, Clone, Copy)]
+struct Branch {
+    /// The node of the expression.
+    node: u32,
+    parent: u32,
+    /// Whether the operand of the parent that holds this node is the negation of it.
+    is_negated: bool,
+    /// Whether that operand is the first of a difference.
+    is_first: bool,
+    /// Whether nothing below can change the root.
+    is_mute: bool,
+    /// Of the branches right below that are not mute: how many are counted as operands, how many of these are true at base,
+    /// and whether there is one in the first operand of a difference.
+    below: (u32, u32, bool),
+    /// For each value of this node the value of the root, where this alone decides it.
+    decides: [Option<bool>; 2],
+    /// For each channel: true operands, the first operand of a difference, the value.
+    true_operands: [u32; CHANNELS],
+    first: [bool; CHANNELS],
+    value: [bool; CHANNELS],
+}
+
+/// An expression of a few leaves, all others being 0; evaluated step by step as leaves change.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Restriction {
+    branches: Vec<Branch>,
+    /// The branch of each leaf in the order in which they were given.
+    leaves: Vec<u32>,
+    root_negated: bool,
+    base: bool,
+    order: Vec<u32>,
+    stack: Vec<u32>,
+}
+
+impl Restriction {
+    /// Restricts an expression to `leaves`, ascending and each once; all are 0 in every channel at first.
+    pub(crate) fn restrict(&mut self, expression: &Expression, leaves: &[u32]) {
+        self.base = expression.base();
+        self.collect_nodes(expression, leaves);
+        self.link(expression, leaves);
+        self.silence(expression);
+        self.decide(expression);
+    }
+
+    /// Whether a leaf, by its place among those given, can change the root at all.
+    pub(crate) fn matters(&self, leaf: usize) -> bool {
+        !self.branches[self.leaves[leaf] as usize].is_mute
+    }
+
+    /// The value of the root that a value of a leaf alone decides, whatever the other leaves are.
+    pub(crate) fn decides(&self, leaf: usize, value: bool) -> Option<bool> {
+        let branch = &self.branches[self.leaves[leaf] as usize];
+        if branch.is_mute { None } else { branch.decides[usize::from(value)] }
+    }
+
+    /// Sets a leaf in one channel.
+    pub(crate) fn set(&mut self, expression: &Expression, leaf: usize, channel: Channel, value: bool) {
+        let mut at = self.leaves[leaf];
+        let branch = &mut self.branches[at as usize];
+        if branch.is_mute || branch.value[channel] == value {
+            return;
+        }
+        branch.value[channel] = value;
+        // From here on each step carries a change of value up.
+        while let Some(&Branch { parent, is_negated, is_first, value, .. }) = self.branches.get(at as usize) {
+            let Some(above) = self.branches.get_mut(parent as usize) else { return };
+            let node = &expression.nodes[above.node as usize];
+            let operand = value[channel] ^ is_negated;
+            let before = above.value[channel];
+            if node.operation == Some(Operation::Xor) {
+                above.value[channel] = !before;
+            } else {
+                if is_first {
+                    above.first[channel] = operand;
+                } else if operand {
+                    above.true_operands[channel] += 1;
+                } else {
+                    above.true_operands[channel] -= 1;
+                }
+                above.value[channel] = node.value(above.true_operands[channel], above.first[channel]);
+            }
+            if above.value[channel] == before {
+                return;
+            }
+            at = parent;
+        }
+    }
+
+    /// The value of the root in a channel.
+    pub(crate) fn root(&self, channel: Channel) -> bool {
+        match self.branches.first().filter(|top| !top.is_mute) {
+            Some(top) => top.value[channel] ^ self.root_negated,
+            None => self.base,
+        }
+    }
+
+    /// The nodes at which ways of leaves meet, and the leaves, each before what is below it.
+    fn collect_nodes(&mut self, expression: &Expression, leaves: &[u32]) {
+        let nodes = &expression.nodes;
+        self.order.clear();
+        self.order.extend(leaves.iter().map(|leaf| expression.leaves[*leaf as usize]));
+        self.order.extend(leaves.windows(2).map(|pair| expression.lowest_above(pair[0], pair[1])));
+        self.order.sort_unstable_by_key(|k| (nodes[*k as usize].first_leaf, nodes[*k as usize].depth));
+        self.order.dedup();
+    }
+
+    /// Makes the branches and finds the parent of each.
+    fn link(&mut self, expression: &Expression, leaves: &[u32]) {
+        let nodes = &expression.nodes;
+        self.branches.clear();
+        self.leaves.clear();
+        self.stack.clear();
+        for (number, &node) in self.order.iter().enumerate() {
+            let this = &nodes[node as usize];
+            while let Some(top) = self.stack.last()
+                && nodes[self.order[*top as usize] as usize].end_leaf <= this.first_leaf
+            {
+                self.stack.pop();
+            }
+            let parent = self.stack.last().copied().unwrap_or(NONE);
+            let above = self.branches.get(parent as usize).map(|above: &Branch| &nodes[above.node as usize]);
+            self.branches.push(Branch::new(node, this, parent, above));
+            if this.operation.is_none() {
+                debug_assert_eq!(leaves[self.leaves.len()], this.first_leaf);
+                self.leaves.push(number as u32);
+            }
+            self.stack.push(number as u32);
+        }
+        self.root_negated = self.order.first().is_some_and(|top| nodes[*top as usize].is_negated);
+    }
+
+    /// Marks what cannot change the root: where the way up is blocked, and where operands that are not below any branch
+    /// make a node constant.
+    fn silence(&mut self, expression: &Expression) {
+        let nodes = &expression.nodes;
+        for k in (0..self.branches.len()).rev() {
+            let branch = self.branches[k];
+            let node = &nodes[branch.node as usize];
+            let is_blocked = match self.branches.get(branch.parent as usize) {
+                // blocked before it comes to the operand of the parent: what blocks that operand may be a branch itself
+                Some(above) => node.blocked_at > nodes[above.node as usize].depth + 2,
+                None => node.blocked_at > 0,
+            };
+            self.branches[k].is_mute = is_blocked || branch.is_fixed(node);
+            if !self.branches[k].is_mute
+                && let Some(above) = self.branches.get_mut(branch.parent as usize)
+            {
+                if branch.is_first {
+                    above.below.2 = true;
+                } else {
+                    above.below.0 += 1;
+                    above.below.1 += u32::from(node.base ^ branch.is_negated);
+                }
+            }
+        }
+        for k in 0..self.branches.len() {
+            let parent = self.branches[k].parent as usize;
+            self.branches[k].is_mute |= self.branches.get(parent).is_some_and(|above| above.is_mute);
+        }
+    }
+
+    /// Finds for each branch the values that decide the root.
+    fn decide(&mut self, expression: &Expression) {
+        for k in 0..self.branches.len() {
+            let branch = self.branches[k];
+            let decides = match self.branches.get(branch.parent as usize) {
+                None => [self.root_negated, !self.root_negated].map(Some),
+                Some(above) => {
+                    let node = &expression.nodes[above.node as usize];
+                    [false, true].map(|value| {
+                        let forced = above.forced_by(node, &branch, value ^ branch.is_negated)?;
+                        above.decides[usize::from(forced)]
+                    })
+                }
+            };
+            self.branches[k].decides = decides;
+        }
+    }
+}
+
+impl Branch {
+    fn new(node: u32, this: &Node, parent: u32, above: Option<&Node>) -> Self {
+        let is_first = above.is_some_and(|above| above.is_in_first(this.first_leaf));
+        // Between this node and the operand of `above` that holds it; an exclusive or is told of changes alone.
+        let is_negated = above.is_some_and(|above| {
+            above.operation != Some(Operation::Xor)
+                && (this.is_negated ^ above.is_negated ^ above.negates(this.first_leaf))
+        });
+        Self {
+            node,
+            parent,
+            is_negated,
+            is_first,
+            is_mute: false,
+            below: (0, 0, false),
+            decides: [None; 2],
+            true_operands: [this.true_operands; CHANNELS],
+            first: [this.first_operand.1; CHANNELS],
+            value: [this.base; CHANNELS],
+        }
+    }
+
+    /// Whether operands without branches make the node constant.
+    fn is_fixed(&self, node: &Node) -> bool {
+        let (count, true_below, has_first) = self.below;
+        let others_true = node.true_operands.saturating_sub(true_below);
+        match node.operation {
+            None | Some(Operation::Xor) => false,
+            Some(Operation::Union | Operation::Complement) => others_true > 0,
+            Some(Operation::Intersection) => others_true + count < node.operands,
+            Some(Operation::Difference) => others_true > 0 || !(node.first_operand.1 || has_first),
+        }
+    }
+
+    /// The value of this node that the operand in which `branch` lies forces, where it does.
+    fn forced_by(&self, node: &Node, branch: &Self, operand: bool) -> Option<bool> {
+        let is_alone = self.below.0 + u32::from(self.below.2) == 1;
+        match (node.operation?, operand) {
+            (Operation::Union, true) => Some(true),
+            (Operation::Complement, true) | (Operation::Intersection, false) => Some(false),
+            (Operation::Difference, value) if value != branch.is_first => Some(false),
+            // All others are at base, and do not make the node constant.
+            (Operation::Union | Operation::Intersection, value) if is_alone => Some(value),
+            (Operation::Complement, false) if is_alone => Some(true),
+            (Operation::Difference, _) if is_alone => Some(true),
+            _ => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tree::TreeNode;
+
+    /// Small random numbers (Marsaglia's xorshift).
+    struct Random(u64);
+
+    impl Random {
+        fn below(&mut self, n: u64) -> u64 {
+            self.0 ^= self.0 << 13;
+            self.0 ^= self.0 >> 7;
+            self.0 ^= self.0 << 17;
+            self.0 % n
+        }
+    }
+
+    fn random_tree(random: &mut Random) -> Vec<TreeNode> {
+        use Operation::{Complement, Difference, Intersection, Union, Xor};
+        let mut entries = Vec::new();
+        let mut open = 0;
+        let steps = 2 + random.below(24);
+        for step in 0..steps {
+            if open == 0 || random.below(5) < 3 && step + 1 < steps {
+                entries.push(TreeNode::Leaf);
+                open += 1;
+            }
+            if random.below(2) == 0 || step + 1 == steps {
+                let operation = [Union, Intersection, Difference, Xor, Complement][random.below(5) as usize];
+                let operands = if step + 1 == steps { open } else { random.below(open + 1) };
+                entries.push(TreeNode::Operation { operation, operands: operands as u32 });
+                open = open + 1 - operands;
+            }
+        }
+        entries
+    }
+
+    /// The value of a tree from its definition.
+    fn value(entries: &[TreeNode], leaves: &[bool]) -> bool {
+        let mut stack: Vec<bool> = Vec::new();
+        let mut next = leaves.iter();
+        for entry in entries {
+            match *entry {
+                TreeNode::Leaf => stack.push(*next.next().expect("a value for each leaf")),
+                TreeNode::Operation { operation, operands } => {
+                    let taken = stack.split_off(stack.len() - operands as usize);
+                    let any = |values: &[bool]| values.iter().any(|v| *v);
+                    stack.push(match operation {
+                        Operation::Union => any(&taken),
+                        Operation::Intersection => taken.iter().all(|v| *v),
+                        Operation::Difference => taken.first().is_some_and(|first| *first && !any(&taken[1..])),
+                        Operation::Xor => taken.iter().filter(|v| **v).count() % 2 == 1,
+                        Operation::Complement => !any(&taken),
+                    });
+                }
+            }
+        }
+        stack[0]
+    }
+
+    #[test]
+    fn restrictions_follow_random_trees() {
+        for seed in 1..3000_u64 {
+            let mut random = Random(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15));
+            let entries = random_tree(&mut random);
+            let count = entries.iter().filter(|entry| **entry == TreeNode::Leaf).count();
+            let expression = Expression::new(&entries);
+            assert_eq!(expression.base(), value(&entries, &vec![false; count]), "seed {seed}");
+            let near: Vec<u32> = (0..count as u32).filter(|_| random.below(3) > 0).collect();
+            if near.is_empty() {
+                continue;
+            }
+            let mut restriction = Restriction::default();
+            restriction.restrict(&expression, &near);
+            let mut all = vec![false; count];
+            for _ in 0..40 {
+                let k = random.below(near.len() as u64) as usize;
+                let on = random.below(2) == 1;
+                all[near[k] as usize] = on;
+                restriction.set(&expression, k, 1, on);
+                assert_eq!(restriction.root(1), value(&entries, &all), "seed {seed}: {entries:?} {near:?} {all:?}");
+                if let Some(root) = restriction.decides(k, on) {
+                    assert_eq!(root, value(&entries, &all), "seed {seed}: leaf {k} of {near:?} decides {entries:?}");
+                }
+            }
+            assert_eq!(restriction.root(0), expression.base(), "channels are apart");
+            for (k, leaf) in near.iter().enumerate().filter(|(k, _)| !restriction.matters(*k)) {
+                let mut other = all.clone();
+                other[*leaf as usize] ^= true;
+                assert_eq!(value(&entries, &all), value(&entries, &other), "seed {seed}: leaf {k} of {near:?}");
+            }
+        }
+    }
+}

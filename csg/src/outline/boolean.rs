@@ -1,0 +1,117 @@
+//! Set operations on outlines, by the crate `i_overlay`.
+//!
+//! The library works on whole numbers. Coordinates are multiplied by a power of two that leaves the largest 57 bits, so that
+//! all within a factor of 16 of it are whole without rounding, and each corner that comes back takes the very coordinates
+//! that went in: only corners where edges cross are new, and only they are rounded.
+
+use i_overlay::core::fill_rule::FillRule;
+use i_overlay::core::overlay::{Overlay, ShapeType};
+use i_overlay::core::overlay_rule::OverlayRule;
+use i_overlay::i_float::int::point::IntPoint;
+use planecut_kernel::DVec2;
+use rustc_hash::FxHashMap;
+
+use super::Outline;
+use crate::primitives::ShapeError;
+use crate::primitives::parameter::refuse;
+use crate::tree::Operation;
+
+/// Bits that the largest coordinate gets; the library takes 62.
+const BITS: i32 = 57;
+
+type Loop = Vec<IntPoint<i64>>;
+
+impl Outline {
+    /// A set operation on outlines, regularised; [`Operation::Difference`] takes the others from the first.
+    ///
+    /// # Errors
+    /// [`ShapeError::Parameter`] for [`Operation::Complement`]: no outline is unbounded.
+    pub fn combine(operation: Operation, operands: &[Self]) -> Result<Self, ShapeError> {
+        let points = || operands.iter().flat_map(Self::loops).flatten();
+        let mut grid = Grid::of(points().copied());
+        let loops: Vec<Vec<Loop>> = operands.iter().map(|operand| grid.loops(operand.loops())).collect();
+        let Some((first, rest)) = loops.split_first() else { return Ok(Self::empty()) };
+        let all = || loops.concat();
+        let result = match operation {
+            Operation::Union => run(&all(), &[], OverlayRule::Subject, FillRule::NonZero),
+            Operation::Xor => run(&all(), &[], OverlayRule::Subject, FillRule::EvenOdd),
+            Operation::Difference => run(first, &rest.concat(), OverlayRule::Difference, FillRule::NonZero),
+            Operation::Intersection => {
+                let whole = run(first, &[], OverlayRule::Subject, FillRule::NonZero);
+                let meet = |left: Vec<Vec<Loop>>, right: &Vec<Loop>| {
+                    run(&left.concat(), right, OverlayRule::Intersect, FillRule::NonZero)
+                };
+                rest.iter().fold(whole, meet)
+            }
+            Operation::Complement => return Err(refuse("complement", "an outline", "a node of the solid tree")),
+        };
+        Ok(grid.outline(result))
+    }
+
+    /// What lies within an odd number of loops, whatever way they run.
+    pub(crate) fn even_odd(loops: &[Vec<DVec2>]) -> Self {
+        let mut grid = Grid::of(loops.iter().flatten().copied());
+        let loops = grid.loops(loops.iter());
+        grid.outline(run(&loops, &[], OverlayRule::Subject, FillRule::EvenOdd))
+    }
+
+    /// What loops go around in either sense.
+    pub(crate) fn union_of_loops(loops: &[Vec<DVec2>]) -> Self {
+        Self::empty().with_loops(loops, OverlayRule::Union)
+    }
+
+    /// A set operation with what loops go around in either sense.
+    pub(super) fn with_loops(&self, loops: &[Vec<DVec2>], rule: OverlayRule) -> Self {
+        let mut grid = Grid::of(self.loops().chain(loops).flatten().copied());
+        let (own, others) = (grid.loops(self.loops()), grid.loops(loops.iter()));
+        grid.outline(run(&own, &others, rule, FillRule::NonZero))
+    }
+}
+
+fn run(subject: &[Loop], clip: &[Loop], rule: OverlayRule, fill: FillRule) -> Vec<Vec<Loop>> {
+    let mut overlay = Overlay::<i64>::new(subject.iter().chain(clip).map(Vec::len).sum());
+    overlay.add_contours(subject, ShapeType::Subject);
+    overlay.add_contours(clip, ShapeType::Clip);
+    overlay.overlay(rule, fill)
+}
+
+/// Coordinates as whole numbers, and back.
+struct Grid {
+    scale: f64,
+    known: FxHashMap<[i64; 2], DVec2>,
+}
+
+impl Grid {
+    fn of(points: impl Iterator<Item = DVec2>) -> Self {
+        let largest = points.map(|p| p.abs().max_element()).fold(0.0, f64::max);
+        let exponent = if largest > 0.0 { (largest.to_bits() >> 52) as i32 - 1023 } else { 0 };
+        Self { scale: 2f64.powi(BITS - exponent), known: FxHashMap::default() }
+    }
+
+    fn loops<'a>(&mut self, loops: impl Iterator<Item = &'a Vec<DVec2>>) -> Vec<Loop> {
+        loops.map(|corners| corners.iter().map(|p| self.whole(*p)).collect()).collect()
+    }
+
+    fn whole(&mut self, point: DVec2) -> IntPoint<i64> {
+        let [x, y] = (point * self.scale).round().to_array().map(|v| v as i64);
+        self.known.entry([x, y]).or_insert(point);
+        IntPoint::new(x, y)
+    }
+
+    fn outline(&self, shapes: Vec<Vec<Loop>>) -> Outline {
+        let point = |p: &IntPoint<i64>| {
+            let known = self.known.get(&[p.x, p.y]).copied();
+            known.unwrap_or_else(|| DVec2::new(p.x as f64, p.y as f64) / self.scale)
+        };
+        let corners = |corners: &Loop| {
+            let mut corners: Vec<DVec2> = corners.iter().map(point).collect();
+            corners.dedup();
+            while corners.len() > 1 && corners.first() == corners.last() {
+                corners.pop();
+            }
+            corners
+        };
+        let shapes = shapes.iter().map(|shape| shape.iter().map(corners).filter(|c| c.len() >= 3).collect());
+        Outline { shapes: shapes.filter(|shape: &Vec<_>| !shape.is_empty()).collect() }
+    }
+}

@@ -1,0 +1,37 @@
+//! Bodies by name, as the page `docs/model-file.md` of the project defines them: same parameters, same tessellation.
+//!
+//! What is convex is one [`Brush`](crate::Brush) whose planes come straight from the parameters: a face is one plane however
+//! many corners it has, planes along the axes and of short numbers are exact, and faces that mirror each other do so to the
+//! last bit. What is not convex is a union of touching convex cells whose common walls are the same plane seen from both
+//! sides, so that the skin dissolves them.
+//!
+//! | file | bodies |
+//! |---|---|
+//! | [`flat`] | boxes, wedges, half-spaces, hulls of points |
+//! | [`round`] | sphere, cylinder, cone, capsule, prism, pyramid |
+//! | [`regular`] | the five regular polyhedra |
+//! | [`revolved`] | torus, outlines revolved about the z axis |
+//! | [`extruded`] | outlines extruded along z |
+//!
+//! Lengths have no unit, angles are degrees.
+
+mod cells;
+mod circle;
+mod error;
+mod extruded;
+mod flat;
+pub(crate) mod parameter;
+mod regular;
+mod revolved;
+mod round;
+
+pub use error::ShapeError;
+pub use extruded::{Extrusion, extrude};
+pub use flat::{body_of_half_spaces, cuboid, half_space, hull_of_points, wedge};
+pub use parameter::{MAX_LENGTH, MAX_PIECES, MAX_SEGMENTS};
+pub use regular::{RegularSolid, regular};
+pub use revolved::{revolve, torus};
+pub use round::{capsule, cone, cylinder, prism, pyramid, sphere};
+
+pub(crate) use circle::direction;
+pub(crate) use flat::plane;

@@ -1,0 +1,324 @@
+//! The general case of a face: along each edge the tree is evaluated to the left and to the right.
+//!
+//! Where bodies neither cover the face nor are required by themselves, it depends on several of them at once whether a place
+//! is boundary. So each edge of the region and of every section is cut at the edges of the other sections; between two cuts
+//! all bodies are known on both sides, and where the two sides differ, the edge is one of the boundary.
+
+use std::cmp::Ordering;
+
+use planecut_kernel::sign::{Homogeneous, Sign};
+
+use super::contact::{Contact, Facing};
+use super::face::{Reaching, Section};
+use super::section::{Cover, Line, Piece, Polygon};
+use super::{BoundaryEdge, Scene};
+use crate::body::BodyFace;
+use crate::expression::{Expression, Restriction};
+use crate::plane_table::{PlaneId, PlaneTable};
+
+/// A side of a directed edge.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Side {
+    Left,
+    Right,
+}
+
+impl Side {
+    pub(super) const BOTH: [Self; 2] = [Self::Left, Self::Right];
+
+    /// The channel of the tree just inside of the face.
+    pub(super) fn inside(self) -> usize {
+        2 * self as usize
+    }
+
+    /// The channel of the tree just outside of the face.
+    pub(super) fn outside(self) -> usize {
+        2 * self as usize + 1
+    }
+}
+
+/// Which boundary a face is on either side of an edge.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Label {
+    own: usize,
+    /// For each side the bodies with a face on the plane that cover it, this one among them, by owner.
+    coplanar: [Vec<Reaching>; 2],
+}
+
+impl Label {
+    /// Nothing but a body itself is known to lie on either side of an edge on its face.
+    pub(super) fn begin(&mut self, expression: &Expression, restriction: &mut Restriction, own: &Reaching) {
+        self.own = own.leaf;
+        self.coplanar.iter_mut().for_each(Vec::clear);
+        self.fix(expression, restriction, own);
+    }
+
+    /// The boundary that the face emits on a side.
+    pub(super) fn of(&self, expression: &Expression, restriction: &mut Restriction, side: Side) -> Option<Facing> {
+        let facing = Facing::between(restriction.root(side.inside()), restriction.root(side.outside()))?;
+        let coplanar = &self.coplanar[side as usize];
+        if coplanar.len() < 2 {
+            return Some(facing);
+        }
+        // turn by turn from the empty side to the solid one, and back
+        let empty = facing.empty_of([side.inside(), side.outside()]);
+        let mut turned = 0;
+        let owner = coplanar.iter().find(|turn| {
+            turned += 1;
+            restriction.set(expression, turn.leaf, empty, facing.solid_of(turn.contact.sides()));
+            restriction.root(empty)
+        });
+        for turn in &coplanar[..turned] {
+            restriction.set(expression, turn.leaf, empty, facing.empty_of(turn.contact.sides()));
+        }
+        owner.is_some_and(|owner| owner.leaf == self.own).then_some(facing)
+    }
+
+    /// Takes a body as covering both sides.
+    pub(super) fn fix(&mut self, expression: &Expression, restriction: &mut Restriction, reaching: &Reaching) {
+        for side in Side::BOTH {
+            self.set(expression, restriction, reaching, side, true);
+        }
+    }
+
+    /// Takes a body as covering one side, or not.
+    fn set(
+        &mut self,
+        expression: &Expression,
+        restriction: &mut Restriction,
+        reaching: &Reaching,
+        side: Side,
+        covers: bool,
+    ) {
+        let [inside, outside] = reaching.contact.sides();
+        restriction.set(expression, reaching.leaf, side.inside(), inside && covers);
+        restriction.set(expression, reaching.leaf, side.outside(), outside && covers);
+        if reaching.contact == Contact::Across {
+            return;
+        }
+        let coplanar = &mut self.coplanar[side as usize];
+        let place = coplanar.partition_point(|other| other.owner < reaching.owner);
+        if covers {
+            coplanar.insert(place, *reaching);
+        } else {
+            coplanar.remove(place);
+        }
+    }
+}
+
+/// Where along a line a section begins or ends to cover one or both sides.
+#[derive(Debug, Clone, Copy)]
+struct Event {
+    section: u32,
+    sides: [bool; 2],
+    begins: bool,
+    /// The plane of the section's edge that is met.
+    plane: PlaneId,
+    point: Homogeneous,
+}
+
+/// Buffers of the sweep along edges.
+#[derive(Debug, Default)]
+pub(super) struct Sweep {
+    pieces: Vec<Piece>,
+    events: Vec<Event>,
+    /// The sections that cover sides of the piece, until each is let go.
+    covering: Vec<(u32, [bool; 2])>,
+}
+
+/// What stays the same during the sweep over one face.
+struct Context<'a> {
+    scene: &'a Scene<'a>,
+    face: &'a BodyFace,
+    sections: &'a [Section],
+}
+
+impl Sweep {
+    /// Emits all boundary edges on a face; where nothing is covered, `restriction` and `label` hold what is known of it.
+    #[expect(clippy::too_many_arguments, reason = "the buffers of the face's worker, each borrowed for itself")]
+    pub(super) fn emit(
+        &mut self,
+        scene: &Scene<'_>,
+        face: &BodyFace,
+        region: &Polygon,
+        sections: &[Section],
+        restriction: &mut Restriction,
+        label: &mut Label,
+        out: &mut Vec<BoundaryEdge>,
+    ) {
+        let context = Context { scene, face, sections };
+        for i in 0..region.edges.len() {
+            self.pieces.clear();
+            self.pieces.push(Piece::of_edge(&region.edges, &region.corners, i));
+            self.sweep_pieces(&context, region.edges[i], None, restriction, label, out);
+        }
+        for (k, section) in sections.iter().enumerate() {
+            let polygon = &section.polygon;
+            for (i, &edge) in polygon.edges.iter().enumerate().filter(|(_, edge)| !region.edges.contains(edge)) {
+                self.pieces.clear();
+                self.pieces.push(Piece::of_edge(&polygon.edges, &polygon.corners, i));
+                self.drop_repeated(&context, edge, k);
+                self.sweep_pieces(&context, edge, Some(k), restriction, label, out);
+            }
+        }
+    }
+
+    /// Takes out of the pieces what lies on edges of earlier sections: these emit it.
+    fn drop_repeated(&mut self, context: &Context<'_>, edge: PlaneId, own: usize) {
+        let line = Line { plane: context.face.plane, edge };
+        let whole = self.pieces[0];
+        let bounds = whole.bounds();
+        for other in context.sections[..own].iter().filter(|other| other.bounds.touches(&bounds)) {
+            if let Cover::Along(part, _) = line.cover(context.scene.table, &whole, &other.polygon) {
+                line.subtract(context.scene.table, &mut self.pieces, &part);
+            }
+        }
+    }
+
+    /// Sweeps along the pieces, which lie on an edge of section `own`, or of the region where there is none.
+    fn sweep_pieces(
+        &mut self,
+        context: &Context<'_>,
+        edge: PlaneId,
+        own: Option<usize>,
+        restriction: &mut Restriction,
+        label: &mut Label,
+        out: &mut Vec<BoundaryEdge>,
+    ) {
+        let line = Line { plane: context.face.plane, edge };
+        for k in 0..self.pieces.len() {
+            let piece = self.pieces[k];
+            self.covering.clear();
+            self.covering.extend(own.map(|own| (own as u32, [true, false])));
+            self.find_events(context, line, &piece, own);
+            self.events.sort_by(|a, b| a.compare(b, context.scene.table, line));
+            let expression = context.scene.expression;
+            let mut walk =
+                Walk { context, restriction, label, edge, outer: own.is_none(), start: piece.start, now: None };
+            for (section, sides) in &self.covering {
+                walk.change(expression, *section, *sides, true);
+            }
+            walk.now = walk.labels();
+            let mut at = 0;
+            while at < self.events.len() {
+                let place = self.events[at];
+                while let Some(event) =
+                    self.events.get(at).filter(|e| e.compare(&place, context.scene.table, line).is_eq())
+                {
+                    walk.change(expression, event.section, event.sides, event.begins);
+                    self.note(*event);
+                    at += 1;
+                }
+                walk.pass(place.plane, out);
+            }
+            walk.end(piece.end, out);
+            for (section, sides) in &self.covering {
+                walk.change(expression, *section, *sides, false);
+            }
+        }
+    }
+
+    /// Keeps the list of what covers.
+    fn note(&mut self, event: Event) {
+        if event.begins {
+            self.covering.push((event.section, event.sides));
+        } else if let Some(k) = self.covering.iter().position(|(section, _)| *section == event.section) {
+            self.covering.swap_remove(k);
+        }
+    }
+
+    /// Finds what covers the beginning of a piece, and where that changes.
+    fn find_events(&mut self, context: &Context<'_>, line: Line, piece: &Piece, own: Option<usize>) {
+        let table = context.scene.table;
+        let bounds = piece.bounds();
+        self.events.clear();
+        for (k, other) in context.sections.iter().enumerate() {
+            if Some(k) == own || !other.bounds.touches(&bounds) {
+                continue;
+            }
+            let (part, sides) = match line.cover(table, piece, &other.polygon) {
+                Cover::Apart => continue,
+                Cover::Across(part) => (part, [true, true]),
+                Cover::Along(part, edge) if line.is_same_side(table, edge) => (part, [true, false]),
+                Cover::Along(part, _) => (part, [false, true]),
+            };
+            let section = k as u32;
+            if part.start == piece.start {
+                self.covering.push((section, sides));
+            } else {
+                let point = part.start_point();
+                self.events.push(Event { section, sides, begins: true, plane: part.start, point });
+            }
+            if part.end != piece.end {
+                let point = part.end_point();
+                self.events.push(Event { section, sides, begins: false, plane: part.end, point });
+            }
+        }
+    }
+}
+
+impl Event {
+    /// The exact order along the line.
+    fn compare(&self, other: &Self, table: &PlaneTable, line: Line) -> Ordering {
+        if self.plane.index() == other.plane.index() {
+            return Ordering::Equal;
+        }
+        let planes = if self.begins { line.start(self.plane) } else { line.end(self.plane) };
+        // where a section begins its plane looks back along the line, where it ends ahead
+        let ahead = match table.side(planes, &self.point, other.plane) {
+            Sign::Zero => return Ordering::Equal,
+            Sign::Positive => !other.begins,
+            Sign::Negative => other.begins,
+        };
+        if ahead { Ordering::Greater } else { Ordering::Less }
+    }
+}
+
+/// The state on the way along one piece.
+struct Walk<'a, 'b> {
+    context: &'a Context<'b>,
+    restriction: &'a mut Restriction,
+    label: &'a mut Label,
+    edge: PlaneId,
+    /// Whether there is nothing of the face on the right.
+    outer: bool,
+    /// Where the present labels began.
+    start: PlaneId,
+    now: Option<[Option<Facing>; 2]>,
+}
+
+impl Walk<'_, '_> {
+    fn change(&mut self, expression: &Expression, section: u32, sides: [bool; 2], covers: bool) {
+        let of = &self.context.sections[section as usize].of;
+        for side in Side::BOTH.into_iter().filter(|side| sides[*side as usize]) {
+            self.label.set(expression, self.restriction, of, side, covers);
+        }
+    }
+
+    /// What the face is on both sides; nothing where it is no boundary at all. Where both sides are the same, the two edges
+    /// that are emitted cancel: they tell the weld where faces may cross.
+    fn labels(&mut self) -> Option<[Option<Facing>; 2]> {
+        let expression = self.context.scene.expression;
+        let left = self.label.of(expression, self.restriction, Side::Left);
+        let right = if self.outer { None } else { self.label.of(expression, self.restriction, Side::Right) };
+        (left.is_some() || right.is_some()).then_some([left, right])
+    }
+
+    /// Goes on at a point that lies on `plane`.
+    fn pass(&mut self, plane: PlaneId, out: &mut Vec<BoundaryEdge>) {
+        let next = self.labels();
+        if next != self.now {
+            self.end(plane, out);
+            self.start = plane;
+            self.now = next;
+        }
+    }
+
+    /// Emits what ends at a point that lies on `plane`.
+    fn end(&mut self, plane: PlaneId, out: &mut Vec<BoundaryEdge>) {
+        let Some([left, right]) = self.now else { return };
+        let face = self.context.face;
+        out.extend(left.map(|facing| BoundaryEdge::left(face, facing, self.edge, self.start, plane)));
+        out.extend(right.map(|facing| BoundaryEdge::right(face, facing, self.edge, self.start, plane)));
+    }
+}

@@ -1,0 +1,103 @@
+//! Solids as disjoint convex cells.
+//!
+//! - [`cell`]: a polytope of the kernel that knows the plane and the brush face behind each of its planes; [`convex`]: a body
+//!   that cells are held against.
+//! - [`flat`] finds for each leaf of a tree the [`formula`] that its part of the solid fulfils, [`carve`] cuts the cells,
+//!   [`order`] chooses along which planes first, [`merge`] joins neighbours. [`from_tree`] is made of these.
+
+mod boolean;
+mod boxes;
+mod carve;
+mod cell;
+mod components;
+mod convex;
+mod cuts;
+mod flat;
+mod formula;
+mod from_tree;
+mod measure;
+mod merge;
+mod motion;
+mod order;
+mod query;
+mod ray;
+mod skin;
+
+use std::sync::Arc;
+
+pub use cell::{Cell, CellPlane};
+pub use cuts::CutId;
+use cuts::PlaneCut;
+pub use ray::RayHit;
+
+use crate::brush::Brush;
+use crate::plane_table::PlaneTable;
+use crate::tree::Tree;
+
+/// A solid as convex cells whose interiors are disjoint.
+///
+/// The cells are exact: each is a set of half-spaces of one [`PlaneTable`], and every decision on the way was an exact sign.
+/// They may be unbounded.
+///
+/// # Guarantees
+/// No two cells have interior in common, and none is empty unless a plane that was added cuts it away.
+#[derive(Debug, Clone)]
+pub struct Solid {
+    table: Arc<PlaneTable>,
+    cells: Vec<Cell>,
+    /// Convex bodies, possibly overlapping, whose union the solid is, where it is known to be one of fewer than the cells.
+    cover: Option<Vec<Arc<Cell>>>,
+    /// The planes with which it was cut and that can be taken back.
+    cuts: Vec<PlaneCut>,
+    next_cut: u32,
+    /// How many brushes the numbers of brush faces are taken from.
+    brushes: u32,
+}
+
+impl Default for Solid {
+    /// Nothing.
+    fn default() -> Self {
+        Self::empty()
+    }
+}
+
+impl From<Brush> for Solid {
+    fn from(brush: Brush) -> Self {
+        Self::from_tree(&Tree::from(brush))
+    }
+}
+
+impl From<&Tree> for Solid {
+    fn from(tree: &Tree) -> Self {
+        Self::from_tree(tree)
+    }
+}
+
+impl Solid {
+    fn of_cells(table: Arc<PlaneTable>, cells: Vec<Cell>, brushes: u32) -> Self {
+        Self { table, cells, cover: None, cuts: Vec::new(), next_cut: 0, brushes }
+    }
+
+    /// Nothing.
+    #[must_use]
+    pub fn empty() -> Self {
+        Self::of_cells(Arc::default(), Vec::new(), 0)
+    }
+
+    /// All of space.
+    #[must_use]
+    pub fn everything() -> Self {
+        Self::of_cells(Arc::default(), vec![Cell::everything()], 0)
+    }
+
+    /// The cells. One that a plane which was added cuts away is left out.
+    pub fn cells(&self) -> impl Iterator<Item = &Cell> + Clone {
+        self.cells.iter().filter(|cell| !cell.is_empty())
+    }
+
+    /// The table that the planes of the cells are numbered in.
+    #[must_use]
+    pub fn table(&self) -> &PlaneTable {
+        &self.table
+    }
+}

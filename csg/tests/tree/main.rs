@@ -1,0 +1,24 @@
+//! Trees of set operations, from planes to watertight mesh, against oracles that share no code with it.
+//!
+//! - [`random`]: random trees over bodies with shared planes, turned bodies and half-spaces; [`volume`]: their volume as a
+//!   sum over intersections, their membership from the half-spaces alone.
+//! - [`algebra`]: the identities of set algebra, bit for bit where the mesh must be the same.
+//! - [`edge_cases`]: empty and unbounded results, deep and wide trees, materials.
+
+#[path = "../union/generate.rs"]
+#[allow(dead_code, reason = "shared with the tests of unions")]
+mod generate;
+#[path = "../union/rng.rs"]
+#[allow(dead_code, reason = "shared with the tests of unions")]
+mod rng;
+#[path = "../union/scene.rs"]
+#[allow(dead_code, reason = "shared with the tests of unions")]
+mod scene;
+#[path = "../union/soundness.rs"]
+#[allow(dead_code, reason = "shared with the tests of unions")]
+mod soundness;
+
+mod algebra;
+mod edge_cases;
+mod random;
+mod volume;

@@ -1,0 +1,89 @@
+//! How much a model may grow: counted before anything is copied.
+
+use planecut_csg::Tree;
+
+use super::error::{Checked, Fault};
+use super::json::Entry;
+use super::{MAX_BRUSHES, MAX_PLANES};
+
+/// Most nodes that are evaluated, those in parts counting each time: a bound on work that leaves no brush behind.
+const MAX_STEPS: u64 = 1 << 26;
+
+/// What is there at the moment.
+#[derive(Debug, Default)]
+pub(super) struct Budget {
+    brushes: usize,
+    planes: usize,
+    steps: u64,
+}
+
+/// Brushes and planes of something.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Size {
+    pub(super) brushes: usize,
+    pub(super) planes: usize,
+}
+
+impl Size {
+    /// That of a tree.
+    pub(super) fn of(tree: &Tree) -> Self {
+        let planes = tree.brushes().iter().map(|brush| brush.faces.len()).sum();
+        Self { brushes: tree.brushes().len(), planes }
+    }
+
+    /// So many times as much.
+    pub(super) fn times(self, count: f64) -> (f64, f64) {
+        (self.brushes as f64 * count, self.planes as f64 * count)
+    }
+}
+
+impl Budget {
+    /// Counts one more node.
+    ///
+    /// # Errors
+    /// A fault of the node where there were too many.
+    pub(super) fn step(&mut self, node: Entry) -> Checked<()> {
+        self.steps += 1;
+        if self.steps <= MAX_STEPS {
+            return Ok(());
+        }
+        let found = format!("more than {MAX_STEPS} nodes once parts are put in their places");
+        Err(Fault::new(node, found, format!("at most {MAX_STEPS}")))
+    }
+
+    /// Counts a tree.
+    ///
+    /// # Errors
+    /// A fault of the node where it is too much.
+    pub(super) fn add(&mut self, node: Entry, tree: &Tree) -> Checked<()> {
+        let size = Size::of(tree);
+        self.allow(node, size, 1.0)?;
+        self.brushes += size.brushes;
+        self.planes += size.planes;
+        Ok(())
+    }
+
+    /// Counts a tree that is gone.
+    pub(super) fn remove(&mut self, tree: &Tree) {
+        let size = Size::of(tree);
+        self.brushes = self.brushes.saturating_sub(size.brushes);
+        self.planes = self.planes.saturating_sub(size.planes);
+    }
+
+    /// Whether so many copies of something still fit.
+    ///
+    /// # Errors
+    /// A fault of the node where they do not.
+    pub(super) fn allow(&self, node: Entry, size: Size, copies: f64) -> Checked<()> {
+        let (brushes, planes) = size.times(copies);
+        let (brushes, planes) = (brushes + self.brushes as f64, planes + self.planes as f64);
+        if brushes > MAX_BRUSHES as f64 || copies > MAX_BRUSHES as f64 {
+            let found = format!("{} brushes in all", brushes.max(copies));
+            return Err(Fault::new(node, found, format!("at most {MAX_BRUSHES}")));
+        }
+        if planes > MAX_PLANES as f64 {
+            return Err(Fault::new(node, format!("{planes} planes in all"), format!("at most {MAX_PLANES}")));
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,492 @@
+//! From NODEs to one tree.
+//!
+//! What is to be done waits in a list, and results wait in another, as in a calculator of postfix formulas: no recursion.
+//! On the way down maps, materials and names are handed on, so that each plane is moved once. Where a result is needed by
+//! itself (copies, hulls, sums, sections) a node begins anew in a frame of its own, and its result is put in place afterwards.
+
+use planecut_csg::outline::Outline;
+use planecut_csg::{MaterialId, Operation, Transform, Tree, shaping};
+use rustc_hash::FxHashMap;
+
+use super::body::Maker;
+use super::budget::{Budget, Size};
+use super::check::{Use, kind_of};
+use super::error::{Checked, Fault};
+use super::json::Entry;
+use super::keys::{NODE_EXTRAS, NODE_KINDS, OUTLINE_EXTRAS, OUTLINE_KINDS};
+use super::materials::{NO_MATERIAL, set_missing};
+use super::names::Names;
+use super::parameters::{Definitions, Environment};
+use super::{MAX_BRUSHES, MAX_DEPTH};
+use crate::Warning;
+use crate::lines::LineTable;
+
+/// A node and what it inherits.
+#[derive(Debug, Clone)]
+struct Context {
+    node: Entry,
+    map: Transform,
+    material: MaterialId,
+    name: Option<Entry>,
+    environment: Environment,
+    depth: u32,
+}
+
+/// What is still to be done.
+enum Task {
+    Node(Context),
+    /// Combine the last so many trees.
+    Combine(Operation, usize),
+    /// The hull of the last so many trees.
+    Hull(Context, usize),
+    /// The sum of the last two trees.
+    Minkowski(Context),
+    /// Copies of the last tree.
+    Copies(Context, &'static str, Entry),
+    /// Keep the last tree as that of a part, and put it in place.
+    Keep(Context, u32),
+    /// A body from the last outline.
+    Extrude(Context, Entry),
+    Revolve(Context, Entry),
+    Outline(Entry, Environment, u32),
+    /// Move the last outline.
+    MoveOutline(Entry, Environment),
+    CombineOutlines(Operation, usize, Entry),
+    Offset(Entry, Environment),
+    /// An outline from the last tree.
+    Slice(Entry, Environment),
+    Project(Entry, Environment),
+}
+
+/// Evaluates the NODEs of a text that was checked.
+pub(super) struct Evaluator<'v, 'a> {
+    definitions: &'v Definitions<'v, 'a>,
+    names: &'v Names,
+    lines: &'v LineTable,
+    /// How often each part is used.
+    uses: Vec<u32>,
+    tasks: Vec<Task>,
+    trees: Vec<Tree>,
+    outlines: Vec<Outline>,
+    /// Trees of parts that are used more than once, by part and environment.
+    kept: FxHashMap<(u32, u32), Tree>,
+    budget: Budget,
+    /// How many environments there were.
+    environments: u32,
+    warnings: Vec<Warning>,
+}
+
+impl<'v, 'a> Evaluator<'v, 'a> {
+    /// An evaluator with nothing to do; `uses` are those of parts and outlines, by the numbers of definitions.
+    pub(super) fn new(
+        definitions: &'v Definitions<'v, 'a>,
+        names: &'v Names,
+        lines: &'v LineTable,
+        uses: &[Use],
+    ) -> Self {
+        let mut counts = vec![0; names.parts.names.len()];
+        for Use { used, .. } in uses {
+            if let Some(count) = used.checked_sub(names.part_vertex(0)).and_then(|part| counts.get_mut(part)) {
+                *count += 1;
+            }
+        }
+        Self {
+            definitions,
+            names,
+            lines,
+            uses: counts,
+            tasks: Vec::new(),
+            trees: Vec::new(),
+            outlines: Vec::new(),
+            kept: FxHashMap::default(),
+            budget: Budget::default(),
+            environments: 0,
+            warnings: Vec::new(),
+        }
+    }
+
+    /// The tree of a NODE.
+    ///
+    /// # Errors
+    /// [`Fault`] of the first value that cannot be made.
+    pub(super) fn run(mut self, node: Entry, environment: Environment) -> Checked<(Tree, Vec<Warning>)> {
+        self.tasks.push(Task::Node(Context::frame(node, environment, 0)));
+        while let Some(task) = self.tasks.pop() {
+            self.carry_out(task)?;
+        }
+        Ok((self.trees.pop().unwrap_or_default(), self.warnings))
+    }
+
+    fn carry_out(&mut self, task: Task) -> Checked<()> {
+        match task {
+            Task::Node(context) => self.node(context),
+            Task::Combine(operation, count) => {
+                let operands = self.last_trees(count);
+                self.trees.push(Tree::combine(operation, operands));
+                Ok(())
+            }
+            Task::Hull(context, count) => {
+                let operands = self.used_up(count);
+                let maker = |maker: Maker<'_, '_>| maker.accept(shaping::hull(&operands, maker.material));
+                self.make(context, maker)
+            }
+            Task::Minkowski(context) => {
+                let operands = self.used_up(2);
+                let [a, b] = &operands[..] else { return Ok(()) };
+                let maker = |maker: Maker<'_, '_>| maker.accept(shaping::minkowski(a, b, maker.material));
+                self.make(context, maker)
+            }
+            Task::Copies(context, kind, value) => self.copies(&context, kind, value),
+            Task::Keep(context, part) => {
+                let tree = self.trees.pop().unwrap_or_default();
+                self.budget.allow(context.node, Size::of(&tree), 1.0)?;
+                self.kept.insert((part, context.environment.number), tree.clone());
+                let placed = self.put(&context, tree)?;
+                self.trees.push(placed);
+                Ok(())
+            }
+            Task::Extrude(context, value) => {
+                let outline = self.outlines.pop().unwrap_or_default();
+                self.make_from(context, value, |maker| maker.extrude(&outline))
+            }
+            Task::Revolve(context, value) => {
+                let outline = self.outlines.pop().unwrap_or_default();
+                self.make_from(context, value, |maker| maker.revolve(&outline))
+            }
+            Task::Outline(entry, environment, depth) => self.outline(entry, &environment, depth),
+            Task::MoveOutline(matrix, environment) => self.move_outline(matrix, &environment),
+            Task::CombineOutlines(operation, count, value) => {
+                let operands = self.outlines.split_off(self.outlines.len().saturating_sub(count));
+                let combined = Outline::combine(operation, &operands);
+                self.outlines.push(combined.map_err(|error| Fault::new(value, error.to_string(), "other outlines"))?);
+                Ok(())
+            }
+            Task::Offset(value, environment) => {
+                let outline = self.outlines.pop().unwrap_or_default();
+                let maker = Maker { values: self.definitions.values(&environment), value, material: NO_MATERIAL };
+                self.outlines.push(maker.offset(&outline)?);
+                Ok(())
+            }
+            Task::Slice(value, environment) => {
+                let solid = self.used_up(1).pop().unwrap_or_default();
+                let maker = Maker { values: self.definitions.values(&environment), value, material: NO_MATERIAL };
+                self.outlines.push(maker.accept(shaping::slice(&solid, maker.number("z")?))?);
+                Ok(())
+            }
+            Task::Project(value, environment) => {
+                let solid = self.used_up(1).pop().unwrap_or_default();
+                let maker = Maker { values: self.definitions.values(&environment), value, material: NO_MATERIAL };
+                self.outlines.push(maker.accept(shaping::project(&solid))?);
+                Ok(())
+            }
+        }
+    }
+
+    fn node(&mut self, mut context: Context) -> Checked<()> {
+        let document = self.definitions.document;
+        self.enter(context.node, context.depth)?;
+        self.inherit(&mut context)?;
+        let (field, value) = kind_of(document, context.node, NODE_KINDS, NODE_EXTRAS, "a NODE")?;
+        match field.key {
+            "union" => self.combine(context, Operation::Union, value),
+            "intersection" => self.combine(context, Operation::Intersection, value),
+            "difference" => self.combine(context, Operation::Difference, value),
+            "xor" => self.combine(context, Operation::Xor, value),
+            "complement" => {
+                self.tasks.push(Task::Combine(Operation::Complement, 1));
+                self.tasks.push(Task::Node(context.child(value)));
+            }
+            "hull" => {
+                let operands: Vec<Task> =
+                    document.items(value).map(|item| Task::Node(context.frame_of(item))).collect();
+                self.tasks.push(Task::Hull(context, operands.len()));
+                self.tasks.extend(operands.into_iter().rev());
+            }
+            "minkowski" => {
+                let operands: Vec<Task> =
+                    document.items(value).map(|item| Task::Node(context.frame_of(item))).collect();
+                self.tasks.push(Task::Minkowski(context));
+                self.tasks.extend(operands.into_iter().rev());
+            }
+            "use" => return self.use_of_part(context, value),
+            "instances" | "array" | "ring" => {
+                let of = document.member(value, "of").unwrap_or(value);
+                let frame = context.frame_of(of);
+                self.tasks.push(Task::Copies(context, field.key, value));
+                self.tasks.push(Task::Node(frame));
+            }
+            "extrude" | "revolve" => {
+                let outline = document.member(value, "outline").unwrap_or(value);
+                let task = Task::Outline(outline, context.environment.clone(), context.depth + 1);
+                let make = if field.key == "extrude" { Task::Extrude } else { Task::Revolve };
+                self.tasks.push(make(context, value));
+                self.tasks.push(task);
+            }
+            key => return self.body(context, key, value),
+        }
+        Ok(())
+    }
+
+    fn enter(&mut self, entry: Entry, depth: u32) -> Checked<()> {
+        self.budget.step(entry)?;
+        if depth <= MAX_DEPTH {
+            return Ok(());
+        }
+        let found = format!("more than {MAX_DEPTH} nodes within one another, parts included");
+        Err(Fault::new(entry, found, format!("at most {MAX_DEPTH}")))
+    }
+
+    /// The node's own attributes, on top of what it inherits.
+    fn inherit(&self, context: &mut Context) -> Checked<()> {
+        let document = self.definitions.document;
+        let environment = context.environment.clone();
+        let values = self.definitions.values(&environment);
+        let own = |key| document.member(context.node, key);
+        let (steps, matrix, material, name) = (own("transform"), own("matrix"), own("material"), own("name"));
+        for (entry, map) in
+            [(matrix, matrix.map(|matrix| values.matrix(matrix))), (steps, steps.map(|s| values.steps(s)))]
+        {
+            if let (Some(entry), Some(map)) = (entry, map) {
+                context.map = values.accept(entry, map?.then(&context.map))?;
+            }
+        }
+        if let Some(material) = material {
+            context.material = MaterialId(self.names.number_of_material(&document.text(material)));
+        }
+        context.name = name.or(context.name);
+        Ok(())
+    }
+
+    fn combine(&mut self, context: Context, operation: Operation, value: Entry) {
+        let document = self.definitions.document;
+        let at = self.tasks.len();
+        self.tasks.extend(document.items(value).map(|item| Task::Node(context.child(item))));
+        let count = self.tasks.len() - at;
+        self.tasks.push(Task::Combine(operation, count));
+        // What comes first is on top, what combines them below.
+        self.tasks[at..].reverse();
+    }
+
+    fn use_of_part(&mut self, context: Context, value: Entry) -> Checked<()> {
+        let document = self.definitions.document;
+        let part = self.names.parts.by_name.get(&*document.text(value)).copied().unwrap_or(0);
+        let entry = self.names.parts.entries[part as usize];
+        let mut environment = context.environment.clone();
+        if let Some(with) = document.member(context.node, "with") {
+            self.environments += 1;
+            environment = self.definitions.within(&environment, with, self.environments)?;
+        }
+        if let Some(tree) = self.kept.get(&(part, environment.number)) {
+            self.budget.add(context.node, tree)?;
+            let placed = self.put(&context, tree.clone())?;
+            self.trees.push(placed);
+            return Ok(());
+        }
+        if self.uses[part as usize] > 1 {
+            let depth = context.depth + 1;
+            self.tasks.push(Task::Keep(Context { environment: environment.clone(), ..context }, part));
+            self.tasks.push(Task::Node(Context::frame(entry, environment, depth)));
+        } else {
+            self.tasks.push(Task::Node(Context { environment, ..context.child(entry) }));
+        }
+        Ok(())
+    }
+
+    fn copies(&mut self, context: &Context, kind: &str, value: Entry) -> Checked<()> {
+        let tree = self.used_up(1).pop().unwrap_or_default();
+        let maker = Maker { values: self.definitions.values(&context.environment), value, material: context.material };
+        let count = count_of_copies(&maker, kind)?;
+        self.budget.allow(context.node, Size::of(&tree), count)?;
+        if tree.brushes().is_empty() {
+            // Nothing, or all of space, wherever it is put.
+            self.trees.push(tree);
+            return Ok(());
+        }
+        let place = |map: Checked<Transform>| {
+            let map = maker.values.accept(value, map?.then(&context.map))?;
+            self.put(&Context { map, ..context.clone() }, tree.clone())
+        };
+        let copies = places(&maker, kind)?.map(place).collect::<Checked<Vec<Tree>>>()?;
+        let all = Tree::union(copies);
+        self.budget.add(context.node, &all)?;
+        self.trees.push(all);
+        Ok(())
+    }
+
+    fn body(&mut self, context: Context, key: &'static str, value: Entry) -> Checked<()> {
+        let line = self.line(context.node);
+        let planes = self.maker(&context, value).planes(key)?;
+        self.budget.allow(context.node, Size { brushes: 1, planes }, 1.0)?;
+        self.make_from(context, value, |maker| maker.body(key).map(Option::unwrap_or_default))?;
+        if key == "points" && self.trees.last().is_some_and(|tree| tree.brushes().is_empty()) {
+            let message = "the hull of the points has no interior: they lie on a plane".to_owned();
+            self.warnings.push(Warning { line, message });
+        }
+        Ok(())
+    }
+
+    fn maker<'c>(&'c self, context: &'c Context, value: Entry) -> Maker<'c, 'a> {
+        Maker { values: self.definitions.values(&context.environment), value, material: context.material }
+    }
+
+    /// Makes a tree from the value of the node's own key, and puts it in place.
+    fn make(&mut self, context: Context, make: impl FnOnce(Maker<'_, '_>) -> Checked<Tree>) -> Checked<()> {
+        let document = self.definitions.document;
+        let (_, value) = kind_of(document, context.node, NODE_KINDS, NODE_EXTRAS, "a NODE")?;
+        self.make_from(context, value, make)
+    }
+
+    fn make_from(
+        &mut self,
+        context: Context,
+        value: Entry,
+        make: impl FnOnce(Maker<'_, '_>) -> Checked<Tree>,
+    ) -> Checked<()> {
+        let line = self.line(context.node);
+        let mut tree = make(self.maker(&context, value))?;
+        for brush in tree.brushes_mut().iter_mut().filter(|brush| brush.line == 0) {
+            brush.line = line;
+        }
+        self.budget.add(context.node, &tree)?;
+        let placed = self.put(&context, tree)?;
+        self.trees.push(placed);
+        Ok(())
+    }
+
+    /// A tree where its node wants it: moved, and with material and name where it has none.
+    fn put(&self, context: &Context, tree: Tree) -> Checked<Tree> {
+        let moved = if context.map == Transform::identity() { Ok(tree) } else { tree.transformed(&context.map) };
+        let mut tree =
+            moved.map_err(|error| Fault::new(context.node, error.to_string(), "a body of less extreme coordinates"))?;
+        if context.material != NO_MATERIAL {
+            set_missing(&mut tree, context.material);
+        }
+        match context.name {
+            Some(name) => Ok(tree.with_name(&self.definitions.document.text(name))),
+            None => Ok(tree),
+        }
+    }
+
+    fn line(&self, entry: Entry) -> u32 {
+        self.lines.line_of(self.definitions.document.offset(entry))
+    }
+
+    fn last_trees(&mut self, count: usize) -> Vec<Tree> {
+        self.trees.split_off(self.trees.len().saturating_sub(count))
+    }
+
+    /// The last trees, which count no longer.
+    fn used_up(&mut self, count: usize) -> Vec<Tree> {
+        let trees = self.last_trees(count);
+        trees.iter().for_each(|tree| self.budget.remove(tree));
+        trees
+    }
+
+    fn outline(&mut self, entry: Entry, environment: &Environment, depth: u32) -> Checked<()> {
+        let document = self.definitions.document;
+        self.enter(entry, depth)?;
+        let (field, value) = kind_of(document, entry, OUTLINE_KINDS, OUTLINE_EXTRAS, "an OUTLINE")?;
+        if let Some(matrix) = document.member(entry, "matrix") {
+            self.tasks.push(Task::MoveOutline(matrix, environment.clone()));
+        }
+        let of = document.member(value, "of").unwrap_or(value);
+        let within = |entry| Task::Outline(entry, environment.clone(), depth + 1);
+        let solid = |entry| Task::Node(Context::frame(entry, environment.clone(), depth + 1));
+        match field.key {
+            "union" => self.combine_outlines(Operation::Union, value, within),
+            "intersection" => self.combine_outlines(Operation::Intersection, value, within),
+            "difference" => self.combine_outlines(Operation::Difference, value, within),
+            "xor" => self.combine_outlines(Operation::Xor, value, within),
+            "offset" => self.tasks.extend([Task::Offset(value, environment.clone()), within(of)]),
+            "slice" => self.tasks.extend([Task::Slice(value, environment.clone()), solid(of)]),
+            "project" => self.tasks.extend([Task::Project(value, environment.clone()), solid(value)]),
+            "use" => {
+                let outline = self.names.outlines.by_name.get(&*document.text(value)).copied().unwrap_or(0);
+                self.tasks.push(within(self.names.outlines.entries[outline as usize]));
+            }
+            key => {
+                let maker = Maker { values: self.definitions.values(environment), value, material: NO_MATERIAL };
+                let outline = maker.outline(key)?;
+                self.outlines.push(outline.unwrap_or_default());
+            }
+        }
+        Ok(())
+    }
+
+    fn combine_outlines(&mut self, operation: Operation, value: Entry, within: impl Fn(Entry) -> Task) {
+        let operands: Vec<Task> = self.definitions.document.items(value).map(within).collect();
+        self.tasks.push(Task::CombineOutlines(operation, operands.len(), value));
+        self.tasks.extend(operands.into_iter().rev());
+    }
+
+    fn move_outline(&mut self, matrix: Entry, environment: &Environment) -> Checked<()> {
+        let outline = self.outlines.pop().unwrap_or_default();
+        let (linear, translation) = self.definitions.values(environment).planar_matrix(matrix)?;
+        let moved = outline.transformed(linear, translation);
+        self.outlines.push(moved.map_err(|error| Fault::new(matrix, error.to_string(), "an invertible map"))?);
+        Ok(())
+    }
+}
+
+impl Context {
+    /// A node that begins anew.
+    fn frame(node: Entry, environment: Environment, depth: u32) -> Self {
+        Self { node, map: Transform::identity(), material: NO_MATERIAL, name: None, environment, depth }
+    }
+
+    /// A node below this one that begins anew.
+    fn frame_of(&self, node: Entry) -> Self {
+        Self::frame(node, self.environment.clone(), self.depth + 1)
+    }
+
+    /// A node below this one that inherits all it has.
+    fn child(&self, node: Entry) -> Self {
+        Self { node, depth: self.depth + 1, ..self.clone() }
+    }
+}
+
+/// How many copies there will be.
+fn count_of_copies(maker: &Maker<'_, '_>, kind: &str) -> Checked<f64> {
+    let counts = maker.member("count");
+    let whole = |entry| {
+        let value = maker.values.number(entry)?;
+        if value >= 1.0 && value.fract() == 0.0 {
+            return Ok(value);
+        }
+        Err(Fault::new(entry, maker.values.describe_number(entry), "a whole number of at least 1"))
+    };
+    match (kind, counts) {
+        ("ring", Some(count)) => whole(count),
+        ("array", Some(counts)) => {
+            maker.values.document.items(counts).map(whole).try_fold(1.0, |product, count| Ok(product * count?))
+        }
+        _ => Ok(maker.member("at").map_or(0, |at| maker.values.document.items(at).count()) as f64),
+    }
+}
+
+/// Where the copies go; there are at most [`MAX_BRUSHES`].
+fn places<'m>(maker: &'m Maker<'_, '_>, kind: &str) -> Checked<Box<dyn Iterator<Item = Checked<Transform>> + 'm>> {
+    let Maker { values, value, .. } = *maker;
+    let count = maker.member("count");
+    match kind {
+        "ring" => {
+            let angle = maker.optional("angle")?.unwrap_or(360.0);
+            let count = count.map_or(Ok(1), |count| values.whole(count, 1, MAX_BRUSHES as u32))?;
+            let turn = move |k| Transform::rotation(glam::DVec3::Z, angle * f64::from(k) / f64::from(count));
+            Ok(Box::new((0..count).map(move |k| values.accept(value, turn(k)))))
+        }
+        "array" => {
+            let counts = count.map_or(Ok([1.0; 3]), |counts| values.array::<3>(counts))?.map(|count| count as u32);
+            let step = maker.member("step").map_or(Ok(glam::DVec3::ZERO), |step| values.vector(step))?;
+            let [x, y, z] = counts;
+            let cells =
+                (0..z).flat_map(move |k| (0..y).flat_map(move |j| (0..x).map(move |i| [i, j, k].map(f64::from))));
+            let shift = move |cell: [f64; 3]| Transform::translation(step * glam::DVec3::from_array(cell));
+            Ok(Box::new(cells.map(move |cell| values.accept(value, shift(cell)))))
+        }
+        _ => {
+            let at = maker.member("at").unwrap_or(value);
+            Ok(Box::new(values.document.items(at).map(move |place| values.place(place))))
+        }
+    }
+}

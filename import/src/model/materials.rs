@@ -1,0 +1,80 @@
+//! Materials: those of the file, and the one of faces that name none.
+
+use planecut_csg::{Material, MaterialId, Tree};
+use rustc_hash::FxHashSet;
+
+use super::error::Checked;
+use super::json::{Document, Entry, shorten};
+use super::names::{NamedMaterial, Names};
+use super::values::Values;
+use crate::Warning;
+use crate::lines::LineTable;
+
+/// Stands for a material on faces that have none yet.
+pub(super) const NO_MATERIAL: MaterialId = MaterialId(u32::MAX);
+/// The material of faces that no node gives one.
+const DEFAULT: &str = "default";
+
+/// The materials, by their numbers.
+///
+/// # Errors
+/// A fault where a share is not between 0 and 1.
+pub(super) fn read(names: &Names, values: &Values<'_, '_>) -> Checked<Vec<Material>> {
+    names.materials.iter().map(|material| read_one(material, values)).collect()
+}
+
+fn read_one(named: &NamedMaterial, values: &Values<'_, '_>) -> Checked<Material> {
+    let mut material = Material::named(named.name.clone());
+    let Some(entry) = named.entry else { return Ok(material) };
+    let member = |key| values.document.member(entry, key);
+    let share = |key| member(key).map(|share| values.share(share)).transpose();
+    if let Some(color) = member("color") {
+        let mut channels = [0.0; 3];
+        for (channel, item) in channels.iter_mut().zip(values.document.items(color)) {
+            *channel = values.share(item)?;
+        }
+        material.color = Some(channels);
+    }
+    material.metallic = share("metallic")?;
+    material.roughness = share("roughness")?;
+    Ok(material)
+}
+
+/// Gives faces without a material the default one.
+pub(super) fn fill(tree: &mut Tree, materials: &mut Vec<Material>) {
+    let faces = || tree.brushes().iter().flat_map(|brush| &brush.faces);
+    if faces().all(|face| face.material != NO_MATERIAL) {
+        return;
+    }
+    let known = materials.iter().position(|material| material.name == DEFAULT);
+    let number = known.unwrap_or_else(|| {
+        materials.push(Material::named(DEFAULT));
+        materials.len() - 1
+    });
+    set_missing(tree, MaterialId(number as u32));
+}
+
+/// Gives faces without a material this one.
+pub(super) fn set_missing(tree: &mut Tree, material: MaterialId) {
+    let faces = tree.brushes_mut().iter_mut().flat_map(|brush| &mut brush.faces);
+    for face in faces.filter(|face| face.material == NO_MATERIAL) {
+        face.material = material;
+    }
+}
+
+/// One warning for each material that nodes name and the file does not define.
+pub(super) fn warn_of_unknown(document: &Document<'_>, lines: &LineTable, entries: &[Entry]) -> Vec<Warning> {
+    let mut seen = FxHashSet::default();
+    let mut entries: Vec<Entry> = entries.to_vec();
+    entries.sort_unstable();
+    let first = entries.into_iter().filter(|entry| seen.insert(document.text(*entry)));
+    first
+        .map(|entry| Warning {
+            line: lines.line_of(document.offset(entry)),
+            message: format!(
+                "the file defines no material `{}`; its colour is made up",
+                shorten(&document.text(entry))
+            ),
+        })
+        .collect()
+}
