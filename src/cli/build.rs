@@ -2,10 +2,10 @@
 
 use std::time::{Duration, Instant};
 
-use planecut::csg::Mesh;
-use planecut::export::{ExportOptions, encode, render_preview};
+use planecut::export::{ExportOptions, Part, encode_parts, render_preview};
 
 use super::args::{BuildArgs, Style};
+use super::cells::Cells;
 use super::error::CliError;
 use super::input::{Input, ModelKind};
 use super::output::{MeshTarget, Target, check_targets};
@@ -82,9 +82,18 @@ impl<'a> Plan<'a> {
 
     fn carry_out(&self, progress: &Progress) -> Result<Product, CliError> {
         let mut solved = solve(&self.input, self.kind, &self.args.reading, progress)?;
+        let cells = if self.args.cells {
+            progress.stage("cutting cells");
+            Some(Cells::new(&self.input, self.kind, &mut solved)?)
+        } else {
+            None
+        };
         let begin = Instant::now();
         progress.stage("encoding");
-        let mut outputs = self.encode(&solved.mesh)?;
+        let mut outputs = match cells {
+            Some(cells) => self.encode(&cells.parts())?,
+            None => self.encode(&[Part { name: "solid", mesh: &solved.mesh }])?,
+        };
         let encoding = begin.elapsed();
         if let Some(target) = &self.preview {
             let drawing = Instant::now();
@@ -98,9 +107,9 @@ impl<'a> Plan<'a> {
         Ok(Product { solved, outputs, encoding })
     }
 
-    fn encode(&self, mesh: &Mesh) -> Result<Vec<Encoded>, CliError> {
+    fn encode(&self, parts: &[Part<'_>]) -> Result<Vec<Encoded>, CliError> {
         let options = ExportOptions { scale: self.args.scale };
-        let encode_one = |MeshTarget { target, format }: &MeshTarget| match encode(mesh, *format, &options) {
+        let encode_one = |MeshTarget { target, format }: &MeshTarget| match encode_parts(parts, *format, &options) {
             Ok(bytes) => Ok((target.clone(), bytes)),
             Err(source) => Err(CliError::Encode { output: target.to_string(), source }),
         };

@@ -107,6 +107,15 @@ pub(crate) enum CliError {
 }
 
 impl CliError {
+    /// The error of an input whose solid has no mesh.
+    pub(crate) fn of_evaluation(path: &Path, source: EvaluateError) -> Self {
+        let path = path.to_owned();
+        match source {
+            EvaluateError::Unbounded => Self::Evaluate { path, source },
+            source => Self::Bug { path, source },
+        }
+    }
+
     /// The status that the process ends with.
     pub(crate) fn exit_status(&self) -> u8 {
         match self {

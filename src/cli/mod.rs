@@ -4,6 +4,7 @@
 
 mod args;
 mod build;
+mod cells;
 mod check;
 mod error;
 mod info;

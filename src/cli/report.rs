@@ -6,7 +6,7 @@
 use std::time::Duration;
 
 use planecut::csg::check::{Measures, TopologyReport};
-use planecut::csg::{Evaluation, Mesh, ModelSummary, SolidMeasures, StageTimes};
+use planecut::csg::{Evaluation, ModelSummary, SolidMeasures, StageTimes};
 use planecut::kernel::DVec3;
 use planecut::kernel::sign::Counts;
 use serde::Serialize;
@@ -67,6 +67,15 @@ impl Report {
         }
     }
 
+    /// Says that cells were written instead of the skin: how many, the sum of their volumes, and their meshes.
+    pub(crate) fn set_cells(&mut self, count: usize, volume: f64, mesh: MeshPart) {
+        if let Some(solid) = &mut self.solid {
+            solid.cells = Some(count);
+            solid.volume = volume + 0.0;
+        }
+        self.mesh = mesh;
+    }
+
     /// The report as a file: JSON with line breaks.
     pub(crate) fn to_json(&self) -> String {
         let json = serde_json::to_string_pretty(self).expect("the report holds only texts, numbers and lists");
@@ -108,7 +117,7 @@ struct SolidPart {
     centroid: [f64; 3],
     min: [f64; 3],
     max: [f64; 3],
-    /// Number of convex cells, where they were asked for; this version makes none.
+    /// Number of convex cells, where they were asked for.
     cells: Option<usize>,
 }
 
@@ -144,9 +153,9 @@ pub(crate) struct MeshPart {
 
 impl MeshPart {
     /// The mesh of a model. One without triangles is the whole boundary of the empty solid: closed.
-    pub(crate) fn of_solid(topology: &TopologyReport, mesh: &Mesh) -> Self {
-        let part = Self::new(topology, Some(mesh.faces.len()));
-        if !mesh.triangles.is_empty() {
+    pub(crate) fn of_solid(topology: &TopologyReport, faces: usize) -> Self {
+        let part = Self::new(topology, Some(faces));
+        if topology.triangles > 0 {
             return part;
         }
         Self { genus: Some(0), watertight: true, manifold: true, ..part }
@@ -188,6 +197,8 @@ pub(crate) struct Times {
     evaluate: f64,
     weld: f64,
     triangulate: f64,
+    /// Taking the solid apart into cells, where they were asked for.
+    pub(crate) cells: f64,
     pub(crate) export: f64,
     pub(crate) preview: f64,
     pub(crate) total: f64,

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use planecut::csg::check::check_topology;
-use planecut::csg::{EvaluateError, Evaluation, Mesh, Model, ModelSummary, UnboundedBrushes, evaluate_with};
+use planecut::csg::{Evaluation, Mesh, Model, ModelSummary, UnboundedBrushes, evaluate_with};
 use planecut::import::Warning;
 use planecut::import::map::read_map;
 use planecut::import::model::read_model;
@@ -20,6 +20,8 @@ pub(crate) struct Solved {
     pub(crate) model: Model,
     /// The boundary of its solid.
     pub(crate) mesh: Mesh,
+    /// Numbers of the brushes that are not bounded.
+    pub(crate) unbounded: Vec<usize>,
     /// The report, without the times of what comes after.
     pub(crate) report: Report,
     /// What was left out or is doubtful; the report tells the same.
@@ -50,11 +52,11 @@ pub(crate) fn solve(
     if evaluation.mesh.triangles.is_empty() {
         warnings.push(Warning { line: 0, message: "the result is empty".to_owned() });
     }
-    let mesh = MeshPart::of_solid(&topology, &evaluation.mesh);
+    let mesh = MeshPart::of_solid(&topology, evaluation.mesh.faces.len());
     let mut report = Report::of_model(input.given(), kind.name(), model.materials.len(), &evaluation, mesh);
     report.time_ms.import = milliseconds(import_time);
     report.warnings = warnings.iter().map(ToString::to_string).collect();
-    Ok(Solved { model, mesh: evaluation.mesh, report, warnings })
+    Ok(Solved { model, mesh: evaluation.mesh, unbounded: evaluation.model.unbounded, report, warnings })
 }
 
 fn read(input: &Input, kind: ModelKind, reading: &ReadingArgs) -> Result<(Model, Vec<Warning>), CliError> {
@@ -77,13 +79,7 @@ fn evaluate_model(input: &Input, kind: ModelKind, model: &Model) -> Result<Evalu
         // Nobody means half of space in a map: the brush lacks a face.
         ModelKind::Map => UnboundedBrushes::LeaveOut,
     };
-    evaluate_with(model, unbounded).map_err(|source| {
-        let path = input.path.clone();
-        match source {
-            EvaluateError::Unbounded => CliError::Evaluate { path, source },
-            source => CliError::Bug { path, source },
-        }
-    })
+    evaluate_with(model, unbounded).map_err(|source| CliError::of_evaluation(&input.path, source))
 }
 
 /// One warning for each kind of brush that adds nothing to the solid, on the line of the first of them.

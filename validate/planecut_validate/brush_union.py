@@ -24,6 +24,7 @@ class BrushUnion:
     box_is_exact = True
     # Brushes of a map touch nearly always; the area is held against the written mesh.
     is_generic = False
+    is_simple = False
     exact = None
 
     def __init__(self, bodies: list[ConvexBody], brushes: int):

@@ -176,10 +176,10 @@ def _check_manifold3d(result: Result, mesh: Mesh) -> None:
 
 
 def _check_surface(result: Result, model: ReferenceModel, mesh: Mesh) -> None:
-    """Area and topology against manifold3d's own, where no faces coincide."""
+    """Area and, where it is settled, topology against manifold3d's own, where no faces coincide."""
     surface = model.surface()
     result.same("area", mesh.area(), surface.area)
-    if not mesh.twin_faults():
+    if model.is_simple and not mesh.twin_faults():
         result.equal("connected surfaces", mesh.components(), surface.components)
         result.equal("genus", mesh.genus(), surface.genus)
 

@@ -14,6 +14,7 @@ from .obj_file import read_obj
 from .random_trees import FAMILIES, document, random_node
 from .result import Options, Result
 
+_NOTHING = {"intersection": [{"box": {"min": [k, 0, 0], "max": [k + 1, 1, 1]}} for k in (0, 2)]}
 _ROOM = {"box": {"min": [-20, -21, -22], "max": [30, 31, 32]}}
 
 
@@ -40,8 +41,8 @@ def _c(node):
 IDENTITIES = {
     "A∪A = A": lambda a, b, c: (_u(a, a), a),
     "A∩A = A": lambda a, b, c: (_i(a, a), a),
-    "A−A = ∅": lambda a, b, c: (_d(a, a), _u()),
-    "A⊕A = ∅": lambda a, b, c: (_x(a, a), _u()),
+    "A−A = ∅": lambda a, b, c: (_d(a, a), _NOTHING),
+    "A⊕A = ∅": lambda a, b, c: (_x(a, a), _NOTHING),
     "¬¬A = A": lambda a, b, c: (_c(_c(a)), a),
     "A−B−B = A−B": lambda a, b, c: (_d(_d(a, b), b), _d(a, b)),
     "¬(A∪B) = ¬A∩¬B": lambda a, b, c: (_i(_ROOM, _c(_u(a, b))), _i(_ROOM, _i(_c(a), _c(b)))),

@@ -33,7 +33,9 @@ class ReferenceModel(Protocol):
     box_is_exact: bool
     """Whether `low` and `high` are those of the solid itself."""
     is_generic: bool
-    """Whether no faces of two bodies coincide, so that manifold3d's own area and genus count."""
+    """Whether no faces of two bodies coincide, so that manifold3d's own area counts."""
+    is_simple: bool
+    """Whether no edge of the solid can have four faces either, so that its genus counts."""
 
     exact: tuple[float, float] | None
     """Volume and area where they are known without manifold3d."""

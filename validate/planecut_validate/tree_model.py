@@ -70,6 +70,14 @@ class TreeModel:
         """Whether no faces of two leaves coincide."""
         return not any_coincident_faces(self._bounded.leaves, *_span(self._bounded))
 
+    @property
+    def is_simple(self) -> bool:
+        """Whether no edge can have four faces: the two parts of a symmetric difference meet along such edges.
+
+        How these are paired is a choice, and it decides how many surfaces there are.
+        """
+        return self.is_generic and all(kind != "xor" for kind, _ in self.tree.nodes)
+
     @cached_property
     def exact(self) -> tuple[float, float] | None:
         """Volume and area of a tree of boxes along the axes."""
@@ -81,21 +89,25 @@ class TreeModel:
         return self.is_generic
 
     def volume(self, candidate: float | None = None) -> ReferenceVolume:
-        """The first answer if it is the candidate; else the one on which two ways agree, or that of a grid of cells."""
+        """The first answer if it is the candidate; else that of a grid of cells, or that of most ways.
+
+        Where faces coincide but for rounding, manifold3d's answer may hang on how the model is turned (by 1e-3 of the volume
+        of three boxes), so no single answer of it is a reason to call another one wrong.
+        """
         answers = {"batch": self._solid.volume()}
         first = answers["batch"]
         if candidate is not None and abs(first - candidate) <= AGREED * abs(first):
             return ReferenceVolume(first, answers)
-        for name, ask in self._other_ways():
-            answers[name] = ask()
-            for value in list(answers.values())[:-1]:
-                if abs(answers[name] - value) <= AGREED * abs(value):
-                    return ReferenceVolume(value, answers)
-        raise ArithmeticError(f"manifold3d gives {answers}")
+        answers |= {name: ask() for name, ask in self._other_ways()}
+        if self.exact is not None:
+            return ReferenceVolume(self.exact[0], answers)
+        values = list(answers.values())
+        votes = [sum(abs(value - other) <= AGREED * abs(value) for other in values) for value in values]
+        if 2 * max(votes) <= len(votes):
+            raise ArithmeticError(f"manifold3d gives {answers}")
+        return ReferenceVolume(values[votes.index(max(votes))], answers)
 
     def _other_ways(self):
-        if self.exact is not None:
-            yield "cells", lambda: self.exact[0]
         yield "two at a time", lambda: self._evaluate(self._bounded, batch=False).volume()
         for seed in range(3):
             turn = _turn(seed)

@@ -43,16 +43,16 @@ impl Outline {
                 };
                 rest.iter().fold(whole, meet)
             }
-            Operation::Complement => return Err(refuse("complement", "an outline", "a node of the solid tree")),
+            Operation::Complement => return Err(refuse("complement", &"an outline", &"a node of the solid tree")),
         };
-        Ok(grid.outline(result))
+        Ok(grid.outline(&result))
     }
 
     /// What lies within an odd number of loops, whatever way they run.
     pub(crate) fn even_odd(loops: &[Vec<DVec2>]) -> Self {
         let mut grid = Grid::of(loops.iter().flatten().copied());
         let loops = grid.loops(loops.iter());
-        grid.outline(run(&loops, &[], OverlayRule::Subject, FillRule::EvenOdd))
+        grid.outline(&run(&loops, &[], OverlayRule::Subject, FillRule::EvenOdd))
     }
 
     /// What loops go around in either sense.
@@ -64,14 +64,14 @@ impl Outline {
     pub(super) fn with_loops(&self, loops: &[Vec<DVec2>], rule: OverlayRule) -> Self {
         let mut grid = Grid::of(self.loops().chain(loops).flatten().copied());
         let (own, others) = (grid.loops(self.loops()), grid.loops(loops.iter()));
-        grid.outline(run(&own, &others, rule, FillRule::NonZero))
+        grid.outline(&run(&own, &others, rule, FillRule::NonZero))
     }
 }
 
 fn run(subject: &[Loop], clip: &[Loop], rule: OverlayRule, fill: FillRule) -> Vec<Vec<Loop>> {
     let mut overlay = Overlay::<i64>::new(subject.iter().chain(clip).map(Vec::len).sum());
-    overlay.add_contours(subject, ShapeType::Subject);
-    overlay.add_contours(clip, ShapeType::Clip);
+    overlay.add_source(subject, ShapeType::Subject);
+    overlay.add_source(clip, ShapeType::Clip);
     overlay.overlay(rule, fill)
 }
 
@@ -98,7 +98,7 @@ impl Grid {
         IntPoint::new(x, y)
     }
 
-    fn outline(&self, shapes: Vec<Vec<Loop>>) -> Outline {
+    fn outline(&self, shapes: &[Vec<Loop>]) -> Outline {
         let point = |p: &IntPoint<i64>| {
             let known = self.known.get(&[p.x, p.y]).copied();
             known.unwrap_or_else(|| DVec2::new(p.x as f64, p.y as f64) / self.scale)

@@ -35,7 +35,7 @@ impl Outline {
     pub fn from_loops(loops: &[Vec<DVec2>]) -> Result<Self, ShapeError> {
         let accepted = |corners: &Vec<DVec2>| {
             if corners.len() < 3 {
-                return Err(refuse("polygon", format!("a loop of {} points", corners.len()), "at least 3"));
+                return Err(refuse("polygon", &format!("a loop of {} points", corners.len()), &"at least 3"));
             }
             corners.iter().map(|p| planar_point("polygon", *p)).collect()
         };
@@ -51,7 +51,7 @@ impl Outline {
         let (min, max) = (planar_point("min", min)?, planar_point("max", max)?);
         for (name, low, high) in [("x", min.x, max.x), ("y", min.y, max.y)] {
             if low >= high {
-                return Err(refuse("max", format!("{name} = {high}"), format!("more than {low}, that of min")));
+                return Err(refuse("max", &format!("{name} = {high}"), &format!("more than {low}, that of min")));
             }
         }
         Ok(Self { shapes: vec![vec![vec![min, DVec2::new(max.x, min.y), max, DVec2::new(min.x, max.y)]]] })
@@ -97,7 +97,7 @@ impl Outline {
     pub fn transformed(&self, linear: DMat2, translation: DVec2) -> Result<Self, ShapeError> {
         let (size, determinant) = (linear.x_axis.length() * linear.y_axis.length(), linear.determinant());
         if !(determinant.abs() > 1e-14 * size && size.is_finite() && translation.is_finite()) {
-            return Err(refuse("matrix", "one that is singular or not finite", "one that can be undone"));
+            return Err(refuse("matrix", &"one that is singular or not finite", &"one that can be undone"));
         }
         let moved = |corners: &Vec<DVec2>| {
             let moved = corners.iter().map(|p| planar_point("matrix", clean(linear * *p + translation, *p)));

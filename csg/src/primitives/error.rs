@@ -45,7 +45,7 @@ pub enum ShapeError {
         "the sides of the extrusion cross between layer {layer} and the next: found {slices} slices, expected more"
     )]
     CrossingSides {
-        /// The lower layer, counted from 0.
+        /// The slice, counted from 0 at the bottom.
         layer: u32,
         /// How many slices there are.
         slices: u32,

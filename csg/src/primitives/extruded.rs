@@ -1,6 +1,7 @@
 //! Outlines extruded along z.
 
 use planecut_kernel::{DVec2, DVec3, HalfSpace, IncrementalPolytope};
+use robust::{Coord, orient2d};
 
 use super::ShapeError;
 use super::cells::{Side, Surface};
@@ -11,6 +12,9 @@ use crate::check::{CheckOptions, check_mesh};
 use crate::outline::Outline;
 use crate::transform::sine_and_cosine;
 use crate::tree::Tree;
+
+/// Of each facet the numbers of its corners, counter-clockwise seen from outside.
+type Facets = Vec<Vec<u32>>;
 
 /// How an outline is extruded along z.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,7 +43,7 @@ impl Extrusion {
         let scale = DVec2::new(factor(self.scale.x)?, factor(self.scale.y)?);
         let slices = self.slices.map_or_else(|| default_slices(twist), Ok)?;
         if !(1..=MAX_SEGMENTS).contains(&slices) {
-            return Err(refuse("slices", slices, format!("a whole number from 1 to {MAX_SEGMENTS}")));
+            return Err(refuse("slices", &slices, &format!("a whole number from 1 to {MAX_SEGMENTS}")));
         }
         Ok(Self { height, twist, scale, slices: Some(slices), ..*self })
     }
@@ -76,7 +80,7 @@ fn factor(value: f64) -> Result<f64, ShapeError> {
 fn default_slices(twist: f64) -> Result<u32, ShapeError> {
     let slices = (twist.abs() / 5.0).ceil().max(1.0);
     let limit = f64::from(MAX_SEGMENTS);
-    let too_many = || refuse("twist", twist, format!("at most {} degrees where slices are not given", 5.0 * limit));
+    let too_many = || refuse("twist", &twist, &format!("at most {} degrees where slices are not given", 5.0 * limit));
     if slices <= limit { Ok(slices as u32) } else { Err(too_many()) }
 }
 
@@ -112,7 +116,7 @@ fn straight(
     let sides = sides.iter().map(|side| tilted(side, extrusion)).collect::<Result<Vec<_>, _>>()?;
     let ends = [(DVec3::Z, extrusion.level(extrusion.layers())), (-DVec3::Z, -extrusion.level(0))];
     let ends = ends.map(|(normal, offset)| plane(normal, offset));
-    for cell in surface.cells() {
+    for cell in lines.cells(&surface) {
         brushes.extend(brush_of(&cell, &sides, ends.clone().into_iter().collect::<Result<Vec<_>, _>>()?, material));
     }
     pieces(brushes.len() as u64)
@@ -162,7 +166,7 @@ fn layered(
     material: MaterialId,
     brushes: &mut Vec<Brush>,
 ) -> Result<(), ShapeError> {
-    let mut known: Option<(Vec<Vec<u32>>, Vec<Vec<Side>>)> = None;
+    let mut known: Option<(Facets, Vec<Vec<Side>>)> = None;
     for layer in 0..extrusion.layers() {
         let points = layer_points(shape, extrusion, layer);
         let facets = known.take().filter(|_| extrusion.scale == DVec2::ONE);
@@ -170,7 +174,8 @@ fn layered(
             Some((facets, cells)) => (facets, Some(cells)),
             None => (layer_facets(shape, &points), None),
         };
-        let surface = Surface::new(&points, &facets).ok_or_else(|| refuse("polygon", "a side", "one of some width"))?;
+        let surface =
+            Surface::new(&points, &facets).ok_or_else(|| refuse("polygon", &"a side", &"one of some width"))?;
         let cells = match cells {
             Some(cells) => cells,
             None => {
@@ -179,12 +184,25 @@ fn layered(
             }
         };
         let sides = surface.half_spaces()?;
+        let sides = if layer % 2 == 1 { grown(&sides, &points)? } else { sides };
         let ends = vec![plane(DVec3::Z, extrusion.level(layer + 1))?, plane(-DVec3::Z, 0.0 - extrusion.level(layer))?];
         pieces(brushes.len() as u64 + cells.len() as u64 * u64::from(extrusion.layers() - layer))?;
         brushes.extend(cells.iter().filter_map(|cell| brush_of(cell, &sides, ends.clone(), material)));
         known = Some((facets, cells));
     }
     Ok(())
+}
+
+/// Every second layer is wider by this part of its size. Where layers meet, their outlines are the same but for rounding; so
+/// one lies within the other, and what is left of the difference are strips that are thin everywhere and contracted in the mesh.
+/// Outlines that cross each other by rounding would leave tunnels as wide as an ulp. Several roundings of planes that are moved
+/// later are still less, and the mesh takes a hundred times as much for noise.
+const STEP: f64 = 1.0 / (1u64 << 46) as f64;
+
+/// Planes moved outward by a step.
+fn grown(sides: &[HalfSpace], points: &[DVec3]) -> Result<Vec<HalfSpace>, ShapeError> {
+    let step = STEP * points.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
+    sides.iter().map(|side| plane(side.normal(), side.offset() + step * side.normal().length())).collect()
 }
 
 /// The corners at the bottom of a layer and then those on top.
@@ -196,7 +214,7 @@ fn layer_points(shape: &[Vec<DVec2>], extrusion: &Extrusion, layer: u32) -> Vec<
 }
 
 /// The sides of a layer: planar ones as they are, the others cut along the shorter diagonal.
-fn layer_facets(shape: &[Vec<DVec2>], points: &[DVec3]) -> Vec<Vec<u32>> {
+fn layer_facets(shape: &[Vec<DVec2>], points: &[DVec3]) -> Facets {
     let above = points.len() as u32 / 2;
     let mut facets = Vec::new();
     let mut start = 0;
@@ -212,7 +230,7 @@ fn layer_facets(shape: &[Vec<DVec2>], points: &[DVec3]) -> Vec<Vec<u32>> {
 }
 
 /// One side, given by its corners counter-clockwise, the first two below.
-fn side_facets(points: &[DVec3], [p, q, above_q, above_p]: [u32; 4]) -> Vec<Vec<u32>> {
+fn side_facets(points: &[DVec3], [p, q, above_q, above_p]: [u32; 4]) -> Facets {
     let at = |k: u32| points[k as usize];
     let (below, above) = (at(q) - at(p), at(above_q) - at(above_p));
     let turn = below.truncate().perp_dot(above.truncate());
@@ -246,7 +264,8 @@ fn check_layer(points: &[DVec3], facets: &[Vec<u32>], extrusion: &Extrusion, lay
 /// The sides of an upright prism over an outline.
 pub(super) struct Lines {
     points: Vec<DVec3>,
-    facets: Vec<Vec<u32>>,
+    facets: Facets,
+    is_one_loop: bool,
 }
 
 impl Lines {
@@ -265,16 +284,35 @@ impl Lines {
             facets.extend((0..n).map(side).map(|(p, q)| vec![p, q, q + above, p + above]));
             start += n;
         }
-        Self { points, facets }
+        Self { points, facets, is_one_loop: shape.len() == 1 }
     }
 
     /// The two ends of each side.
     pub(super) fn ends(&self) -> impl Iterator<Item = [DVec2; 2]> + '_ {
-        self.facets.iter().map(|facet| [facet[0], facet[1]].map(|p| self.points[p as usize].truncate()))
+        (0..self.facets.len()).map(|side| self.ends_of(side))
+    }
+
+    /// Convex cells of the prism. A single convex loop is one, without asking each side about each corner.
+    pub(super) fn cells(&self, surface: &Surface<'_>) -> Vec<Vec<Side>> {
+        let n = self.facets.len();
+        let turns = |k: usize| {
+            let [p, q] = self.ends_of(k);
+            let [_, r] = self.ends_of((k + 1) % n);
+            let at = |p: DVec2| Coord { x: p.x, y: p.y };
+            orient2d(at(p), at(q), at(r)) >= 0.0
+        };
+        if self.is_one_loop && (0..n).all(turns) {
+            return vec![(0..n as u32).map(|facet| Side { facet, is_outer: false }).collect()];
+        }
+        surface.cells()
+    }
+
+    fn ends_of(&self, side: usize) -> [DVec2; 2] {
+        [0, 1].map(|k| self.points[self.facets[side][k] as usize].truncate())
     }
 
     pub(super) fn surface(&self) -> Result<Surface<'_>, ShapeError> {
         Surface::new(&self.points, &self.facets)
-            .ok_or_else(|| refuse("polygon", "a side of no length", "corners apart"))
+            .ok_or_else(|| refuse("polygon", &"a side of no length", &"corners apart"))
     }
 }

@@ -17,8 +17,8 @@ pub fn cuboid(min: DVec3, max: DVec3, material: MaterialId) -> Result<Brush, Sha
             let name = ["x", "y", "z"][axis];
             return Err(refuse(
                 "max",
-                format!("{name} = {}", max[axis]),
-                format!("more than {}, that of min", min[axis]),
+                &format!("{name} = {}", max[axis]),
+                &format!("more than {}, that of min", min[axis]),
             ));
         }
     }

@@ -34,7 +34,7 @@ pub fn torus(
 ) -> Result<Tree, ShapeError> {
     let (radius, tube) = (positive("radius", radius)?, positive("tube", tube)?);
     if tube >= radius {
-        return Err(refuse("tube", tube, format!("a number below the radius {radius}")));
+        return Err(refuse("tube", &tube, &format!("a number below the radius {radius}")));
     }
     let segments = accepted_segments("segments", segments)?;
     let tube_segments = accepted_segments("tube_segments", tube_segments)?;
@@ -59,11 +59,11 @@ pub fn torus(
 /// segments are not 3 to 10,000, and [`ShapeError::TooLarge`].
 pub fn revolve(outline: &Outline, angle: f64, segments: u32, material: MaterialId) -> Result<Tree, ShapeError> {
     if !(angle > 0.0 && angle <= 360.0) {
-        return Err(refuse("angle", angle, "a number above 0 and at most 360"));
+        return Err(refuse("angle", &angle, &"a number above 0 and at most 360"));
     }
     let turn = Turn::new(angle, accepted_segments("segments", segments)?);
     if let Some(corner) = outline.loops().flatten().find(|corner| corner.x < 0.0) {
-        return Err(refuse("outline", format!("a corner at x = {}", corner.x), "no x below 0"));
+        return Err(refuse("outline", &format!("a corner at x = {}", corner.x), &"no x below 0"));
     }
     let mut brushes = Vec::new();
     for shape in outline.shapes() {
@@ -73,7 +73,7 @@ pub fn revolve(outline: &Outline, angle: f64, segments: u32, material: MaterialI
         let lines: Vec<Line> = sides.iter().zip(upright.ends()).map(|(side, ends)| line(side, ends)).collect();
         // a side on the axis has nothing to bound
         let on_axis: Vec<bool> = upright.ends().map(|[p, q]| p.x == 0.0 && q.x == 0.0).collect();
-        let mut cells = surface.cells();
+        let mut cells = upright.cells(&surface);
         for cell in &mut cells {
             cell.retain(|side| !on_axis[side.facet as usize]);
         }

@@ -82,7 +82,7 @@ pub fn cylinder(
     let radius = not_negative("radius", radius)?;
     let top_radius = not_negative("top_radius", top_radius)?;
     if radius == 0.0 && top_radius == 0.0 {
-        return Err(refuse("radius", 0.0, "a number above 0, as top_radius is 0"));
+        return Err(refuse("radius", &0.0, &"a number above 0, as top_radius is 0"));
     }
     frustum(positive("height", height)?, [radius, top_radius], accepted_segments("segments", segments)?, material)
 }

@@ -5,6 +5,7 @@ use planecut_kernel::{DVec3, HalfSpace, IncrementalPolytope};
 use crate::brush::{Brush, Material, MaterialId, Model};
 use crate::evaluate::{EvaluateError, Evaluation, evaluate};
 use crate::primitives::ShapeError;
+use crate::solid::{Cell, Solid};
 use crate::tree::{Operation, Tree, TreeNode};
 
 /// Vertices nearer to each other than this part of a body's size are one: where many planes were meant to meet.
@@ -75,6 +76,8 @@ pub(super) fn evaluated(tree: &Tree) -> Result<Evaluation, ShapeError> {
 
 /// Disjoint convex cells of a tree.
 pub(super) fn cells(tree: &Tree) -> Result<Vec<Convex>, ShapeError> {
-    let _ = tree;
-    Err(ShapeError::Unbounded)
+    let solid = Solid::from_tree(tree);
+    let half_spaces = |cell: &Cell| cell.polytope().planes().map(|(_, half_space)| *half_space).collect::<Vec<_>>();
+    let cells = solid.cells().map(|cell| Convex::new(&half_spaces(cell)));
+    cells.filter_map(Result::transpose).collect()
 }

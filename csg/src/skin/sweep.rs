@@ -201,7 +201,7 @@ impl Sweep {
             walk.now = walk.labels();
             let mut at = 0;
             while at < self.events.len() {
-                let place = self.events[at];
+                let (place, first) = (self.events[at], at);
                 while let Some(event) =
                     self.events.get(at).filter(|e| e.compare(&place, context.scene.table, line).is_eq())
                 {
@@ -209,7 +209,7 @@ impl Sweep {
                     self.note(*event);
                     at += 1;
                 }
-                walk.pass(place.plane, out);
+                walk.pass(place.plane, at - first > 1, out);
             }
             walk.end(piece.end, out);
             for (section, sides) in &self.covering {
@@ -304,10 +304,11 @@ impl Walk<'_, '_> {
         (left.is_some() || right.is_some()).then_some([left, right])
     }
 
-    /// Goes on at a point that lies on `plane`.
-    fn pass(&mut self, plane: PlaneId, out: &mut Vec<BoundaryEdge>) {
+    /// Goes on at a point that lies on `plane`. Where several things change at once and nothing comes of it, edges may cross:
+    /// the edge ends there nevertheless, and the weld finds out.
+    fn pass(&mut self, plane: PlaneId, several: bool, out: &mut Vec<BoundaryEdge>) {
         let next = self.labels();
-        if next != self.now {
+        if next != self.now || several {
             self.end(plane, out);
             self.start = plane;
             self.now = next;

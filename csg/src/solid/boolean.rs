@@ -118,8 +118,7 @@ fn apply(table: &PlaneTable, cells: &mut Vec<Cell>, changes: Changes) {
 impl Solid {
     /// Makes the planes of another solid those of this one's table.
     fn take_in(&mut self, other: &Self) -> Operand {
-        let first_brush = self.brushes;
-        self.brushes += other.brushes;
+        let first_brush = self.sources.brushes;
         let mut ids: Vec<PlaneId> = Vec::new();
         if !Arc::ptr_eq(&self.table, &other.table) {
             let table = Arc::make_mut(&mut self.table);
@@ -134,6 +133,7 @@ impl Solid {
             let unsided = ids[plane.index() as usize];
             if plane == plane.unsided() { unsided } else { unsided.flipped() }
         };
+        self.sources.append(&other.sources, id);
         let exactly = |plane: PlaneId| is_same || self.table.row(id(plane)).is_same_plane(other.table.row(plane));
         let moved = |cell: &Cell| cell.renumbered(&self.table, id, exactly, first_brush);
         let cells = other.baked_cells().iter().filter_map(moved).collect();
@@ -196,7 +196,7 @@ impl Solid {
         let tools = Tools::new(&this.table, &cover_of(&this.cover, &this.cells), &cells);
         let changes = without(&this.table, &cells, &tools);
         apply(&this.table, &mut cells, changes);
-        Self::of_cells(Arc::clone(&this.table), cells, this.brushes)
+        Self::of_cells(Arc::clone(&this.table), cells, this.sources.clone())
     }
 }
 

@@ -18,8 +18,8 @@ const ROUNDING: f64 = 4.0 * f64::EPSILON;
 pub struct CellPlane {
     /// The plane, its normal pointing out of the cell.
     pub plane: PlaneId,
-    /// The numbers of the brush and of its face; `None` for a plane with which the user cut the solid. Where faces of
-    /// several brushes lie on the plane, one of them.
+    /// The numbers of the brush and of its face; `None` for a plane with which the user cut the solid. Of a plane of a cell on
+    /// which faces of several brushes lie, one of them; a [`RayHit`](crate::RayHit) names the one at the place.
     pub brush_face: Option<(u32, u32)>,
     /// What the face is made of.
     pub material: MaterialId,
@@ -28,6 +28,12 @@ pub struct CellPlane {
 impl CellPlane {
     pub(super) fn flipped(self) -> Self {
         Self { plane: self.plane.flipped(), ..self }
+    }
+
+    /// The same with the plane and the brush renumbered.
+    pub(super) fn moved(&self, id: impl Fn(PlaneId) -> PlaneId, first_brush: u32) -> Self {
+        let brush_face = self.brush_face.map(|(brush, face)| (brush + first_brush, face));
+        Self { plane: id(self.plane), brush_face, ..*self }
     }
 }
 
@@ -169,11 +175,7 @@ impl Cell {
         exactly: impl Fn(PlaneId) -> bool,
         first_brush: u32,
     ) -> Option<Self> {
-        let moved = |plane: &CellPlane| CellPlane {
-            plane: ids(plane.plane),
-            brush_face: plane.brush_face.map(|(brush, face)| (brush + first_brush, face)),
-            ..*plane
-        };
+        let moved = |plane: &CellPlane| plane.moved(&ids, first_brush);
         if self.planes().all(|(_, plane)| exactly(plane.plane)) {
             let planes = self.planes.iter().map(|plane| plane.as_ref().map(moved)).collect();
             return Some(Self { polytope: self.polytope.clone(), planes, bounds: self.bounds });

@@ -36,7 +36,7 @@ impl Solid {
             }
             parts[part].push(cell.clone());
         }
-        parts.into_iter().map(|cells| Self::of_cells(Arc::clone(&this.table), cells, this.brushes)).collect()
+        parts.into_iter().map(|cells| Self::of_cells(Arc::clone(&this.table), cells, this.sources.clone())).collect()
     }
 }
 

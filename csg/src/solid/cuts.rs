@@ -87,7 +87,7 @@ impl Solid {
                 cell.settle(&table);
                 Some(cell)
             });
-            Self::of_cells(Arc::clone(&table), cells.collect(), this.brushes)
+            Self::of_cells(Arc::clone(&table), cells.collect(), this.sources.clone())
         };
         (half(plane), half(plane.flipped()))
     }

@@ -12,6 +12,7 @@ use super::convex::Convex;
 use super::flat::{FlatTree, Owner, Scratch, Start};
 use super::formula::Formula;
 use super::order::Rule;
+use super::sources::Sources;
 use super::{Solid, merge};
 use crate::brush::Brush;
 use crate::plane_table::{PlaneId, PlaneTable};
@@ -54,7 +55,8 @@ impl Solid {
         let cover = flat.bodies_of_union().filter(|kept| kept.len() < cells.len());
         let cover =
             cover.map(|kept| kept.into_iter().map(|body| Arc::new(bodies[body as usize].cell.clone())).collect());
-        Self { cover, ..Self::of_cells(Arc::new(table), cells, brushes.len() as u32) }
+        let faces = bodies.iter().flat_map(|body| &body.facets).copied().collect();
+        Self { cover, ..Self::of_cells(Arc::new(table), cells, Sources::new(brushes.len() as u32, faces)) }
     }
 }
 

@@ -1,4 +1,5 @@
-//! Neighbouring cells that share a whole facet and are convex together become one.
+//! Neighbouring cells that share a whole facet and are convex together become one, unless they have coplanar faces of
+//! different materials.
 //!
 //! Let `A` be the set within the planes `P` and `h`, `B` that within the planes `Q` and the opposite of `h`. Where `B` lies
 //! within all of `P` and `A` within all of `Q`, their union is the set within `P` and `Q`. Coordinates propose pairs, by the
@@ -60,7 +61,9 @@ impl Merger<'_> {
 
     fn are_convex(&self, number: u32, other: u32, plane: PlaneId) -> bool {
         let (Some(a), Some(b)) = (&self.cells[number as usize], &self.cells[other as usize]) else { return false };
-        holds(self.table, a, &b.corners(self.table), plane) && holds(self.table, b, &a.corners(self.table), plane)
+        have_same_materials(a, b)
+            && holds(self.table, a, &b.corners(self.table), plane)
+            && holds(self.table, b, &a.corners(self.table), plane)
     }
 
     /// Puts the younger cell into the older one, whose number it gives.
@@ -93,6 +96,15 @@ fn join(table: &PlaneTable, cell: &mut Cell, other: &Cell, wall: PlaneId) {
         cell.add(table, facet);
     }
     cell.settle(table);
+}
+
+/// Whether no plane carries a facet of one material on the one cell and of another on the other.
+fn have_same_materials(a: &Cell, b: &Cell) -> bool {
+    let others = b.facets();
+    let fits = |facet: &CellPlane| {
+        others.iter().find(|other| other.plane == facet.plane).is_none_or(|other| other.material == facet.material)
+    };
+    a.facets().iter().all(fits)
 }
 
 /// Whether corners lie within all facets of a cell but one.

@@ -22,6 +22,7 @@ mod order;
 mod query;
 mod ray;
 mod skin;
+mod sources;
 
 use std::sync::Arc;
 
@@ -29,6 +30,7 @@ pub use cell::{Cell, CellPlane};
 pub use cuts::CutId;
 use cuts::PlaneCut;
 pub use ray::RayHit;
+use sources::Sources;
 
 use crate::brush::Brush;
 use crate::plane_table::PlaneTable;
@@ -50,8 +52,7 @@ pub struct Solid {
     /// The planes with which it was cut and that can be taken back.
     cuts: Vec<PlaneCut>,
     next_cut: u32,
-    /// How many brushes the numbers of brush faces are taken from.
-    brushes: u32,
+    sources: Sources,
 }
 
 impl Default for Solid {
@@ -74,20 +75,20 @@ impl From<&Tree> for Solid {
 }
 
 impl Solid {
-    fn of_cells(table: Arc<PlaneTable>, cells: Vec<Cell>, brushes: u32) -> Self {
-        Self { table, cells, cover: None, cuts: Vec::new(), next_cut: 0, brushes }
+    fn of_cells(table: Arc<PlaneTable>, cells: Vec<Cell>, sources: Sources) -> Self {
+        Self { table, cells, cover: None, cuts: Vec::new(), next_cut: 0, sources }
     }
 
     /// Nothing.
     #[must_use]
     pub fn empty() -> Self {
-        Self::of_cells(Arc::default(), Vec::new(), 0)
+        Self::of_cells(Arc::default(), Vec::new(), Sources::default())
     }
 
     /// All of space.
     #[must_use]
     pub fn everything() -> Self {
-        Self::of_cells(Arc::default(), vec![Cell::everything()], 0)
+        Self::of_cells(Arc::default(), vec![Cell::everything()], Sources::default())
     }
 
     /// The cells. One that a plane which was added cuts away is left out.

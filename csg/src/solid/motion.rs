@@ -44,7 +44,7 @@ impl Solid {
         let cells = this.cells.iter().filter_map(carried).collect();
         let cover = this.cover.as_ref();
         let cover = cover.map(|cover| cover.iter().filter_map(|cell| carried(cell)).map(Arc::new).collect());
-        Ok(Self { cover, ..Self::of_cells(Arc::new(table), cells, this.brushes) })
+        Ok(Self { cover, ..Self::of_cells(Arc::new(table), cells, this.sources.renumbered(id)) })
     }
 
     /// The mirror image in the plane through the origin with this normal; see [`Solid::transformed`].

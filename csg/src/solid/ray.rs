@@ -17,8 +17,8 @@ pub struct RayHit {
     pub normal: DVec3,
     /// Whether the ray enters the solid; else it leaves.
     pub entering: bool,
-    /// The plane, oriented out of the solid, with the brush, the face and the material; where faces of several brushes lie on
-    /// the plane, those of one of them.
+    /// The plane, oriented out of the solid, with the brush, its face and the material; where faces of several brushes lie on
+    /// each other, the first that faces the same way.
     pub face: CellPlane,
 }
 
@@ -52,9 +52,10 @@ impl Solid {
         let mut spans = spans.iter().peekable();
         let first = spans.peek()?;
         let hit = |t: f64, cell: &Cell, plane: Option<PlaneIdx>, entering: bool| {
-            let face = *cell.plane(plane?)?;
+            let point = origin + direction * t;
+            let face = self.sources.locate(&self.table, *cell.plane(plane?)?, point);
             let normal = self.table.half_space(face.plane).normal().normalize();
-            Some(RayHit { distance: t * direction.length(), point: origin + direction * t, normal, entering, face })
+            Some(RayHit { distance: t * direction.length(), point, normal, entering, face })
         };
         if first.0.from > 0.0 {
             return hit(first.0.from, first.1, first.0.entry, true);

@@ -7,6 +7,7 @@
 use planecut_kernel::sign::Sign;
 
 use super::WeldError;
+use super::crossings::Passed;
 use super::lines::Line;
 use super::points::Points;
 use crate::plane_table::{PlaneId, PlaneTable};
@@ -25,30 +26,41 @@ pub(super) struct Run {
     pub(super) forward: bool,
 }
 
-/// The surviving runs of all edges, ordered by line; `planes` are those of the regions.
+/// What cancelling leaves.
+#[derive(Default)]
+pub(super) struct Surviving {
+    /// The runs that survive, ordered by line.
+    pub(super) runs: Vec<Run>,
+    /// Where faces that cross must be slit, forward only.
+    pub(super) slits: Vec<Run>,
+    /// Where edges end inside runs.
+    pub(super) passed: Vec<Passed>,
+}
+
+/// The surviving runs of all edges; `planes` are those of the regions.
 pub(super) fn surviving_runs(
     table: &PlaneTable,
     points: &Points,
     lines: &[Line],
     planes: &[PlaneId],
     edges: &mut [Run],
-) -> Result<Vec<Run>, WeldError> {
+) -> Result<Surviving, WeldError> {
     edges.sort_unstable_by_key(|edge| (edge.line, edge.region, edge.from, edge.to));
-    let mut runs = Vec::with_capacity(edges.len());
+    let mut out = Surviving { runs: Vec::with_capacity(edges.len()), ..Surviving::default() };
     let mut sweep = Sweep::default();
     for of_line in edges.chunk_by(|a, b| a.line == b.line) {
         let line = &lines[of_line[0].line as usize];
         sweep.cancelled.clear();
         for group in of_line.chunk_by(|a, b| a.region == b.region) {
             if let [edge] = group {
-                runs.push(*edge);
+                out.runs.push(*edge);
             } else {
-                sweep.run_group(table, points, line, group, &mut runs)?;
+                sweep.run_group(table, points, line, group, &mut out)?;
             }
         }
-        sweep.cut_crossing(table, points, line, planes, &mut runs);
+        sweep.find_slits(table, points, line, planes, &mut out.slits);
     }
-    Ok(runs)
+    Ok(out)
 }
 
 /// Buffers of the sweep along one line.
@@ -68,7 +80,7 @@ impl Sweep {
         points: &Points,
         line: &Line,
         group: &[Run],
-        runs: &mut Vec<Run>,
+        out: &mut Surviving,
     ) -> Result<(), WeldError> {
         self.stops.clear();
         self.stops.extend(group.iter().flat_map(|edge| [edge.from, edge.to]));
@@ -94,6 +106,9 @@ impl Sweep {
                 return Err(WeldError::Overlap { region: group[0].region });
             }
             if now == before {
+                if now.0 != 0 {
+                    out.passed.push((group[0].region, self.stops[at], group[0].line));
+                }
                 continue;
             }
             let (low, high) = (self.stops[began], self.stops[at]);
@@ -105,22 +120,22 @@ impl Sweep {
             match before {
                 (0, true) => self.cancelled.push(run(true)),
                 (0, false) => {}
-                (sum, _) => runs.push(run(sum > 0)),
+                (sum, _) => out.runs.push(run(sum > 0)),
             }
             began = at;
         }
         Ok(())
     }
 
-    /// Cuts regions of different planes that cross in the line, each lying on both sides of it: both directions of each
-    /// survive there. It takes three planes in one line for that, and solids that alternate around it.
-    fn cut_crossing(
+    /// Finds where regions of different planes cross in the line, each lying on both sides of it: there each of them must be
+    /// slit. It takes three planes in one line for that, and solids that alternate around it. Slits are forward.
+    fn find_slits(
         &mut self,
         table: &PlaneTable,
         points: &Points,
         line: &Line,
         planes: &[PlaneId],
-        runs: &mut Vec<Run>,
+        slits: &mut Vec<Run>,
     ) {
         let plane = |run: &Run| planes[run.region as usize].index();
         let Some(first) = self.cancelled.first().map(plane) else { return };
@@ -136,11 +151,8 @@ impl Sweep {
         for k in 1..self.stops.len() {
             let crossing = || ranges.iter().zip(&self.cancelled).filter(|((low, high), _)| *low < k && k <= *high);
             if crossing().any(|(_, run)| Some(plane(run)) != crossing().next().map(|(_, run)| plane(run))) {
-                let (low, high) = (self.stops[k - 1], self.stops[k]);
-                for (_, run) in crossing() {
-                    runs.push(Run { from: low, to: high, ..*run });
-                    runs.push(Run { from: high, to: low, edge: run.edge.flipped(), forward: false, ..*run });
-                }
+                let (from, to) = (self.stops[k - 1], self.stops[k]);
+                slits.extend(crossing().map(|(_, run)| Run { from, to, ..*run }));
             }
         }
     }

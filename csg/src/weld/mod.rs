@@ -3,6 +3,7 @@
 //! - [`points`] and [`lines`] get one number each, however many planes name them.
 //! - [`cancel`]: on each line opposite edges of a region cancel; what survives is cut where any of it ends (and at
 //!   [`pinches`]) and paired around the line.
+//! - [`crossings`]: faces that cross in a line are slit along it, edges that cross in a point are cut there.
 //! - [`loops`] chains the rest, [`nest`] finds which hole belongs to which face.
 //! - [`triangulate`]: each face on its own.
 //! - [`manifold`] joins corners to vertices so that the mesh is an oriented 2-manifold; edges of mere noise are
@@ -14,6 +15,7 @@
 //! [`WeldError`].
 
 mod cancel;
+mod crossings;
 mod lines;
 mod loops;
 mod manifold;
@@ -36,7 +38,7 @@ use crate::evaluate::SolidMeasures;
 use crate::mesh::{Mesh, MeshFace};
 use crate::plane_table::{PlaneId, PlaneTable};
 use crate::skin::BoundaryEdge;
-use cancel::{HalfEdge, Run};
+use cancel::{HalfEdge, Run, Surviving};
 use manifold::Labels;
 use nest::{FaceLoops, Projection};
 use points::Points;
@@ -153,7 +155,7 @@ fn runs_of(
     let triples: Vec<[PlaneId; 3]> =
         edges.iter().flat_map(|e| [[e.face, e.edge, e.start], [e.face, e.edge, e.end]]).collect();
     let pairs: Vec<[PlaneId; 2]> = edges.iter().map(|e| [e.face, e.edge]).collect();
-    let ((points, ends), (lines, of_pair)) =
+    let ((mut points, ends), (lines, of_pair)) =
         rayon::join(|| Points::identify(table, &triples), || lines::identify(table, &pairs));
     let mut numbered: Vec<Run> = edges
         .iter()
@@ -167,7 +169,9 @@ fn runs_of(
             forward: lines[of_pair[k] as usize].is_along(table, edge.face, edge.edge),
         })
         .collect();
-    let runs = cancel::surviving_runs(table, &points, &lines, planes, &mut numbered)?;
+    let Surviving { runs, slits, passed } = cancel::surviving_runs(table, &points, &lines, planes, &mut numbered)?;
+    let runs = crossings::cut_runs(table, &points, &lines, passed, runs);
+    let runs = crossings::add_slits(table, &mut points, planes, slits, runs);
     Ok((points, runs, lines))
 }
 

@@ -60,6 +60,15 @@ impl Points {
         (points, of_triple.into_iter().map(|k| of_distinct[k as usize]).collect())
     }
 
+    /// The number of the meeting point of three independent planes, a new one where it is not known yet. Looks at all points.
+    pub(super) fn add(&mut self, table: &PlaneTable, triple: [PlaneId; 3]) -> u32 {
+        let triple = triple.map(PlaneId::unsided);
+        let position = table.position(triple).expect("the lines of two edges that cross");
+        let known = (0..self.planes.len() as u32)
+            .find(|point| self.positions[*point as usize] == position && self.is_at(table, *point, triple));
+        known.unwrap_or_else(|| self.push(table, triple, position))
+    }
+
     fn push(&mut self, table: &PlaneTable, [a, b, c]: [PlaneId; 3], position: DVec3) -> u32 {
         let right_handed = table.orient3(a, b, c) == Sign::Positive;
         self.planes.push(if right_handed { [a, b, c] } else { [a, c, b] });

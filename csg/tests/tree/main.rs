@@ -21,4 +21,5 @@ mod soundness;
 mod algebra;
 mod edge_cases;
 mod random;
+mod regressions;
 mod volume;

@@ -44,7 +44,9 @@ def read_node(value, path: str, scope: Scope) -> SolidTree:
 
 
 def _nodes(value, path: str, scope: Scope) -> list[SolidTree]:
-    return [read_node(v, f"{path}[{i}]", scope) for i, v in enumerate(check_list(value, path))]
+    if not check_list(value, path):
+        fail(path, "one or more nodes")
+    return [read_node(v, f"{path}[{i}]", scope) for i, v in enumerate(value)]
 
 
 def _half_spaces(value, path: str, scope: Scope) -> SolidTree:
@@ -103,8 +105,8 @@ def _revolve(value, path: str, scope: Scope) -> SolidTree:
     check_keys(value, path, {"outline", "angle", "segments"})
     loops = read_outline(value.get("outline"), f"{path}.outline", scope)
     angle = scope.number(value.get("angle", 360), f"{path}.angle")
-    if not 0.0 < abs(angle) <= 360.0:
-        fail(f"{path}.angle", "an angle up to 360")
+    if not 0.0 < angle <= 360.0:
+        fail(f"{path}.angle", "an angle above 0, up to 360")
     if any((loop[:, 0] < 0.0).any() for loop in loops):
         fail(f"{path}.outline", "an outline at x ≥ 0")
     segments = sweep.revolve_segments(scope.segments(value, path), angle)

@@ -1,0 +1,98 @@
+//! What crosses where a solid alternates around a line or a point (an exclusive or of three half-spaces): faces that lie on
+//! both sides of a line are slit along it, edges that go on beyond a point are cut there.
+
+use planecut_kernel::sign::Sign;
+
+use super::cancel::{Run, sort_along};
+use super::lines::Line;
+use super::points::Points;
+use crate::plane_table::{PlaneId, PlaneTable};
+
+/// A point inside a run of a region, at which edges that make it up end: region, point, line.
+pub(super) type Passed = (u32, u32, u32);
+
+/// Cuts runs of one region where they cross: at the points that several of them pass.
+///
+/// Each edge was cut there by what else goes through the point; since the region lies on the same side of the run before and
+/// after, nothing else tells of it.
+pub(super) fn cut_runs(
+    table: &PlaneTable,
+    points: &Points,
+    lines: &[Line],
+    mut passed: Vec<Passed>,
+    runs: Vec<Run>,
+) -> Vec<Run> {
+    passed.sort_unstable();
+    let at_one_point = passed.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1));
+    let crossing = at_one_point.filter(|passing| passing.first().map(|p| p.2) != passing.last().map(|p| p.2));
+    let mut cuts: Vec<(u32, u32, u32)> =
+        crossing.flatten().map(|(region, point, line)| (*line, *region, *point)).collect();
+    if cuts.is_empty() {
+        return runs;
+    }
+    cuts.sort_unstable();
+    let mut out = Vec::with_capacity(runs.len() + cuts.len());
+    let mut stops = Vec::new();
+    for run in runs {
+        let start = cuts.partition_point(|cut| (cut.0, cut.1) < (run.line, run.region));
+        let own = cuts[start..].iter().take_while(|cut| (cut.0, cut.1) == (run.line, run.region));
+        let line = &lines[run.line as usize];
+        let (low, high) = if run.forward { (run.from, run.to) } else { (run.to, run.from) };
+        stops.clear();
+        stops.extend([low, high]);
+        stops.extend(own.map(|cut| cut.2).filter(|point| {
+            line.compare(table, points, low, *point).is_lt() && line.compare(table, points, *point, high).is_lt()
+        }));
+        sort_along(table, points, line, &mut stops);
+        out.extend(stops.windows(2).map(|ends| {
+            let (from, to) = if run.forward { (ends[0], ends[1]) } else { (ends[1], ends[0]) };
+            Run { from, to, ..run }
+        }));
+    }
+    out
+}
+
+/// Cuts slits of one region where they cross, and adds both directions of each to the runs, which stay ordered by line.
+pub(super) fn add_slits(
+    table: &PlaneTable,
+    points: &mut Points,
+    planes: &[PlaneId],
+    mut slits: Vec<Run>,
+    mut runs: Vec<Run>,
+) -> Vec<Run> {
+    if slits.is_empty() {
+        return runs;
+    }
+    slits.sort_unstable_by_key(|slit| (slit.region, slit.line));
+    for region in slits.chunk_by_mut(|a, b| a.region == b.region) {
+        let mut pieces = region.to_vec();
+        let plane = planes[region[0].region as usize];
+        for cut in region.iter() {
+            let mut k = 0;
+            while k < pieces.len() {
+                if let Some(point) = crossing(table, points, plane, &pieces[k], cut) {
+                    let rest = Run { from: point, ..pieces[k] };
+                    pieces[k].to = point;
+                    pieces.push(rest);
+                }
+                k += 1;
+            }
+        }
+        runs.extend(pieces.iter().flat_map(|slit| {
+            let back = Run { from: slit.to, to: slit.from, edge: slit.edge.flipped(), forward: false, ..*slit };
+            [*slit, back]
+        }));
+    }
+    runs.sort_by_key(|run| run.line);
+    runs
+}
+
+/// The point inside both of two pieces in which their lines cross.
+fn crossing(table: &PlaneTable, points: &mut Points, plane: PlaneId, a: &Run, b: &Run) -> Option<u32> {
+    let lies_across = |piece: &Run, edge: PlaneId| {
+        let [from, to] = [piece.from, piece.to].map(|point| points.side(table, point, edge));
+        from != Sign::Zero && to == from.flip()
+    };
+    let cross = a.line != b.line && lies_across(a, b.edge) && lies_across(b, a.edge);
+    cross.then(|| points.add(table, [plane, a.edge, b.edge]))
+}

@@ -1,0 +1,226 @@
+//! Extrusions against the triangles that the page `docs/model-file.md` states.
+
+use glam::{DVec2, DVec3};
+use planecut_csg::primitives::{Extrusion, ShapeError, extrude};
+use planecut_csg::{MaterialId, Outline, Transform};
+
+use crate::judge::{assert_near, contains, figures, of_triangles, sweep, winds_around};
+use crate::polygon;
+use crate::rng::Rng;
+
+const M: MaterialId = MaterialId(0);
+
+fn star(points: usize, outer: f64, inner: f64) -> Vec<DVec2> {
+    let radius = |k: usize| if k.is_multiple_of(2) { outer } else { inner };
+    let step = std::f64::consts::PI / points as f64;
+    (0..2 * points).map(|k| DVec2::from_angle(step * k as f64) * radius(k)).collect()
+}
+
+fn outline(loops: &[Vec<DVec2>]) -> Outline {
+    Outline::from_loops(loops).expect("an outline")
+}
+
+fn slices(extrusion: &Extrusion) -> u32 {
+    let by_twist = (extrusion.twist.abs() / 5.0).ceil().max(1.0) as u32;
+    extrusion.slices.unwrap_or(if extrusion.twist == 0.0 { 1 } else { by_twist })
+}
+
+/// Where a corner is at the height of layer `j`.
+fn lifted(extrusion: &Extrusion, corner: DVec2, j: u32) -> DVec3 {
+    let part = f64::from(j) / f64::from(slices(extrusion));
+    let scaled = corner * (DVec2::ONE + (extrusion.scale - DVec2::ONE) * part);
+    let turned = DVec2::from_angle(-extrusion.twist.to_radians() * part).rotate(scaled);
+    let base = if extrusion.center { -0.5 * extrusion.height } else { 0.0 };
+    turned.extend(base + extrusion.height * part)
+}
+
+/// The triangles of the sides, cut along the shorter diagonals.
+fn side_triangles(loops: &[Vec<DVec2>], extrusion: &Extrusion) -> Vec<[DVec3; 3]> {
+    let mut triangles = Vec::new();
+    for j in 0..slices(extrusion) {
+        for (p, q) in loops.iter().flat_map(|corners| polygon::edges(corners)) {
+            let [a, b] = [p, q].map(|corner| lifted(extrusion, corner, j));
+            let [d, c] = [p, q].map(|corner| lifted(extrusion, corner, j + 1));
+            let rising = a.distance(c) <= b.distance(d) * (1.0 + 1e-9);
+            triangles.extend(if rising { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] });
+        }
+    }
+    triangles
+}
+
+/// The volume within sides and caps, and their area.
+fn expected(loops: &[Vec<DVec2>], extrusion: &Extrusion) -> [f64; 2] {
+    let sides = side_triangles(loops, extrusion);
+    // the caps, as fans from the axis at their heights: signed, so that they may overlap
+    let fan = |(p, q): (DVec2, DVec2)| {
+        let top = slices(extrusion);
+        let (axis, above) = (lifted(extrusion, DVec2::ZERO, 0), lifted(extrusion, DVec2::ZERO, top));
+        let below = [axis, lifted(extrusion, q, 0), lifted(extrusion, p, 0)];
+        [below, [above, lifted(extrusion, p, top), lifted(extrusion, q, top)]]
+    };
+    let caps: Vec<[DVec3; 3]> = loops.iter().flat_map(|corners| polygon::edges(corners)).flat_map(fan).collect();
+    let volume = of_triangles(sides.iter().chain(&caps).copied()).volume;
+    let ends = polygon::area(loops) * (1.0 + extrusion.scale.x * extrusion.scale.y);
+    [volume, of_triangles(sides.into_iter()).area + ends]
+}
+
+fn random_extrusion(rng: &mut Rng) -> Extrusion {
+    let scale = *rng.pick(&[DVec2::ONE, DVec2::splat(0.5), DVec2::splat(1.7), DVec2::new(1.2, 0.7)]);
+    let twist = *rng.pick(&[0.0, 20.0, -33.0, 7.5]);
+    let slices = if twist == 0.0 { rng.chance(0.5).then_some(1) } else { Some(4 + rng.below(10) as u32) };
+    Extrusion { height: rng.real(0.5, 4.0), twist, scale, slices, center: rng.chance(0.5) }
+}
+
+#[test]
+fn straight_extrusions_with_holes() {
+    sweep(100, |rng| {
+        let center = DVec2::new(rng.real(-3.0, 3.0), rng.real(-3.0, 3.0));
+        let loops = polygon::random_region(rng, 20, center);
+        let (height, scale) = (rng.real(0.1, 3.0), *rng.pick(&[1.0, 0.5, 2.0, 0.3]));
+        let extrusion =
+            Extrusion { scale: DVec2::splat(scale), center: rng.chance(0.5), ..Extrusion::straight(height) };
+        let found = figures(&extrude(&outline(&loops), &extrusion, M).expect("an extrusion"));
+        let area = polygon::area(&loops);
+        assert_near(found.volume, area * height * (1.0 + scale + scale * scale) / 3.0, 1e-12, "volume");
+        assert_near(found.area, expected(&loops, &extrusion)[1], 1e-12, "area");
+        let sides: usize = loops.iter().map(Vec::len).sum();
+        assert_eq!((found.faces, found.corners), (sides + 2, 2 * sides));
+        assert_eq!((found.genus, found.components), (loops.len() as i64 - 1, 1));
+    });
+}
+
+#[test]
+fn a_scale_of_zero_ends_in_a_tip() {
+    for loops in [vec![star(5, 2.0, 0.8)], vec![star(7, 1.0, 0.9)], vec![star(4, 3.0, 2.9)]] {
+        for center in [false, true] {
+            let extrusion = Extrusion { scale: DVec2::ZERO, center, ..Extrusion::straight(1.5) };
+            let found = figures(&extrude(&outline(&loops), &extrusion, M).expect("a cone"));
+            assert_near(found.volume, polygon::area(&loops) * 1.5 / 3.0, 1e-12, "volume");
+            assert_eq!((found.faces, found.corners), (loops[0].len() + 1, loops[0].len() + 1));
+        }
+    }
+    // a roof: the top is an edge
+    let square = Outline::rectangle(DVec2::new(-1.0, -2.0), DVec2::new(1.0, 2.0)).expect("a rectangle");
+    let roof = Extrusion { scale: DVec2::new(0.0, 1.0), ..Extrusion::straight(3.0) };
+    let found = figures(&extrude(&square, &roof, M).expect("a roof"));
+    assert_eq!((found.volume, found.faces, found.corners), (2.0 * 4.0 * 3.0 / 2.0, 5, 6));
+}
+
+#[test]
+fn twisted_and_stretched_extrusions_are_bounded_by_the_stated_triangles() {
+    let crossing = std::cell::Cell::new(0);
+    sweep(60, |rng| {
+        let center = DVec2::new(rng.real(-1.0, 1.0), rng.real(-1.0, 1.0));
+        let loops = polygon::random_region(rng, 12, center);
+        let extrusion = random_extrusion(rng);
+        let tree = match extrude(&outline(&loops), &extrusion, M) {
+            Err(ShapeError::CrossingSides { .. }) => return crossing.set(crossing.get() + 1),
+            other => other.expect("an extrusion"),
+        };
+        let found = figures(&tree);
+        let [volume, area] = expected(&loops, &extrusion);
+        assert_near(found.volume, volume, 1e-12, "volume");
+        assert_near(found.area, area, 1e-11, "area");
+        let sides: usize = loops.iter().map(Vec::len).sum();
+        let is_straight = extrusion.twist == 0.0 && extrusion.scale.x == extrusion.scale.y;
+        let layers = if is_straight { 1 } else { slices(&extrusion) } as usize;
+        let facets = if is_straight { 1 } else { 2 };
+        assert_eq!((found.faces, found.corners), (facets * layers * sides + 2, (layers + 1) * sides));
+        assert_eq!((found.genus, found.components), (loops.len() as i64 - 1, 1));
+    });
+    assert!(crossing.get() < 20, "{} of 60 were refused", crossing.get());
+}
+
+#[test]
+fn points_of_a_twisted_extrusion() {
+    sweep(20, |rng| {
+        let loops = polygon::random_region(rng, 8, DVec2::ZERO);
+        let extrusion = Extrusion { slices: Some(3), ..random_extrusion(rng) };
+        let Ok(tree) = extrude(&outline(&loops), &extrusion, M) else { return };
+        let caps = |top: bool, point: DVec3| {
+            let level = lifted(&extrusion, DVec2::ZERO, if top { 3 } else { 0 }).z;
+            if top { point.z < level } else { point.z > level }
+        };
+        let far: Vec<[DVec3; 3]> =
+            side_triangles(&loops, &extrusion).into_iter().chain(cap_triangles(&loops, &extrusion)).collect();
+        let mut inside = 0;
+        for _ in 0..300 {
+            let base = if extrusion.center { -0.5 * extrusion.height } else { 0.0 };
+            let point = rng.point(-2.5, 2.5).with_z(base + extrusion.height * rng.real(-0.1, 1.1));
+            let expected = caps(false, point) && caps(true, point) && winds_around(&far, point);
+            inside += usize::from(expected);
+            if let Some(found) = contains(&tree, point, 1e-9) {
+                assert_eq!(found, expected, "{point}");
+            }
+        }
+        assert!(inside > 10, "points inside were asked for: {inside}");
+    });
+}
+
+/// The caps as fans from the axis.
+fn cap_triangles(loops: &[Vec<DVec2>], extrusion: &Extrusion) -> Vec<[DVec3; 3]> {
+    let top = slices(extrusion);
+    let at = |corner: DVec2, j: u32| lifted(extrusion, corner, j);
+    let edges = loops.iter().flat_map(|corners| polygon::edges(corners));
+    edges
+        .flat_map(|(p, q)| [[at(DVec2::ZERO, 0), at(q, 0), at(p, 0)], [at(DVec2::ZERO, top), at(p, top), at(q, top)]])
+        .collect()
+}
+
+#[test]
+fn regular_polygons_about_the_axis_need_one_cell_a_layer() {
+    for n in [3, 4, 6, 17, 64] {
+        let extrusion = Extrusion { twist: 45.0, slices: Some(15), ..Extrusion::straight(4.0) };
+        let tree = extrude(&Outline::circle(1.0, n).expect("a circle"), &extrusion, M).expect("an extrusion");
+        assert_eq!(tree.brushes().len(), 15, "{n} sides");
+    }
+}
+
+#[test]
+fn sides_that_cross_are_an_error() {
+    // a thin bar far from the axis, turned by a right angle at once
+    let bar = Outline::rectangle(DVec2::new(5.0, -3.0), DVec2::new(5.01, 3.0)).expect("a bar");
+    let extrusion = Extrusion { twist: 90.0, slices: Some(1), ..Extrusion::straight(1.0) };
+    let error = extrude(&bar, &extrusion, M).expect_err("the sides cross");
+    assert_eq!((error.clone(), error.parameter()), (ShapeError::CrossingSides { layer: 0, slices: 1 }, Some("slices")));
+    extrude(&bar, &Extrusion { slices: Some(2000), ..extrusion }, M).expect("with enough slices they do not");
+}
+
+#[test]
+fn moved_extrusions_keep_their_figures() {
+    sweep(12, |rng| {
+        let loops = polygon::random_region(rng, 10, DVec2::ZERO);
+        let extrusion = Extrusion { twist: 30.0, slices: Some(6), ..Extrusion::straight(2.0) };
+        let Ok(tree) = extrude(&outline(&loops), &extrusion, M) else { return };
+        let turn = Transform::rotation(rng.direction(), rng.real(0.0, 360.0)).expect("a turn");
+        let shift = Transform::translation(rng.point(-20.0, 20.0)).expect("a shift");
+        let motion = turn.then(&shift).expect("a motion");
+        let (before, after) = (figures(&tree), figures(&tree.transformed(&motion).expect("in range")));
+        assert_near(after.volume, before.volume, 1e-11, "volume");
+        assert_eq!((after.faces, after.genus, after.components), (before.faces, before.genus, before.components));
+    });
+}
+
+#[test]
+fn several_shapes_and_none() {
+    let loops = [star(5, 2.0, 0.8), star(4, 0.3, 0.2).into_iter().map(|p| p + DVec2::new(5.0, 0.0)).collect()];
+    let found = figures(&extrude(&outline(&loops), &Extrusion::straight(1.0), M).expect("two bodies"));
+    assert_eq!(found.components, 2);
+    assert_near(found.volume, polygon::area(&loops), 1e-13, "volume");
+    let nothing = extrude(&Outline::empty(), &Extrusion::straight(1.0), M).expect("nothing");
+    assert!(nothing.brushes().is_empty());
+}
+
+#[test]
+fn decimal_and_small_whole_corners_stay_what_they_are() {
+    let l = [[0.1, 0.1], [0.7, 0.1], [0.7, 0.2], [0.3, 0.2], [0.3, 0.9], [0.1, 0.9]].map(DVec2::from).to_vec();
+    let tree = extrude(&outline(&[l.clone()]), &Extrusion::straight(0.3), M).expect("an L");
+    let mesh = crate::judge::evaluated(&tree).mesh;
+    let exact: Vec<DVec3> = [0.0, 0.3].into_iter().flat_map(|z| l.iter().map(move |p| p.extend(z))).collect();
+    assert_eq!(mesh.positions.len(), exact.len());
+    assert!(mesh.positions.iter().all(|p| exact.contains(p)), "sides along the axes are exact planes");
+    let arrow = [[0.0, 0.0], [5.0, 3.0], [10.0, 0.0], [5.0, 11.0]].map(DVec2::from).to_vec();
+    let tree = extrude(&outline(&[arrow.clone()]), &Extrusion::straight(2.0), M).expect("an arrow");
+    let mesh = crate::judge::evaluated(&tree).mesh;
+    assert!(mesh.positions.iter().all(|p| arrow.contains(&p.truncate())), "sides between whole corners are exact");
+}

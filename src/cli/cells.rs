@@ -1,0 +1,64 @@
+//! The convex cells of a solid, for `--cells`.
+
+use std::time::Instant;
+
+use planecut::csg::check::check_topology;
+use planecut::csg::{EvaluateError, Mesh, Model, Solid, Tree};
+use planecut::export::Part;
+
+use super::error::CliError;
+use super::input::{Input, ModelKind};
+use super::report::{MeshPart, milliseconds};
+use super::solve::Solved;
+
+/// Convex cells whose interiors are disjoint, as meshes.
+pub(crate) struct Cells {
+    meshes: Vec<Mesh>,
+    names: Vec<String>,
+}
+
+impl Cells {
+    /// Takes the solid apart, and tells the report.
+    ///
+    /// # Errors
+    /// [`CliError::Evaluate`] for an unbounded solid, [`CliError::Bug`] for a bug.
+    pub(crate) fn new(input: &Input, kind: ModelKind, solved: &mut Solved) -> Result<Self, CliError> {
+        let begin = Instant::now();
+        let solid = match kind {
+            ModelKind::Json => Solid::from_tree(&solved.model.tree),
+            ModelKind::Map => Solid::from_tree(&without(&solved.model, &solved.unbounded)),
+        };
+        let meshes = solid
+            .cell_meshes(&solved.model.materials)
+            .map_err(|source| CliError::of_evaluation(&input.path, source))?;
+        let volume = solid.volume().ok_or_else(|| CliError::of_evaluation(&input.path, EvaluateError::Unbounded))?;
+        let names = (0..meshes.len()).map(|number| format!("cell {number}")).collect();
+        let cells = Self { meshes, names };
+        solved.report.set_cells(cells.meshes.len(), volume, cells.measured());
+        solved.report.time_ms.cells = milliseconds(begin.elapsed());
+        Ok(cells)
+    }
+
+    /// One part for each cell.
+    pub(crate) fn parts(&self) -> Vec<Part<'_>> {
+        self.names.iter().zip(&self.meshes).map(|(name, mesh)| Part { name, mesh }).collect()
+    }
+
+    /// The counts of all meshes together.
+    fn measured(&self) -> MeshPart {
+        let (mut positions, mut triangles, mut faces) = (Vec::new(), Vec::new(), 0);
+        for mesh in &self.meshes {
+            let first = positions.len() as u32;
+            positions.extend_from_slice(&mesh.positions);
+            triangles.extend(mesh.triangles.iter().map(|corners| corners.map(|corner| corner + first)));
+            faces += mesh.faces.len();
+        }
+        MeshPart::of_solid(&check_topology(&positions, &triangles), faces)
+    }
+}
+
+/// The union of a map's brushes but for those that are not bounded.
+fn without(model: &Model, unbounded: &[usize]) -> Tree {
+    let brushes = model.tree.brushes().iter().enumerate();
+    Tree::union_of(brushes.filter(|(number, _)| !unbounded.contains(number)).map(|(_, brush)| brush.clone()).collect())
+}
