@@ -108,7 +108,10 @@ impl Nester<'_> {
     /// Whether a loop runs counter-clockwise: exactly, by its turn at an extreme corner, where the area is not clear.
     fn is_outer(&self, candidate: &Loop) -> bool {
         let extent = candidate.max - candidate.min;
-        if candidate.area.abs() > 1e-6 * extent.x * extent.y {
+        // Every corner may be off by a rounding error, which moves area along the whole loop.
+        let reach = candidate.min.abs().max(candidate.max.abs()).max_element();
+        let noise = f64::EPSILON * reach * extent.element_sum() * candidate.pieces.len() as f64;
+        if candidate.area.abs() > noise.max(1e-6 * extent.x * extent.y) {
             return candidate.area > 0.0;
         }
         let n = candidate.pieces.len();
