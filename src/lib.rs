@@ -9,32 +9,71 @@
 //! | module | what it holds |
 //! |---|---|
 //! | [`kernel`] | exact signs, half-spaces, convex polyhedra that planes are added to and taken back from |
-//! | [`csg`] | models made of brushes, their union as a mesh, checks of any mesh |
-//! | [`import`] | readers of Quake-family `.map` files and of OBJ, STL, PLY and glTF meshes |
+//! | [`csg`] | trees of set operations, their skin as a mesh and their convex cells, primitives, outlines, checks of any mesh |
+//! | [`import`] | readers of the native model file, of Quake-family `.map` files, and of OBJ, STL, PLY and glTF meshes |
 //! | [`export`] | writers of GLB, glTF, OBJ and STL, and rendered previews |
 //!
 //! # Example
 //!
-//! Two boxes that share a part, from planes to the bytes of a file:
+//! A plate with a row of holes, from numbers to the bytes of a file:
 //!
 //! ```
-//! use planecut::csg::{Brush, Material, MaterialId, Model, Tree, evaluate};
-//! use planecut::export::{ExportOptions, Format, encode};
-//! use planecut::kernel::DVec3;
+//! use planecut::csg::{Brush, Material, MaterialId, Model, Solid, Transform, Tree, evaluate, primitives};
+//! use planecut::export::{ExportOptions, Format, Part, encode, encode_parts};
+//! use planecut::kernel::{DVec3, HalfSpace};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
-//! let block = |min: f64, max: f64| Tree::from(Brush::cuboid(DVec3::splat(min), DVec3::splat(max), MaterialId(0)));
-//! let model = Model {
-//!     materials: vec![Material::named("stone")],
-//!     tree: block(0.0, 2.0) | block(1.0, 3.0),
-//! };
+//! // A tree says how bodies are combined; nothing is evaluated yet.
+//! let steel = MaterialId(0);
+//! let mut tree = Tree::from(Brush::cuboid(DVec3::ZERO, DVec3::new(40.0, 10.0, 4.0), steel));
+//! let hole = Tree::from(primitives::prism(8.0, 3.0, 4, steel)?); // over a square with corners on a circle of radius 3
+//! for x in [8.0, 16.0, 24.0, 32.0] {
+//!     tree = tree - hole.clone().transformed(&Transform::translation(DVec3::new(x, 5.0, -2.0))?)?;
+//! }
+//!
+//! // Its skin: a closed mesh, flat regions in one piece each.
+//! let model = Model { materials: vec![Material::named("steel")], tree };
 //! let evaluation = evaluate(&model)?;
-//! assert!((evaluation.solid.volume - 15.0).abs() < 1e-12); // 8 + 8 − 1
+//! assert!((evaluation.solid.volume - (40.0 * 10.0 - 4.0 * 18.0) * 4.0).abs() < 1e-9);
+//! assert_eq!(evaluation.mesh.faces.len(), 6 + 4 * 4);
 //! let glb = encode(&evaluation.mesh, Format::Glb, &ExportOptions::default())?;
 //! assert!(glb.starts_with(b"glTF"));
+//!
+//! // Its cells: convex and disjoint. Planes cut them in place, and are taken back.
+//! let mut solid = Solid::from_tree(&model.tree);
+//! let whole = solid.volume();
+//! let cut = solid.add_plane(&HalfSpace::new(DVec3::X, 20.0)?);
+//! assert!(solid.volume() < whole);
+//! solid.remove_plane(cut);
+//! assert_eq!(solid.volume(), whole);
+//! let cells = solid.cell_meshes(&model.materials)?;
+//! let parts: Vec<Part> = cells.iter().map(|mesh| Part { name: "cell", mesh }).collect();
+//! encode_parts(&parts, Format::Obj, &ExportOptions::default())?;
 //! # Ok(())
 //! # }
 //! ```
+//!
+//! The same as a [model file](import::model), which any language can write:
+//!
+//! ```
+//! use planecut::csg::evaluate;
+//! use planecut::import::model::{ModelOptions, read_model};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let text = br#"{"planecut": 1, "parameters": {"holes": 4}, "model": {"difference": [
+//!   {"box": {"min": [0, 0, 0], "max": ["=8 * holes + 8", 10, 4]}},
+//!   {"array": {
+//!     "of": {"prism": {"height": 8, "radius": 3, "sides": 4}, "transform": [{"translate": [8, 5, -2]}]},
+//!     "count": ["=holes", 1, 1], "step": [8, 0, 0]
+//!   }}
+//! ]}}"#;
+//! let import = read_model(text, "plate.json", &ModelOptions::default())?;
+//! assert!((evaluate(&import.model)?.solid.volume - (40.0 * 10.0 - 4.0 * 18.0) * 4.0).abs() < 1e-9);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! The programs in `examples/` model procedurally, cut and un-cut, and export.
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 

@@ -137,16 +137,7 @@ impl Contraction {
         }
         mesh.positions = used.iter().map(|v| mesh.positions[*v]).collect();
         mesh.triangles.iter_mut().flatten().for_each(|v| *v = number[*v as usize]);
-        let mut faces = Vec::with_capacity(mesh.faces.len());
-        let mut last = None;
-        for face in &mut mesh.triangle_faces {
-            if last != Some(*face) {
-                last = Some(*face);
-                faces.push(mesh.faces[*face as usize]);
-            }
-            *face = faces.len() as u32 - 1;
-        }
-        mesh.faces = faces;
+        mesh.drop_empty_faces();
     }
 }
 

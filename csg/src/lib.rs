@@ -24,6 +24,7 @@ mod body;
 mod bounds;
 mod brush;
 pub mod check;
+mod collapse;
 mod contract;
 mod evaluate;
 mod expression;

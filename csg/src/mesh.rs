@@ -31,3 +31,19 @@ pub struct Mesh {
     /// The materials that faces refer to.
     pub materials: Vec<Material>,
 }
+
+impl Mesh {
+    /// Drops the faces that have no triangle left.
+    pub(crate) fn drop_empty_faces(&mut self) {
+        let mut faces = Vec::with_capacity(self.faces.len());
+        let mut last = None;
+        for face in &mut self.triangle_faces {
+            if last != Some(*face) {
+                last = Some(*face);
+                faces.push(self.faces[*face as usize]);
+            }
+            *face = faces.len() as u32 - 1;
+        }
+        self.faces = faces;
+    }
+}

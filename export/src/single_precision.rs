@@ -52,13 +52,7 @@ mod tests {
         ];
         let faces = vec![MeshFace { normal: DVec3::Z, material: MaterialId(0) }; triangles.len()];
         let triangle_faces = (0..triangles.len() as u32).collect();
-        Mesh {
-            positions,
-            triangles,
-            triangle_faces,
-            faces,
-            materials: vec![Material::named("m")],
-        }
+        Mesh { positions, triangles, triangle_faces, faces, materials: vec![Material::named("m")] }
     }
 
     #[test]

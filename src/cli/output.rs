@@ -97,7 +97,10 @@ impl MeshTarget {
 ///
 /// # Errors
 /// [`CliError::Output`] or, for standard output used twice, [`CliError::Usage`].
-pub(crate) fn check_targets<'a>(input: Option<&Path>, targets: impl Iterator<Item = &'a Target>) -> Result<(), CliError> {
+pub(crate) fn check_targets<'a>(
+    input: Option<&Path>,
+    targets: impl Iterator<Item = &'a Target>,
+) -> Result<(), CliError> {
     let input = input.map(same_name);
     let mut taken: Vec<PathBuf> = Vec::new();
     let mut stdout_is_taken = false;

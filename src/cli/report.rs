@@ -36,7 +36,13 @@ pub(crate) struct Report {
 
 impl Report {
     /// The report on a model that was evaluated; export, preview and total times are still to be filled in.
-    pub(crate) fn of_model(input: String, format: &'static str, materials: usize, evaluation: &Evaluation, mesh: MeshPart) -> Self {
+    pub(crate) fn of_model(
+        input: String,
+        format: &'static str,
+        materials: usize,
+        evaluation: &Evaluation,
+        mesh: MeshPart,
+    ) -> Self {
         Self {
             planecut: env!("CARGO_PKG_VERSION"),
             input,
@@ -194,11 +200,10 @@ impl SignsPart {
 #[derive(Debug, Clone, Default, Serialize)]
 pub(crate) struct Times {
     pub(crate) import: f64,
-    evaluate: f64,
+    /// With taking the solid apart into cells, where they were asked for.
+    pub(crate) evaluate: f64,
     weld: f64,
     triangulate: f64,
-    /// Taking the solid apart into cells, where they were asked for.
-    pub(crate) cells: f64,
     pub(crate) export: f64,
     pub(crate) preview: f64,
     pub(crate) total: f64,

@@ -4,6 +4,8 @@
 mod check;
 mod damaged;
 mod determinism;
+mod examples;
+mod model;
 mod outputs;
 mod report;
 mod shared_maps;

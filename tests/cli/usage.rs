@@ -53,10 +53,26 @@ fn names_that_do_not_end_well() {
     refused("build m.map -o a", "a: found a name without an ending");
     refused("build m.map -o a.glb --preview p.jpg", "p.jpg: found");
     refused("render m.map -o p.gif", "p.gif: found");
-    refused("build m.csg -o a.glb", "m.csg: found a name that ends in `.csg`, expected `.map`");
-    refused("build m.obj -o a.glb", "m.obj: found a name that ends in `.obj`, expected `.map`");
+    refused("build m.csg -o a.glb", "m.csg: found a name that ends in `.csg`, expected `.json` or `.map`");
+    refused("build m.obj -o a.glb", "m.obj: found a name that ends in `.obj`, expected `.json` or `.map`");
     refused("info m.xyz", "m.xyz: found");
     refused("check m.map", "m.map: found a name that ends in `.map`, expected a mesh");
+}
+
+#[test]
+fn options_for_another_input() {
+    refused("build m.map -o a.glb --set a=1", "found --set with another input, expected it with a model file (.json)");
+    refused("info m.map --set a=1", "found --set with another input");
+    refused(
+        "build m.json -o a.glb --world-only",
+        "found --world-only, --skip-texture or --skip-class with another input",
+    );
+    refused("render - -o a.png --skip-class x", "expected it with a map (.map)");
+    for setting in ["a", "a=", "=1", "a=b", "a=nan", "a=1e999"] {
+        refused(&format!("build m.json -o a.glb --set {setting}"), "expected NAME=VALUE, the value a number");
+    }
+    refused("build m.json -o a.glb --input-format csg", "csg");
+    refused("info m.obj --input-format map --set a=1", "found --set with another input");
 }
 
 #[test]

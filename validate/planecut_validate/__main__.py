@@ -103,9 +103,11 @@ def _unusable(message: str) -> int:
 
 
 def _models(path: Path) -> list[Path]:
-    """The file itself, or all models below the folder."""
-    files = sorted(path.rglob("*")) if path.is_dir() else [path]
-    return [file for file in files if file.is_file() and file.suffix.lower() in FORMATS]
+    """The file itself, or all models below the folder: those of the formats, and of other JSON there none."""
+    if not path.is_dir():
+        return [path] if path.is_file() and path.suffix.lower() in FORMATS else []
+    files = [file for file in sorted(path.rglob("*")) if file.is_file() and file.suffix.lower() in FORMATS]
+    return [file for file in files if file.suffix.lower() != ".json" or b'"planecut"' in file.read_bytes()]
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 """Many random models at once, each by its own seed."""
 
 import json
+import re
 import tempfile
 from collections.abc import Iterator
 from concurrent.futures import Executor
@@ -15,13 +16,19 @@ from .shrink import leaves, shrink
 
 
 def check_random(count: int, most_leaves: int, options: Options, keep: Path, pool: Executor) -> Iterator[Result]:
-    """Checks trees of consecutive seeds, in this order; failing ones are made small and kept as files."""
+    """Checks trees of consecutive seeds, in this order. The smallest that fails in each way is made smaller still."""
     seeds = range(options.seed, options.seed + count)
     one = partial(_check_tree, most_leaves=most_leaves, options=options)
-    for seed, result in zip(seeds, pool.map(one, seeds, chunksize=4)):
+    worst: dict[str, tuple[dict, Result]] = {}
+    for seed, result in zip(seeds, pool.map(one, seeds, chunksize=2)):
         if result.failures:
-            _keep_smallest(result, random_document(seed, most_leaves), options, keep / f"seed-{seed}.json")
+            tree = random_document(seed, most_leaves)["model"]
+            kind = _kind(result)
+            if kind not in worst or leaves(tree) < leaves(worst[kind][0]):
+                worst[kind] = tree, result
         yield result
+    for kind, (tree, result) in worst.items():
+        _keep_smallest(kind, tree, result.model, options, keep, pool)
 
 
 def _check_tree(seed: int, most_leaves: int, options: Options) -> Result:
@@ -37,20 +44,26 @@ def _check_document(model: dict, options: Options) -> Result:
         return check(path, options)
 
 
-def _keep_smallest(result: Result, model: dict, options: Options, path: Path) -> None:
-    """Notes the smallest tree that fails in the same way, by the first words of its first failure."""
-    kind = result.failures[0].split(":")[0]
+def _kind(result: Result) -> str:
+    """The first failure without what differs from tree to tree."""
+    words = re.sub(r"\S*tree\.json\S*|-?\d+(\.\d+)?(e-?\d+)?", "", result.failures[0])
+    return re.sub(r"\s+", " ", words)[:60].strip(" :")
 
-    def fails(node: dict) -> bool:
-        return any(f.split(":")[0] == kind for f in _check_document(document(node), options).failures)
 
-    smallest = document(shrink(model["model"], fails))
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(json.dumps(smallest) + "\n", encoding="utf-8")
-    text = json.dumps(smallest)
-    result.notes.append(
-        f"{leaves(smallest['model'])} leaves left, in {path}: {text[:_SHOWN]}{'…' * (len(text) > _SHOWN)}"
-    )
+def _fails(node: dict, kind: str, options: Options) -> bool:
+    result = _check_document(document(node), options)
+    return bool(result.failures) and _kind(result) == kind
+
+
+def _keep_smallest(kind: str, tree: dict, name: str, options: Options, keep: Path, pool: Executor) -> None:
+    """Writes and prints the smallest tree found that fails in this way."""
+    smallest = shrink(tree, partial(_fails, kind=kind, options=options), pool)
+    keep.mkdir(parents=True, exist_ok=True)
+    path = keep / (re.sub(r"\W+", "-", name).strip("-") + ".json")
+    text = json.dumps(document(smallest))
+    path.write_text(text + "\n", encoding="utf-8")
+    shown = text[:_SHOWN] + "…" * (len(text) > _SHOWN)
+    print(f"smallest found with {kind!r}, from {name}: {leaves(smallest)} leaves, in {path}\n    {shown}", flush=True)
 
 
 _SHOWN = 1500

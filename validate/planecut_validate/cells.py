@@ -29,31 +29,40 @@ def examine(cells: list[Mesh]) -> CellReport:
     report = CellReport(len(cells))
     if not cells:
         return report
+    whole = joined(cells)
+    if faults := whole.twin_faults():
+        report.faults.append("cells: " + ", ".join(f"{count} {name}" for name, count in faults.items()))
+    if (pieces := whole.components()) != len(cells):
+        report.faults.append(f"{len(cells)} cells are {pieces} surfaces")
     low, high = (np.array([getattr(c.vertices, end)(0) for c in cells]) for end in ("min", "max"))
-    tolerance = _FLAT * float(np.linalg.norm(high.max(0) - low.min(0)))
-    report.volume = float(sum(c.volume() for c in cells))
-    report.rounding = 2.0**-51 * max(np.abs(low).max(), np.abs(high).max()) * sum(c.area() for c in cells)
-    planes = [_planes(cell) for cell in cells]
+    size = float(np.linalg.norm(high.max(0) - low.min(0)))
+    volumes = [c.volume() for c in cells]
+    report.volume = float(sum(volumes))
+    report.rounding = 2.0**-51 * np.abs(whole.vertices).max() * whole.area()
+    report.faults += [f"cell {i}: volume {v!r}" for i, v in enumerate(volumes) if v <= 0.0]
+    planes = [_planes(cell, _FLAT * size) for cell in cells]
     for number, cell in enumerate(cells):
-        if faults := cell.twin_faults():
-            report.faults.append(f"cell {number}: " + ", ".join(f"{count} {name}" for name, count in faults.items()))
-        elif cell.volume() <= 0.0:
-            report.faults.append(f"cell {number}: volume {cell.volume()!r}")
-        if (out := _outside(planes[number], cell.vertices).max(initial=-np.inf)) > tolerance:
+        if (out := _outside(planes[number], cell.vertices).max(initial=-np.inf)) > _FLAT * size:
             report.faults.append(f"cell {number}: not convex, a corner lies {out:.1e} outside a face")
-    for i, j in _near_pairs(low, high, tolerance):
-        if not _apart(cells[i], cells[j], planes[i], planes[j], tolerance):
-            report.faults.append(f"cells {i} and {j} overlap")
+    report.faults += [f"cells {i} and {j} overlap" for i, j in _overlaps(cells, planes, low, high, _FLAT * size)]
     return report
 
 
-def _planes(cell: Mesh) -> np.ndarray:
-    """Unit rows `[n, d]` of the faces; of slivers none, their normals say nothing."""
+def joined(cells: list[Mesh]) -> Mesh:
+    """All cells as one mesh that shares no vertex."""
+    bases = np.cumsum([0] + [len(c.vertices) for c in cells[:-1]])
+    triangles = np.concatenate([c.triangles + base for c, base in zip(cells, bases)])
+    return Mesh(np.concatenate([c.vertices for c in cells]), triangles)
+
+
+def _planes(cell: Mesh, tolerance: float) -> np.ndarray:
+    """Unit rows `[n, d]` of the faces; none of triangles so thin that rounding turns them by more than the tolerance."""
     corners = cell.vertices[cell.triangles]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     area = np.linalg.norm(normals, axis=1)
-    longest = np.square(corners - np.roll(corners, 1, axis=1)).sum(2).max(1)
-    sound = area > 1e-6 * longest
+    height = area / np.sqrt(np.square(corners - np.roll(corners, 1, axis=1)).sum(2).max(1) + 1e-300)
+    extent = float(np.linalg.norm(np.ptp(cell.vertices, axis=0)))
+    sound = height * tolerance > 4.0 * 2.0**-52 * np.abs(cell.vertices).max() * extent
     normals = normals[sound] / area[sound, None]
     return np.column_stack([normals, np.einsum("ij,ij->i", normals, corners[sound, 0])])
 
@@ -76,23 +85,41 @@ def _near_pairs(low: np.ndarray, high: np.ndarray, tolerance: float) -> list[tup
     return pairs
 
 
-def _apart(a: Mesh, b: Mesh, planes_a: np.ndarray, planes_b: np.ndarray, tolerance: float) -> bool:
-    """Whether a face of one has the two on different sides; else by the volume that manifold3d finds in common."""
-    for own, planes, other in ((a, planes_a, b), (b, planes_b, a)):
-        behind = _outside(planes, own.vertices).max(1, initial=-np.inf) <= tolerance
-        if (behind & (_outside(planes, other.vertices).min(1, initial=np.inf) >= -tolerance)).any():
-            return True
+def _overlaps(cells: list[Mesh], planes: list, low: np.ndarray, high: np.ndarray, tolerance: float) -> list:
+    """Pairs of cells with a common interior: no face has the two on different sides, and manifold3d finds a volume."""
+    pairs = set(_near_pairs(low, high, tolerance))
+    # First by the faces of the one, then by those of the other.
+    for turned in (False, True):
+        beside: dict[int, list[int]] = {}
+        for i, j in pairs:
+            beside.setdefault(j if turned else i, []).append(i if turned else j)
+        for i, others in beside.items():
+            behind = planes[i][_outside(planes[i], cells[i].vertices).max(1, initial=-np.inf) <= tolerance]
+            apart = _all_before(behind, [cells[j].vertices for j in others], tolerance)
+            pairs -= {(j, i) if turned else (i, j) for j, is_apart in zip(others, apart) if is_apart}
+    return sorted(pair for pair in pairs if _common(cells[pair[0]], cells[pair[1]], tolerance))
+
+
+def _all_before(planes: np.ndarray, bodies: list[np.ndarray], tolerance: float) -> np.ndarray:
+    """Per body, whether all of its points lie outside of one of the planes."""
+    if not len(planes):
+        return np.zeros(len(bodies), dtype=bool)
+    starts = np.cumsum([0] + [len(b) for b in bodies[:-1]])
+    nearest = np.minimum.reduceat(_outside(planes, np.concatenate(bodies)), starts, axis=1)
+    return (nearest >= -tolerance).any(0)
+
+
+def _common(a: Mesh, b: Mesh, tolerance: float) -> bool:
+    """Whether manifold3d finds more of a volume in both than a sheet as thin as the tolerance has."""
     first, second = (manifold3d.Manifold.hull_points(np.ascontiguousarray(m.vertices)) for m in (a, b))
-    return (first ^ second).volume() <= tolerance * min(a.area(), b.area())
+    return (first ^ second).volume() > tolerance * min(a.area(), b.area())
 
 
 def compare_lines(drawn: Drawn, cells: list[Mesh]) -> tuple[LineReport, int]:
     """The union of the cells against the model along the lines, and on how many lines two cells overlap."""
     if not cells:
         return compare_crossings(drawn, no_crossings()), 0
-    bases = np.cumsum([0] + [len(c.vertices) for c in cells[:-1]])
-    triangles = np.concatenate([c.triangles + base for c, base in zip(cells, bases)])
-    found = TriangleTree(Mesh(np.concatenate([c.vertices for c in cells]), triangles)).crossings(drawn.lines)
+    found = TriangleTree(joined(cells)).crossings(drawn.lines)
     union, doubled = _united(found, TOUCHING * drawn.size)
     return compare_crossings(drawn, union), int((~drawn.coverage.unclear[doubled]).sum())
 

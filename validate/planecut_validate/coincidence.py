@@ -8,10 +8,22 @@ _SAME_PLANE = 1e-8
 """Difference of two unit normals, or of two offsets relative to the model's size, up to which planes count as one."""
 
 
-def any_coincident_faces(leaves: list[Leaf], low: np.ndarray, high: np.ndarray) -> bool:
-    """Whether faces of two bounded leaves lie in one plane, on either side of it, and their boxes meet."""
+Box = tuple[np.ndarray, np.ndarray]
+"""Lowest and highest corner."""
+
+
+def any_coincident_faces(leaves: list[Leaf], span: Box, frame: Box | None) -> bool:
+    """Whether faces of two bounded leaves lie in one plane, on either side of it, and their boxes meet.
+
+    `span`: a box around all leaves. `frame`: that at which unbounded leaves were cut off; faces on it do not count.
+    """
+    low, high = span
     size = float(np.linalg.norm(high - low)) or 1.0
     planes, lows, highs, owners = _faces(leaves, 0.5 * (low + high), size)
+    if frame is not None and len(planes):
+        near = _SAME_PLANE * size
+        on_frame = ((highs <= frame[0] + near) | (lows >= frame[1] - near)).any(1)
+        planes, lows, highs, owners = planes[~on_frame], lows[~on_frame], highs[~on_frame], owners[~on_frame]
     if not len(planes):
         return False
     # Along a fixed direction in the space of planes, equal planes are neighbours.

@@ -62,11 +62,11 @@ class ConvexLeaf:
         return cls(body.planes if rows is None else rows, body.vertices, body.bounded)
 
     @classmethod
-    def of_points(cls, points: np.ndarray) -> "ConvexLeaf | MeshLeaf":
-        """The convex hull of points. Raises `ValueError` where it has no interior."""
+    def of_points(cls, points: np.ndarray) -> "ConvexLeaf | MeshLeaf | None":
+        """The convex hull of points; nothing where they lie in a plane."""
         hull = mesh_of(manifold3d.Manifold.hull_points(np.ascontiguousarray(points)))
         if not len(hull.triangles) or hull.volume() <= 0.0:
-            raise ValueError("the points lie in a plane")
+            return None
         planes = _planes_of(hull)
         used = hull.vertices[np.unique(hull.triangles)]
         return MeshLeaf(hull) if planes is None else cls(planes, used, True)

@@ -8,8 +8,8 @@ convex combination of the corners, which stays accurate on slivers, where a norm
 
 import numpy as np
 
-from .mesh import Mesh
 from .lines import Crossings, Lines
+from .mesh import Mesh
 
 _LEAF = 4
 """Triangles in a leaf of the tree."""

@@ -2,23 +2,29 @@
 
 import time
 from collections.abc import Callable, Iterator
+from concurrent.futures import Executor
 
 _LISTS = ("union", "intersection", "difference", "xor")
 
 
-def shrink(node: dict, fails: Callable[[dict], bool], seconds: float = 120.0) -> dict:
-    """The smallest NODE found in this time that still fails."""
+def shrink(node: dict, fails: Callable[[dict], bool], pool: Executor, seconds: float = 120.0) -> dict:
+    """The smallest NODE found in this time that still fails; several candidates are tried at once."""
     end = time.monotonic() + seconds
     while time.monotonic() < end:
-        for smaller in sorted(_smaller(node), key=leaves):
-            if time.monotonic() >= end:
+        candidates = sorted(_smaller(node), key=leaves)
+        found = None
+        for at in range(0, len(candidates), _AT_ONCE):
+            several = candidates[at : at + _AT_ONCE]
+            found = next((c for c, failed in zip(several, pool.map(fails, several)) if failed), None)
+            if found is not None or time.monotonic() >= end:
                 break
-            if fails(smaller):
-                node = smaller
-                break
-        else:
+        if found is None:
             break
+        node = found
     return node
+
+
+_AT_ONCE = 16
 
 
 def leaves(node: dict) -> int:
@@ -37,6 +43,9 @@ def _operands(node: dict) -> list[dict]:
 def _smaller(node: dict) -> Iterator[dict]:
     """Trees with one node replaced by one of its operands, one operand less, or one transform less."""
     yield from _operands(node)
+    # The complement of a complement is not bounded by itself.
+    for inner in _operands(node) if "complement" in node else []:
+        yield from _operands(inner)
     if "transform" in node:
         yield {key: value for key, value in node.items() if key != "transform"}
         for i in range(len(node["transform"])):

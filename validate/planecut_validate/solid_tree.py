@@ -24,6 +24,11 @@ class SolidTree:
         return cls([leaf], [("leaf", 0)])
 
     @classmethod
+    def nothing(cls) -> "SolidTree":
+        """The union of no bodies."""
+        return cls([], [("union", 0)])
+
+    @classmethod
     def combine(cls, operation: str, operands: list["SolidTree"]) -> "SolidTree":
         """The operation on the operands, in their order."""
         leaves: list[Leaf] = []

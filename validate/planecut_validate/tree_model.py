@@ -33,7 +33,7 @@ class TreeModel:
         self.notes: list[str] = []
         low, high = _span(tree)
         self.is_unbounded = False
-        self._bounded, self._frame = tree, None
+        self._bounded, self._frame, self._cut = tree, None, None
         if not _is_plainly_bounded(tree):
             low, high = self._cut_off(low, high)
         self._solid = self._evaluate(self._bounded)
@@ -55,8 +55,8 @@ class TreeModel:
             box = np.array(kept.bounding_box()).reshape(2, 3)
             low, high = np.minimum(low, box[0]), np.maximum(high, box[1])
         margin = 0.1 * _ODD * float(np.linalg.norm(high - low)) + 1e-3 * half
-        frame = low - margin, high + margin
-        self._bounded, self._frame = self.tree.within(*frame), _box(*frame)
+        self._cut = low - margin, high + margin
+        self._bounded, self._frame = self.tree.within(*self._cut), _box(*self._cut)
         return low, high
 
     def _evaluate(self, tree: SolidTree, batch: bool = True, turn: np.ndarray | None = None) -> manifold3d.Manifold:
@@ -68,7 +68,7 @@ class TreeModel:
     @cached_property
     def is_generic(self) -> bool:
         """Whether no faces of two leaves coincide."""
-        return not any_coincident_faces(self._bounded.leaves, *_span(self._bounded))
+        return not any_coincident_faces(self._bounded.leaves, _span(self._bounded), self._cut)
 
     @property
     def is_simple(self) -> bool:

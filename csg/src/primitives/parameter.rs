@@ -6,9 +6,9 @@ use planecut_kernel::{DVec2, DVec3};
 
 use super::ShapeError;
 
-/// Largest accepted magnitude of a length or coordinate; its inverse is the smallest one that is not zero. Within it no
-/// plane of a shape leaves the range of a [`HalfSpace`](planecut_kernel::HalfSpace).
-pub const MAX_LENGTH: f64 = 1e30;
+/// Largest accepted magnitude of a length or coordinate. Lengths must be at least its inverse; smaller coordinates are
+/// taken for 0. Within it no plane of a shape leaves the range of a [`HalfSpace`](planecut_kernel::HalfSpace).
+pub const MAX_LENGTH: f64 = 1e25;
 /// Largest accepted number of segments of a circle.
 pub const MAX_SEGMENTS: u32 = 10_000;
 /// Largest number of convex pieces of one shape.
@@ -18,18 +18,22 @@ pub(crate) fn refuse(parameter: &'static str, found: &dyn Display, expected: &dy
     ShapeError::Parameter { parameter, found: found.to_string(), expected: expected.to_string() }
 }
 
-fn fits(value: f64) -> bool {
-    value == 0.0 || (MAX_LENGTH.recip()..=MAX_LENGTH).contains(&value.abs())
-}
-
 /// A length above 0.
 pub(crate) fn positive(parameter: &'static str, value: f64) -> Result<f64, ShapeError> {
-    if value > 0.0 { coordinate(parameter, value) } else { Err(refuse(parameter, &value, &"a number above 0")) }
+    if value > 0.0 { length(parameter, value) } else { Err(refuse(parameter, &value, &"a number above 0")) }
 }
 
 /// A length of 0 or above.
 pub(crate) fn not_negative(parameter: &'static str, value: f64) -> Result<f64, ShapeError> {
-    if value >= 0.0 { coordinate(parameter, value) } else { Err(refuse(parameter, &value, &"a number not below 0")) }
+    if value == 0.0 {
+        return Ok(0.0);
+    }
+    if value > 0.0 { length(parameter, value) } else { Err(refuse(parameter, &value, &"a number not below 0")) }
+}
+
+fn length(parameter: &'static str, value: f64) -> Result<f64, ShapeError> {
+    let is_accepted = (MAX_LENGTH.recip()..=MAX_LENGTH).contains(&value);
+    if is_accepted { Ok(value) } else { Err(refuse(parameter, &value, &"a number from 1e-25 to 1e25")) }
 }
 
 /// A coordinate, or a length of either sign.
@@ -37,13 +41,17 @@ pub(crate) fn coordinate(parameter: &'static str, value: f64) -> Result<f64, Sha
     if !value.is_finite() {
         return Err(refuse(parameter, &value, &"a finite number"));
     }
-    let expected = "0 or a number of a magnitude between 1e-30 and 1e30";
-    // adding zero turns −0 into 0
-    if fits(value) { Ok(value + 0.0) } else { Err(refuse(parameter, &value, &expected)) }
+    if value.abs() > MAX_LENGTH {
+        return Err(refuse(parameter, &value, &"a number of a magnitude up to 1e25"));
+    }
+    Ok(if value.abs() < MAX_LENGTH.recip() { 0.0 } else { value })
 }
 
-pub(crate) fn finite(parameter: &'static str, value: f64) -> Result<f64, ShapeError> {
-    if value.is_finite() { Ok(value) } else { Err(refuse(parameter, &value, &"a finite number")) }
+/// An angle in degrees, at most as many turns as there can be segments.
+pub(crate) fn angle(parameter: &'static str, value: f64) -> Result<f64, ShapeError> {
+    let limit = 360.0 * f64::from(MAX_SEGMENTS);
+    let expected = format!("a number of a magnitude up to {limit}");
+    if value.abs() <= limit { Ok(value) } else { Err(refuse(parameter, &value, &expected)) }
 }
 
 pub(crate) fn point(parameter: &'static str, point: DVec3) -> Result<DVec3, ShapeError> {

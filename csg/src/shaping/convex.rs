@@ -1,6 +1,6 @@
 //! Trees taken apart into convex bodies.
 
-use planecut_kernel::{DVec3, HalfSpace, IncrementalPolytope};
+use planecut_kernel::{DVec3, Face, HalfSpace, IncrementalPolytope};
 
 use crate::brush::{Brush, Material, MaterialId, Model};
 use crate::evaluate::{EvaluateError, Evaluation, evaluate};
@@ -41,7 +41,33 @@ impl Convex {
     }
 }
 
-pub(super) fn build(half_spaces: &[HalfSpace], epsilon: f64) -> IncrementalPolytope {
+/// The half-spaces whose faces are wider than rounding.
+///
+/// Planes through corners that nearly lie on a line, and across edges that are no longer than an ulp, touch the body and have no
+/// say in it.
+pub(super) fn wide_faces(half_spaces: &[HalfSpace]) -> Result<Vec<HalfSpace>, ShapeError> {
+    let Some(body) = Convex::new(half_spaces)? else { return Ok(Vec::new()) };
+    let size = |p: &DVec3, q: &DVec3| (*p - *q).abs().max_element();
+    let extent = body.corners.iter().map(|p| size(p, &body.corners[0])).fold(0.0, f64::max);
+    let (positions, _) = body.polytope.to_mesh();
+    let is_wide = |face: &Face| width(face.vertices.iter().map(|v| positions[*v])) > extent * MERGED;
+    let faces = body.polytope.faces();
+    let wide = faces.iter().filter(|face| is_wide(face)).filter_map(|face| body.polytope.plane(face.plane).copied());
+    let wide: Vec<HalfSpace> = wide.collect();
+    // a body that is all needles keeps its planes
+    Ok(if build(&wide, 0.0).is_bounded() { wide } else { body.half_spaces().collect() })
+}
+
+/// The area of a polygon over its diameter, but for a factor near 1.
+fn width(corners: impl Iterator<Item = DVec3>) -> f64 {
+    let corners: Vec<DVec3> = corners.collect();
+    let Some(first) = corners.first() else { return 0.0 };
+    let spread = corners.iter().map(|p| p.distance(*first)).fold(0.0, f64::max);
+    let area: DVec3 = corners.windows(2).map(|pair| (pair[0] - first).cross(pair[1] - first)).sum();
+    if spread > 0.0 { area.length() / spread } else { 0.0 }
+}
+
+fn build(half_spaces: &[HalfSpace], epsilon: f64) -> IncrementalPolytope {
     let mut polytope = IncrementalPolytope::with_epsilon(epsilon);
     for half_space in half_spaces {
         polytope.add_plane(*half_space);

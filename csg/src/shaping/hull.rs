@@ -2,7 +2,7 @@
 
 use planecut_kernel::{DVec3, HalfSpace};
 
-use super::convex::{Convex, evaluated, is_union, parts_of_union};
+use super::convex::{Convex, evaluated, is_union, parts_of_union, wide_faces};
 use crate::brush::{Brush, MaterialId};
 use crate::plane_table::SNAP_TOLERANCE;
 use crate::primitives::ShapeError;
@@ -40,7 +40,7 @@ pub fn hull(operands: &[Tree], material: MaterialId) -> Result<Tree, ShapeError>
     let mut faces: Vec<HalfSpace> = faces.map(|face| given.same_or(face)).collect();
     faces.sort_by(compare);
     faces.dedup();
-    Ok(Brush::from_half_spaces(faces, material).into())
+    Ok(Brush::from_half_spaces(wide_faces(&faces)?, material).into())
 }
 
 fn key(half_space: &HalfSpace) -> [f64; 4] {

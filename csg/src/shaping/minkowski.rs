@@ -8,7 +8,7 @@
 use planecut_kernel::sign::{Row, Sign, orient3};
 use planecut_kernel::{DVec3, HalfSpace, PlaneIdx};
 
-use super::convex::{Convex, build, is_union, parts_of_union};
+use super::convex::{Convex, is_union, parts_of_union, wide_faces};
 use crate::brush::{Brush, MaterialId};
 use crate::primitives::ShapeError;
 use crate::primitives::parameter::pieces;
@@ -100,8 +100,7 @@ fn sum(a: &Gauss, b: &Gauss) -> Result<Vec<HalfSpace>, ShapeError> {
             planes.extend(across(first, second)?);
         }
     }
-    let polytope = build(&planes, 0.0);
-    Ok(polytope.facets().into_iter().filter_map(|(plane, _)| polytope.plane(plane).copied()).collect())
+    wide_faces(&planes)
 }
 
 /// Whether the arcs cross, each within the other.

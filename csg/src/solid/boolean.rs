@@ -4,7 +4,7 @@
 //! are tried for a union, and the one kept that makes fewer cells.
 
 use std::ops::{BitAnd, BitAndAssign, BitOr, BitOrAssign, BitXor, BitXorAssign, Not, Sub, SubAssign};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use super::boxes::Boxes;
 use super::carve::Carver;
@@ -54,11 +54,21 @@ struct Tools {
 impl Tools {
     /// Of the bodies those that come near the cells.
     fn new(table: &PlaneTable, bodies: &[&Cell], cells: &[Cell]) -> Self {
-        let within = Boxes::new(bodies.iter().map(|body| *body.bounds()).collect());
+        let bounds_of = |cells: &mut dyn Iterator<Item = &Cell>| Boxes::new(cells.map(|cell| *cell.bounds()).collect());
         let (mut wanted, mut near) = (vec![false; bodies.len()], Vec::new());
-        for cell in cells {
-            within.touching(cell.bounds(), &mut near);
-            near.iter().for_each(|body| wanted[*body as usize] = true);
+        // the hierarchy is made of what is less
+        if bodies.len() <= cells.len() {
+            let boxes = bounds_of(&mut bodies.iter().copied());
+            for cell in cells {
+                boxes.touching(cell.bounds(), &mut near);
+                near.iter().for_each(|body| wanted[*body as usize] = true);
+            }
+        } else {
+            let boxes = bounds_of(&mut cells.iter());
+            for (body, wanted) in bodies.iter().zip(&mut wanted) {
+                boxes.touching(body.bounds(), &mut near);
+                *wanted = !near.is_empty();
+            }
         }
         let wanted = bodies.iter().zip(wanted).filter(|(_, wanted)| *wanted);
         let bodies: Vec<Convex> = wanted.map(|(cell, _)| Convex::new(table, (*cell).clone())).collect();
@@ -118,6 +128,7 @@ fn apply(table: &PlaneTable, cells: &mut Vec<Cell>, changes: Changes) {
 impl Solid {
     /// Makes the planes of another solid those of this one's table.
     fn take_in(&mut self, other: &Self) -> Operand {
+        self.index = OnceLock::new();
         let first_brush = self.sources.brushes;
         let mut ids: Vec<PlaneId> = Vec::new();
         if !Arc::ptr_eq(&self.table, &other.table) {

@@ -6,6 +6,7 @@
 //! - of several of which one must hold it, each takes its part of the cell in turn, less those before it;
 //! - bodies that must not hold the point are carved out, in the order that [`order`](super::order) chooses.
 
+use rayon::prelude::*;
 use rustc_hash::FxHashSet;
 
 use super::cell::{Cell, CellPlane};
@@ -19,6 +20,12 @@ struct Task {
     cell: Cell,
     formula: Formula,
 }
+
+/// A cell and the bodies that have yet to be carved out of it.
+type Pending = (Cell, Vec<u32>);
+
+/// With more bodies than this to be carved out, a cell is a task of its own.
+const MANY: usize = 32;
 
 /// Carves cells.
 pub(super) struct Carver<'a> {
@@ -96,8 +103,8 @@ impl<'a> Carver<'a> {
     fn step_any(&self, cell: &Cell, mut operands: Vec<Formula>, rest: &Formula, tasks: &mut Vec<Task>) {
         self.sort(&mut operands);
         for (k, operand) in operands.iter().enumerate() {
-            let before = operands[..k].iter().map(|formula| formula.clone().negated());
-            self.push(cell, operand, before.chain([rest.clone()]), tasks);
+            let behind = Formula::constant(true);
+            self.push(cell, operand, &operands[..k], [&behind, rest], tasks);
         }
     }
 
@@ -106,28 +113,30 @@ impl<'a> Carver<'a> {
     fn step_parity(&self, cell: &Cell, odd: bool, mut operands: Vec<Formula>, rest: &Formula, tasks: &mut Vec<Task>) {
         self.sort(&mut operands);
         for (k, operand) in operands.iter().enumerate() {
-            let before = operands[..k].iter().map(|formula| formula.clone().negated());
             let behind = Formula::combine(Kind::Parity { odd: !odd }, operands[k + 1..].iter().cloned());
-            self.push(cell, operand, before.chain([behind, rest.clone()]), tasks);
+            self.push(cell, operand, &operands[..k], [&behind, rest], tasks);
         }
         if !odd {
-            let none = operands.into_iter().map(Formula::negated);
-            let formula = Formula::combine(Kind::And, none.chain([rest.clone()]));
-            tasks.push(Task { cell: cell.clone(), formula });
+            self.push(cell, &Formula::constant(true), &operands, [&Formula::constant(true), rest], tasks);
         }
     }
 
-    /// Makes a task of a cell, a formula that must hold and others; where the first is a body, it cuts the cell at once, so
-    /// that those that do not reach it need not be copied.
-    fn push(&self, cell: &Cell, first: &Formula, others: impl Iterator<Item = Formula>, tasks: &mut Vec<Task>) {
-        let Some((body, false)) = first.single() else {
-            let formula = Formula::combine(Kind::And, [first.clone()].into_iter().chain(others));
-            tasks.push(Task { cell: cell.clone(), formula });
-            return;
+    /// Makes a task of a cell, a formula that must hold, some that must not, and others that must. Where the first is a body,
+    /// it cuts the cell at once, so that what does not reach it need not be copied.
+    fn push(&self, cell: &Cell, first: &Formula, none_of: &[Formula], all_of: [&Formula; 2], tasks: &mut Vec<Task>) {
+        let single = first.single().filter(|(_, negated)| !negated);
+        let cell = match single {
+            Some((body, _)) => self.intersected(cell, body),
+            None => Some(cell.clone()),
         };
-        let Some(cell) = self.intersected(cell, body) else { return };
+        let Some(cell) = cell else { return };
         let reaches = |body: u32| self.body(body).bounds().touches(cell.bounds());
-        let formula = Formula::combine(Kind::And, others.map(|formula| formula.restricted(reaches)));
+        // a body that is not reached does not hold the point: nothing to be said of it
+        let matters = |formula: &&Formula| formula.single().is_none_or(|(body, negated)| negated || reaches(body));
+        let none_of = none_of.iter().filter(matters).map(|formula| formula.restricted(reaches).negated());
+        let first = if single.is_some() { Formula::constant(true) } else { first.restricted(reaches) };
+        let all_of = all_of.into_iter().map(|formula| formula.restricted(reaches));
+        let formula = Formula::combine(Kind::And, none_of.chain([first]).chain(all_of));
         tasks.push(Task { cell, formula });
     }
 
@@ -150,10 +159,29 @@ impl<'a> Carver<'a> {
         Some(common)
     }
 
-    /// What is left of a cell without some bodies.
+    /// What is left of a cell without some bodies: one after the other while there are many, the parts side by side.
     fn carve_out(&self, cell: Cell, bodies: Vec<u32>, cells: &mut Vec<Cell>) {
-        let mut tasks = vec![(cell, bodies)];
+        let mut wave = vec![(cell, bodies)];
+        while wave.iter().any(|(_, bodies)| bodies.len() > MANY) {
+            let advance = |task: Pending| {
+                let (mut done, mut rest) = (Vec::new(), vec![task]);
+                self.advance(&mut rest, &mut done, |bodies| bodies <= MANY);
+                (done, rest)
+            };
+            let parts: Vec<(Vec<Cell>, Vec<Pending>)> = wave.into_par_iter().map(advance).collect();
+            wave = Vec::new();
+            for (done, rest) in parts {
+                cells.extend(done);
+                wave.extend(rest);
+            }
+        }
+        self.advance(&mut wave, cells, |_| true);
+    }
+
+    /// Takes one step with the last task, and goes on to the end with those whose number of bodies `goes_on`.
+    fn advance(&self, tasks: &mut Vec<Pending>, cells: &mut Vec<Cell>, goes_on: impl Fn(usize) -> bool) {
         while let Some((cell, mut bodies)) = tasks.pop() {
+            let count = bodies.len();
             let Some(body) = order::next_body(self, &cell, &bodies) else {
                 cells.push(cell);
                 continue;
@@ -163,19 +191,16 @@ impl<'a> Carver<'a> {
             let common = if convex.is_parted_from(self.table, &cell) { None } else { convex.common(self.table, &cell) };
             match common {
                 None => tasks.push((cell, bodies)),
-                Some((_, carrying)) => self.peel(cell, bodies, carrying, &mut tasks),
+                Some((_, carrying)) => self.peel(cell, bodies, carrying, tasks),
+            }
+            if !goes_on(count) {
+                return;
             }
         }
     }
 
     /// Cuts a piece off the cell along each plane; what is left in the end is not wanted.
-    fn peel(
-        &self,
-        mut cell: Cell,
-        mut bodies: Vec<u32>,
-        mut planes: Vec<CellPlane>,
-        tasks: &mut Vec<(Cell, Vec<u32>)>,
-    ) {
+    fn peel(&self, mut cell: Cell, mut bodies: Vec<u32>, mut planes: Vec<CellPlane>, tasks: &mut Vec<Pending>) {
         while let Some(next) = order::next_plane(self, &bodies, &planes) {
             let plane = planes.swap_remove(next);
             let mut piece = if planes.is_empty() {

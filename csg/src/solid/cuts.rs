@@ -1,7 +1,7 @@
 //! Cutting a solid along planes, and taking cuts back.
 
 use std::borrow::Cow;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use planecut_kernel::{HalfSpace, PlaneIdx};
 
@@ -98,6 +98,7 @@ impl Solid {
             return;
         }
         self.cuts.clear();
+        self.index = OnceLock::new();
         self.cover = None;
         self.cells.retain(|cell| !cell.is_empty());
         for cell in &mut self.cells {

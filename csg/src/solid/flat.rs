@@ -5,7 +5,10 @@
 //! cells are the fewest, of an exclusive or that of the first operand that holds it. So cells of different owners do not
 //! overlap, and a leaf is cut only by what reaches it.
 
+use std::cmp::Ordering;
+
 use super::formula::{Formula, Kind};
+use super::order::Rule;
 use crate::tree::{Operation, Tree, TreeNode};
 
 const NONE: u32 = u32::MAX;
@@ -73,10 +76,10 @@ pub(super) struct Scratch {
 
 impl FlatTree {
     /// Of each leaf the number of its body, `None` where that is empty; and the sizes of the bodies.
-    pub(super) fn new(tree: &Tree, bodies: &[Option<u32>], sizes: &[f64]) -> Self {
+    pub(super) fn new(tree: &Tree, bodies: &[Option<u32>], sizes: &[f64], rule: Rule) -> Self {
         let mut flat = Self { nodes: Vec::new(), node_of: vec![NONE; sizes.len()] };
         flat.read(tree, bodies);
-        flat.measure(sizes);
+        flat.measure(sizes, rule);
         flat
     }
 
@@ -126,15 +129,17 @@ impl FlatTree {
     }
 
     /// Fills in defaults, sizes and the order of children, from the leaves up.
-    fn measure(&mut self, sizes: &[f64]) {
+    fn measure(&mut self, sizes: &[f64], rule: Rule) {
         for number in (0..self.nodes.len()).rev() {
             let mut children = std::mem::take(&mut self.nodes[number].children);
             let nodes = &self.nodes;
             let at = |child: &u32| &nodes[*child as usize];
-            // what holds far away comes first: it leaves bounded parts to the others
+            // What holds far away comes first: it leaves bounded parts to the others. Then what is large, which is cut by
+            // nothing and mostly cuts the others in few planes.
             children.sort_by(|a, b| {
                 let (p, q) = (at(a), at(b));
-                q.default.cmp(&p.default).then(q.size.total_cmp(&p.size)).then(b.cmp(a))
+                let by_size = if rule.chooses { q.size.total_cmp(&p.size) } else { Ordering::Equal };
+                q.default.cmp(&p.default).then(by_size).then(b.cmp(a))
             });
             let sizes_below = children.iter().map(|child| at(child).size);
             let owners_below = children.iter().map(|child| at(child).owners);

@@ -46,7 +46,7 @@ impl Solid {
         let (table, ids) = PlaneTable::intern(&half_spaces);
         let (of_leaf, bodies) = bodies_of(&table, brushes, &ids);
         let sizes: Vec<f64> = bodies.iter().map(|body| body.size).collect();
-        let flat = FlatTree::new(tree, &of_leaf, &sizes);
+        let flat = FlatTree::new(tree, &of_leaf, &sizes, rule);
         let carver = Carver::new(&table, bodies.iter().collect(), rule);
         let mut cells = cells_of(&flat, &carver);
         if rule.merges {

@@ -1,18 +1,19 @@
 //! Volume, centroid, inertia and bounds.
 
 use planecut_kernel::{BoundingBox, DMat3, DVec3, Measures};
+use rayon::prelude::*;
 
-use super::Solid;
+use super::{Cell, Solid};
 use crate::sum::CompensatedSum;
 
 impl Solid {
     /// The volume, to a unit or two in the last place; `None` where the solid is unbounded.
     #[must_use]
     pub fn volume(&self) -> Option<f64> {
+        let volume = |cell: &Cell| Some(cell.polytope().measures()?.volume);
+        let volumes: Vec<f64> = self.cells.par_iter().map(volume).collect::<Option<_>>()?;
         let mut sum = CompensatedSum::default();
-        for cell in &self.cells {
-            sum.add(cell.polytope().measures()?.volume);
-        }
+        volumes.into_iter().for_each(|volume| sum.add(volume));
         Some(sum.value())
     }
 
@@ -44,7 +45,8 @@ impl Solid {
 
     /// The measures of the cells, and the common centroid.
     fn moments(&self) -> Option<(Vec<Measures>, DVec3)> {
-        let cells: Vec<Measures> = self.cells.iter().map(|cell| cell.polytope().measures()).collect::<Option<_>>()?;
+        let cells: Vec<Measures> =
+            self.cells.par_iter().map(|cell| cell.polytope().measures()).collect::<Option<_>>()?;
         let mut volume = CompensatedSum::default();
         cells.iter().for_each(|cell| volume.add(cell.volume));
         if volume.value() == 0.0 {

@@ -7,6 +7,7 @@
 
 use planecut_kernel::DVec3;
 use planecut_kernel::sign::Sign;
+use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::cell::{Cell, CellPlane, Corner};
@@ -17,10 +18,11 @@ type FacetKey = (u32, Vec<[u64; 3]>);
 
 /// Merges until no pair is left.
 pub(super) fn merge_neighbours(table: &PlaneTable, cells: &mut Vec<Cell>) {
+    let keys: Vec<Vec<(FacetKey, PlaneId)>> = cells.par_iter().map(|cell| facet_keys(table, cell)).collect();
     let mut merger =
         Merger { table, cells: std::mem::take(cells).into_iter().map(Some).collect(), open: FxHashMap::default() };
-    for number in 0..merger.cells.len() {
-        merger.settle(number as u32);
+    for (number, keys) in (0..).zip(keys) {
+        merger.settle(number, keys);
     }
     cells.extend(merger.cells.into_iter().flatten());
 }
@@ -34,11 +36,8 @@ struct Merger<'a> {
 
 impl Merger<'_> {
     /// Merges a cell with neighbours that were looked at before, as long as there are any, and notes its facets.
-    fn settle(&mut self, number: u32) {
-        let mut number = number;
+    fn settle(&mut self, mut number: u32, mut keys: Vec<(FacetKey, PlaneId)>) {
         loop {
-            let Some(cell) = &self.cells[number as usize] else { return };
-            let keys = facet_keys(self.table, cell);
             let found = keys.iter().find_map(|(key, plane)| Some((*plane, self.partner(number, key, *plane)?)));
             let Some((plane, other)) = found else {
                 for (key, plane) in keys {
@@ -47,6 +46,7 @@ impl Merger<'_> {
                 return;
             };
             number = self.merge(number, plane, other);
+            keys = self.cells[number as usize].as_ref().map_or(Vec::new(), |cell| facet_keys(self.table, cell));
         }
     }
 

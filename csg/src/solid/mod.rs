@@ -3,7 +3,10 @@
 //! - [`cell`]: a polytope of the kernel that knows the plane and the brush face behind each of its planes; [`convex`]: a body
 //!   that cells are held against.
 //! - [`flat`] finds for each leaf of a tree the [`formula`] that its part of the solid fulfils, [`carve`] cuts the cells,
-//!   [`order`] chooses along which planes first, [`merge`] joins neighbours. [`from_tree`] is made of these.
+//!   [`order`] chooses along which planes first, [`merge`] joins neighbours. [`from_tree`] and [`boolean`] are made of these;
+//!   [`boxes`] tells what comes near what.
+//! - [`cuts`] and [`motion`] change a solid; [`measure`], [`query`], [`ray`] and [`components`] ask it; [`skin`] gives its meshes
+//!   and [`sources`] the brush behind a place on them.
 
 mod boolean;
 mod boxes;
@@ -24,8 +27,10 @@ mod ray;
 mod skin;
 mod sources;
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
+use crate::bounds::Bounds;
+use boxes::Boxes;
 pub use cell::{Cell, CellPlane};
 pub use cuts::CutId;
 use cuts::PlaneCut;
@@ -41,6 +46,23 @@ use crate::tree::Tree;
 /// The cells are exact: each is a set of half-spaces of one [`PlaneTable`], and every decision on the way was an exact sign.
 /// They may be unbounded.
 ///
+/// Solids are combined by `&a | &b` (union), `&a & &b` (intersection), `&a - &b` (difference), `&a ^ &b` (symmetric
+/// difference) and `!&a` (complement); `|=`, `&=`, `-=` and `^=` change only the cells that the other solid reaches. The
+/// brushes of the second solid are numbered on from those of the first. Many operands at once are better a
+/// [`Tree`]: [`Solid::from_tree`] knows what will be cut by what, and makes fewer cells.
+///
+/// ```
+/// use planecut_csg::{Brush, MaterialId, Solid};
+/// use planecut_kernel::DVec3;
+///
+/// let block = |min: [f64; 3], max: [f64; 3]| Solid::from(Brush::cuboid(min.into(), max.into(), MaterialId(0)));
+/// let mut wall = block([0.0, 0.0, 0.0], [4.0, 1.0, 3.0]);
+/// wall -= &block([1.0, -1.0, 1.0], [2.0, 2.0, 2.0]);
+/// wall |= &block([4.0, 0.0, 0.0], [5.0, 1.0, 1.0]);
+/// assert_eq!((wall.volume(), wall.cells().count()), (Some(12.0), 5));
+/// assert!(wall.contains(DVec3::new(4.5, 0.5, 0.5)) && !wall.contains(DVec3::new(1.5, 0.5, 1.5)));
+/// ```
+///
 /// # Guarantees
 /// No two cells have interior in common, and none is empty unless a plane that was added cuts it away.
 #[derive(Debug, Clone)]
@@ -53,6 +75,8 @@ pub struct Solid {
     cuts: Vec<PlaneCut>,
     next_cut: u32,
     sources: Sources,
+    /// Finds cells by their boxes; made when first asked. Cuts leave it as it is.
+    index: OnceLock<Boxes>,
 }
 
 impl Default for Solid {
@@ -76,7 +100,7 @@ impl From<&Tree> for Solid {
 
 impl Solid {
     fn of_cells(table: Arc<PlaneTable>, cells: Vec<Cell>, sources: Sources) -> Self {
-        Self { table, cells, cover: None, cuts: Vec::new(), next_cut: 0, sources }
+        Self { table, cells, cover: None, cuts: Vec::new(), next_cut: 0, sources, index: OnceLock::new() }
     }
 
     /// Nothing.
@@ -94,6 +118,14 @@ impl Solid {
     /// The cells. One that a plane which was added cuts away is left out.
     pub fn cells(&self) -> impl Iterator<Item = &Cell> + Clone {
         self.cells.iter().filter(|cell| !cell.is_empty())
+    }
+
+    /// The cells whose boxes fulfil a condition which holds for a box wherever it holds for one within.
+    fn cells_where(&self, condition: impl Fn(&Bounds) -> bool) -> impl Iterator<Item = &Cell> {
+        let boxes = || Boxes::new(self.cells.iter().map(|cell| *cell.bounds()).collect());
+        let mut found = Vec::new();
+        self.index.get_or_init(boxes).find(condition, &mut found);
+        found.into_iter().map(|place| &self.cells[place as usize]).filter(|cell| !cell.is_empty())
     }
 
     /// The table that the planes of the cells are numbered in.

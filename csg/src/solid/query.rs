@@ -82,7 +82,7 @@ impl Solid {
 
     fn cells_around(&self, point: DVec3) -> impl Iterator<Item = &Cell> {
         let here = Bounds { min: point, max: point };
-        self.cells().filter(move |cell| cell.bounds().touches(&here))
+        self.cells_where(move |bounds| bounds.touches(&here))
     }
 }
 

@@ -71,7 +71,7 @@ impl Solid {
 
     /// The parts of a ray that lie in cells, by where they begin; single points are left out.
     fn spans(&self, origin: DVec3, direction: DVec3) -> Vec<Span<'_>> {
-        let near = self.cells().filter(|cell| may_meet(cell.bounds(), origin, direction));
+        let near = self.cells_where(|bounds| may_meet(bounds, origin, direction));
         let clipped = near.filter_map(|cell| Some((cell.polytope().clip_ray(origin, direction)?, cell)));
         let mut spans: Vec<Span> = clipped.filter(|(clip, _)| clip.from < clip.to).collect();
         spans.sort_by(|a, b| a.0.from.total_cmp(&b.0.from).then(b.0.to.total_cmp(&a.0.to)));

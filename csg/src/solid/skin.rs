@@ -1,6 +1,7 @@
 //! Meshes of a solid: its boundary, or its cells one by one.
 
 use planecut_kernel::PlaneIdx;
+use rayon::prelude::*;
 
 use super::Solid;
 use super::cell::Cell;
@@ -9,10 +10,11 @@ use crate::brush::{Material, MaterialId};
 use crate::evaluate::{EvaluateError, SolidMeasures, material_ranks};
 use crate::mesh::Mesh;
 use crate::skin::skin_of_union;
-use crate::weld::weld;
+use crate::weld::{Welded, weld};
 
 impl Solid {
-    /// The boundary as a watertight mesh, its triangles and the measures taken from it. Walls between cells are dissolved.
+    /// The boundary as a watertight mesh, and the measures taken from it. Walls between cells are dissolved, and so are gaps
+    /// between them that are no wider than the rounding of coefficients.
     ///
     /// # Errors
     /// [`EvaluateError::Unbounded`], [`EvaluateError::UnknownMaterial`] where a face names a material that is not in the
@@ -43,19 +45,22 @@ impl Solid {
             let (edges, _) = skin_of_union(&self.table, &[body], &rank);
             Ok(weld(&self.table, &edges, &rank, materials)?.mesh)
         };
-        self.cells().map(mesh).collect()
+        let cells: Vec<&Cell> = self.cells().collect();
+        cells.into_par_iter().map(mesh).collect()
     }
 
     fn skin(
         &self,
         materials: &[Material],
-        material: impl Fn(MaterialId) -> MaterialId,
+        material: impl Fn(MaterialId) -> MaterialId + Sync,
     ) -> Result<(Mesh, SolidMeasures), EvaluateError> {
-        let bodies: Vec<Body> = self.cells().map(|cell| self.body(cell, &material)).collect::<Result<_, _>>()?;
+        let cells: Vec<&Cell> = self.cells().collect();
+        let bodies: Vec<Body> =
+            cells.into_par_iter().map(|cell| self.body(cell, &material)).collect::<Result<_, _>>()?;
         let rank = material_ranks(materials);
         let (edges, _) = skin_of_union(&self.table, &bodies, &rank);
-        let welded = weld(&self.table, &edges, &rank, materials)?;
-        Ok((welded.mesh, welded.solid))
+        let Welded { mesh, solid, .. } = weld(&self.table, &edges, &rank, materials)?;
+        Ok((mesh, solid))
     }
 
     fn body(&self, cell: &Cell, material: impl Fn(MaterialId) -> MaterialId) -> Result<Body, EvaluateError> {

@@ -33,6 +33,7 @@ use rayon::prelude::*;
 use thiserror::Error;
 
 use crate::brush::{Material, MaterialId};
+use crate::collapse::collapse_thin;
 use crate::contract::contract_short_edges;
 use crate::evaluate::SolidMeasures;
 use crate::mesh::{Mesh, MeshFace};
@@ -126,7 +127,9 @@ pub(crate) fn weld(
     };
     let mut labels = triangulate_faces(table, &regions, &points, &pieces, &faces, &vertex, &mut mesh);
     manifold::split_repeated_edges(&mut mesh, &mut labels, &pieces);
-    contract_short_edges(&mut mesh, CONTRACTION * solid.min.abs().max(solid.max.abs()).max_element());
+    let noise = CONTRACTION * solid.min.abs().max(solid.max.abs()).max_element();
+    contract_short_edges(&mut mesh, noise);
+    collapse_thin(&mut mesh, noise);
     Ok(Welded { mesh, solid, signs, triangulation: begin.elapsed() })
 }
 

@@ -117,7 +117,13 @@ fn rectangles_on_a_lattice_against_cells() {
             found.shapes().iter().all(|shape| polygon::area(&shape[..1]) > 0.0),
             "outer loops run counter-clockwise"
         );
-        assert!(found.shapes().iter().flat_map(|shape| &shape[1..]).all(|hole| polygon::area(&[hole.clone()]) < 0.0));
+        assert!(
+            found
+                .shapes()
+                .iter()
+                .flat_map(|shape| &shape[1..])
+                .all(|hole| polygon::area(std::slice::from_ref(hole)) < 0.0)
+        );
     });
 }
 

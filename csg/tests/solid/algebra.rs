@@ -63,7 +63,7 @@ fn judge([a, b, c]: &[Solid; 3]) -> Result<(), String> {
 
 #[test]
 fn identities_hold() {
-    for (kind, count) in [(Kind::Boxes, 40), (Kind::Sloped, 30), (Kind::Turned, 15), (Kind::Mixed, 20)] {
+    for (kind, count) in [(Kind::Boxes, 25), (Kind::Sloped, 20), (Kind::Turned, 10), (Kind::Mixed, 12)] {
         let generate = |rng: &mut Rng| {
             Three([0; 3].map(|_| {
                 let leaves = 1 + rng.below(3);

@@ -4,6 +4,7 @@ use rustc_hash::FxHashMap;
 
 use super::error::{Checked, Fault};
 use super::expression::{self, Expression};
+use super::form::{PlaceForm, find, kind_of, list, place_of, unknown_key};
 use super::json::{Document, Entry, Kind, shorten};
 use super::keys::{
     Field, MATERIAL, NODE_EXTRAS, NODE_KINDS, OUTLINE_EXTRAS, OUTLINE_KINDS, PLACE, STEP_KINDS, TURN, WITH, Want,
@@ -101,9 +102,9 @@ impl<'d, 'a> Checker<'d, 'a> {
             (self.depth, self.copies, self.copies_below) = (task.depth, task.copies, task.copies);
             let waiting = self.tasks.len();
             if task.is_node {
-                self.node(task.entry)?
+                self.node(task.entry)?;
             } else {
-                self.outline(task.entry)?
+                self.outline(task.entry)?;
             }
             // The first in the text is to be looked at first.
             self.tasks[waiting..].reverse();
@@ -366,76 +367,4 @@ impl<'d, 'a> Checker<'d, 'a> {
         }
         Ok(())
     }
-}
-
-/// How a place of an instance is written.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum PlaceForm {
-    Point,
-    Steps,
-    Matrix,
-}
-
-/// How a place is written, by its looks alone.
-pub(super) fn place_of(document: &Document<'_>, place: Entry) -> Option<PlaceForm> {
-    match (document.kind(place), document.items(place).next().map(|first| document.kind(first))) {
-        (Kind::List, None | Some(Kind::Object)) => Some(PlaceForm::Steps),
-        (Kind::List, _) => Some(PlaceForm::Point),
-        (Kind::Object, _) => Some(PlaceForm::Matrix),
-        _ => None,
-    }
-}
-
-/// The one key of an object that says what it is, and its value.
-///
-/// # Errors
-/// [`Fault`] where there is none, or two of them; `what` is what the object should be.
-pub(super) fn kind_of(
-    document: &Document<'_>,
-    entry: Entry,
-    kinds: &'static [Field],
-    extras: &'static [Field],
-    what: &str,
-) -> Checked<(&'static Field, Entry)> {
-    let known = || format!("{what}: an object with one of the keys {}", list(kinds.iter()));
-    if document.kind(entry) != Kind::Object {
-        return document.refuse(entry, known());
-    }
-    let mut found = None;
-    for (key, value) in document.members(entry) {
-        let Some(field) = find(kinds, &document.text(key)) else { continue };
-        match found {
-            None => found = Some((field, value)),
-            Some((first, _)) => {
-                let found = format!("both `{}` and `{}`", Field::key(first), field.key);
-                return Err(Fault::new(entry, found, "only one of the keys that say what it is"));
-            }
-        }
-    }
-    let is_extra = |key: &str| find(extras, key).is_some() || key == WITH.key;
-    let mut members = document.members(entry).map(|(key, value)| (document.text(key), value));
-    match (found, members.find(|(key, _)| !is_extra(key))) {
-        (Some(found), _) => Ok(found),
-        // The one key that is not known is what should say it.
-        (None, Some((key, value))) => Err(unknown_key(value, &key, kinds.iter().chain(extras))),
-        (None, None) => document.refuse(entry, known()),
-    }
-}
-
-impl Field {
-    fn key(&self) -> &'static str {
-        self.key
-    }
-}
-
-fn find(fields: &'static [Field], key: &str) -> Option<&'static Field> {
-    fields.iter().find(|field| field.key == key)
-}
-
-fn unknown_key<'f>(value: Entry, key: &str, known: impl Iterator<Item = &'f Field>) -> Fault {
-    Fault::new(value, format!("the key `{}`", shorten(key)), format!("one of {}", list(known)))
-}
-
-fn list<'f>(fields: impl Iterator<Item = &'f Field>) -> String {
-    fields.map(|field| field.key).collect::<Vec<_>>().join(", ")
 }

@@ -2,15 +2,17 @@
 //!
 //! The format is described in `docs/model-file.md` and, as a JSON Schema, in `docs/model.schema.json`. The stages, each in
 //! its own file: text → flat list of values with their places (`json`), values → names and expressions (`names`, `check`,
-//! `keys`, `expression`), values → bodies (`values`, `parameters`, `body`), NODEs → one tree (`evaluate`). No stage is
+//! `form`, `keys`, `expression`), values → bodies (`values`, `parameters`, `body`), NODEs → one tree (`evaluate`, `copies`). No stage is
 //! recursive, so a file can be nested as deep as [`MAX_DEPTH`] on any stack.
 
 mod body;
 mod budget;
 mod check;
+mod copies;
 mod error;
 mod evaluate;
 mod expression;
+mod form;
 mod json;
 mod keys;
 mod materials;

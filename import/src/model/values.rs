@@ -4,9 +4,9 @@ use glam::{DMat2, DMat3, DVec2, DVec3};
 use planecut_csg::Transform;
 use rustc_hash::FxHashMap;
 
-use super::check::{PlaceForm, kind_of, place_of};
 use super::error::{Checked, Fault};
 use super::expression::Expression;
+use super::form::{PlaceForm, kind_of, place_of};
 use super::json::{Document, Entry, Kind, shorten};
 use super::keys::STEP_KINDS;
 

@@ -4,6 +4,7 @@ All edges of all operands are cut where they meet; a piece belongs to the result
 different sides of it. The pieces are chained with the inside on their left.
 """
 
+import math
 from collections.abc import Callable
 from fractions import Fraction
 
@@ -28,7 +29,7 @@ def combine(operands: list[list[np.ndarray]], inside: Callable[[np.ndarray], np.
     for row, owners in enumerate(pieces.values()):
         for owner in owners:
             parities[row, owner] ^= True
-    left = _left_of(ends, parities)
+    left = _left_everywhere(list(pieces), ends, parities)
     in_left, in_right = inside(left), inside(left ^ parities)
     directed = [
         piece if in_left[row] else piece[::-1] for row, piece in enumerate(pieces) if in_left[row] != in_right[row]
@@ -84,15 +85,34 @@ def _edges(operands: list[list[np.ndarray]]) -> tuple[list[tuple[Point, Point]],
 
 
 def _near_pairs(edges: list[tuple[Point, Point]]) -> list[tuple[int, int]]:
-    """Pairs of edges whose boxes meet."""
+    """Pairs of edges that floating point cannot tell apart: all that meet are among them."""
     ends = np.array([[[float(c) for c in p] for p in edge] for edge in edges]).reshape(-1, 2, 2)
-    margin = 1e-9 * (np.abs(ends).max(initial=0.0) + 1e-300)
-    low, high = ends.min(1) - margin, ends.max(1) + margin
+    scale = np.abs(ends).max(initial=0.0) + 1e-300
+    low, high = ends.min(1) - 1e-9 * scale, ends.max(1) + 1e-9 * scale
+    numbers: dict[Point, int] = {}
+    corners = np.array([[numbers.setdefault(p, len(numbers)) for p in edge] for edge in edges]).reshape(-1, 2)
     pairs = []
     for i in range(len(edges)):
         meet = (low[i + 1 :] <= high[i]).all(1) & (high[i + 1 :] >= low[i]).all(1)
-        pairs += [(i, int(j)) for j in np.nonzero(meet)[0] + i + 1]
+        others = np.nonzero(meet)[0] + i + 1
+        pairs += [(i, int(j)) for j in others[_may_meet(ends, corners, i, others, 1e-12 * scale * scale)]]
     return pairs
+
+
+def _may_meet(ends: np.ndarray, corners: np.ndarray, i: int, others: np.ndarray, doubt: float) -> np.ndarray:
+    """Of edges whose boxes meet that of edge `i`: not those beside it, nor those that only share a corner with it."""
+    a, b = ends[i]
+    c, d = ends[others, 0], ends[others, 1]
+
+    def turn(p, q, r):
+        return (q - p)[..., 0] * (r - p)[..., 1] - (q - p)[..., 1] * (r - p)[..., 0]
+
+    sides = [turn(a, b, c), turn(a, b, d), turn(c, d, a), turn(c, d, b)]
+    beside = np.zeros(len(others), dtype=bool)
+    for first, second in (sides[:2], sides[2:]):
+        beside |= ((first > doubt) & (second > doubt)) | ((first < -doubt) & (second < -doubt))
+    shared = (corners[others][:, :, None] == corners[i]).any((1, 2))
+    return ~beside & ~(shared & (np.abs(sides).max(0) > doubt))
 
 
 def _turn(a: Point, b: Point, c: Point) -> Fraction:
@@ -122,40 +142,108 @@ def _between(a: Point, b: Point, p: Point) -> bool:
     return min(a, b) <= p <= max(a, b)
 
 
-def _left_of(ends: np.ndarray, parities: np.ndarray) -> np.ndarray:
-    """Per piece, in which operands the points just left of it lie, by counting crossings of a ray to the left."""
+def _left_everywhere(pieces: list[tuple[Point, Point]], ends: np.ndarray, parities: np.ndarray) -> np.ndarray:
+    """Per piece, in which operands the points just left of it lie.
+
+    One ray tells it for one piece of each connected part; around a corner, what lies left of a piece lies right of the next.
+    """
+    at: dict[Point, list[int]] = {}
+    for number, piece in enumerate(pieces):
+        for end in piece:
+            at.setdefault(end, []).append(number)
+    left = np.zeros(parities.shape, dtype=bool)
+    known = np.zeros(len(pieces), dtype=bool)
+    # Long pieces first: their middles are far from every corner.
+    for start in np.argsort(-np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)):
+        if known[start]:
+            continue
+        left[start], known[start] = _left_of(np.array([start]), ends, parities)[0], True
+        corners = list(pieces[start])
+        while corners:
+            corner = corners.pop()
+            if corner in at:
+                reached = _told_around(_around(corner, at.pop(corner), pieces), left, known, parities)
+                corners += [pieces[number][outgoing] for number, outgoing in reached]
+    return left
+
+
+def _around(corner: Point, numbers: list[int], pieces: list) -> list[tuple[int, bool]]:
+    """The pieces at a corner, counter-clockwise, and whether each begins there."""
+    arms = []
+    for number in numbers:
+        outgoing = pieces[number][0] == corner
+        end = pieces[number][outgoing]
+        direction = (end[0] - corner[0], end[1] - corner[1])
+        arms.append((math.atan2(direction[1], direction[0]), direction, number, outgoing))
+    arms.sort(key=lambda arm: arm[0])
+    # Where floating point cannot tell two directions apart, their exact cross product does.
+    for _ in range(len(arms)):
+        for k in range(len(arms) - 1):
+            (angle, u, *_rest), (other, v, *_rest) = arms[k], arms[k + 1]
+            if other - angle < 1e-9 and u[0] * v[1] - u[1] * v[0] < 0:
+                arms[k], arms[k + 1] = arms[k + 1], arms[k]
+    return [(number, outgoing) for _, _, number, outgoing in arms]
+
+
+def _told_around(arms: list[tuple[int, bool]], left: np.ndarray, known: np.ndarray, parities: np.ndarray) -> list:
+    """Makes all pieces around a corner known, from one that is; returns the new ones."""
+    first = next(k for k, (number, _) in enumerate(arms) if known[number])
+    number, outgoing = arms[first]
+    region = left[number] if outgoing else left[number] ^ parities[number]
+    reached = []
+    for number, outgoing in arms[first + 1 :] + arms[:first]:
+        # The region is to the right of the next arm; behind it lies another.
+        beyond = region ^ parities[number]
+        if not known[number]:
+            left[number], known[number] = beyond if outgoing else region, True
+            reached.append((number, outgoing))
+        region = beyond
+    return reached
+
+
+def _left_of(asked: np.ndarray, ends: np.ndarray, parities: np.ndarray) -> np.ndarray:
+    """Per asked piece, in which operands the points just left of it lie, by counting crossings of a ray to the left."""
     count = len(ends)
-    result = np.zeros(parities.shape, dtype=bool)
+    result = np.zeros((len(asked), parities.shape[1]), dtype=bool)
     size = float(np.ptp(ends.reshape(-1, 2), axis=0).max())
     random = np.random.default_rng(5)
-    open_rows = np.arange(count)
-    middles = ends.mean(1)
     along = ends[:, 1] - ends[:, 0]
     along /= np.linalg.norm(along, axis=1)[:, None]
+    open_rows = np.arange(len(asked))
     for attempt in range(40):
+        # In portions, because each ray looks at all pieces.
+        for rows in np.array_split(open_rows, 1 + len(open_rows) * count // 2_000_000):
+            # At last the pieces themselves may be so small that nothing is farther away than rounding.
+            near = 1e-12 * size if attempt < 30 else 0.0
+            rays = _rays(along[asked[rows]], random)
+            sure, crossed = _crossed(asked[rows], rays, ends, near)
+            result[rows[sure]] = (crossed[sure].astype(int) @ parities.astype(int)) % 2 == 1
+            open_rows = np.setdiff1d(open_rows, rows[sure])
         if not len(open_rows):
             break
-        angle = np.radians(random.uniform(20.0, 160.0, len(open_rows)))
-        u, m = along[open_rows], middles[open_rows]
-        ray = np.column_stack(
-            [u[:, 0] * np.cos(angle) - u[:, 1] * np.sin(angle), u[:, 0] * np.sin(angle) + u[:, 1] * np.cos(angle)]
-        )
-        a, b = (ends[None, :, k] - m[:, None] for k in (0, 1))
-        side_a, side_b = (ray[:, None, 0] * p[..., 1] - ray[:, None, 1] * p[..., 0] for p in (a, b))
-        ahead_a, ahead_b = (np.einsum("ik,ijk->ij", ray, p) for p in (a, b))
-        crosses = (side_a > 0) != (side_b > 0)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            ahead = (ahead_a * side_b - ahead_b * side_a) / (side_b - side_a)
-        itself = np.arange(count) == open_rows[:, None]
-        counted = crosses & (ahead > 0) & ~itself
-        # Near a corner or near the start: another direction will tell, unless the pieces themselves are that small.
-        near = 1e-12 * size if attempt < 30 else 0.0
-        doubt = (np.minimum(np.abs(side_a), np.abs(side_b)) <= near) & (np.maximum(ahead_a, ahead_b) > -near)
-        doubt |= crosses & (np.abs(ahead) <= near)
-        sure = ~(doubt & ~itself).any(1)
-        result[open_rows[sure]] = (counted[sure].astype(int) @ parities.astype(int)) % 2 == 1
-        open_rows = open_rows[~sure]
     return result
+
+
+def _rays(along: np.ndarray, random: np.random.Generator) -> np.ndarray:
+    """Directions somewhere to the left of those."""
+    angle = np.radians(random.uniform(20.0, 160.0, len(along)))
+    x, y = along[:, 0], along[:, 1]
+    return np.column_stack([x * np.cos(angle) - y * np.sin(angle), x * np.sin(angle) + y * np.cos(angle)])
+
+
+def _crossed(asked: np.ndarray, rays: np.ndarray, ends: np.ndarray, near: float) -> tuple[np.ndarray, np.ndarray]:
+    """Which rays from the middles of pieces pass no corner closely, and which pieces each ray crosses."""
+    middles = ends[asked].mean(1)
+    a, b = (ends[None, :, k] - middles[:, None] for k in (0, 1))
+    side_a, side_b = (rays[:, None, 0] * p[..., 1] - rays[:, None, 1] * p[..., 0] for p in (a, b))
+    ahead_a, ahead_b = (np.einsum("ik,ijk->ij", rays, p) for p in (a, b))
+    crosses = (side_a > 0) != (side_b > 0)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        ahead = (ahead_a * side_b - ahead_b * side_a) / (side_b - side_a)
+    itself = np.arange(len(ends)) == asked[:, None]
+    doubt = (np.minimum(np.abs(side_a), np.abs(side_b)) <= near) & (np.maximum(ahead_a, ahead_b) > -near)
+    doubt |= crosses & (np.abs(ahead) <= near)
+    return ~(doubt & ~itself).any(1), crosses & (ahead > 0) & ~itself
 
 
 def _chained(directed: list[tuple[Point, Point]]) -> list[list[Point]]:

@@ -8,11 +8,15 @@ from ..tree_model import TreeModel
 from .text import fail
 
 
+def hull_of(points: np.ndarray) -> SolidTree:
+    """The convex hull of points; nothing where they lie in a plane."""
+    leaf = ConvexLeaf.of_points(points) if len(points) else None
+    return SolidTree.nothing() if leaf is None else SolidTree.of_leaf(leaf)
+
+
 def hull(trees: list[SolidTree], path: str) -> SolidTree:
     """The convex hull of all solids."""
-    points = [np.zeros((0, 3))] + [_corners(tree, path) for tree in trees]
-    every = np.concatenate(points)
-    return SolidTree.of_leaf(ConvexLeaf.of_points(every)) if len(every) else SolidTree([], [("union", 0)])
+    return hull_of(np.concatenate([_corners(tree, path) for tree in trees]))
 
 
 def _corners(tree: SolidTree, path: str) -> np.ndarray:
@@ -33,11 +37,11 @@ def minkowski(trees: list[SolidTree], path: str) -> SolidTree:
     if all(t.is_union_of_convex() and all(isinstance(leaf, ConvexLeaf) for leaf in t.leaves) for t in trees):
         first, second = ([leaf.points for leaf in tree.leaves] for tree in trees)
         sums = [(a[:, None] + b).reshape(-1, 3) for a in first for b in second]
-        return SolidTree.combine("union", [SolidTree.of_leaf(ConvexLeaf.of_points(s)) for s in sums])
+        return SolidTree.combine("union", [hull_of(s) for s in sums])
     models = [TreeModel(tree) for tree in trees]
     if any(model.is_unbounded for model in models):
         fail(path, "bounded solids")
     if any(model.is_empty for model in models):
-        return SolidTree([], [("union", 0)])
+        return SolidTree.nothing()
     first, second = (model.solid() for model in models)
     return SolidTree.of_leaf(MeshLeaf(mesh_of(first.minkowski_sum(second))))

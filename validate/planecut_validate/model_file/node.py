@@ -22,8 +22,6 @@ def read_document(document) -> SolidTree:
     for name in ("materials", "parameters", "parts", "outlines"):
         check_keys(document.get(name, {}), f"$.{name}", document.get(name, {}))
     scope = Scope(document, {})
-    for name in scope.parameters:
-        scope.parameter(name)
     return read_node(document.get("model"), "$.model", scope)
 
 
@@ -59,8 +57,7 @@ def _half_spaces(value, path: str, scope: Scope) -> SolidTree:
 
 def _shape(kind: str):
     def read(value, path: str, scope: Scope) -> SolidTree:
-        points = np.array(SHAPES[kind](value, path, scope), dtype=float)
-        return SolidTree.of_leaf(ConvexLeaf.of_points(points))
+        return hulls.hull_of(np.array(SHAPES[kind](value, path, scope), dtype=float))
 
     return read
 
@@ -115,7 +112,7 @@ def _revolve(value, path: str, scope: Scope) -> SolidTree:
 
 def _mesh(loops: list, build) -> SolidTree:
     """The tree of a mesh; nothing where the outline is nothing."""
-    return SolidTree.of_leaf(MeshLeaf(build())) if loops else SolidTree([], [("union", 0)])
+    return SolidTree.of_leaf(MeshLeaf(build())) if loops else SolidTree.nothing()
 
 
 def _use(node: dict, path: str, scope: Scope) -> SolidTree:

@@ -102,8 +102,8 @@ def regular(value, path: str, scope: Scope) -> list:
 
 
 def points(value, path: str, scope: Scope) -> list:
-    if not isinstance(value, list) or len(value) < 4:
-        fail(path, "at least 4 points")
+    if not isinstance(value, list) or not value:
+        fail(path, "one or more points")
     return [scope.numbers(p, f"{path}[{i}]", 3) for i, p in enumerate(value)]
 
 

@@ -4,22 +4,26 @@
 //! On the way down maps, materials and names are handed on, so that each plane is moved once. Where a result is needed by
 //! itself (copies, hulls, sums, sections) a node begins anew in a frame of its own, and its result is put in place afterwards.
 
+mod outline;
+
 use planecut_csg::outline::Outline;
 use planecut_csg::{MaterialId, Operation, Transform, Tree, shaping};
 use rustc_hash::FxHashMap;
 
-use super::body::Maker;
-use super::budget::{Budget, Size};
-use super::check::{Use, kind_of};
-use super::error::{Checked, Fault};
-use super::json::Entry;
-use super::keys::{NODE_EXTRAS, NODE_KINDS, OUTLINE_EXTRAS, OUTLINE_KINDS};
-use super::materials::{NO_MATERIAL, set_missing};
-use super::names::Names;
-use super::parameters::{Definitions, Environment};
-use super::{MAX_BRUSHES, MAX_DEPTH};
 use crate::Warning;
 use crate::lines::LineTable;
+use crate::model::MAX_DEPTH;
+use crate::model::body::Maker;
+use crate::model::budget::{Budget, Size};
+use crate::model::check::Use;
+use crate::model::copies::{count_of_copies, places};
+use crate::model::error::{Checked, Fault};
+use crate::model::form::kind_of;
+use crate::model::json::Entry;
+use crate::model::keys::{NODE_EXTRAS, NODE_KINDS};
+use crate::model::materials::{NO_MATERIAL, set_missing};
+use crate::model::names::Names;
+use crate::model::parameters::{Definitions, Environment};
 
 /// A node and what it inherits.
 #[derive(Debug, Clone)]
@@ -128,13 +132,13 @@ impl<'v, 'a> Evaluator<'v, 'a> {
             Task::Hull(context, count) => {
                 let operands = self.used_up(count);
                 let maker = |maker: Maker<'_, '_>| maker.accept(shaping::hull(&operands, maker.material));
-                self.make(context, maker)
+                self.make(&context, maker)
             }
             Task::Minkowski(context) => {
                 let operands = self.used_up(2);
                 let [a, b] = &operands[..] else { return Ok(()) };
                 let maker = |maker: Maker<'_, '_>| maker.accept(shaping::minkowski(a, b, maker.material));
-                self.make(context, maker)
+                self.make(&context, maker)
             }
             Task::Copies(context, kind, value) => self.copies(&context, kind, value),
             Task::Keep(context, part) => {
@@ -147,11 +151,11 @@ impl<'v, 'a> Evaluator<'v, 'a> {
             }
             Task::Extrude(context, value) => {
                 let outline = self.outlines.pop().unwrap_or_default();
-                self.make_from(context, value, |maker| maker.extrude(&outline))
+                self.make_from(&context, value, |maker| maker.extrude(&outline))
             }
             Task::Revolve(context, value) => {
                 let outline = self.outlines.pop().unwrap_or_default();
-                self.make_from(context, value, |maker| maker.revolve(&outline))
+                self.make_from(&context, value, |maker| maker.revolve(&outline))
             }
             Task::Outline(entry, environment, depth) => self.outline(entry, &environment, depth),
             Task::MoveOutline(matrix, environment) => self.move_outline(matrix, &environment),
@@ -188,10 +192,10 @@ impl<'v, 'a> Evaluator<'v, 'a> {
         self.inherit(&mut context)?;
         let (field, value) = kind_of(document, context.node, NODE_KINDS, NODE_EXTRAS, "a NODE")?;
         match field.key {
-            "union" => self.combine(context, Operation::Union, value),
-            "intersection" => self.combine(context, Operation::Intersection, value),
-            "difference" => self.combine(context, Operation::Difference, value),
-            "xor" => self.combine(context, Operation::Xor, value),
+            "union" => self.combine(&context, Operation::Union, value),
+            "intersection" => self.combine(&context, Operation::Intersection, value),
+            "difference" => self.combine(&context, Operation::Difference, value),
+            "xor" => self.combine(&context, Operation::Xor, value),
             "complement" => {
                 self.tasks.push(Task::Combine(Operation::Complement, 1));
                 self.tasks.push(Task::Node(context.child(value)));
@@ -208,7 +212,7 @@ impl<'v, 'a> Evaluator<'v, 'a> {
                 self.tasks.push(Task::Minkowski(context));
                 self.tasks.extend(operands.into_iter().rev());
             }
-            "use" => return self.use_of_part(context, value),
+            "use" => return self.use_of_part(&context, value),
             "instances" | "array" | "ring" => {
                 let of = document.member(value, "of").unwrap_or(value);
                 let frame = context.frame_of(of);
@@ -222,7 +226,7 @@ impl<'v, 'a> Evaluator<'v, 'a> {
                 self.tasks.push(make(context, value));
                 self.tasks.push(task);
             }
-            key => return self.body(context, key, value),
+            key => return self.body(&context, key, value),
         }
         Ok(())
     }
@@ -257,7 +261,7 @@ impl<'v, 'a> Evaluator<'v, 'a> {
         Ok(())
     }
 
-    fn combine(&mut self, context: Context, operation: Operation, value: Entry) {
+    fn combine(&mut self, context: &Context, operation: Operation, value: Entry) {
         let document = self.definitions.document;
         let at = self.tasks.len();
         self.tasks.extend(document.items(value).map(|item| Task::Node(context.child(item))));
@@ -267,7 +271,7 @@ impl<'v, 'a> Evaluator<'v, 'a> {
         self.tasks[at..].reverse();
     }
 
-    fn use_of_part(&mut self, context: Context, value: Entry) -> Checked<()> {
+    fn use_of_part(&mut self, context: &Context, value: Entry) -> Checked<()> {
         let document = self.definitions.document;
         let part = self.names.parts.by_name.get(&*document.text(value)).copied().unwrap_or(0);
         let entry = self.names.parts.entries[part as usize];
@@ -278,13 +282,13 @@ impl<'v, 'a> Evaluator<'v, 'a> {
         }
         if let Some(tree) = self.kept.get(&(part, environment.number)) {
             self.budget.add(context.node, tree)?;
-            let placed = self.put(&context, tree.clone())?;
+            let placed = self.put(context, tree.clone())?;
             self.trees.push(placed);
             return Ok(());
         }
         if self.uses[part as usize] > 1 {
             let depth = context.depth + 1;
-            self.tasks.push(Task::Keep(Context { environment: environment.clone(), ..context }, part));
+            self.tasks.push(Task::Keep(Context { environment: environment.clone(), ..context.clone() }, part));
             self.tasks.push(Task::Node(Context::frame(entry, environment, depth)));
         } else {
             self.tasks.push(Task::Node(Context { environment, ..context.child(entry) }));
@@ -313,9 +317,9 @@ impl<'v, 'a> Evaluator<'v, 'a> {
         Ok(())
     }
 
-    fn body(&mut self, context: Context, key: &'static str, value: Entry) -> Checked<()> {
+    fn body(&mut self, context: &Context, key: &'static str, value: Entry) -> Checked<()> {
         let line = self.line(context.node);
-        let planes = self.maker(&context, value).planes(key)?;
+        let planes = self.maker(context, value).planes(key)?;
         self.budget.allow(context.node, Size { brushes: 1, planes }, 1.0)?;
         self.make_from(context, value, |maker| maker.body(key).map(Option::unwrap_or_default))?;
         if key == "points" && self.trees.last().is_some_and(|tree| tree.brushes().is_empty()) {
@@ -330,7 +334,7 @@ impl<'v, 'a> Evaluator<'v, 'a> {
     }
 
     /// Makes a tree from the value of the node's own key, and puts it in place.
-    fn make(&mut self, context: Context, make: impl FnOnce(Maker<'_, '_>) -> Checked<Tree>) -> Checked<()> {
+    fn make(&mut self, context: &Context, make: impl FnOnce(Maker<'_, '_>) -> Checked<Tree>) -> Checked<()> {
         let document = self.definitions.document;
         let (_, value) = kind_of(document, context.node, NODE_KINDS, NODE_EXTRAS, "a NODE")?;
         self.make_from(context, value, make)
@@ -338,17 +342,17 @@ impl<'v, 'a> Evaluator<'v, 'a> {
 
     fn make_from(
         &mut self,
-        context: Context,
+        context: &Context,
         value: Entry,
         make: impl FnOnce(Maker<'_, '_>) -> Checked<Tree>,
     ) -> Checked<()> {
         let line = self.line(context.node);
-        let mut tree = make(self.maker(&context, value))?;
+        let mut tree = make(self.maker(context, value))?;
         for brush in tree.brushes_mut().iter_mut().filter(|brush| brush.line == 0) {
             brush.line = line;
         }
         self.budget.add(context.node, &tree)?;
-        let placed = self.put(&context, tree)?;
+        let placed = self.put(context, tree)?;
         self.trees.push(placed);
         Ok(())
     }
@@ -381,51 +385,6 @@ impl<'v, 'a> Evaluator<'v, 'a> {
         trees.iter().for_each(|tree| self.budget.remove(tree));
         trees
     }
-
-    fn outline(&mut self, entry: Entry, environment: &Environment, depth: u32) -> Checked<()> {
-        let document = self.definitions.document;
-        self.enter(entry, depth)?;
-        let (field, value) = kind_of(document, entry, OUTLINE_KINDS, OUTLINE_EXTRAS, "an OUTLINE")?;
-        if let Some(matrix) = document.member(entry, "matrix") {
-            self.tasks.push(Task::MoveOutline(matrix, environment.clone()));
-        }
-        let of = document.member(value, "of").unwrap_or(value);
-        let within = |entry| Task::Outline(entry, environment.clone(), depth + 1);
-        let solid = |entry| Task::Node(Context::frame(entry, environment.clone(), depth + 1));
-        match field.key {
-            "union" => self.combine_outlines(Operation::Union, value, within),
-            "intersection" => self.combine_outlines(Operation::Intersection, value, within),
-            "difference" => self.combine_outlines(Operation::Difference, value, within),
-            "xor" => self.combine_outlines(Operation::Xor, value, within),
-            "offset" => self.tasks.extend([Task::Offset(value, environment.clone()), within(of)]),
-            "slice" => self.tasks.extend([Task::Slice(value, environment.clone()), solid(of)]),
-            "project" => self.tasks.extend([Task::Project(value, environment.clone()), solid(value)]),
-            "use" => {
-                let outline = self.names.outlines.by_name.get(&*document.text(value)).copied().unwrap_or(0);
-                self.tasks.push(within(self.names.outlines.entries[outline as usize]));
-            }
-            key => {
-                let maker = Maker { values: self.definitions.values(environment), value, material: NO_MATERIAL };
-                let outline = maker.outline(key)?;
-                self.outlines.push(outline.unwrap_or_default());
-            }
-        }
-        Ok(())
-    }
-
-    fn combine_outlines(&mut self, operation: Operation, value: Entry, within: impl Fn(Entry) -> Task) {
-        let operands: Vec<Task> = self.definitions.document.items(value).map(within).collect();
-        self.tasks.push(Task::CombineOutlines(operation, operands.len(), value));
-        self.tasks.extend(operands.into_iter().rev());
-    }
-
-    fn move_outline(&mut self, matrix: Entry, environment: &Environment) -> Checked<()> {
-        let outline = self.outlines.pop().unwrap_or_default();
-        let (linear, translation) = self.definitions.values(environment).planar_matrix(matrix)?;
-        let moved = outline.transformed(linear, translation);
-        self.outlines.push(moved.map_err(|error| Fault::new(matrix, error.to_string(), "an invertible map"))?);
-        Ok(())
-    }
 }
 
 impl Context {
@@ -442,51 +401,5 @@ impl Context {
     /// A node below this one that inherits all it has.
     fn child(&self, node: Entry) -> Self {
         Self { node, depth: self.depth + 1, ..self.clone() }
-    }
-}
-
-/// How many copies there will be.
-fn count_of_copies(maker: &Maker<'_, '_>, kind: &str) -> Checked<f64> {
-    let counts = maker.member("count");
-    let whole = |entry| {
-        let value = maker.values.number(entry)?;
-        if value >= 1.0 && value.fract() == 0.0 {
-            return Ok(value);
-        }
-        Err(Fault::new(entry, maker.values.describe_number(entry), "a whole number of at least 1"))
-    };
-    match (kind, counts) {
-        ("ring", Some(count)) => whole(count),
-        ("array", Some(counts)) => {
-            maker.values.document.items(counts).map(whole).try_fold(1.0, |product, count| Ok(product * count?))
-        }
-        _ => Ok(maker.member("at").map_or(0, |at| maker.values.document.items(at).count()) as f64),
-    }
-}
-
-/// Where the copies go; there are at most [`MAX_BRUSHES`].
-fn places<'m>(maker: &'m Maker<'_, '_>, kind: &str) -> Checked<Box<dyn Iterator<Item = Checked<Transform>> + 'm>> {
-    let Maker { values, value, .. } = *maker;
-    let count = maker.member("count");
-    match kind {
-        "ring" => {
-            let angle = maker.optional("angle")?.unwrap_or(360.0);
-            let count = count.map_or(Ok(1), |count| values.whole(count, 1, MAX_BRUSHES as u32))?;
-            let turn = move |k| Transform::rotation(glam::DVec3::Z, angle * f64::from(k) / f64::from(count));
-            Ok(Box::new((0..count).map(move |k| values.accept(value, turn(k)))))
-        }
-        "array" => {
-            let counts = count.map_or(Ok([1.0; 3]), |counts| values.array::<3>(counts))?.map(|count| count as u32);
-            let step = maker.member("step").map_or(Ok(glam::DVec3::ZERO), |step| values.vector(step))?;
-            let [x, y, z] = counts;
-            let cells =
-                (0..z).flat_map(move |k| (0..y).flat_map(move |j| (0..x).map(move |i| [i, j, k].map(f64::from))));
-            let shift = move |cell: [f64; 3]| Transform::translation(step * glam::DVec3::from_array(cell));
-            Ok(Box::new(cells.map(move |cell| values.accept(value, shift(cell)))))
-        }
-        _ => {
-            let at = maker.member("at").unwrap_or(value);
-            Ok(Box::new(values.document.items(at).map(move |place| values.place(place))))
-        }
     }
 }
