@@ -64,15 +64,24 @@ fn town() -> Result<Tree, Box<dyn Error>> {
     let ground = block([0.0, 0.0, -6.0], [size, size, 0.0], GROUND);
     let banks = canal(-4.0, 60.0, GROUND)?;
     let water = canal(-4.0, -2.0, WATER)? & ground.clone();
-    let houses = (0..HOUSES * HOUSES).map(house).collect::<Result<Vec<Tree>, _>>()?;
-    Ok(((ground | Tree::union(houses)) - banks) | water)
+    let is_dry = |number: &u32| {
+        let [x, y] = lot(*number);
+        (y - (0.4 * size - 0.2 * x + LOT)).abs() > 1.75 * LOT
+    };
+    let houses = (0..HOUSES * HOUSES).filter(is_dry).map(house).collect::<Result<Vec<Tree>, _>>()?;
+    Ok((ground - banks) | Tree::union(houses) | water)
+}
+
+/// The middle of a house.
+fn lot(number: u32) -> [f64; 2] {
+    [number % HOUSES, number / HOUSES].map(|place| LOT * (f64::from(place) + 0.5))
 }
 
 /// A house with a gabled roof and a chimney, its size from its number.
 fn house(number: u32) -> Result<Tree, Box<dyn Error>> {
     // Some digits of the number's multiple of the golden ratio: scattered, and the same on every run.
     let scatter = |k: u32| f64::from((number * 16 + k).wrapping_mul(0x9E37_79B9) >> 24) / 256.0;
-    let (x, y) = (LOT * f64::from(number % HOUSES) + 6.0, LOT * f64::from(number / HOUSES) + 6.0);
+    let [x, y] = lot(number);
     let (a, b, height) =
         (3.0 + (1.9 * scatter(0)).round(), 3.0 + (1.9 * scatter(1)).round(), 4.0 + (9.0 * scatter(2)).round());
     let at = |dx: f64, dy: f64, z: f64| DVec3::new(x + dx, y + dy, z);

@@ -1,7 +1,7 @@
 //! Outlines extruded along z.
 
 use planecut_kernel::{DVec2, DVec3, HalfSpace, IncrementalPolytope};
-use robust::{Coord, orient2d};
+use robust::{Coord, Coord3D, orient2d, orient3d};
 
 use super::ShapeError;
 use super::cells::{Side, Surface};
@@ -245,13 +245,11 @@ fn layer_facets(shape: &[Vec<DVec2>], points: &[DVec3]) -> Facets {
 /// One side, given by its corners counter-clockwise, the first two below.
 fn side_facets(points: &[DVec3], [p, q, above_q, above_p]: [u32; 4]) -> Facets {
     let at = |k: u32| points[k as usize];
-    let (below, above) = (at(q) - at(p), at(above_q) - at(above_p));
-    let turn = below.truncate().perp_dot(above.truncate());
-    if above == DVec3::ZERO {
+    if at(above_q) == at(above_p) {
         return vec![vec![p, q, above_q]];
     }
-    // exactly so where the outline is only stretched along an axis; else a twist of some size
-    if turn == 0.0 {
+    // Exactly so where the outline is only stretched along an axis; where rounding comes between, triangles are exact.
+    if is_planar([p, q, above_q, above_p].map(at)) {
         return vec![vec![p, q, above_q, above_p]];
     }
     let (rising, falling) = (at(p).distance(at(above_q)), at(q).distance(at(above_p)));
@@ -260,6 +258,12 @@ fn side_facets(points: &[DVec3], [p, q, above_q, above_p]: [u32; 4]) -> Facets {
     } else {
         vec![vec![p, q, above_q], vec![p, above_q, above_p]]
     }
+}
+
+/// Whether four points lie exactly on one plane.
+fn is_planar(points: [DVec3; 4]) -> bool {
+    let [a, b, c, d] = points.map(|p| Coord3D { x: p.x, y: p.y, z: p.z });
+    orient3d(a, b, c, d) == 0.0
 }
 
 /// Whether the sides of a layer pass through each other, exactly.

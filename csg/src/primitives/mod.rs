@@ -7,11 +7,11 @@
 //!
 //! | file | bodies |
 //! |---|---|
-//! | [`flat`] | boxes, wedges, half-spaces, hulls of points |
-//! | [`round`] | sphere, cylinder, cone, capsule, prism, pyramid |
-//! | [`regular`] | the five regular polyhedra |
-//! | [`revolved`] | torus, outlines revolved about the z axis |
-//! | [`extruded`] | outlines extruded along z |
+//! | `flat` | [`cuboid`], [`wedge`], [`half_space`], [`body_of_half_spaces`], [`hull_of_points`] |
+//! | `round` | [`sphere`], [`cylinder`], [`cone`], [`capsule`], [`prism`], [`pyramid`] |
+//! | `regular` | [`regular()`], the five regular polyhedra |
+//! | `revolved` | [`torus`]; [`revolve`], outlines about the z axis |
+//! | `extruded` | [`extrude`], outlines along z |
 //!
 //! Lengths have no unit, angles are degrees.
 

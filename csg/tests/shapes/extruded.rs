@@ -224,3 +224,16 @@ fn decimal_and_small_whole_corners_stay_what_they_are() {
     let mesh = crate::judge::evaluated(&tree).mesh;
     assert!(mesh.positions.iter().all(|p| arrow.contains(&p.truncate())), "sides between whole corners are exact");
 }
+
+/// Whole turns leave sides that are planar but for rounding; a cut along one of them once never ended.
+#[test]
+fn whole_turns_in_one_layer_are_tapered_prisms() {
+    for scale in [0.3, 0.5, 2.0] {
+        let extrusion =
+            Extrusion { twist: 360.0, slices: Some(1), scale: DVec2::splat(scale), ..Extrusion::straight(2.0) };
+        let shape = outline(&[star(12, 3.0, 2.0)]);
+        let found = figures(&extrude(&shape, &extrusion, M).expect("a tree"));
+        let expected = 2.0 / 3.0 * shape.area() * (1.0 + scale + scale * scale);
+        assert_near(found.volume, expected, 1e-12, "volume");
+    }
+}

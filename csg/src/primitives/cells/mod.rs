@@ -103,7 +103,8 @@ impl<'a> Surface<'a> {
     fn cut(&self, fragments: &[Fragment], facet: u32) -> (Vec<Fragment>, Vec<Fragment>) {
         let plane = &self.planes[facet as usize];
         let (mut inner, mut outer) = (Vec::new(), Vec::new());
-        for fragment in fragments {
+        // A facet of four corners lies on its plane only up to rounding; its pieces are on it nevertheless.
+        for fragment in fragments.iter().filter(|fragment| fragment.facet != facet) {
             match fragment.split(self.grid, plane, &self.planes[fragment.facet as usize]) {
                 Split::Inside => inner.push(fragment.clone()),
                 Split::Outside => outer.push(fragment.clone()),
