@@ -23,6 +23,7 @@
 mod body;
 mod bounds;
 mod brush;
+mod caps;
 pub mod check;
 mod collapse;
 mod contract;

@@ -33,6 +33,7 @@ use rayon::prelude::*;
 use thiserror::Error;
 
 use crate::brush::{Material, MaterialId};
+use crate::caps::flip_caps;
 use crate::collapse::collapse_thin;
 use crate::contract::contract_short_edges;
 use crate::evaluate::SolidMeasures;
@@ -130,6 +131,7 @@ pub(crate) fn weld(
     let noise = CONTRACTION * solid.min.abs().max(solid.max.abs()).max_element();
     contract_short_edges(&mut mesh, noise);
     collapse_thin(&mut mesh, noise);
+    flip_caps(&mut mesh, noise);
     Ok(Welded { mesh, solid, signs, triangulation: begin.elapsed() })
 }
 
