@@ -120,8 +120,8 @@ pub fn summarize(model: &Model) -> ModelSummary {
 /// overlapping coplanar faces agree, on the order of the brushes in a union.
 ///
 /// # Errors
-/// [`EvaluateError::Unbounded`], [`EvaluateError::UnknownMaterial`], and [`EvaluateError::Weld`] where the boundary does not close: a bug in this crate, never
-/// the user's mistake.
+/// [`EvaluateError::Unbounded`], [`EvaluateError::UnknownMaterial`], and [`EvaluateError::Weld`] where the boundary does not
+/// close: a bug in this crate, never the user's mistake.
 pub fn evaluate(model: &Model) -> Result<Evaluation, EvaluateError> {
     evaluate_with(model, UnboundedBrushes::Keep)
 }
@@ -132,7 +132,8 @@ pub fn evaluate(model: &Model) -> Result<Evaluation, EvaluateError> {
 /// As [`evaluate`].
 pub fn evaluate_with(model: &Model, unbounded: UnboundedBrushes) -> Result<Evaluation, EvaluateError> {
     let begin = Instant::now();
-    check_materials(model)?;
+    let used = model.tree.brushes().iter().flat_map(|brush| &brush.faces).map(|face| face.material);
+    check_materials(used, model.materials.len())?;
     let BrushBodies { mut table, planes, bodies, mut signs } = build_bodies(model.tree.brushes());
     let summary = summary_of(&table, &bodies);
     let expression = Expression::new(model.tree.nodes());
@@ -173,9 +174,8 @@ pub fn evaluate_with(model: &Model, unbounded: UnboundedBrushes) -> Result<Evalu
     Ok(Evaluation { mesh, solid, model: summary, signs, times })
 }
 
-fn check_materials(model: &Model) -> Result<(), EvaluateError> {
-    let count = model.materials.len();
-    let mut used = model.tree.brushes().iter().flat_map(|brush| &brush.faces).map(|face| face.material);
+/// Refuses materials that are not among the first `count`.
+pub(crate) fn check_materials(mut used: impl Iterator<Item = MaterialId>, count: usize) -> Result<(), EvaluateError> {
     match used.find(|material| material.0 as usize >= count) {
         Some(material) => Err(EvaluateError::UnknownMaterial { material, count }),
         None => Ok(()),

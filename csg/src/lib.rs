@@ -22,6 +22,7 @@
 
 mod body;
 mod bounds;
+mod boxes;
 mod brush;
 mod caps;
 pub mod check;
@@ -30,7 +31,6 @@ mod contract;
 mod evaluate;
 mod expression;
 mod mesh;
-mod neighbours;
 mod outer;
 pub mod outline;
 mod plane_table;

@@ -16,9 +16,9 @@ use planecut_kernel::sign::Counts;
 use rayon::prelude::*;
 
 use crate::body::{Body, BodyFace};
+use crate::boxes::Boxes;
 use crate::brush::MaterialId;
 use crate::expression::{Expression, Polarity};
-use crate::neighbours::Neighbours;
 use crate::plane_table::{PlaneId, PlaneTable};
 use contact::{Facing, Owner};
 
@@ -80,7 +80,7 @@ impl Scene<'_> {
 /// The boundary edges of a tree of bodies.
 pub(crate) fn skin(scene: &Scene<'_>) -> (Vec<BoundaryEdge>, Counts) {
     let bodies = scene.bodies;
-    let neighbours = Neighbours::new(bodies);
+    let boxes = Boxes::new(bodies.iter().map(|body| body.bounds).collect());
     let chunk = (bodies.len() / (8 * rayon::current_num_threads()).max(1)).clamp(1, 256);
     let parts: Vec<(Vec<BoundaryEdge>, Counts)> = (0..bodies.len())
         .collect::<Vec<usize>>()
@@ -91,7 +91,8 @@ pub(crate) fn skin(scene: &Scene<'_>) -> (Vec<BoundaryEdge>, Counts) {
             let mut worker = face::FaceWorker::new(scene);
             let mut near = Vec::new();
             for &body in chunk {
-                neighbours.of(body, &bodies[body].bounds, &mut near);
+                boxes.touching(&bodies[body].bounds, &mut near);
+                near.retain(|other| *other as usize != body);
                 for face in 0..bodies[body].faces.len() {
                     worker.emit(body, face, &near, &mut edges);
                 }

@@ -6,13 +6,13 @@
 use std::ops::{BitAnd, BitAndAssign, BitOr, BitOrAssign, BitXor, BitXorAssign, Not, Sub, SubAssign};
 use std::sync::{Arc, OnceLock};
 
-use super::boxes::Boxes;
 use super::carve::Carver;
 use super::cell::Cell;
 use super::convex::Convex;
 use super::formula::{Formula, Kind};
 use super::order::Rule;
 use super::{Solid, merge};
+use crate::boxes::Boxes;
 use crate::plane_table::{PlaneId, PlaneTable};
 
 /// The other operand, its planes numbered by the table of the first.

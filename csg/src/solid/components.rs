@@ -5,8 +5,8 @@ use std::sync::Arc;
 use rustc_hash::FxHashMap;
 
 use super::Solid;
-use super::boxes::Boxes;
 use super::cell::{Cell, CellPlane, Cut};
+use crate::boxes::Boxes;
 use crate::plane_table::{PlaneId, PlaneTable};
 
 impl Solid {

@@ -5,7 +5,6 @@ use std::sync::Arc;
 use planecut_kernel::HalfSpace;
 use rayon::prelude::*;
 
-use super::boxes::Boxes;
 use super::carve::Carver;
 use super::cell::{Cell, CellPlane, Cut};
 use super::convex::Convex;
@@ -14,6 +13,7 @@ use super::formula::Formula;
 use super::order::Rule;
 use super::sources::Sources;
 use super::{Solid, merge};
+use crate::boxes::Boxes;
 use crate::brush::Brush;
 use crate::plane_table::{PlaneId, PlaneTable};
 use crate::tree::Tree;

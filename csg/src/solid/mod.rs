@@ -9,7 +9,6 @@
 //!   and [`sources`] the brush behind a place on them.
 
 mod boolean;
-mod boxes;
 mod carve;
 mod cell;
 mod components;
@@ -30,7 +29,7 @@ mod sources;
 use std::sync::{Arc, OnceLock};
 
 use crate::bounds::Bounds;
-use boxes::Boxes;
+use crate::boxes::Boxes;
 pub use cell::{Cell, CellPlane};
 pub use cuts::CutId;
 use cuts::PlaneCut;

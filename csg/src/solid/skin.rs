@@ -7,7 +7,7 @@ use super::Solid;
 use super::cell::Cell;
 use crate::body::{Body, body_of};
 use crate::brush::{Material, MaterialId};
-use crate::evaluate::{EvaluateError, SolidMeasures, material_ranks};
+use crate::evaluate::{EvaluateError, SolidMeasures, check_materials, material_ranks};
 use crate::mesh::Mesh;
 use crate::skin::skin_of_union;
 use crate::weld::{Welded, weld};
@@ -75,10 +75,6 @@ impl Solid {
     }
 
     fn check_materials(&self, count: usize) -> Result<(), EvaluateError> {
-        let mut used = self.cells().flat_map(Cell::planes).map(|(_, plane)| plane.material);
-        match used.find(|material| material.0 as usize >= count) {
-            Some(material) => Err(EvaluateError::UnknownMaterial { material, count }),
-            None => Ok(()),
-        }
+        check_materials(self.cells().flat_map(Cell::planes).map(|(_, plane)| plane.material), count)
     }
 }

@@ -16,7 +16,7 @@ struct Node {
 
 /// A hierarchy of boxes, split at the median of the longest axis. Infinite boxes are kept beside it.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Boxes {
+pub(crate) struct Boxes {
     boxes: Vec<Bounds>,
     order: Vec<u32>,
     nodes: Vec<Node>,
@@ -25,7 +25,7 @@ pub(super) struct Boxes {
 
 impl Boxes {
     /// Boxes are numbered in the order given; empty ones touch nothing.
-    pub(super) fn new(boxes: Vec<Bounds>) -> Self {
+    pub(crate) fn new(boxes: Vec<Bounds>) -> Self {
         let mut tree = Self { boxes, ..Self::default() };
         for (number, bounds) in (0..).zip(&tree.boxes) {
             if bounds.min.is_finite() && bounds.max.is_finite() {
@@ -64,12 +64,12 @@ impl Boxes {
         }
     }
 
-    pub(super) fn get(&self, number: u32) -> &Bounds {
+    pub(crate) fn get(&self, number: u32) -> &Bounds {
         &self.boxes[number as usize]
     }
 
     /// The boxes that fulfil a condition which holds for a box wherever it holds for one within, ascending.
-    pub(super) fn find(&self, condition: impl Fn(&Bounds) -> bool, found: &mut Vec<u32>) {
+    pub(crate) fn find(&self, condition: impl Fn(&Bounds) -> bool, found: &mut Vec<u32>) {
         found.clear();
         found.extend(self.infinite.iter().filter(|k| condition(self.get(**k))));
         let mut waiting: Vec<u32> = if self.nodes.is_empty() { Vec::new() } else { vec![0] };
@@ -89,7 +89,7 @@ impl Boxes {
     }
 
     /// The boxes that touch a box, ascending.
-    pub(super) fn touching(&self, bounds: &Bounds, found: &mut Vec<u32>) {
+    pub(crate) fn touching(&self, bounds: &Bounds, found: &mut Vec<u32>) {
         self.find(|other| other.touches(bounds), found);
     }
 }
