@@ -6,6 +6,7 @@ mod lines;
 pub mod map;
 pub mod mesh;
 pub mod model;
+pub mod scad;
 mod warning;
 
 pub use warning::Warning;

@@ -1,15 +1,16 @@
 //! What may stand on the command line. The doc comments here are the help texts.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::error::ErrorKind;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use planecut::export::{Format, MAX_IMAGE_SIDE, PreviewOptions, PreviewStyle};
 use planecut::import::map::MapOptions;
 use planecut::import::model::ModelOptions;
+use planecut::import::scad::ScadOptions;
 
 use super::error::CliError;
-use super::input::ModelKind;
+use super::input::{Input, ModelKind};
 use super::terminal;
 
 /// Convex-CSG modeling kernel: exact half-spaces in, watertight meshes out.
@@ -36,7 +37,7 @@ pub(crate) enum Command {
 /// Arguments of `build`.
 #[derive(Debug, Args)]
 pub(crate) struct BuildArgs {
-    /// The model or map to read (.json, .map); `-` is standard input
+    /// The model, map or tree to read (.json, .map, .csg); `-` is standard input
     #[arg(value_name = "INPUT")]
     pub(crate) input: PathBuf,
     /// Mesh to write, by its ending .glb, .gltf, .obj or .stl; may be given several times; `-` is standard output
@@ -69,7 +70,7 @@ pub(crate) struct BuildArgs {
 /// Arguments of `info`.
 #[derive(Debug, Args)]
 pub(crate) struct InfoArgs {
-    /// The file to look into (.json, .map, .obj, .stl, .ply, .glb, .gltf); `-` is standard input
+    /// The file to look into (.json, .map, .csg, .obj, .stl, .ply, .glb, .gltf); `-` is standard input
     #[arg(value_name = "INPUT")]
     pub(crate) input: PathBuf,
     #[command(flatten)]
@@ -81,7 +82,7 @@ pub(crate) struct InfoArgs {
 /// Arguments of `render`.
 #[derive(Debug, Args)]
 pub(crate) struct RenderArgs {
-    /// The model or map to read (.json, .map); `-` is standard input
+    /// The model, map or tree to read (.json, .map, .csg); `-` is standard input
     #[arg(value_name = "INPUT")]
     pub(crate) input: PathBuf,
     /// Picture to write (.png); `-` is standard output
@@ -115,13 +116,15 @@ pub(crate) struct CheckArgs {
 /// How to read the input.
 #[derive(Debug, Args)]
 pub(crate) struct ReadingArgs {
-    /// What the input is, whatever its name: json or map; by default what its ending says, and json for `-`
+    /// What the input is, whatever its name; by default what its ending says, and json for `-`
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub(crate) input_format: Option<ModelKind>,
     #[command(flatten)]
     model: ModelArgs,
     #[command(flatten)]
     map: MapArgs,
+    #[command(flatten)]
+    scad: ScadArgs,
 }
 
 impl ReadingArgs {
@@ -133,6 +136,12 @@ impl ReadingArgs {
     /// The options for maps.
     pub(crate) fn map_options(&self) -> MapOptions {
         self.map.options()
+    }
+
+    /// The options for OpenSCAD's trees; files that `input` names lie beside it.
+    pub(crate) fn scad_options(&self, input: &Input) -> ScadOptions {
+        let folder = input.file().and_then(Path::parent).map(Path::to_owned).unwrap_or_default();
+        ScadOptions { folder, keep_going: self.scad.keep_going }
     }
 
     /// Sees that no option is for another kind of input.
@@ -148,6 +157,9 @@ impl ReadingArgs {
         }
         if kind != Some(ModelKind::Map) && self.map.options() != MapOptions::default() {
             return refuse("--world-only, --skip-texture or --skip-class", "a map (.map)");
+        }
+        if kind != Some(ModelKind::Csg) && self.scad.keep_going {
+            return refuse("--keep-going", "an OpenSCAD tree (.csg)");
         }
         Ok(())
     }
@@ -186,6 +198,15 @@ impl MapArgs {
             skip_classes: self.skip_class.clone(),
         }
     }
+}
+
+/// How strictly to read OpenSCAD's trees.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Options for .csg")]
+struct ScadArgs {
+    /// Leave out, with a warning, what is not supported or cannot be made, instead of failing
+    #[arg(long)]
+    keep_going: bool,
 }
 
 /// What every command takes.

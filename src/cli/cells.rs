@@ -25,7 +25,7 @@ impl Cells {
     pub(crate) fn new(input: &Input, kind: ModelKind, solved: &mut Solved) -> Result<Self, CliError> {
         let begin = Instant::now();
         let solid = match kind {
-            ModelKind::Json => Solid::from_tree(&solved.model.tree),
+            ModelKind::Json | ModelKind::Csg => Solid::from_tree(&solved.model.tree),
             ModelKind::Map => Solid::from_tree(&without(&solved.model, &solved.unbounded)),
         };
         let mut meshes = solid

@@ -9,6 +9,7 @@ use planecut::export::ExportError;
 use planecut::import::map::MapError;
 use planecut::import::mesh::MeshError;
 use planecut::import::model::ModelError;
+use planecut::import::scad::ScadError;
 use rayon::ThreadPoolBuildError;
 use thiserror::Error;
 
@@ -55,6 +56,9 @@ pub(crate) enum CliError {
     /// The input is no model.
     #[error(transparent)]
     Model(#[from] ModelError),
+    /// The input is no evaluated tree of OpenSCAD, or one of more than is supported.
+    #[error(transparent)]
+    Scad(#[from] ScadError),
     /// The input is no mesh.
     #[error(transparent)]
     Mesh(#[from] MeshError),
@@ -125,6 +129,7 @@ impl CliError {
             | Self::Read { .. }
             | Self::Map(_)
             | Self::Model(_)
+            | Self::Scad(_)
             | Self::Mesh(_) => UNUSABLE,
             Self::NotSound { .. }
             | Self::Evaluate { .. }

@@ -21,7 +21,7 @@ use super::terminal;
 /// [`CliError`] where the input is unusable, or where the solid has no mesh.
 pub(crate) fn run(args: &InfoArgs) -> Result<(), CliError> {
     let begin = Instant::now();
-    let expected = "`.json`, `.map`, `.obj`, `.stl`, `.ply`, `.glb` or `.gltf`";
+    let expected = "`.json`, `.map`, `.csg`, `.obj`, `.stl`, `.ply`, `.glb` or `.gltf`";
     let (input, kind) = Input::resolve(&args.input, args.reading.input_format, Some, expected)?;
     args.reading.check(match kind {
         Kind::Model(kind) => Some(kind),

@@ -17,6 +17,8 @@ pub(crate) enum ModelKind {
     Json,
     /// A Quake-family map.
     Map,
+    /// An evaluated tree of OpenSCAD.
+    Csg,
 }
 
 impl ModelKind {
@@ -25,6 +27,7 @@ impl ModelKind {
         match self {
             Self::Json => "json",
             Self::Map => "map",
+            Self::Csg => "csg",
         }
     }
 }
@@ -89,7 +92,7 @@ impl Input {
             Kind::Model(kind) => Some(kind),
             Kind::Mesh(_) => None,
         };
-        Self::resolve(path, stated, model, "`.json` or `.map`, the inputs that this version builds from")
+        Self::resolve(path, stated, model, "`.json`, `.map` or `.csg`, the inputs that this version builds from")
     }
 
     /// The path for messages.
@@ -132,7 +135,7 @@ fn read_stdin() -> io::Result<Vec<u8>> {
 
 fn kind_of(path: &Path) -> Option<Kind> {
     let ending = path.extension()?.to_str()?;
-    let model = [ModelKind::Json, ModelKind::Map].into_iter().find(|kind| kind.name().eq_ignore_ascii_case(ending));
+    let model = ModelKind::value_variants().iter().copied().find(|kind| kind.name().eq_ignore_ascii_case(ending));
     match model {
         Some(kind) => Some(Kind::Model(kind)),
         None => MeshFormat::from_extension(ending).map(Kind::Mesh),

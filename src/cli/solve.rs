@@ -7,6 +7,7 @@ use planecut::csg::{Evaluation, Mesh, Model, ModelSummary, UnboundedBrushes, eva
 use planecut::import::Warning;
 use planecut::import::map::read_map;
 use planecut::import::model::read_model;
+use planecut::import::scad::read_scad;
 
 use super::args::ReadingArgs;
 use super::error::CliError;
@@ -70,12 +71,16 @@ fn read(input: &Input, kind: ModelKind, reading: &ReadingArgs) -> Result<(Model,
             let import = read_map(&bytes, &input.name(), &reading.map_options())?;
             (import.model, import.warnings)
         }
+        ModelKind::Csg => {
+            let import = read_scad(&bytes, &input.name(), &reading.scad_options(input))?;
+            (import.model, import.warnings)
+        }
     })
 }
 
 fn evaluate_model(input: &Input, kind: ModelKind, model: &Model) -> Result<Evaluation, CliError> {
     let unbounded = match kind {
-        ModelKind::Json => UnboundedBrushes::Keep,
+        ModelKind::Json | ModelKind::Csg => UnboundedBrushes::Keep,
         // Nobody means half of space in a map: the brush lacks a face.
         ModelKind::Map => UnboundedBrushes::LeaveOut,
     };

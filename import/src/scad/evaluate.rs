@@ -1,0 +1,333 @@
+//! From nodes to one tree.
+//!
+//! Nodes are listed before those within them. So what they inherit is handed down in the order of the list, and what they make
+//! is handed up in the reverse order: when a node's turn comes, its children have had theirs.
+
+use planecut_csg::{Model, Tree};
+
+use super::error::Fault;
+use super::frame::{Frame, Matrix};
+use super::materials::Materials;
+use super::problem::{Geometry, Made, Problem};
+use super::syntax::Node;
+use super::value::Value;
+use super::{ScadImport, ScadOptions, extrusion, flat, leaf, solid};
+use crate::Warning;
+use crate::lines::LineTable;
+
+/// Nodes that make new bodies.
+const MAKERS: [&str; 9] =
+    ["cube", "sphere", "cylinder", "polyhedron", "import", "hull", "minkowski", "linear_extrude", "rotate_extrude"];
+
+/// Makes the model of a list of nodes.
+pub(super) struct Evaluator<'s, 'a> {
+    nodes: &'s [Node<'a>],
+    lines: &'s LineTable,
+    options: &'s ScadOptions,
+    frames: Vec<Frame>,
+    materials: Materials,
+    /// What the children of each node gave, last one first.
+    made: Vec<Vec<Option<Geometry>>>,
+    pub(super) warnings: Vec<Warning>,
+}
+
+/// A node whose turn it is.
+#[derive(Clone, Copy)]
+pub(super) struct Turn<'s, 'a> {
+    pub(super) node: &'s Node<'a>,
+    pub(super) frame: Frame,
+}
+
+impl<'s, 'a> Evaluator<'s, 'a> {
+    pub(super) fn new(nodes: &'s [Node<'a>], lines: &'s LineTable, options: &'s ScadOptions) -> Self {
+        let mut made = Vec::new();
+        made.resize_with(nodes.len(), Vec::new);
+        Self { nodes, lines, options, frames: Vec::new(), materials: Materials::new(), made, warnings: Vec::new() }
+    }
+
+    /// # Errors
+    /// [`Fault`] of a node that cannot be made, where that is to end it.
+    pub(super) fn run(mut self) -> Result<ScadImport, Fault> {
+        self.hand_down();
+        let mut outermost = Vec::new();
+        let root = self.nodes.iter().position(|node| node.modifiers.is_root && !node.modifiers.is_left_out);
+        for number in (0..self.nodes.len()).rev() {
+            let turn = Turn { node: &self.nodes[number], frame: self.frames[number] };
+            if turn.frame.is_left_out {
+                continue;
+            }
+            let mut children = std::mem::take(&mut self.made[number]);
+            children.reverse();
+            let made = self.make(turn, children)?;
+            match turn.node.parent.filter(|_| root != Some(number)) {
+                Some(parent) => self.made[parent as usize].push(made),
+                None => outermost.push(made),
+            }
+        }
+        outermost.reverse();
+        let tree = self.outermost(outermost);
+        // they were noticed from the end of the text to its begin
+        self.warnings.sort_by_key(|warning| warning.line);
+        Ok(ScadImport { model: Model { materials: self.materials.into_all(), tree }, warnings: self.warnings })
+    }
+
+    /// Works out what each node inherits.
+    fn hand_down(&mut self) {
+        let is_root = |node: &Node<'_>| node.modifiers.is_root && !node.modifiers.is_left_out;
+        let root = self.nodes.iter().position(is_root);
+        self.frames.reserve(self.nodes.len());
+        let mut within_root = vec![root.is_none(); self.nodes.len()];
+        for (number, node) in self.nodes.iter().enumerate() {
+            let parent = node.parent.map(|parent| parent as usize);
+            within_root[number] |= root == Some(number) || parent.is_some_and(|parent| within_root[parent]);
+            let mut frame = match parent.filter(|_| root != Some(number)) {
+                Some(parent) => self.within(parent),
+                None => Frame::outermost(),
+            };
+            frame.is_left_out |= node.modifiers.is_left_out;
+            self.frames.push(frame);
+        }
+        for (frame, within) in self.frames.iter_mut().zip(within_root) {
+            frame.is_left_out |= !within;
+        }
+    }
+
+    /// What the children of a node inherit.
+    fn within(&mut self, number: usize) -> Frame {
+        let (node, frame) = (&self.nodes[number], self.frames[number]);
+        match node.name {
+            "multmatrix" => frame.within_matrix(&Matrix::of(node)),
+            "color" => {
+                let color = node.arguments.iter().find(|(name, _)| name.is_none_or(|name| name == "c"));
+                let color = color.and_then(|(_, value)| color_of(value));
+                frame.within_color(color, &mut self.materials)
+            }
+            "minkowski" | "linear_extrude" | "rotate_extrude" | "projection" | "offset" | "resize" => frame.unplaced(),
+            _ => frame,
+        }
+    }
+
+    /// What a node makes of what its children made.
+    fn make(&mut self, turn: Turn<'s, 'a>, children: Vec<Option<Geometry>>) -> Result<Option<Geometry>, Fault> {
+        let made = match turn.node.name {
+            "multmatrix" => Ok(self.moved(turn, children)),
+            "group" | "union" | "render" | "color" => self.combine(turn, children, Combination::Union),
+            "difference" => self.combine(turn, children, Combination::Difference),
+            "intersection" => self.combine(turn, children, Combination::Intersection),
+            "hull" => self.combine(turn, children, Combination::Hull),
+            "minkowski" => self.combine(turn, children, Combination::Minkowski).and_then(|made| turn.place(made)),
+            "resize" => self
+                .combine(turn, children, Combination::Union)
+                .and_then(|made| solid::resized(turn.node, made))
+                .and_then(|made| turn.place(made)),
+            "linear_extrude" => self
+                .flat_union(turn, children)
+                .and_then(|flat| extrusion::linear(turn, flat))
+                .and_then(|made| turn.place(made)),
+            "rotate_extrude" => self
+                .flat_union(turn, children)
+                .and_then(|flat| extrusion::rotational(self, turn, flat))
+                .and_then(|made| turn.place(made)),
+            "offset" => self
+                .flat_union(turn, children)
+                .and_then(|flat| flat::offset(turn.node, flat))
+                .and_then(|made| turn.place(made)),
+            "projection" => self
+                .solid_union(turn, children)
+                .and_then(|solid| solid::projection(turn.node, solid))
+                .and_then(|made| turn.place(made)),
+            _ => self.leaf(turn).and_then(|made| turn.place(made)),
+        };
+        let mut made = made.or_else(|problem| self.fail(turn, problem))?;
+        if let Some(Geometry::Solid(tree)) = &mut made {
+            self.mark_line(turn, tree);
+        }
+        Ok(made)
+    }
+
+    /// Tells each new brush on which line it was made.
+    fn mark_line(&self, turn: Turn<'_, '_>, tree: &mut Tree) {
+        let is_new = |brush: &&mut planecut_csg::Brush| brush.line == 0;
+        if MAKERS.contains(&turn.node.name) {
+            let line = self.lines.line_of(turn.node.offset);
+            tree.brushes_mut().iter_mut().filter(is_new).for_each(|brush| brush.line = line);
+        }
+    }
+
+    fn leaf(&mut self, turn: Turn<'s, 'a>) -> Made {
+        let (node, material) = (turn.node, turn.frame.material);
+        match node.name {
+            "cube" => leaf::solid(leaf::cube(node, material)),
+            "sphere" => leaf::solid(leaf::sphere(node, material)),
+            "cylinder" => leaf::solid(leaf::cylinder(node, material)),
+            "square" => leaf::flat(leaf::square(node)),
+            "circle" => leaf::flat(leaf::circle(node)),
+            "polygon" => {
+                let (outline, message) = leaf::polygon(node)?;
+                if let Some(message) = message {
+                    self.warn(turn, message);
+                }
+                Ok(Some(Geometry::Flat(outline)))
+            }
+            _ => Err(Problem::new(
+                format!("`{}`, which is not supported", node.name),
+                "a node that is (with --keep-going others are left out)",
+            )),
+        }
+    }
+
+    /// The union of the children; the matrix is already in them.
+    fn moved(&mut self, turn: Turn<'s, 'a>, children: Vec<Option<Geometry>>) -> Option<Geometry> {
+        let matrix = Matrix::of(turn.node);
+        if !matrix.is_finite() {
+            self.warn(turn, "a matrix that is not finite: what it moves is left out");
+            return None;
+        }
+        let union = self.combine(turn, children, Combination::Union).ok().flatten()?;
+        match &union {
+            Geometry::Solid(tree) if matrix.flattens_solids() => {
+                if !tree.brushes().is_empty() {
+                    self.warn(turn, "a matrix that flattens solids: what it moves is left out");
+                }
+                Some(Geometry::Solid(Tree::empty()))
+            }
+            Geometry::Flat(_) if matrix.flattens_outlines() => {
+                self.warn(turn, "a matrix that flattens outlines: what it moves is left out");
+                Some(Geometry::Flat(planecut_csg::Outline::empty()))
+            }
+            _ => Some(union),
+        }
+    }
+
+    fn combine(&mut self, turn: Turn<'s, 'a>, children: Vec<Option<Geometry>>, how: Combination) -> Made {
+        let first = children.iter().flatten().next();
+        match first {
+            None => Ok(None),
+            Some(Geometry::Flat(_)) => {
+                let operands = self.outlines(turn, children);
+                Ok(Some(Geometry::Flat(flat::combine(how, operands)?)))
+            }
+            Some(Geometry::Solid(_)) => {
+                let operands = self.trees(turn, children);
+                Ok(Some(Geometry::Solid(solid::combine(how, operands, turn.frame.material)?)))
+            }
+        }
+    }
+
+    fn flat_union(
+        &mut self,
+        turn: Turn<'s, 'a>,
+        children: Vec<Option<Geometry>>,
+    ) -> Result<planecut_csg::Outline, Problem> {
+        let operands = self.outlines(turn, children);
+        flat::combine(Combination::Union, operands)
+    }
+
+    fn solid_union(&mut self, turn: Turn<'s, 'a>, children: Vec<Option<Geometry>>) -> Result<Tree, Problem> {
+        let operands = self.trees(turn, children);
+        solid::combine(Combination::Union, operands, turn.frame.material)
+    }
+
+    /// The regions among the children; `None` for what is not there and for solids.
+    fn outlines(&mut self, turn: Turn<'s, 'a>, children: Vec<Option<Geometry>>) -> Vec<Option<planecut_csg::Outline>> {
+        let mut mixed = false;
+        let outlines = children.into_iter().map(|child| match child {
+            Some(Geometry::Flat(outline)) => Some(outline),
+            Some(Geometry::Solid(tree)) => {
+                mixed |= !tree.brushes().is_empty();
+                None
+            }
+            None => None,
+        });
+        let outlines = outlines.collect();
+        if mixed {
+            self.warn(turn, format!("`{}` of outlines: a solid among them is left out", turn.node.name));
+        }
+        outlines
+    }
+
+    /// The solids among the children; `None` for what is not there and for regions of the plane.
+    fn trees(&mut self, turn: Turn<'s, 'a>, children: Vec<Option<Geometry>>) -> Vec<Option<Tree>> {
+        let mut mixed = false;
+        let trees = children.into_iter().map(|child| match child {
+            Some(Geometry::Solid(tree)) => Some(tree),
+            Some(Geometry::Flat(outline)) => {
+                mixed |= !outline.is_empty();
+                None
+            }
+            None => None,
+        });
+        let trees = trees.collect();
+        if mixed {
+            self.warn(turn, format!("`{}` of solids: an outline among them is left out", turn.node.name));
+        }
+        trees
+    }
+
+    /// The union of the outermost nodes; only solids count.
+    fn outermost(&mut self, made: Vec<Option<Geometry>>) -> Tree {
+        let are_outlines =
+            made.iter().flatten().any(|made| matches!(made, Geometry::Flat(outline) if !outline.is_empty()));
+        let solids: Vec<Tree> = made
+            .into_iter()
+            .filter_map(|made| match made {
+                Some(Geometry::Solid(tree)) => Some(tree),
+                _ => None,
+            })
+            .collect();
+        if are_outlines {
+            let message = "outlines that nothing extrudes are left out: the result is a solid".to_owned();
+            self.warnings.push(Warning { line: 0, message });
+        }
+        Tree::union(solids)
+    }
+
+    pub(super) fn warn(&mut self, turn: Turn<'_, '_>, message: impl Into<String>) {
+        let line = self.lines.line_of(turn.node.offset);
+        self.warnings.push(Warning { line, message: message.into() });
+    }
+
+    fn fail(&mut self, turn: Turn<'_, '_>, problem: Problem) -> Result<Option<Geometry>, Fault> {
+        if !self.options.keep_going {
+            return Err(Fault::found(turn.node.offset, problem.found, problem.expected));
+        }
+        self.warn(
+            turn,
+            format!("`{}` is left out: found {}, expected {}", turn.node.name, problem.found, problem.expected),
+        );
+        Ok(None)
+    }
+}
+
+/// How children become one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Combination {
+    Union,
+    Difference,
+    Intersection,
+    Hull,
+    Minkowski,
+}
+
+impl Turn<'_, '_> {
+    /// Puts what was made in the node's own frame where it belongs.
+    fn place(&self, made: Option<Geometry>) -> Made {
+        match made {
+            None => Ok(None),
+            Some(Geometry::Flat(outline)) => match self.frame.flat_map() {
+                Some(map) => Ok(Some(Geometry::Flat(flat::moved(outline, map)?))),
+                None => Ok(Some(Geometry::Flat(planecut_csg::Outline::empty()))),
+            },
+            Some(Geometry::Solid(tree)) => match self.frame.solid_map() {
+                Some(map) => solid::moved(tree, &map).map(|tree| Some(Geometry::Solid(tree))),
+                None => Ok(Some(Geometry::Solid(Tree::empty()))),
+            },
+        }
+    }
+}
+
+/// Red, green, blue and opacity, the last one 1 where it is not given.
+fn color_of(value: &Value) -> Option<[f64; 4]> {
+    let opaque = || value.numbers::<3>().map(|[red, green, blue]| [red, green, blue, 1.0]);
+    value.numbers::<4>().or_else(opaque)
+}

@@ -1,0 +1,94 @@
+//! Reader of OpenSCAD's evaluated trees, `.csg`.
+//!
+//! OpenSCAD writes one from any program (`openscad -o part.csg part.scad`): all variables, loops and modules are gone, and what is
+//! left is nodes in nodes with numbers. Here such a tree becomes a [`Model`]: shapes have OpenSCAD's very corners, colours
+//! become materials, and where OpenSCAD is lenient this is too, with a warning.
+//!
+//! The stages, each in its own file: bytes → tokens (`token`), tokens → nodes (`syntax`, `value`), what nodes inherit
+//! (`frame`, `materials`), nodes → bodies and regions (`leaf`, `fragments`, `text`, `extrusion`), and their combination
+//! (`evaluate`, `flat`, `solid`). No stage is recursive, so trees can be nested to any depth.
+//!
+//! Source: the OpenSCAD User Manual, and the behaviour of OpenSCAD 2021.01.
+
+mod arguments;
+mod error;
+mod evaluate;
+mod extrusion;
+mod flat;
+mod fragments;
+mod frame;
+mod leaf;
+mod materials;
+mod problem;
+mod solid;
+mod syntax;
+mod token;
+mod value;
+
+use std::path::PathBuf;
+
+use planecut_csg::Model;
+
+pub use error::ScadError;
+
+use crate::Warning;
+use crate::lines::LineTable;
+use evaluate::Evaluator;
+
+/// Most bytes of a file: 1 GiB.
+pub const MAX_TEXT: usize = 1 << 30;
+
+/// How a tree is read.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct ScadOptions {
+    /// Where files that `import` names are looked for; the current folder by default.
+    pub folder: PathBuf,
+    /// Leaves out what cannot be made, with a warning, instead of failing.
+    pub keep_going: bool,
+}
+
+/// A tree that was read.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ScadImport {
+    /// The solid; each brush has the line of the node that made it.
+    pub model: Model,
+    /// What was left out, and what OpenSCAD warns of too.
+    pub warnings: Vec<Warning>,
+}
+
+/// Reads an evaluated tree; `name` is what errors call it.
+///
+/// ```
+/// use planecut_import::scad::{ScadOptions, read_scad};
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let text = b"difference() { cube(size = [4, 4, 2]); color([1, 0, 0]) { cylinder(h = 2, r = 1, $fn = 4); } }";
+/// let import = read_scad(text, "plate.csg", &ScadOptions::default())?;
+/// let evaluation = planecut_csg::evaluate(&import.model)?;
+/// // the quarter of a square prism is gone, and the cut is red
+/// assert!((evaluation.solid.volume - (32.0 - 1.0)).abs() < 1e-12);
+/// assert_eq!(import.model.materials[1].name, "#ff0000");
+///
+/// let error = read_scad(b"cube(1);\nsurface(file = \"a.png\");", "hill.csg", &ScadOptions::default()).unwrap_err();
+/// assert!(error.to_string().starts_with("hill.csg:2: found `surface`, "));
+/// # Ok(())
+/// # }
+/// ```
+///
+/// # Errors
+/// [`ScadError`], with the line, where the text is no evaluated tree, asks for something that is not supported, or for a shape
+/// that cannot be made; the latter two only without [`ScadOptions::keep_going`].
+pub fn read_scad(text: &[u8], name: &str, options: &ScadOptions) -> Result<ScadImport, ScadError> {
+    if text.len() > MAX_TEXT {
+        return Err(ScadError::TooLong { name: name.to_owned(), bytes: text.len() });
+    }
+    let text = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
+    let lines = LineTable::new(text);
+    let located = |fault: error::Fault| fault.locate(name, text, &lines);
+    let nodes = syntax::parse(text).map_err(located)?;
+    let evaluator = Evaluator::new(&nodes, &lines, options);
+    evaluator.run().map_err(located)
+}
+
+/// The UTF-8 mark that some Windows editors put in front of a file.
+const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";

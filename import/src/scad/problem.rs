@@ -1,0 +1,49 @@
+//! What cannot be made of a node.
+
+use planecut_csg::outline::Outline;
+use planecut_csg::{ShapeError, Tree};
+
+use super::fragments::TooMany;
+
+/// What cannot be made of a node: what was found and what was expected, the node's name aside.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Problem {
+    pub(super) found: String,
+    pub(super) expected: String,
+}
+
+/// What a node gives; `None` where OpenSCAD has no object at all.
+pub(super) type Made = Result<Option<Geometry>, Problem>;
+
+/// A region of the plane or a solid.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Geometry {
+    /// A region of the plane.
+    Flat(Outline),
+    /// A solid.
+    Solid(Tree),
+}
+
+impl Problem {
+    pub(super) fn new(found: impl Into<String>, expected: impl Into<String>) -> Self {
+        Self { found: found.into(), expected: expected.into() }
+    }
+}
+
+impl From<ShapeError> for Problem {
+    fn from(error: ShapeError) -> Self {
+        match error {
+            ShapeError::Parameter { parameter, found, expected } => {
+                Self::new(format!("{found} for `{parameter}`"), expected)
+            }
+            error => Self::new(format!("a shape that cannot be made ({error})"), "one that can"),
+        }
+    }
+}
+
+impl From<TooMany> for Problem {
+    fn from(TooMany(count): TooMany) -> Self {
+        let limit = planecut_csg::primitives::MAX_SEGMENTS;
+        Self::new(format!("{count} segments by `$fn`, `$fa` and `$fs`"), format!("at most {limit}"))
+    }
+}

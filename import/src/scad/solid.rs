@@ -1,0 +1,110 @@
+//! Solids from solids.
+
+use planecut_csg::outline::Outline;
+use planecut_csg::{MaterialId, Model, Operation, ShapeError, Transform, Tree, evaluate, shaping};
+use planecut_kernel::{DVec2, DVec3};
+
+use super::arguments::Arguments;
+use super::evaluate::Combination;
+use super::problem::{Geometry, Made, Problem};
+use super::syntax::Node;
+use super::value::Value;
+
+/// The combination of operands, in their order. Where one is not there, an intersection is empty, and so is a difference from
+/// it; sums pass over it.
+pub(super) fn combine(
+    how: Combination,
+    mut operands: Vec<Option<Tree>>,
+    material: MaterialId,
+) -> Result<Tree, Problem> {
+    if operands.len() == 1 && how != Combination::Hull {
+        return Ok(operands.pop().flatten().unwrap_or_default());
+    }
+    let is_there = |tree: &Option<Tree>| tree.as_ref().is_some_and(|tree| !tree.brushes().is_empty());
+    match how {
+        Combination::Intersection if !operands.iter().all(is_there) => return Ok(Tree::empty()),
+        Combination::Difference if !operands.first().is_some_and(is_there) => return Ok(Tree::empty()),
+        _ => operands.retain(is_there),
+    }
+    let operands = operands.into_iter().flatten();
+    match how {
+        Combination::Union => Ok(Tree::combine(Operation::Union, operands)),
+        Combination::Difference => Ok(Tree::combine(Operation::Difference, operands)),
+        Combination::Intersection => Ok(Tree::combine(Operation::Intersection, operands)),
+        Combination::Hull => Ok(shaping::hull(&operands.collect::<Vec<_>>(), material)?),
+        Combination::Minkowski => Ok(minkowski(operands, material)?),
+    }
+}
+
+fn minkowski(mut operands: impl Iterator<Item = Tree>, material: MaterialId) -> Result<Tree, ShapeError> {
+    let first = operands.next().unwrap_or_default();
+    operands.try_fold(first, |sum, operand| shaping::minkowski(&sum, &operand, material))
+}
+
+pub(super) fn moved(tree: Tree, map: &Transform) -> Result<Tree, Problem> {
+    if *map == Transform::identity() {
+        return Ok(tree);
+    }
+    tree.transformed(map).map_err(|error| Problem::new(error.to_string(), "less extreme numbers"))
+}
+
+/// The shadow on the x–y plane, or with `cut` where the solid meets that plane.
+pub(super) fn projection(node: &Node<'_>, tree: Tree) -> Made {
+    if tree.brushes().is_empty() {
+        return Ok(None);
+    }
+    let arguments = Arguments::of(node, &["cut"]);
+    let outline = if arguments.is_set("cut") { section(&tree)? } else { shaping::project(&tree)? };
+    Ok(Some(Geometry::Flat(outline)))
+}
+
+/// The closed solid's part in the x–y plane: what there is just below it, and what there is just above.
+fn section(tree: &Tree) -> Result<Outline, Problem> {
+    let below = shaping::slice(tree, 0.0)?;
+    let mirror = Transform::scale(DVec3::new(1.0, 1.0, -1.0)).map_err(ShapeError::from)?;
+    let above = shaping::slice(&moved(tree.clone(), &mirror)?, 0.0)?;
+    Ok(Outline::combine(Operation::Union, &[below, above])?)
+}
+
+/// What was made, stretched to `newsize`; a size of 0 leaves an axis alone, unless `auto` says that it follows the largest.
+pub(super) fn resized(node: &Node<'_>, made: Option<Geometry>) -> Made {
+    let arguments = Arguments::of(node, &["newsize", "auto"]);
+    let wanted = arguments.size::<3>("newsize");
+    let wanted = if arguments.get("newsize").is_some() { wanted } else { [0.0; 3] };
+    let follows: [bool; 3] = match arguments.get("auto") {
+        Some(Value::Boolean(all)) => [*all; 3],
+        Some(value) => std::array::from_fn(|axis| value.items().get(axis) == Some(&Value::Boolean(true))),
+        None => [false; 3],
+    };
+    match made {
+        Some(Geometry::Flat(outline)) if !outline.is_empty() => {
+            let (min, max) = corners(outline.loops().flatten().map(|p| p.extend(0.0)));
+            let factors = factors(max - min, wanted, follows).truncate();
+            Ok(Some(Geometry::Flat(outline.transformed(glam::DMat2::from_diagonal(factors), DVec2::ZERO)?)))
+        }
+        Some(Geometry::Solid(tree)) if !tree.brushes().is_empty() => {
+            let any = vec![planecut_csg::Material::default()];
+            let model = Model { materials: any, tree: tree.clone().with_material(MaterialId(0)) };
+            let mesh = evaluate(&model).map_err(ShapeError::from)?.mesh;
+            let (min, max) = corners(mesh.positions.into_iter());
+            let map = Transform::scale(factors(max - min, wanted, follows)).map_err(ShapeError::from)?;
+            moved(tree, &map).map(|tree| Some(Geometry::Solid(tree)))
+        }
+        other => Ok(other),
+    }
+}
+
+fn corners(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
+    let nowhere = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    points.fold(nowhere, |(min, max), point| (min.min(point), max.max(point)))
+}
+
+/// By how much each axis is stretched.
+fn factors(size: DVec3, wanted: [f64; 3], follows: [bool; 3]) -> DVec3 {
+    let stretched = |axis: usize| wanted[axis] > 0.0 && size[axis] > 0.0;
+    let factor = |axis: usize| if stretched(axis) { wanted[axis] / size[axis] } else { 1.0 };
+    let largest = (0..3).max_by(|a, b| wanted[*a].total_cmp(&wanted[*b])).unwrap_or(0);
+    DVec3::from_array(std::array::from_fn(|axis| {
+        if follows[axis] && wanted[axis] <= 0.0 { factor(largest) } else { factor(axis) }
+    }))
+}

@@ -1,0 +1,42 @@
+//! Values of arguments.
+
+/// A value that OpenSCAD wrote.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Value {
+    /// `undef`, and ranges, which no node takes.
+    Undefined,
+    /// `true` or `false`.
+    Boolean(bool),
+    /// A number, which may be infinite or not a number.
+    Number(f64),
+    /// A text in quotes.
+    Text(String),
+    /// Values in brackets.
+    Vector(Vec<Value>),
+}
+
+impl Value {
+    /// The number that this is.
+    pub(super) fn number(&self) -> Option<f64> {
+        if let Self::Number(number) = self { Some(*number) } else { None }
+    }
+
+    /// The values in brackets; none for anything else.
+    pub(super) fn items(&self) -> &[Self] {
+        if let Self::Vector(items) = self { items } else { &[] }
+    }
+
+    /// The first `N` numbers in brackets; `None` where there are fewer or one of them is no number.
+    pub(super) fn numbers<const N: usize>(&self) -> Option<[f64; N]> {
+        let mut numbers = [0.0; N];
+        for (place, number) in numbers.iter_mut().enumerate() {
+            *number = self.items().get(place)?.number()?;
+        }
+        Some(numbers)
+    }
+
+    /// The same, where each number is finite.
+    pub(super) fn finite<const N: usize>(&self) -> Option<[f64; N]> {
+        self.numbers().filter(|numbers| numbers.iter().all(|number| number.is_finite()))
+    }
+}
