@@ -34,6 +34,7 @@ mod mesh;
 mod outer;
 pub mod outline;
 mod plane_table;
+pub mod polyhedron;
 pub mod primitives;
 pub mod shaping;
 mod skin;

@@ -9,6 +9,7 @@ from . import rectilinear
 from .coincidence import any_coincident_faces
 from .lines import Coverage, Lines
 from .reference import AGREED, ReferenceSurface, ReferenceVolume
+from .result import SAME
 from .solid_tree import SolidTree
 
 _FAR = 1e3
@@ -26,11 +27,12 @@ class TreeModel:
 
     counts_brushes = False
     empty_may_be_refused = False
+    limit = SAME
 
-    def __init__(self, tree: SolidTree):
+    def __init__(self, tree: SolidTree, notes: list[str] | None = None):
         self.tree = tree
         self.brushes = len(tree.leaves)
-        self.notes: list[str] = []
+        self.notes = list(notes or [])
         low, high = _span(tree)
         self.is_unbounded = False
         self._bounded, self._frame, self._cut = tree, None, None
@@ -96,13 +98,14 @@ class TreeModel:
         """
         answers = {"batch": self._solid.volume()}
         first = answers["batch"]
-        if candidate is not None and abs(first - candidate) <= AGREED * abs(first):
+        agreed = AGREED * self.limit / SAME
+        if candidate is not None and abs(first - candidate) <= agreed * abs(first):
             return ReferenceVolume(first, answers)
         answers |= {name: ask() for name, ask in self._other_ways()}
         if self.exact is not None:
             return ReferenceVolume(self.exact[0], answers)
         values = list(answers.values())
-        votes = [sum(abs(value - other) <= AGREED * abs(value) for other in values) for value in values]
+        votes = [sum(abs(value - other) <= agreed * abs(value) for other in values) for value in values]
         if 2 * max(votes) <= len(votes):
             raise ArithmeticError(f"manifold3d gives {answers}")
         return ReferenceVolume(values[votes.index(max(votes))], answers)

@@ -11,7 +11,7 @@ use i_overlay::i_float::int::point::IntPoint;
 use planecut_kernel::DVec2;
 use rustc_hash::FxHashMap;
 
-use super::Outline;
+use super::{Outline, signed_area};
 use crate::primitives::ShapeError;
 use crate::primitives::parameter::refuse;
 use crate::tree::Operation;
@@ -19,7 +19,10 @@ use crate::tree::Operation;
 /// Bits that the largest coordinate gets; the library takes 62.
 const BITS: i32 = 57;
 
-type Loop = Vec<IntPoint<i64>>;
+/// Loops narrower than this part of the outline's size are left over by rounding.
+const SLIVER: f64 = 1e-13;
+
+pub(super) type Loop = Vec<IntPoint<i64>>;
 
 impl Outline {
     /// A set operation on outlines, regularised; [`Operation::Difference`] takes the others from the first.
@@ -57,14 +60,28 @@ impl Outline {
 
     /// What loops go around in either sense.
     pub(crate) fn union_of_loops(loops: &[Vec<DVec2>]) -> Self {
-        Self::empty().with_loops(loops, OverlayRule::Union)
+        let mut grid = Grid::of(loops.iter().flatten().copied());
+        let loops = grid.loops(loops.iter());
+        grid.outline(&run(&loops, &[], OverlayRule::Subject, FillRule::NonZero))
     }
 
-    /// A set operation with what loops go around in either sense.
-    pub(super) fn with_loops(&self, loops: &[Vec<DVec2>], rule: OverlayRule) -> Self {
-        let mut grid = Grid::of(self.loops().chain(loops).flatten().copied());
-        let (own, others) = (grid.loops(self.loops()), grid.loops(loops.iter()));
-        grid.outline(&run(&own, &others, rule, FillRule::NonZero))
+    /// What loops go around counter-clockwise, once or more, counting clockwise turns as negative.
+    pub(super) fn wound_around(loops: &[Vec<DVec2>]) -> Self {
+        let mut grid = Grid::of(loops.iter().flatten().copied());
+        let loops = grid.loops(loops.iter());
+        grid.outline(&run(&loops, &[], OverlayRule::Subject, FillRule::Positive))
+    }
+
+    /// Without loops that are no wider than rounding.
+    pub(super) fn without_slivers(mut self) -> Self {
+        let size = self.loops().flatten().map(|p| p.abs().max_element()).fold(0.0, f64::max);
+        let is_wide = |corners: &Vec<DVec2>| {
+            let length: f64 = (0..corners.len()).map(|k| corners[k].distance(corners[(k + 1) % corners.len()])).sum();
+            signed_area(corners).abs() > SLIVER * size * length
+        };
+        self.shapes.retain(|shape| is_wide(&shape[0]));
+        self.shapes.iter_mut().for_each(|shape| shape.retain(is_wide));
+        self
     }
 }
 
@@ -75,8 +92,19 @@ fn run(subject: &[Loop], clip: &[Loop], rule: OverlayRule, fill: FillRule) -> Ve
     overlay.overlay(rule, fill)
 }
 
+/// A parallelogram, turned around where it runs clockwise; nothing where it is flat.
+fn counter_clockwise(mut corners: [IntPoint<i64>; 4]) -> Option<Loop> {
+    let along = |k: usize| [corners[k].x - corners[0].x, corners[k].y - corners[0].y].map(i128::from);
+    let ([ax, ay], [bx, by]) = (along(1), along(3));
+    let area = ax * by - ay * bx;
+    if area < 0 {
+        corners.reverse();
+    }
+    (area != 0).then(|| corners.to_vec())
+}
+
 /// Coordinates as whole numbers, and back.
-struct Grid {
+pub(super) struct Grid {
     scale: f64,
     known: FxHashMap<[i64; 2], DVec2>,
 }
@@ -86,6 +114,43 @@ impl Grid {
         let largest = points.map(|p| p.abs().max_element()).fold(0.0, f64::max);
         let exponent = if largest > 0.0 { (largest.to_bits() >> 52) as i32 - 1023 } else { 0 };
         Self { scale: 2f64.powi(BITS - exponent), known: FxHashMap::default() }
+    }
+
+    /// A grid that holds the sums of a corner of each.
+    pub(super) fn of_sums(a: &Outline, b: &Outline) -> Self {
+        let size = |outline: &Outline| outline.loops().flatten().map(|p| p.abs().max_element()).fold(0.0, f64::max);
+        Self::of([DVec2::splat(size(a) + size(b))].into_iter())
+    }
+
+    /// The sum of two points, which is exact on the grid.
+    fn sum(&mut self, a: DVec2, b: DVec2) -> IntPoint<i64> {
+        let [[ax, ay], [bx, by]] = [a, b].map(|p| (p * self.scale).round().to_array().map(|v| v as i64));
+        let at = [ax + bx, ay + by];
+        self.known.entry(at).or_insert(a + b);
+        IntPoint::new(at[0], at[1])
+    }
+
+    /// A loop moved by a corner of the other operand.
+    pub(super) fn moved(&mut self, corners: &[DVec2], by: DVec2) -> Loop {
+        corners.iter().map(|corner| self.sum(*corner, by)).collect()
+    }
+
+    /// The parallelograms that each two sides of two loops span, counter-clockwise.
+    pub(super) fn add_parallelograms(&mut self, a: &[DVec2], b: &[DVec2], loops: &mut Vec<Loop>) {
+        let rows: Vec<Loop> = b.iter().map(|by| self.moved(a, *by)).collect();
+        for (i, row) in rows.iter().enumerate() {
+            let next = &rows[(i + 1) % rows.len()];
+            for j in 0..row.len() {
+                let k = (j + 1) % row.len();
+                let corners = [row[j], row[k], next[k], next[j]];
+                loops.extend(counter_clockwise(corners));
+            }
+        }
+    }
+
+    /// The union of loops that run counter-clockwise, and of their holes.
+    pub(super) fn union(&self, loops: &[Loop]) -> Outline {
+        self.outline(&run(loops, &[], OverlayRule::Subject, FillRule::NonZero))
     }
 
     fn loops<'a>(&mut self, loops: impl Iterator<Item = &'a Vec<DVec2>>) -> Vec<Loop> {

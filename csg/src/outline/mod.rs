@@ -1,6 +1,8 @@
-//! Outlines in the plane: polygons with holes, their set operations and offsets.
+//! Outlines in the plane: polygons with holes, their set operations, offsets, hulls and Minkowski sums.
 
 mod boolean;
+mod hull;
+mod minkowski;
 mod offset;
 
 use glam::DMat2;
@@ -10,7 +12,7 @@ use crate::primitives::ShapeError;
 use crate::primitives::direction;
 use crate::primitives::parameter::{planar_point, positive, refuse, segments as accepted_segments};
 
-pub use offset::{Join, MITER_LIMIT};
+pub use offset::{ClipperJoin, Join, MITER_LIMIT, OffsetRule};
 
 /// A region of the plane, bounded by loops that do not cross: outer ones counter-clockwise, holes clockwise. Lengths have no
 /// unit.

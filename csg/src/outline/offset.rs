@@ -1,9 +1,10 @@
 //! Outlines grown and shrunk.
 //!
-//! Growing adds a strip along each side and, where the outline bends outward, what the join says; shrinking takes the same
-//! strips of the other side away. So nothing is left to chance where strips overlap: it is a union like any other.
+//! Each loop is moved as a whole: where it turns away from its new place the corner gets what the join says, where it turns
+//! towards it the moved loop goes through the corner itself. What a moved loop goes around at least once, counting clockwise
+//! turns as negative, is the outline together with a strip along each side, or without these strips where it shrinks. So
+//! nothing is left to chance where strips overlap: it is a union like any other.
 
-use i_overlay::core::overlay_rule::OverlayRule;
 use planecut_kernel::DVec2;
 
 use super::Outline;
@@ -26,6 +27,44 @@ pub enum Join {
 /// How many times the distance a mitered corner may lie from the corner that it goes around; the one of SVG.
 pub const MITER_LIMIT: f64 = 4.0;
 
+/// What an [`OffsetRule`] makes of a corner that it goes around, corner for corner as Angus Johnson's Clipper 6 does it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum ClipperJoin {
+    /// Steps of 360° over the number of segments of a whole turn, from the end of the side before on: as many as the bend has
+    /// when rounded, less one; a last chord of what is left. Three segments and four are taken for 4.35.
+    Round {
+        /// 3 to 10,000.
+        segments: u32,
+    },
+    /// The sides run on until they meet; where that is more than a million times the distance away, as
+    /// [`Square`](Self::Square).
+    Miter,
+    /// The corner is cut straight, square to the bisector and as far away as the sides.
+    Square,
+}
+
+/// An offset as OpenSCAD makes it with Clipper 6: see [`Outline::offset_with`].
+///
+/// | OpenSCAD | rule |
+/// |---|---|
+/// | `offset(r = x)` | by `x`, [`ClipperJoin::Round`] with the segments of a circle of radius `\|x\|` |
+/// | `offset(delta = x)` | by `x`, [`ClipperJoin::Miter`] |
+/// | `offset(delta = x, chamfer = true)` | by `x`, [`ClipperJoin::Square`] |
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OffsetRule {
+    /// By how much to grow, shrunk where it is negative.
+    pub by: f64,
+    /// What becomes of corners.
+    pub join: ClipperJoin,
+}
+
+/// Corners that bend by less than this sine are taken out by Clipper.
+const CLIPPER_STRAIGHT: f64 = 5e-5;
+/// With `m` as the limit of a miter, `2 / m²`; OpenSCAD's is a million.
+const CLIPPER_MITER: f64 = 2e-12;
+/// Clipper's arcs deviate from the circle by this part of its radius at most.
+const CLIPPER_TOLERANCE: f64 = 0.25;
+
 impl Outline {
     /// The outline grown by `by` on all sides, shrunk where that is negative; `segments` is the number of segments of a
     /// whole turn where corners are round.
@@ -34,78 +73,117 @@ impl Outline {
     /// [`ShapeError::Parameter`] where the distance is not accepted or the segments are not 3 to 10,000.
     pub fn offset(&self, by: f64, join: Join, segments: u32) -> Result<Self, ShapeError> {
         let (by, segments) = (coordinate("by", by)?, accepted_segments("segments", segments)?);
+        let corner = |bend: &Bend| match join {
+            Join::Round => equal_arc(bend, segments),
+            Join::Miter => {
+                miter(bend).filter(|tip| tip.length() <= MITER_LIMIT).map_or(vec![bend.before, bend.after], |p| vec![p])
+            }
+            Join::Bevel => vec![bend.before, bend.after],
+        };
+        Ok(self.moved(by, 0.0, &corner))
+    }
+
+    /// The outline grown or shrunk as Clipper 6 does it, but without its rounding to whole numbers.
+    ///
+    /// # Errors
+    /// [`ShapeError::Parameter`] where the distance is not accepted or the segments are not 3 to 10,000.
+    pub fn offset_with(&self, rule: &OffsetRule) -> Result<Self, ShapeError> {
+        let by = coordinate("by", rule.by)?;
+        if let ClipperJoin::Round { segments } = rule.join {
+            accepted_segments("segments", segments)?;
+        }
+        let corner = |bend: &Bend| match rule.join {
+            ClipperJoin::Round { segments } => stepped_arc(bend, segments),
+            ClipperJoin::Miter => {
+                let is_within = 1.0 + bend.before.dot(bend.after) >= CLIPPER_MITER;
+                miter(bend).filter(|_| is_within).map_or_else(|| square(bend), |tip| vec![tip])
+            }
+            ClipperJoin::Square => square(bend),
+        };
+        Ok(self.moved(by, CLIPPER_STRAIGHT, &corner))
+    }
+
+    /// The region that its loops, moved outward by `by`, go around.
+    fn moved(&self, by: f64, straight: f64, corner: &dyn Fn(&Bend) -> Vec<DVec2>) -> Self {
         if by == 0.0 {
-            return Ok(self.clone());
+            return self.clone();
         }
-        let band = Band { distance: by.abs(), join, segments };
-        let rule = if by > 0.0 { OverlayRule::Union } else { OverlayRule::Difference };
-        let mut pieces = Vec::new();
-        for corners in self.loops() {
-            let mut corners = corners.clone();
-            if by < 0.0 {
-                corners.reverse();
-            }
-            band.along(&corners, &mut pieces);
-        }
-        Ok(self.with_loops(&pieces, rule))
+        let loops: Vec<Vec<DVec2>> =
+            self.loops().map(|corners| moved_loop(corners, by, straight, corner)).filter(|c| c.len() >= 3).collect();
+        Self::wound_around(&loops).without_slivers()
     }
 }
 
-/// The strip to the right of a loop.
-struct Band {
-    distance: f64,
-    join: Join,
-    segments: u32,
+/// The unit normals of the sides before and after a corner, to the right of them.
+struct Bend {
+    before: DVec2,
+    after: DVec2,
 }
 
-impl Band {
-    /// Adds the parts of the strip, each counter-clockwise.
-    fn along(&self, corners: &[DVec2], pieces: &mut Vec<Vec<DVec2>>) {
-        let n = corners.len();
-        let normal = |k: usize| outward(corners[(k + 1) % n] - corners[k % n]);
-        for k in 0..n {
-            let (p, q) = (corners[k], corners[(k + 1) % n]);
-            let (before, own, after) = (normal(k + n - 1), normal(k), normal(k + 1));
-            let start = self.miter(before, own).unwrap_or(own);
-            let end = self.miter(own, after).unwrap_or(own);
-            pieces.push(vec![p, p + start * self.distance, q + end * self.distance, q]);
-            if own.perp_dot(after) > 0.0 || own.dot(after) < 0.0 && own.perp_dot(after) == 0.0 {
-                pieces.extend(self.join(q, own, after));
-            }
+/// A loop moved to its right by `by`; corners whose bend has a sine below `straight` are left out.
+fn moved_loop(corners: &[DVec2], by: f64, straight: f64, corner: &dyn Fn(&Bend) -> Vec<DVec2>) -> Vec<DVec2> {
+    let n = corners.len();
+    let normals: Vec<DVec2> = (0..n).map(|k| outward(corners[(k + 1) % n] - corners[k])).collect();
+    let mut moved = Vec::with_capacity(2 * n);
+    let mut before = n - 1;
+    for (k, at) in corners.iter().enumerate() {
+        let bend = Bend { before: normals[before], after: normals[k] };
+        let sine = bend.before.perp_dot(bend.after);
+        if sine.abs() < straight {
+            continue;
+        }
+        before = k;
+        if sine * by < 0.0 {
+            moved.extend([*at + bend.before * by, *at, *at + bend.after * by]);
+        } else {
+            moved.extend(corner(&bend).into_iter().map(|v| *at + v * by));
         }
     }
-
-    /// Where two sides with these normals meet again, for a distance of 1, where the join asks for it.
-    fn miter(&self, before: DVec2, after: DVec2) -> Option<DVec2> {
-        // half the angle between the normals has the cosine 1 / |tip|
-        let tip = (before + after) / (1.0 + before.dot(after));
-        let bends = self.join == Join::Miter && before.perp_dot(after) > 0.0;
-        (bends && tip.is_finite() && tip.length() <= MITER_LIMIT).then_some(tip)
-    }
-
-    /// What fills the gap between the strips of two sides at a corner.
-    fn join(&self, corner: DVec2, before: DVec2, after: DVec2) -> Option<Vec<DVec2>> {
-        if self.miter(before, after).is_some() {
-            return None;
-        }
-        let steps = if self.join == Join::Round { self.steps(before, after) } else { 1 };
-        let turn = angle(before, after) / steps as f64;
-        let between = (1..steps).map(|k| DVec2::from_angle(turn * k as f64).rotate(before));
-        let arc = std::iter::once(before).chain(between).chain([after]);
-        Some(std::iter::once(corner).chain(arc.map(|v| corner + v * self.distance)).collect())
-    }
-
-    /// The number of chords of an arc.
-    fn steps(&self, before: DVec2, after: DVec2) -> u32 {
-        let whole = angle(before, after) / std::f64::consts::TAU * f64::from(self.segments);
-        // an arc that is a whole number of segments but for rounding gets that number
-        ((whole - 1e-9).ceil() as u32).max(1)
-    }
+    moved
 }
 
-/// The angle from one direction to another counter-clockwise, up to half a turn.
-fn angle(before: DVec2, after: DVec2) -> f64 {
-    before.perp_dot(after).abs().atan2(before.dot(after))
+/// Where two sides meet again, for a distance of 1; nowhere where one comes back along the other.
+fn miter(bend: &Bend) -> Option<DVec2> {
+    // half the angle between the normals has the cosine 1 / |tip|; nothing cancels where they are nearly opposite
+    let sum = bend.before + bend.after;
+    let tip = sum * (2.0 / sum.length_squared());
+    tip.is_finite().then_some(tip)
+}
+
+/// Ends of a cut square to the bisector and as far away as the sides, for a distance of 1.
+fn square(bend: &Bend) -> Vec<DVec2> {
+    let along = (angle(bend) / 4.0).tan();
+    vec![bend.before + bend.before.perp() * along, bend.after - bend.after.perp() * along]
+}
+
+/// An arc of `⌈segments · bend / 360°⌉` equal parts.
+fn equal_arc(bend: &Bend, segments: u32) -> Vec<DVec2> {
+    let whole = angle(bend).abs() / std::f64::consts::TAU * f64::from(segments);
+    // an arc that is a whole number of segments but for rounding gets that number
+    let steps = ((whole - 1e-9).ceil() as u32).max(1);
+    arc(bend, angle(bend) / f64::from(steps), steps)
+}
+
+/// An arc of steps as large as those of a whole turn, and what is left.
+fn stepped_arc(bend: &Bend, segments: u32) -> Vec<DVec2> {
+    let sagitta = 1.0 - (std::f64::consts::PI / f64::from(segments)).cos();
+    let fewest = std::f64::consts::PI / (1.0 - CLIPPER_TOLERANCE).acos();
+    let segments = if sagitta > CLIPPER_TOLERANCE { fewest } else { f64::from(segments) };
+    let step = std::f64::consts::TAU / segments;
+    let steps = (angle(bend).abs() / step).round() as u32;
+    arc(bend, step.copysign(angle(bend)), steps)
+}
+
+/// The directions after `0, 1, … steps − 1` steps, and the last.
+fn arc(bend: &Bend, step: f64, steps: u32) -> Vec<DVec2> {
+    let between = (1..steps).map(|k| DVec2::from_angle(step * f64::from(k)).rotate(bend.before));
+    let first = (steps > 0).then_some(bend.before);
+    first.into_iter().chain(between).chain([bend.after]).collect()
+}
+
+/// The angle from one normal to the other counter-clockwise, up to half a turn of either sense.
+fn angle(bend: &Bend) -> f64 {
+    bend.before.perp_dot(bend.after).atan2(bend.before.dot(bend.after))
 }
 
 /// The unit normal to the right of a direction.

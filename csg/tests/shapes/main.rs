@@ -15,6 +15,7 @@ mod convex;
 mod extruded;
 mod hulls;
 mod judge;
+mod offsets;
 mod outlines;
 mod parameters;
 mod polygon;

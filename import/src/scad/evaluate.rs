@@ -3,15 +3,15 @@
 //! Nodes are listed before those within them. So what they inherit is handed down in the order of the list, and what they make
 //! is handed up in the reverse order: when a node's turn comes, its children have had theirs.
 
-use planecut_csg::{Model, Tree};
+use planecut_csg::{Brush, Model, Outline, Tree};
 
 use super::error::Fault;
 use super::frame::{Frame, Matrix};
 use super::materials::Materials;
-use super::problem::{Geometry, Made, Problem};
+use super::problem::{Body, Geometry, Made, Problem};
 use super::syntax::Node;
 use super::value::Value;
-use super::{ScadImport, ScadOptions, extrusion, flat, leaf, solid};
+use super::{ScadImport, ScadOptions, extrusion, flat, leaf, polyhedron, solid};
 use crate::Warning;
 use crate::lines::LineTable;
 
@@ -122,7 +122,7 @@ impl<'s, 'a> Evaluator<'s, 'a> {
                 .and_then(|made| turn.place(made)),
             "linear_extrude" => self
                 .flat_union(turn, children)
-                .and_then(|flat| extrusion::linear(turn, flat))
+                .and_then(|flat| extrusion::linear(turn, &flat))
                 .and_then(|made| turn.place(made)),
             "rotate_extrude" => self
                 .flat_union(turn, children)
@@ -130,24 +130,24 @@ impl<'s, 'a> Evaluator<'s, 'a> {
                 .and_then(|made| turn.place(made)),
             "offset" => self
                 .flat_union(turn, children)
-                .and_then(|flat| flat::offset(turn.node, flat))
+                .and_then(|flat| flat::offset(turn.node, &flat))
                 .and_then(|made| turn.place(made)),
             "projection" => self
                 .solid_union(turn, children)
-                .and_then(|solid| solid::projection(turn.node, solid))
+                .and_then(|solid| solid::projection(turn.node, &solid))
                 .and_then(|made| turn.place(made)),
             _ => self.leaf(turn).and_then(|made| turn.place(made)),
         };
         let mut made = made.or_else(|problem| self.fail(turn, problem))?;
-        if let Some(Geometry::Solid(tree)) = &mut made {
-            self.mark_line(turn, tree);
+        if let Some(Geometry::Solid(body)) = &mut made {
+            self.mark_line(turn, &mut body.tree);
         }
         Ok(made)
     }
 
     /// Tells each new brush on which line it was made.
     fn mark_line(&self, turn: Turn<'_, '_>, tree: &mut Tree) {
-        let is_new = |brush: &&mut planecut_csg::Brush| brush.line == 0;
+        let is_new = |brush: &&mut Brush| brush.line == 0;
         if MAKERS.contains(&turn.node.name) {
             let line = self.lines.line_of(turn.node.offset);
             tree.brushes_mut().iter_mut().filter(is_new).for_each(|brush| brush.line = line);
@@ -157,11 +157,12 @@ impl<'s, 'a> Evaluator<'s, 'a> {
     fn leaf(&mut self, turn: Turn<'s, 'a>) -> Made {
         let (node, material) = (turn.node, turn.frame.material);
         match node.name {
-            "cube" => leaf::solid(leaf::cube(node, material)),
-            "sphere" => leaf::solid(leaf::sphere(node, material)),
-            "cylinder" => leaf::solid(leaf::cylinder(node, material)),
-            "square" => leaf::flat(leaf::square(node)),
-            "circle" => leaf::flat(leaf::circle(node)),
+            "cube" => made_solid(leaf::cube(node, material)),
+            "sphere" => made_solid(leaf::sphere(node, material)),
+            "cylinder" => made_solid(leaf::cylinder(node, material)),
+            "square" => made_flat(leaf::square(node)),
+            "circle" => made_flat(leaf::circle(node)),
+            "polyhedron" => Ok(self.polyhedron(turn)),
             "polygon" => {
                 let (outline, message) = leaf::polygon(node)?;
                 if let Some(message) = message {
@@ -176,6 +177,22 @@ impl<'s, 'a> Evaluator<'s, 'a> {
         }
     }
 
+    /// A solid of given faces; like OpenSCAD, goes on without it where it is none.
+    fn polyhedron(&mut self, turn: Turn<'s, 'a>) -> Option<Geometry> {
+        match polyhedron::body(turn.node, turn.frame.material) {
+            Ok((body, message)) => {
+                if let Some(message) = message {
+                    self.warn(turn, message);
+                }
+                Some(Geometry::Solid(body))
+            }
+            Err(message) => {
+                self.warn(turn, format!("a polyhedron is left out: {message}"));
+                Some(Tree::empty().into())
+            }
+        }
+    }
+
     /// The union of the children; the matrix is already in them.
     fn moved(&mut self, turn: Turn<'s, 'a>, children: Vec<Option<Geometry>>) -> Option<Geometry> {
         let matrix = Matrix::of(turn.node);
@@ -185,15 +202,15 @@ impl<'s, 'a> Evaluator<'s, 'a> {
         }
         let union = self.combine(turn, children, Combination::Union).ok().flatten()?;
         match &union {
-            Geometry::Solid(tree) if matrix.flattens_solids() => {
-                if !tree.brushes().is_empty() {
+            Geometry::Solid(body) if matrix.flattens_solids() => {
+                if !body.is_empty() {
                     self.warn(turn, "a matrix that flattens solids: what it moves is left out");
                 }
-                Some(Geometry::Solid(Tree::empty()))
+                Some(Tree::empty().into())
             }
             Geometry::Flat(_) if matrix.flattens_outlines() => {
                 self.warn(turn, "a matrix that flattens outlines: what it moves is left out");
-                Some(Geometry::Flat(planecut_csg::Outline::empty()))
+                Some(Geometry::Flat(Outline::empty()))
             }
             _ => Some(union),
         }
@@ -208,33 +225,29 @@ impl<'s, 'a> Evaluator<'s, 'a> {
                 Ok(Some(Geometry::Flat(flat::combine(how, operands)?)))
             }
             Some(Geometry::Solid(_)) => {
-                let operands = self.trees(turn, children);
+                let operands = self.bodies(turn, children);
                 Ok(Some(Geometry::Solid(solid::combine(how, operands, turn.frame.material)?)))
             }
         }
     }
 
-    fn flat_union(
-        &mut self,
-        turn: Turn<'s, 'a>,
-        children: Vec<Option<Geometry>>,
-    ) -> Result<planecut_csg::Outline, Problem> {
+    fn flat_union(&mut self, turn: Turn<'s, 'a>, children: Vec<Option<Geometry>>) -> Result<Outline, Problem> {
         let operands = self.outlines(turn, children);
         flat::combine(Combination::Union, operands)
     }
 
     fn solid_union(&mut self, turn: Turn<'s, 'a>, children: Vec<Option<Geometry>>) -> Result<Tree, Problem> {
-        let operands = self.trees(turn, children);
-        solid::combine(Combination::Union, operands, turn.frame.material)
+        let operands = self.bodies(turn, children);
+        Ok(solid::combine(Combination::Union, operands, turn.frame.material)?.tree)
     }
 
     /// The regions among the children; `None` for what is not there and for solids.
-    fn outlines(&mut self, turn: Turn<'s, 'a>, children: Vec<Option<Geometry>>) -> Vec<Option<planecut_csg::Outline>> {
+    fn outlines(&mut self, turn: Turn<'s, 'a>, children: Vec<Option<Geometry>>) -> Vec<Option<Outline>> {
         let mut mixed = false;
         let outlines = children.into_iter().map(|child| match child {
             Some(Geometry::Flat(outline)) => Some(outline),
-            Some(Geometry::Solid(tree)) => {
-                mixed |= !tree.brushes().is_empty();
+            Some(Geometry::Solid(body)) => {
+                mixed |= !body.is_empty();
                 None
             }
             None => None,
@@ -247,39 +260,57 @@ impl<'s, 'a> Evaluator<'s, 'a> {
     }
 
     /// The solids among the children; `None` for what is not there and for regions of the plane.
-    fn trees(&mut self, turn: Turn<'s, 'a>, children: Vec<Option<Geometry>>) -> Vec<Option<Tree>> {
+    fn bodies(&mut self, turn: Turn<'s, 'a>, children: Vec<Option<Geometry>>) -> Vec<Option<Body>> {
         let mut mixed = false;
-        let trees = children.into_iter().map(|child| match child {
-            Some(Geometry::Solid(tree)) => Some(tree),
+        let bodies = children.into_iter().map(|child| match child {
+            Some(Geometry::Solid(body)) => Some(body),
             Some(Geometry::Flat(outline)) => {
                 mixed |= !outline.is_empty();
                 None
             }
             None => None,
         });
-        let trees = trees.collect();
+        let mut bodies: Vec<Option<Body>> = bodies.collect();
         if mixed {
             self.warn(turn, format!("`{}` of solids: an outline among them is left out", turn.node.name));
         }
-        trees
+        if turn.node.name != "hull" {
+            self.leave_out_touching(turn, &mut bodies);
+        }
+        bodies
+    }
+
+    /// Leaves out solids that touch themselves where there are others to combine with, as OpenSCAD does.
+    fn leave_out_touching(&mut self, turn: Turn<'_, '_>, bodies: &mut [Option<Body>]) {
+        let (some, all) = (bodies.iter().flatten().filter(|body| !body.is_empty()).count(), bodies.len());
+        let are_several = if matches!(turn.node.name, "difference" | "intersection") { all > 1 } else { some > 1 };
+        for body in
+            bodies.iter_mut().filter(|body| are_several && body.as_ref().is_some_and(|body| body.touches_itself))
+        {
+            *body = None;
+            let message = "a solid whose surface touches itself in an edge or a corner is left out";
+            self.warn(turn, format!("`{}`: {message}, as in OpenSCAD 2021.01", turn.node.name));
+        }
     }
 
     /// The union of the outermost nodes; only solids count.
     fn outermost(&mut self, made: Vec<Option<Geometry>>) -> Tree {
         let are_outlines =
             made.iter().flatten().any(|made| matches!(made, Geometry::Flat(outline) if !outline.is_empty()));
-        let solids: Vec<Tree> = made
-            .into_iter()
-            .filter_map(|made| match made {
-                Some(Geometry::Solid(tree)) => Some(tree),
-                _ => None,
-            })
-            .collect();
         if are_outlines {
             let message = "outlines that nothing extrudes are left out: the result is a solid".to_owned();
             self.warnings.push(Warning { line: 0, message });
         }
-        Tree::union(solids)
+        let bodies = made.into_iter().filter_map(|made| match made {
+            Some(Geometry::Solid(body)) => Some(Some(body)),
+            _ => None,
+        });
+        let mut bodies: Vec<Option<Body>> = bodies.collect();
+        if let Some(node) = self.nodes.first() {
+            let whole = Node { name: "the whole", ..node.clone() };
+            self.leave_out_touching(Turn { node: &whole, frame: Frame::outermost() }, &mut bodies);
+        }
+        Tree::union(bodies.into_iter().flatten().map(|body| body.tree))
     }
 
     pub(super) fn warn(&mut self, turn: Turn<'_, '_>, message: impl Into<String>) {
@@ -316,11 +347,11 @@ impl Turn<'_, '_> {
             None => Ok(None),
             Some(Geometry::Flat(outline)) => match self.frame.flat_map() {
                 Some(map) => Ok(Some(Geometry::Flat(flat::moved(outline, map)?))),
-                None => Ok(Some(Geometry::Flat(planecut_csg::Outline::empty()))),
+                None => Ok(Some(Geometry::Flat(Outline::empty()))),
             },
-            Some(Geometry::Solid(tree)) => match self.frame.solid_map() {
-                Some(map) => solid::moved(tree, &map).map(|tree| Some(Geometry::Solid(tree))),
-                None => Ok(Some(Geometry::Solid(Tree::empty()))),
+            Some(Geometry::Solid(body)) => match self.frame.solid_map() {
+                Some(map) => solid::moved(body, &map).map(|body| Some(Geometry::Solid(body))),
+                None => Ok(Some(Tree::empty().into())),
             },
         }
     }
@@ -330,4 +361,12 @@ impl Turn<'_, '_> {
 fn color_of(value: &Value) -> Option<[f64; 4]> {
     let opaque = || value.numbers::<3>().map(|[red, green, blue]| [red, green, blue, 1.0]);
     value.numbers::<4>().or_else(opaque)
+}
+
+fn made_solid(tree: Result<Tree, Problem>) -> Made {
+    tree.map(|tree| Some(tree.into()))
+}
+
+fn made_flat(outline: Result<Outline, Problem>) -> Made {
+    outline.map(|outline| Some(Geometry::Flat(outline)))
 }

@@ -12,12 +12,12 @@ use super::problem::{Geometry, Made, Problem};
 use super::solid;
 
 /// `linear_extrude`: an outline drawn up along z, turned and stretched on the way.
-pub(super) fn linear(turn: Turn<'_, '_>, outline: Outline) -> Made {
+pub(super) fn linear(turn: Turn<'_, '_>, outline: &Outline) -> Made {
     let arguments = Arguments::of(turn.node, &["height"]);
     refuse_file(&arguments)?;
     let height = arguments.number_or("height", 100.0);
     if outline.is_empty() || !(height > 0.0 && height.is_finite()) {
-        return Ok(Some(Geometry::Solid(Tree::empty())));
+        return Ok(Some(Tree::empty().into()));
     }
     let scale = DVec2::from_array(arguments.size::<2>("scale")).max(DVec2::ZERO);
     let twist = arguments.number("twist").filter(|twist| twist.is_finite()).unwrap_or(0.0);
@@ -25,11 +25,10 @@ pub(super) fn linear(turn: Turn<'_, '_>, outline: Outline) -> Made {
         height,
         twist,
         scale,
-        slices: Some(slices(&arguments, &outline, height, twist, scale)?),
+        slices: Some(slices(&arguments, outline, height, twist, scale)?),
         center: arguments.is_set("center"),
-        ..Extrusion::straight(height)
     };
-    Ok(Some(Geometry::Solid(primitives::extrude(&outline, &extrusion, turn.frame.material)?)))
+    Ok(Some(primitives::extrude(outline, &extrusion, turn.frame.material)?.into()))
 }
 
 fn slices(
@@ -79,7 +78,7 @@ pub(super) fn rotational(evaluator: &mut Evaluator<'_, '_>, turn: Turn<'_, '_>, 
     let along = if is_turned { -1.0 } else { 1.0 };
     let sense = if angle < 0.0 { -along } else { along };
     let map = Transform::scale(DVec3::new(along, sense, 1.0)).map_err(ShapeError::from)?;
-    Ok(Some(Geometry::Solid(solid::moved(tree, &map)?)))
+    Ok(Some(Geometry::Solid(solid::moved(tree.into(), &map)?)))
 }
 
 /// Old trees name a drawing to extrude.

@@ -1,6 +1,6 @@
 //! Regions of the plane from regions of the plane.
 
-use planecut_csg::outline::{Join, Outline};
+use planecut_csg::outline::{ClipperJoin, OffsetRule, Outline};
 use planecut_csg::{Operation, ShapeError};
 
 use super::arguments::Arguments;
@@ -20,18 +20,32 @@ pub(super) fn combine(how: Combination, operands: Vec<Option<Outline>>) -> Resul
         Combination::Union => Outline::combine(Operation::Union, &operands),
         Combination::Difference => Outline::combine(Operation::Difference, &operands),
         Combination::Intersection => Outline::combine(Operation::Intersection, &operands),
-        Combination::Hull | Combination::Minkowski => {
-            return Err(Problem::new("a hull or sum of outlines", "wait"));
-        }
+        Combination::Hull => Ok(Outline::hull(&operands)),
+        Combination::Minkowski => minkowski(&operands),
     };
     Ok(combined?)
 }
 
-/// An outline grown or shrunk: by `r` with round corners, or by `delta` with sharp or cut ones.
-pub(super) fn offset(node: &Node<'_>, outline: Outline) -> Made {
+/// The sum of all operands that are not empty.
+fn minkowski(operands: &[Outline]) -> Result<Outline, ShapeError> {
+    let mut some = operands.iter().filter(|operand| !operand.is_empty());
+    let Some(first) = some.next() else { return Ok(Outline::empty()) };
+    some.try_fold(first.clone(), |sum, operand| sum.minkowski(operand))
+}
+
+/// An outline grown or shrunk: by `r` with round corners, or by `delta` with sharp ones, which `chamfer` cuts.
+pub(super) fn offset(node: &Node<'_>, outline: &Outline) -> Made {
     let arguments = Arguments::of(node, &["r"]);
-    let _ = (Fragments::of(&arguments), Join::Round);
-    Ok(Some(Geometry::Flat(outline)))
+    let rule = match (arguments.number("r"), arguments.number("delta")) {
+        (Some(by), _) => {
+            OffsetRule { by, join: ClipperJoin::Round { segments: Fragments::of(&arguments).around(by.abs())? } }
+        }
+        (None, by) => {
+            let join = if arguments.is_set("chamfer") { ClipperJoin::Square } else { ClipperJoin::Miter };
+            OffsetRule { by: by.unwrap_or(1.0), join }
+        }
+    };
+    Ok(Some(Geometry::Flat(outline.offset_with(&rule)?)))
 }
 
 pub(super) fn moved(outline: Outline, map: FlatMap) -> Result<Outline, Problem> {

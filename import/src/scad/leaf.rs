@@ -9,18 +9,15 @@ use planecut_kernel::{DVec2, DVec3};
 
 use super::arguments::Arguments;
 use super::fragments::Fragments;
-use super::problem::{Geometry, Made, Problem};
+use super::problem::Problem;
 use super::syntax::Node;
 use super::value::Value;
-
-/// A body of this material, in a frame of its own.
-type Body = Result<Tree, Problem>;
 
 fn is_size(value: f64) -> bool {
     value > 0.0 && value.is_finite()
 }
 
-pub(super) fn cube(node: &Node<'_>, material: MaterialId) -> Body {
+pub(super) fn cube(node: &Node<'_>, material: MaterialId) -> Result<Tree, Problem> {
     let arguments = Arguments::of(node, &["size", "center"]);
     let size = arguments.size::<3>("size");
     if !size.into_iter().all(is_size) {
@@ -32,7 +29,7 @@ pub(super) fn cube(node: &Node<'_>, material: MaterialId) -> Body {
     Ok(primitives::cuboid(min, max, material)?.into())
 }
 
-pub(super) fn sphere(node: &Node<'_>, material: MaterialId) -> Body {
+pub(super) fn sphere(node: &Node<'_>, material: MaterialId) -> Result<Tree, Problem> {
     let arguments = Arguments::of(node, &["r"]);
     let radius = radius(&arguments, "r", "d").unwrap_or(1.0);
     if !is_size(radius) {
@@ -42,7 +39,7 @@ pub(super) fn sphere(node: &Node<'_>, material: MaterialId) -> Body {
     Ok(primitives::sphere(radius, segments, material)?.into())
 }
 
-pub(super) fn cylinder(node: &Node<'_>, material: MaterialId) -> Body {
+pub(super) fn cylinder(node: &Node<'_>, material: MaterialId) -> Result<Tree, Problem> {
     let arguments = Arguments::of(node, &["h", "r1", "r2", "center"]);
     let height = arguments.number_or("h", 1.0);
     let both = radius(&arguments, "r", "d");
@@ -107,40 +104,7 @@ pub(super) fn polygon(node: &Node<'_>) -> Result<(Outline, Option<String>), Prob
 }
 
 /// The points of a path; numbers beyond the points are passed over.
-fn corners<T: Copy>(path: &Value, points: &[T]) -> Vec<T> {
+pub(super) fn corners<T: Copy>(path: &Value, points: &[T]) -> Vec<T> {
     let index = |value: &Value| value.number().filter(|number| *number >= 0.0).map(|number| number as usize);
     path.items().iter().filter_map(|value| points.get(index(value)?).copied()).collect()
-}
-
-/// The points and faces of a polyhedron, each face counter-clockwise seen from outside; a message where there is none.
-#[allow(clippy::type_complexity)]
-pub(super) fn polyhedron(node: &Node<'_>) -> Result<(Vec<DVec3>, Vec<Vec<u32>>), String> {
-    let arguments = Arguments::of(node, &["points", "faces", "convexity"]);
-    let given = arguments.get("points").map(Value::items).unwrap_or_default();
-    let faces = arguments.get("faces").or_else(|| arguments.get("triangles"));
-    let numbers: Vec<u32> = (0..u32::try_from(given.len()).unwrap_or(u32::MAX)).collect();
-    let mut facets = Vec::new();
-    for face in faces.map(Value::items).unwrap_or_default() {
-        let mut facet = corners(face, &numbers);
-        facet.reverse();
-        facet.dedup();
-        if facet.len() >= 3 {
-            facets.push(facet);
-        }
-    }
-    let mut points = vec![DVec3::ZERO; given.len()];
-    for corner in facets.iter().flatten() {
-        let at = *corner as usize;
-        let point = given[at].finite::<3>();
-        points[at] = DVec3::from_array(point.ok_or_else(|| format!("its point {at} is not three finite numbers"))?);
-    }
-    Ok((points, facets))
-}
-
-pub(super) fn solid(body: Body) -> Made {
-    body.map(|tree| Some(Geometry::Solid(tree)))
-}
-
-pub(super) fn flat(outline: Result<Outline, Problem>) -> Made {
-    outline.map(|outline| Some(Geometry::Flat(outline)))
 }

@@ -5,7 +5,7 @@
 //! become materials, and where OpenSCAD is lenient this is too, with a warning.
 //!
 //! The stages, each in its own file: bytes → tokens (`token`), tokens → nodes (`syntax`, `value`), what nodes inherit
-//! (`frame`, `materials`), nodes → bodies and regions (`leaf`, `fragments`, `text`, `extrusion`), and their combination
+//! (`frame`, `materials`), nodes → bodies and regions (`leaf`, `polyhedron`, `fragments`, `extrusion`), and their combination
 //! (`evaluate`, `flat`, `solid`). No stage is recursive, so trees can be nested to any depth.
 //!
 //! Source: the OpenSCAD User Manual, and the behaviour of OpenSCAD 2021.01.
@@ -19,6 +19,7 @@ mod fragments;
 mod frame;
 mod leaf;
 mod materials;
+mod polyhedron;
 mod problem;
 mod solid;
 mod syntax;

@@ -21,7 +21,34 @@ pub(super) enum Geometry {
     /// A region of the plane.
     Flat(Outline),
     /// A solid.
-    Solid(Tree),
+    Solid(Body),
+}
+
+/// A solid.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Body {
+    pub(super) tree: Tree,
+    /// Whether its surface touches itself in an edge or a corner. OpenSCAD combines no such solid with others.
+    pub(super) touches_itself: bool,
+}
+
+impl From<Tree> for Body {
+    fn from(tree: Tree) -> Self {
+        Self { tree, touches_itself: false }
+    }
+}
+
+impl Body {
+    /// Whether there is surely nothing.
+    pub(super) fn is_empty(&self) -> bool {
+        self.tree.brushes().is_empty()
+    }
+}
+
+impl From<Tree> for Geometry {
+    fn from(tree: Tree) -> Self {
+        Self::Solid(tree.into())
+    }
 }
 
 impl Problem {

@@ -6,7 +6,7 @@ use planecut_kernel::{DVec2, DVec3};
 
 use super::arguments::Arguments;
 use super::evaluate::Combination;
-use super::problem::{Geometry, Made, Problem};
+use super::problem::{Body, Geometry, Made, Problem};
 use super::syntax::Node;
 use super::value::Value;
 
@@ -14,26 +14,30 @@ use super::value::Value;
 /// it; sums pass over it.
 pub(super) fn combine(
     how: Combination,
-    mut operands: Vec<Option<Tree>>,
+    mut operands: Vec<Option<Body>>,
     material: MaterialId,
-) -> Result<Tree, Problem> {
+) -> Result<Body, Problem> {
     if operands.len() == 1 && how != Combination::Hull {
         return Ok(operands.pop().flatten().unwrap_or_default());
     }
-    let is_there = |tree: &Option<Tree>| tree.as_ref().is_some_and(|tree| !tree.brushes().is_empty());
+    let is_there = |body: &Option<Body>| body.as_ref().is_some_and(|body| !body.is_empty());
     match how {
-        Combination::Intersection if !operands.iter().all(is_there) => return Ok(Tree::empty()),
-        Combination::Difference if !operands.first().is_some_and(is_there) => return Ok(Tree::empty()),
+        Combination::Intersection if !operands.iter().all(is_there) => return Ok(Body::default()),
+        Combination::Difference if !operands.first().is_some_and(is_there) => return Ok(Body::default()),
         _ => operands.retain(is_there),
     }
-    let operands = operands.into_iter().flatten();
-    match how {
-        Combination::Union => Ok(Tree::combine(Operation::Union, operands)),
-        Combination::Difference => Ok(Tree::combine(Operation::Difference, operands)),
-        Combination::Intersection => Ok(Tree::combine(Operation::Intersection, operands)),
-        Combination::Hull => Ok(shaping::hull(&operands.collect::<Vec<_>>(), material)?),
-        Combination::Minkowski => Ok(minkowski(operands, material)?),
+    if operands.len() == 1 && how == Combination::Union {
+        return Ok(operands.pop().flatten().unwrap_or_default());
     }
+    let operands = operands.into_iter().flatten().map(|body| body.tree);
+    let tree = match how {
+        Combination::Union => Tree::combine(Operation::Union, operands),
+        Combination::Difference => Tree::combine(Operation::Difference, operands),
+        Combination::Intersection => Tree::combine(Operation::Intersection, operands),
+        Combination::Hull => shaping::hull(&operands.collect::<Vec<_>>(), material)?,
+        Combination::Minkowski => minkowski(operands, material)?,
+    };
+    Ok(tree.into())
 }
 
 fn minkowski(mut operands: impl Iterator<Item = Tree>, material: MaterialId) -> Result<Tree, ShapeError> {
@@ -41,20 +45,21 @@ fn minkowski(mut operands: impl Iterator<Item = Tree>, material: MaterialId) -> 
     operands.try_fold(first, |sum, operand| shaping::minkowski(&sum, &operand, material))
 }
 
-pub(super) fn moved(tree: Tree, map: &Transform) -> Result<Tree, Problem> {
+pub(super) fn moved(body: Body, map: &Transform) -> Result<Body, Problem> {
     if *map == Transform::identity() {
-        return Ok(tree);
+        return Ok(body);
     }
-    tree.transformed(map).map_err(|error| Problem::new(error.to_string(), "less extreme numbers"))
+    let tree = body.tree.transformed(map).map_err(|error| Problem::new(error.to_string(), "less extreme numbers"))?;
+    Ok(Body { tree, ..body })
 }
 
 /// The shadow on the x–y plane, or with `cut` where the solid meets that plane.
-pub(super) fn projection(node: &Node<'_>, tree: Tree) -> Made {
+pub(super) fn projection(node: &Node<'_>, tree: &Tree) -> Made {
     if tree.brushes().is_empty() {
         return Ok(None);
     }
     let arguments = Arguments::of(node, &["cut"]);
-    let outline = if arguments.is_set("cut") { section(&tree)? } else { shaping::project(&tree)? };
+    let outline = if arguments.is_set("cut") { section(tree)? } else { shaping::project(tree)? };
     Ok(Some(Geometry::Flat(outline)))
 }
 
@@ -62,7 +67,7 @@ pub(super) fn projection(node: &Node<'_>, tree: Tree) -> Made {
 fn section(tree: &Tree) -> Result<Outline, Problem> {
     let below = shaping::slice(tree, 0.0)?;
     let mirror = Transform::scale(DVec3::new(1.0, 1.0, -1.0)).map_err(ShapeError::from)?;
-    let above = shaping::slice(&moved(tree.clone(), &mirror)?, 0.0)?;
+    let above = shaping::slice(&moved(tree.clone().into(), &mirror)?.tree, 0.0)?;
     Ok(Outline::combine(Operation::Union, &[below, above])?)
 }
 
@@ -82,13 +87,13 @@ pub(super) fn resized(node: &Node<'_>, made: Option<Geometry>) -> Made {
             let factors = factors(max - min, wanted, follows).truncate();
             Ok(Some(Geometry::Flat(outline.transformed(glam::DMat2::from_diagonal(factors), DVec2::ZERO)?)))
         }
-        Some(Geometry::Solid(tree)) if !tree.brushes().is_empty() => {
+        Some(Geometry::Solid(body)) if !body.is_empty() => {
             let any = vec![planecut_csg::Material::default()];
-            let model = Model { materials: any, tree: tree.clone().with_material(MaterialId(0)) };
+            let model = Model { materials: any, tree: body.tree.clone().with_material(MaterialId(0)) };
             let mesh = evaluate(&model).map_err(ShapeError::from)?.mesh;
             let (min, max) = corners(mesh.positions.into_iter());
             let map = Transform::scale(factors(max - min, wanted, follows)).map_err(ShapeError::from)?;
-            moved(tree, &map).map(|tree| Some(Geometry::Solid(tree)))
+            moved(body, &map).map(|body| Some(Geometry::Solid(body)))
         }
         other => Ok(other),
     }

@@ -221,10 +221,8 @@ fn scalar(text: &[u8], offset: usize) -> Parsed<Value> {
     Ok(match text {
         b"true" => Value::Boolean(true),
         b"false" => Value::Boolean(false),
-        b"undef" => Value::Undefined,
-        b"inf" => Value::Number(f64::INFINITY),
-        b"-inf" => Value::Number(f64::NEG_INFINITY),
-        b"nan" | b"-nan" => Value::Number(f64::NAN),
+        // OpenSCAD writes `inf` and `nan`, and when it reads them knows no such names
+        b"undef" | b"inf" | b"-inf" | b"nan" | b"-nan" => Value::Undefined,
         _ => Value::Number(number(text).ok_or_else(|| Fault::token(offset, expected))?),
     })
 }

@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 use std::rc::Rc;
 
-use super::exact::{Grid, Plane, Point};
+use crate::polyhedron::exact::{Grid, Plane, Point};
 
 /// A convex piece of a facet.
 #[derive(Debug, Clone)]

@@ -14,7 +14,6 @@
 //!
 //! Cuts are chosen and sides are decided with exact signs on the planes through the given corners.
 
-mod exact;
 mod fragment;
 
 use std::cmp::Ordering;
@@ -24,7 +23,7 @@ use planecut_kernel::{DVec3, HalfSpace};
 
 use super::ShapeError;
 use super::flat::plane as accepted;
-use exact::{Grid, Plane, Point};
+use crate::polyhedron::exact::{Grid, Plane, Point};
 use fragment::{Fragment, Split};
 
 /// One side of the plane of a facet.

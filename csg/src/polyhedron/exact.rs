@@ -8,10 +8,10 @@ use planecut_kernel::DVec3;
 
 /// The power of two by which coordinates are multiplied to be whole numbers.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Grid(i64);
+pub(crate) struct Grid(i64);
 
 impl Grid {
-    pub(super) fn of(points: &[DVec3]) -> Self {
+    pub(crate) fn of(points: &[DVec3]) -> Self {
         let lowest = points.iter().flat_map(|p| p.to_array()).filter(|v| *v != 0.0).map(|v| mantissa(v).1);
         Self(-lowest.min().unwrap_or(0).min(0))
     }
@@ -54,20 +54,20 @@ fn quotient(numerator: &IBig, denominator: &IBig, power: i64) -> f64 {
 
 /// A point, as numerators and a common denominator above 0 in units of a [`Grid`].
 #[derive(Debug, Clone)]
-pub(super) struct Point {
+pub(crate) struct Point {
     numerators: [IBig; 3],
     denominator: IBig,
     /// The coordinates, with a relative error of `2⁻⁵⁰` each.
-    pub(super) position: DVec3,
+    pub(crate) position: DVec3,
 }
 
 impl Point {
-    pub(super) fn new(grid: Grid, position: DVec3) -> Self {
+    pub(crate) fn new(grid: Grid, position: DVec3) -> Self {
         Self { numerators: grid.integers(position), denominator: IBig::ONE, position }
     }
 
     /// Where three planes meet; their normals must be independent.
-    pub(super) fn meet(grid: Grid, a: &Plane, b: &Plane, c: &Plane) -> Self {
+    pub(crate) fn meet(grid: Grid, a: &Plane, b: &Plane, c: &Plane) -> Self {
         let (bc, ca, ab) = (cross(&b.normal, &c.normal), cross(&c.normal, &a.normal), cross(&a.normal, &b.normal));
         let mut denominator = dot(&a.normal, &bc);
         let mut numerators: [IBig; 3] =
@@ -83,7 +83,7 @@ impl Point {
 
 /// A plane `normal · x = offset`, in units of a [`Grid`].
 #[derive(Debug, Clone)]
-pub(super) struct Plane {
+pub(crate) struct Plane {
     normal: [IBig; 3],
     offset: IBig,
     /// The normal, scaled to a largest component of 1, and the offset in the same scale, with a relative error of `2⁻⁵⁰` each.
@@ -92,7 +92,7 @@ pub(super) struct Plane {
 
 impl Plane {
     /// The plane through three points, counter-clockwise seen from outside; `None` where they lie on a line.
-    pub(super) fn through(grid: Grid, corners: [DVec3; 3]) -> Option<Self> {
+    pub(crate) fn through(grid: Grid, corners: [DVec3; 3]) -> Option<Self> {
         let [a, b, c] = corners.map(|p| grid.integers(p));
         let from_a = |p: &[IBig; 3]| -> [IBig; 3] { std::array::from_fn(|k| &p[k] - &a[k]) };
         let normal = cross(&from_a(&b), &from_a(&c));
@@ -107,7 +107,7 @@ impl Plane {
     }
 
     /// A plane through an edge of a face on this plane, given by two corners, along the axis that is nearest to the normal.
-    pub(super) fn across_edge(&self, from: &Point, to: &Point) -> Self {
+    pub(crate) fn across_edge(&self, from: &Point, to: &Point) -> Self {
         let axis = self.scaled.0.abs().max_position();
         let unit: [IBig; 3] = std::array::from_fn(|k| if k == axis { IBig::ONE } else { IBig::ZERO });
         let along: [IBig; 3] = std::array::from_fn(|k| &to.numerators[k] - &from.numerators[k]);
@@ -118,7 +118,7 @@ impl Plane {
     }
 
     /// On which side of the plane a point lies: greater is outside.
-    pub(super) fn side(&self, point: &Point) -> Ordering {
+    pub(crate) fn side(&self, point: &Point) -> Ordering {
         let (normal, offset) = self.scaled;
         let products = normal * point.position;
         let (value, permanent) = (products.element_sum() - offset, products.abs().element_sum() + offset.abs());
@@ -131,7 +131,7 @@ impl Plane {
 
     /// The half-space below the plane: exact where the coefficients fit, else with the normal rounded and the offset in the
     /// middle of what the given corners of the face ask for.
-    pub(super) fn half_space(&self, grid: Grid, corners: impl Iterator<Item = DVec3>) -> (DVec3, f64) {
+    pub(crate) fn half_space(&self, grid: Grid, corners: impl Iterator<Item = DVec3>) -> (DVec3, f64) {
         if let Some(exact) = self.representable(grid) {
             return exact;
         }

@@ -1,0 +1,82 @@
+//! From a surface to convex cells.
+
+use planecut_kernel::{HalfSpace, IncrementalPolytope};
+
+use super::choice::best_cut;
+use super::edges::Edges;
+use super::error::PolyhedronError;
+use super::lumps::take_convex;
+use super::part::{Part, Points, Side};
+use super::planes::Planes;
+use super::surface::Surface;
+use crate::brush::{Brush, BrushFace, MaterialId};
+use crate::primitives::MAX_PIECES;
+use crate::sum::CompensatedSum;
+
+/// The convex cells within a surface, each as sides of its planes.
+///
+/// A part of space that is not convex is cut along the plane of a facet, so no plane is made that the surface does not have,
+/// and all of the part is cut: each point is in one cell, however planes are rounded, so there are no gaps between cells.
+pub(super) fn cells(surface: &Surface, planes: &Planes) -> Result<Vec<Vec<Side>>, PolyhedronError> {
+    let mut points = Points::new(surface, planes);
+    let mut waiting = vec![Part::whole(surface, planes)];
+    let mut done = Vec::new();
+    while let Some(mut part) = waiting.pop() {
+        if part.pieces.is_empty() {
+            done.push(part.walls);
+            continue;
+        }
+        let edges = Edges::of(&part, &points);
+        let lumps = take_convex(&mut part, &edges, &points);
+        let found_some = !lumps.is_empty();
+        done.extend(lumps);
+        if done.len() + waiting.len() > MAX_PIECES as usize {
+            return Err(PolyhedronError::TooLarge { limit: MAX_PIECES as usize });
+        }
+        if part.pieces.is_empty() {
+            continue;
+        }
+        let edges = if found_some { Edges::of(&part, &points) } else { edges };
+        match best_cut(&part, &edges, &points) {
+            Some(plane) => waiting.extend(part.cut(&mut points, plane).into_iter().flatten()),
+            // sheets that enclose nothing
+            None => {}
+        }
+    }
+    Ok(done)
+}
+
+/// The body on the given sides of planes and its volume, without planes that have no face; `None` where nothing is left of it.
+pub(super) fn brush(sides: &[Side], planes: &Planes, material_of: impl Fn(u32) -> MaterialId) -> Option<(Brush, f64)> {
+    // walls between cells dissolve, so any material will do
+    let inner = sides.iter().find_map(|side| side.facet).map_or(MaterialId(0), &material_of);
+    let half_space = |side: &Side| -> HalfSpace {
+        let plane = planes.half_spaces[side.plane as usize];
+        if side.is_above { plane.flipped() } else { plane }
+    };
+    let mut polytope = IncrementalPolytope::with_epsilon(0.0);
+    let mut materials = Vec::with_capacity(sides.len());
+    for side in sides {
+        let handle = polytope.add_plane(half_space(side)).plane();
+        if materials.len() <= handle.0 {
+            materials.resize(handle.0 + 1, inner);
+        }
+        materials[handle.0] = side.facet.map_or(inner, &material_of);
+    }
+    if polytope.is_empty() {
+        return None;
+    }
+    let face = |(plane, _): (planecut_kernel::PlaneIdx, _)| {
+        polytope.plane(plane).map(|half_space| BrushFace { half_space: *half_space, material: materials[plane.0] })
+    };
+    let faces: Vec<BrushFace> = polytope.facets().into_iter().filter_map(face).collect();
+    let volume = polytope.measures().map_or(f64::INFINITY, |measures| measures.volume);
+    Some((Brush { faces, ..Brush::default() }, volume))
+}
+
+/// The sum of volumes.
+pub(super) fn volume(bodies: &[(Brush, f64)]) -> f64 {
+    let mut sum = CompensatedSum::default();
+    bodies.iter().for_each(|(_, volume)| sum.add(*volume));
+    sum.value()
+}

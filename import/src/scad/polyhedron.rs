@@ -1,0 +1,99 @@
+//! `polyhedron`: a solid of given corners and faces.
+
+use planecut_csg::MaterialId;
+use planecut_csg::polyhedron::{PolyhedronError, PolyhedronOptions, Precision, polyhedron};
+use planecut_kernel::DVec3;
+use rustc_hash::FxHashMap;
+
+use super::arguments::Arguments;
+use super::leaf::corners;
+use super::problem::Body;
+use super::syntax::Node;
+use super::value::Value;
+
+/// Significant digits of the numbers that OpenSCAD writes.
+const DIGITS: u32 = 6;
+
+/// Corners, and of each face their numbers, counter-clockwise seen from outside.
+type Surface = (Vec<DVec3>, Vec<Vec<u32>>);
+
+/// The solid, and what is to be said of it.
+///
+/// # Errors
+/// Why there is none, in one line.
+pub(super) fn body(node: &Node<'_>, material: MaterialId) -> Result<(Body, Option<String>), String> {
+    let (points, facets) = surface(node)?;
+    if facets.is_empty() {
+        return Ok((Body::default(), None));
+    }
+    let options = PolyhedronOptions { precision: Precision::Digits(DIGITS) };
+    match polyhedron(&points, &facets, &[material], &options) {
+        Ok(solid) => {
+            let message =
+                solid.is_turned.then(|| "a polyhedron whose faces are all turned around is turned back".to_owned());
+            let touches_itself = touches_itself(&points, &facets);
+            Ok((Body { tree: solid.into(), touches_itself }, message))
+        }
+        Err(PolyhedronError::NoVolume) => Ok((Body::default(), None)),
+        Err(error) => Err(error.to_string()),
+    }
+}
+
+fn surface(node: &Node<'_>) -> Result<Surface, String> {
+    let arguments = Arguments::of(node, &["points", "faces", "convexity"]);
+    let given = arguments.get("points").map(Value::items).unwrap_or_default();
+    let faces = arguments.get("faces").or_else(|| arguments.get("triangles"));
+    let numbers: Vec<u32> = (0..u32::try_from(given.len()).unwrap_or(u32::MAX)).collect();
+    let mut facets = Vec::new();
+    for face in faces.map(Value::items).unwrap_or_default() {
+        // OpenSCAD lists them clockwise
+        let mut facet = corners(face, &numbers);
+        facet.reverse();
+        facet.dedup();
+        if facet.len() >= 3 {
+            facets.push(facet);
+        }
+    }
+    let mut points = vec![DVec3::ZERO; given.len()];
+    for corner in facets.iter().flatten() {
+        let at = *corner as usize;
+        let point = given[at].finite::<3>();
+        points[at] = DVec3::from_array(point.ok_or_else(|| format!("its point {at} is not three finite numbers"))?);
+    }
+    Ok((points, facets))
+}
+
+/// Whether a closed surface is no manifold once corners at the same place are one: an edge has more than two faces, or a corner
+/// more than one fan of them.
+pub(super) fn touches_itself(points: &[DVec3], facets: &[Vec<u32>]) -> bool {
+    let mut known: FxHashMap<[u64; 3], u32> = FxHashMap::default();
+    let mut place = |corner: u32| {
+        // adding zero turns -0 into 0
+        let key = (points[corner as usize] + DVec3::ZERO).to_array().map(f64::to_bits);
+        let next = known.len() as u32;
+        *known.entry(key).or_insert(next)
+    };
+    let facets: Vec<Vec<u32>> =
+        facets.iter().map(|facet| facet.iter().map(|corner| place(*corner)).collect()).collect();
+    // after each corner of a face, seen from that corner: where the face came from, by where it goes
+    let mut fans: FxHashMap<(u32, u32), u32> = FxHashMap::default();
+    let mut degree = vec![0_u32; known.len()];
+    for facet in &facets {
+        let n = facet.len();
+        for k in 0..n {
+            let (before, at, after) = (facet[(k + n - 1) % n], facet[k], facet[(k + 1) % n]);
+            degree[at as usize] += 1;
+            if fans.insert((at, after), before).is_some() {
+                return true;
+            }
+        }
+    }
+    // going from face to face comes back after all of them
+    let is_one_fan = |corner: u32, start: u32| {
+        let faces = degree[corner as usize] as usize;
+        let around = std::iter::successors(Some(start), |next| fans.get(&(corner, *next)).copied());
+        around.skip(1).take(faces).position(|next| next == start) == Some(faces - 1)
+    };
+    let starts: FxHashMap<u32, u32> = fans.keys().copied().collect();
+    starts.into_iter().any(|(corner, start)| !is_one_fan(corner, start))
+}
