@@ -196,7 +196,7 @@ impl Leaves {
     }
 
     fn skin(&self, table: &PlaneTable, expression: &Expression, rank: &[u32]) -> (Vec<BoundaryEdge>, Counts) {
-        skin(&Scene { table, bodies: &self.bodies, leaf_of_body: &self.leaf_of_body, expression, rank })
+        skin(&Scene::new(table, &self.bodies, &self.leaf_of_body, expression, rank))
     }
 
     /// The skin of the tree cut by the outer box, which it must not reach.

@@ -4,6 +4,7 @@
 |---|---|
 | `map_file` | text of a `.map` to exact integer half-spaces |
 | `model_file` | a native model file to a tree of bodies |
+| `csg_file` | an OpenSCAD tree to a tree of bodies |
 | `convex_body` | half-spaces to the exact vertices of a convex body |
 | `leaf` | a body of a tree: convex by its half-spaces, or a closed mesh |
 | `solid_tree` | set operations over bodies, along lines and by manifold3d |
@@ -16,6 +17,7 @@
 | `mesh_lines` | where lines cross a mesh |
 | `line_oracle` | random lines: mesh crossings against the model's coverage |
 | `cells` | convex cells: by themselves, and their union along lines |
+| `known` | volumes that are known from elsewhere |
 | `process` | one run of the `planecut` command line |
 | `checks` | all checks of one model; `result` is what they leave |
 | `random_trees`, `shrink`, `batch` | random models, many at once, failing ones made small |

@@ -21,7 +21,9 @@ WORKSPACE = Path(__file__).resolve().parents[2]
 
 def main() -> int:
     arguments = _arguments()
-    options = Options(str(arguments.planecut), arguments.lines, arguments.seed, not arguments.no_cells)
+    options = Options(
+        str(arguments.planecut), arguments.lines, arguments.seed, not arguments.no_cells, arguments.reference
+    )
     if not os.access(options.binary, os.X_OK):
         return _unusable(
             f"{options.binary}: no such program; build it with `cargo build --release` or name one with --planecut"
@@ -87,6 +89,7 @@ def _arguments() -> argparse.Namespace:
         help="where failing random trees are written, made small",
     )
     add("--no-cells", action="store_true", help="check skins only")
+    add("--reference", type=Path, help="known volumes of the models (default: reference.json beside or above them)")
     add("--jobs", type=int, default=len(os.sched_getaffinity(0)), help="models at once (default: one per core)")
     add(
         "--report",

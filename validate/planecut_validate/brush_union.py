@@ -9,6 +9,7 @@ from .convex_body import ConvexBody
 from .leaf import ConvexLeaf
 from .lines import Coverage, Lines
 from .reference import AGREED, ReferenceSurface, ReferenceVolume
+from .result import SAME
 from .solid_tree import SolidTree
 
 _ORDERS = 6
@@ -26,6 +27,7 @@ class BrushUnion:
     is_generic = False
     is_simple = False
     exact = None
+    limit = SAME
 
     def __init__(self, bodies: list[ConvexBody], brushes: int):
         self.brushes = brushes

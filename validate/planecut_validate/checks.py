@@ -10,6 +10,7 @@ import numpy as np
 
 from . import cells, line_oracle, process
 from .glb_file import read_glb
+from .known import Known, known
 from .leaf import manifold_of
 from .line_oracle import Drawn
 from .mesh import Mesh
@@ -87,6 +88,7 @@ def _check_build(result: Result, model: ReferenceModel | None, build: process.Bu
         if model.is_generic:
             _check_surface(result, model, mesh)
         _check_glb(result, mesh, build.glb)
+    _check_known(result, model, mesh.volume(), known(Path(result.model), options.reference))
     drawn = line_oracle.draw(model, options.lines, options.seed)
     _note_lines(result, "lines", line_oracle.compare(drawn, mesh))
     return drawn
@@ -124,20 +126,36 @@ def _check_measures(result: Result, model: ReferenceModel, mesh: Mesh, report: d
         result.failures.append(str(error))
         return
     reference = result.reference_volume = answer.volume
-    if answer.spread() > SAME:
+    limit = model.limit
+    if answer.spread() > limit:
         result.notes.append(f"manifold3d's ways differ by {answer.spread():.0e}")
-    result.same("solid.volume", _get(report, "solid", "volume"), reference)
-    result.same("OBJ volume", mesh.volume(), reference)
-    result.same("mesh.volume", _get(report, "mesh", "volume"), reference)
+    result.same("solid.volume", _get(report, "solid", "volume"), reference, limit=limit)
+    result.same("OBJ volume", mesh.volume(), reference, limit=limit)
+    result.same("mesh.volume", _get(report, "mesh", "volume"), reference, limit=limit)
     brush_sum = _get(report, "model", "brush_volume_sum")
     if brush_sum is not None and model.counts_brushes:
         result.same("model.brush_volume_sum", brush_sum, model.brush_volume_sum)
     # Where faces coincide, manifold3d keeps some inner membranes, so the area is held against the mesh that was written.
     result.same("solid.area", _get(report, "solid", "area"), mesh.area())
     if model.exact is not None:
-        result.same("volume by cells of a grid", mesh.volume(), model.exact[0])
-        result.same("area by cells of a grid", mesh.area(), model.exact[1])
+        result.same("volume by cells of a grid", mesh.volume(), model.exact[0], limit=limit)
+        result.same("area by cells of a grid", mesh.area(), model.exact[1], limit=limit)
     _check_box(result, model, mesh, report)
+
+
+def _check_known(result: Result, model: ReferenceModel, volume: float, entry: Known | None) -> None:
+    """The volume against one that is known from elsewhere; a difference is a note where manifold3d finds what planecut does."""
+    if entry is None:
+        return
+    difference = abs(volume - entry.volume) / (abs(entry.volume) or 1.0)
+    if difference <= entry.limit:
+        result.differences["known volume"] = difference
+        return
+    told = f"known volume {entry.volume!r}, mesh {volume!r} (relative difference {difference:.1e})"
+    if abs(volume - result.reference_volume) <= model.limit * abs(volume):
+        result.notes.append(f"{told}; manifold3d agrees with the mesh")
+    else:
+        result.failures.append(told)
 
 
 def _check_box(result: Result, model: ReferenceModel, mesh: Mesh, report: dict) -> None:
@@ -150,7 +168,7 @@ def _check_box(result: Result, model: ReferenceModel, mesh: Mesh, report: dict) 
             result.same(f"solid.{name}.{axis}", value, float(expected["xyz".index(axis)]), size)
     if model.box_is_exact:
         for name, found, expected in (("low", used.min(0), model.low), ("high", used.max(0), model.high)):
-            result.same(f"OBJ {name} corner", float(np.abs(found - expected).max()), 0.0, size)
+            result.same(f"OBJ {name} corner", float(np.abs(found - expected).max()), 0.0, size, limit=model.limit)
 
 
 def _check_topology(result: Result, mesh: Mesh, report: dict) -> None:
@@ -178,7 +196,7 @@ def _check_manifold3d(result: Result, mesh: Mesh) -> None:
 def _check_surface(result: Result, model: ReferenceModel, mesh: Mesh) -> None:
     """Area and, where it is settled, topology against manifold3d's own, where no faces coincide."""
     surface = model.surface()
-    result.same("area", mesh.area(), surface.area)
+    result.same("area", mesh.area(), surface.area, limit=model.limit)
     if model.is_simple and not mesh.twin_faults():
         result.equal("connected surfaces", mesh.components(), surface.components)
         result.equal("genus", mesh.genus(), surface.genus)

@@ -7,6 +7,7 @@ import numpy as np
 
 from .brush_union import BrushUnion
 from .convex_body import convex_body
+from .csg_file import CsgModel
 from .lines import Coverage, Lines
 from .map_file import read_map
 from .model_file import read_model
@@ -39,6 +40,8 @@ class ReferenceModel(Protocol):
 
     exact: tuple[float, float] | None
     """Volume and area where they are known without manifold3d."""
+    limit: float
+    """Largest relative difference of a volume from the one that manifold3d finds."""
 
     def volume(self, candidate: float | None) -> ReferenceVolume:
         """The volume of the solid by manifold3d. Raises `ArithmeticError` where its answers do not settle on one.
@@ -63,7 +66,7 @@ def _load_model(path: Path) -> TreeModel:
     return TreeModel(read_model(path))
 
 
-FORMATS = {".map": _load_map, ".json": _load_model}
+FORMATS = {".map": _load_map, ".json": _load_model, ".csg": CsgModel.load}
 """File ending to loader."""
 
 

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass, field
+from pathlib import Path
 
 SAME = 1e-9
 """Largest relative difference between two ways to one number."""
@@ -11,12 +12,14 @@ CELLS_SAME = 1e-12
 
 @dataclass(frozen=True)
 class Options:
-    """How models are checked: the program, random lines per model and their seed, and whether cells are built too."""
+    """How models are checked: the program, random lines per model and their seed, whether cells are built too, and a
+    file of known volumes where it does not lie beside or above the model."""
 
     binary: str
     lines: int = 20_000
     seed: int = 1
     cells: bool = True
+    reference: Path | None = None
 
 
 @dataclass
@@ -37,7 +40,13 @@ class Result:
     seconds: float = 0.0
 
     def same(
-        self, name: str, value: float | None, expected: float, scale: float | None = None, rounding: float | None = None
+        self,
+        name: str,
+        value: float | None,
+        expected: float,
+        scale: float | None = None,
+        rounding: float | None = None,
+        limit: float = SAME,
     ) -> None:
         """Notes the relative difference of two numbers, and a failure where it is too large or a number is missing.
 
@@ -49,7 +58,8 @@ class Result:
         scale = abs(expected) if scale is None else scale
         difference = abs(value - expected) / scale if scale else abs(value - expected)
         self.differences[name] = difference
-        limit = SAME if rounding is None else CELLS_SAME + rounding / (scale or 1.0)
+        if rounding is not None:
+            limit = CELLS_SAME + rounding / (scale or 1.0)
         if not difference <= limit:
             self.failures.append(f"{name}: {value!r}, expected {expected!r} (relative difference {difference:.1e})")
 

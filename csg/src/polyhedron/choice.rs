@@ -22,11 +22,8 @@ const DOUBT: f64 = 64.0;
 /// The plane that mends many reflex edges and cuts few pieces; `None` where no piece reaches beyond the plane of another.
 pub(super) fn best_cut(part: &Part, edges: &Edges, points: &Points<'_>) -> Option<u32> {
     let local = Local::of(part);
-    let mut candidates: Vec<u32> = edges
-        .reflex
-        .iter()
-        .flat_map(|(_, pieces)| pieces.map(|piece| part.pieces[piece as usize].plane))
-        .collect();
+    let mut candidates: Vec<u32> =
+        edges.reflex.iter().flat_map(|(_, pieces)| pieces.map(|piece| part.pieces[piece as usize].plane)).collect();
     if candidates.is_empty() {
         candidates.extend(part.pieces.iter().map(|piece| piece.plane));
     }
@@ -89,7 +86,8 @@ impl Local {
         }
         let is_on = |v: &u32| sides[self.number[v] as usize] == Ordering::Equal;
         let mended = edges.reflex.iter().filter(|(ends, _)| ends.iter().all(is_on)).count();
-        let is_useful = both > 0 || below > 0 && above > 0 || mended > 0 || self.parts_from_own(part, plane, below, above);
+        let is_useful =
+            both > 0 || below > 0 && above > 0 || mended > 0 || self.parts_from_own(part, plane, below, above);
         let balance = below.abs_diff(above) as f64 / part.pieces.len() as f64;
         let cost = CUT_PIECE * both as f64 - MENDED_EDGE * mended as f64 + DOUBT * doubtful as f64 + balance;
         is_useful.then_some(cost)
@@ -97,7 +95,8 @@ impl Local {
 
     /// Whether something lies on the side of a plane where its own pieces have no solid.
     fn parts_from_own(&self, part: &Part, plane: u32, below: usize, above: usize) -> bool {
-        let has = |is_reversed| part.pieces.iter().any(|piece| piece.plane == plane && piece.is_reversed == is_reversed);
+        let has =
+            |is_reversed| part.pieces.iter().any(|piece| piece.plane == plane && piece.is_reversed == is_reversed);
         has(false) && above > 0 || has(true) && below > 0
     }
 }

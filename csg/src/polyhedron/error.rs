@@ -27,6 +27,16 @@ pub enum PolyhedronError {
         /// How many points there are.
         points: usize,
     },
+    /// A facet has more corners than are accepted where it is not convex.
+    #[error("facet {facet}: found {corners} corners, expected at most {limit} where it is not convex")]
+    TooManyCorners {
+        /// Which facet.
+        facet: usize,
+        /// How many corners it has.
+        corners: usize,
+        /// How many are accepted.
+        limit: usize,
+    },
     /// There must be one material, or one for each facet.
     #[error("found {found} materials, expected 1 or {facets}")]
     Materials {
@@ -93,7 +103,7 @@ impl PolyhedronError {
     #[must_use]
     pub fn facet(&self) -> Option<usize> {
         match self {
-            Self::UnknownPoint { facet, .. } | Self::Open { facet, .. } => Some(*facet),
+            Self::UnknownPoint { facet, .. } | Self::TooManyCorners { facet, .. } | Self::Open { facet, .. } => Some(*facet),
             Self::Crossing { facets, .. } => Some(facets[0]),
             _ => None,
         }

@@ -25,10 +25,12 @@ mod surface;
 use planecut_kernel::DVec3;
 
 pub use error::PolyhedronError;
+pub use polygon::{MAX_CONCAVE_CORNERS, triangulate};
 pub use precision::Precision;
 
 use crate::brush::{Brush, MaterialId};
 use crate::check::{CheckOptions, ContactKind, check_mesh};
+use crate::solid::joined;
 use crate::tree::Tree;
 use planes::Planes;
 use surface::Surface;
@@ -56,6 +58,8 @@ pub struct Polyhedron {
     pub volume: f64,
     /// Whether all facets were turned over: they were clockwise seen from outside.
     pub is_turned: bool,
+    /// Whether there are several sheets of the surface at an edge or a corner.
+    pub touches_itself: bool,
     /// How many facets were cut into triangles as their corners lie on no plane.
     pub bent_facets: usize,
 }
@@ -117,10 +121,12 @@ pub fn polyhedron<F: AsRef<[u32]>>(
     if (enclosed - found).abs() > surface.volume_slack() {
         return Err(PolyhedronError::Inconsistent { enclosed, cells: found });
     }
+    let brushes: Vec<Brush> = bodies.into_iter().map(|(brush, _)| brush).collect();
     Ok(Polyhedron {
-        cells: bodies.into_iter().map(|(brush, _)| brush).collect(),
+        cells: if brushes.len() > 1 { joined(&brushes) } else { brushes },
         volume: enclosed,
         is_turned: surface.is_turned,
+        touches_itself: surface.touches_itself,
         bent_facets: planes.bent_facets,
     })
 }

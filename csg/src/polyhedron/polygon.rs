@@ -2,21 +2,35 @@
 
 use planecut_kernel::{DVec2, DVec3};
 
+/// Most corners of a polygon that is not convex: cutting one takes time up to the square of this.
+pub const MAX_CONCAVE_CORNERS: usize = 10_000;
+
 /// Triangles of a polygon of at least three corners, as places in it. No corner is added or dropped: `n` corners give `n - 2`
 /// triangles, of which some have no area where corners lie on a line.
 ///
 /// Convex polygons become a fan; others are cut ear by ear in the coordinate plane onto which they project best. Where that
 /// finds no ear, the polygon crosses itself, and the rest becomes a fan.
-pub(super) fn triangles(polygon: &[DVec3]) -> Vec<[usize; 3]> {
+///
+/// Gives `None` for polygons that are not convex with more than [`MAX_CONCAVE_CORNERS`] corners.
+///
+/// ```
+/// use planecut_csg::polyhedron::triangulate;
+/// use planecut_kernel::DVec3;
+///
+/// let arrow = [[0.0, 0.0], [2.0, 1.0], [0.0, 2.0], [1.0, 1.0]].map(|[x, y]| DVec3::new(x, y, 5.0));
+/// assert_eq!(triangulate(&arrow), Some(vec![[0, 1, 3], [1, 2, 3]]));
+/// ```
+#[must_use]
+pub fn triangulate(polygon: &[DVec3]) -> Option<Vec<[usize; 3]>> {
     let n = polygon.len();
-    if n == 3 {
-        return vec![[0, 1, 2]];
+    if n <= 3 {
+        return Some(if n == 3 { vec![[0, 1, 2]] } else { Vec::new() });
     }
     let flat = projected(polygon);
     if is_convex(&flat) {
-        return (1..n - 1).map(|k| [0, k, k + 1]).collect();
+        return Some((1..n - 1).map(|k| [0, k, k + 1]).collect());
     }
-    clip_ears(&flat)
+    (n <= MAX_CONCAVE_CORNERS).then(|| clip_ears(&flat))
 }
 
 /// Twice the area of a polygon, along its normal.
@@ -75,4 +89,65 @@ fn is_ear(left: &[usize], i: usize, flat: &[DVec2]) -> bool {
     let blocks =
         |p: DVec2| p != a && p != b && p != c && turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0;
     left.iter().all(|&k| !blocks(flat[k]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Triangulates a polygon in a slanted plane and gives the triangles back in two dimensions.
+    fn cut(outline: &[DVec2]) -> Vec<[DVec2; 3]> {
+        let positions: Vec<DVec3> = outline.iter().map(|p| DVec3::new(p.x, p.y, 2.0 * p.x - p.y)).collect();
+        let triangles = triangulate(&positions).expect("few corners");
+        triangles.into_iter().map(|t| t.map(|v| outline[v])).collect()
+    }
+
+    fn area(outline: &[DVec2]) -> f64 {
+        let next = outline.iter().cycle().skip(1);
+        outline.iter().zip(next).map(|(p, q)| p.perp_dot(*q)).sum::<f64>() / 2.0
+    }
+
+    #[test]
+    fn triangles_cover_the_polygon_without_overlap() {
+        // A random star-shaped outline with integer corners has no crossings; areas in integers are exact.
+        let seed = 0x5eed_3001u64;
+        let mut state = seed;
+        let mut below = |n: u64| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 33) % n
+        };
+        for case in 0..500 {
+            let n = 4 + below(12) as usize;
+            let outline: Vec<DVec2> = (0..n)
+                .map(|k| {
+                    let radius = (100 + below(1000)) as f64;
+                    (DVec2::from_angle(k as f64 / n as f64 * std::f64::consts::TAU) * radius).round()
+                })
+                .collect();
+            let triangles = cut(&outline);
+            assert_eq!(triangles.len(), n - 2, "seed {seed:#x} case {case}");
+            // All turn left and their areas add up: then they cannot overlap or leave the polygon.
+            assert!(
+                triangles.iter().all(|[a, b, c]| turn(*a, *b, *c) >= 0.0),
+                "seed {seed:#x} case {case}: {outline:?}"
+            );
+            let sum: f64 = triangles.iter().map(|t| area(t)).sum();
+            assert_eq!(sum, area(&outline), "seed {seed:#x} case {case}: {outline:?}");
+        }
+    }
+
+    #[test]
+    fn corners_on_a_side_stay_corners() {
+        let square =
+            [(0, 0), (1, 0), (2, 0), (2, 2), (1, 2), (0, 2)].map(|(x, y)| DVec2::new(f64::from(x), f64::from(y)));
+        let triangles = cut(&square);
+        assert_eq!(triangles.len(), 4);
+        assert!(triangles.iter().all(|[a, b, c]| turn(*a, *b, *c) > 0.0), "none is flat: {triangles:?}");
+    }
+
+    #[test]
+    fn a_polygon_that_crosses_itself_keeps_its_corners() {
+        let bow = [(0, 0), (2, 2), (2, 0), (0, 2)].map(|(x, y)| DVec2::new(f64::from(x), f64::from(y)));
+        assert_eq!(cut(&bow).len(), 2);
+    }
 }

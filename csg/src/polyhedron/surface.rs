@@ -5,7 +5,7 @@ use rustc_hash::FxHashMap;
 
 use super::error::PolyhedronError;
 use super::pairing::{pair_half_edges, split_vertices};
-use super::polygon::{area_vector, triangles as cut};
+use super::polygon::{MAX_CONCAVE_CORNERS, area_vector, triangulate as cut};
 use super::precision::Precision;
 use crate::sum::CompensatedSum;
 
@@ -27,6 +27,8 @@ pub(super) struct Surface {
     pub(super) mates: Vec<u32>,
     /// Whether all facets were turned over, as they enclosed a negative volume.
     pub(super) is_turned: bool,
+    /// Whether there are several sheets at an edge or a vertex.
+    pub(super) touches_itself: bool,
 }
 
 impl Surface {
@@ -38,7 +40,7 @@ impl Surface {
         let (merged, number) = merge_points(points)?;
         let polygons = polygons(facets, &number)?;
         check_closed(&polygons, &merged)?;
-        let (mut triangles, facet_of) = triangulate(&polygons, &merged);
+        let (mut triangles, facet_of) = triangulate(&polygons, &merged)?;
         let six_volumes = six_volumes(&merged, &triangles);
         let is_turned = six_volumes < 0.0;
         if is_turned {
@@ -48,9 +50,11 @@ impl Surface {
             return Err(PolyhedronError::NoVolume);
         }
         let mates = pair_half_edges(&merged, &triangles);
+        let used = used_points(&triangles, merged.len());
         let points = split_vertices(&merged, &mut triangles, &mates);
+        let touches_itself = points.len() > used;
         let slack = precision.slack(&points);
-        Ok(Self { points, slack, triangles, facet_of, mates, is_turned })
+        Ok(Self { points, slack, triangles, facet_of, mates, is_turned, touches_itself })
     }
 
     /// The volume by the divergence theorem.
@@ -73,6 +77,13 @@ impl Surface {
     pub(super) fn neighbour(&self, triangle: usize, k: usize) -> usize {
         self.mates[3 * triangle + k] as usize / 3
     }
+}
+
+/// How many points triangles use.
+fn used_points(triangles: &[[u32; 3]], points: usize) -> usize {
+    let mut used = vec![false; points];
+    triangles.as_flattened().iter().for_each(|v| used[*v as usize] = true);
+    used.into_iter().filter(|used| *used).count()
 }
 
 /// The different positions, and the number of each point's.
@@ -145,11 +156,19 @@ fn check_closed(polygons: &[(u32, Vec<u32>)], points: &[DVec3]) -> Result<(), Po
     Ok(())
 }
 
-fn triangulate(polygons: &[(u32, Vec<u32>)], points: &[DVec3]) -> (Vec<[u32; 3]>, Vec<u32>) {
+fn triangulate(
+    polygons: &[(u32, Vec<u32>)],
+    points: &[DVec3],
+) -> Result<(Vec<[u32; 3]>, Vec<u32>), PolyhedronError> {
     let (mut triangles, mut facet_of) = (Vec::new(), Vec::new());
     for (facet, polygon) in polygons {
         let corners: Vec<DVec3> = polygon.iter().map(|v| points[*v as usize]).collect();
-        for triangle in cut(&corners) {
+        let facet_error = || PolyhedronError::TooManyCorners {
+            facet: *facet as usize,
+            corners: polygon.len(),
+            limit: MAX_CONCAVE_CORNERS,
+        };
+        for triangle in cut(&corners).ok_or_else(facet_error)? {
             let triangle = triangle.map(|k| polygon[k]);
             // polygons that come by a corner twice can leave such
             if triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[2] != triangle[0] {
@@ -158,7 +177,7 @@ fn triangulate(polygons: &[(u32, Vec<u32>)], points: &[DVec3]) -> (Vec<[u32; 3]>
             }
         }
     }
-    (triangles, facet_of)
+    Ok((triangles, facet_of))
 }
 
 /// Six times the volume, as tetrahedra from a point amid the others: less cancels than from the origin.

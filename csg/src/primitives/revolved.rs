@@ -9,9 +9,11 @@ use planecut_kernel::{DVec2, DVec3, HalfSpace};
 use super::ShapeError;
 use super::cells::Side;
 use super::circle::{apothem, direction, middle};
-use super::extruded::{Lines, brush_of};
+use super::extruded::brush_of;
 use super::flat::plane;
 use super::parameter::{pieces, positive, refuse, segments as accepted_segments};
+use super::region::Region;
+use super::walls::Walls;
 use crate::brush::{Brush, MaterialId};
 use crate::outline::Outline;
 use crate::transform::sine_and_cosine;
@@ -65,21 +67,12 @@ pub fn revolve(outline: &Outline, angle: f64, segments: u32, material: MaterialI
     if let Some(corner) = outline.loops().flatten().find(|corner| corner.x < 0.0) {
         return Err(refuse("outline", &format!("a corner at x = {}", corner.x), &"no x below 0"));
     }
-    let mut brushes = Vec::new();
+    let mut region = Region::default();
     for shape in outline.shapes() {
-        let upright = Lines::of(shape);
-        let surface = upright.surface()?;
-        let sides = surface.half_spaces()?;
-        let lines: Vec<Line> = sides.iter().zip(upright.ends()).map(|(side, ends)| line(side, ends)).collect();
-        // a side on the axis has nothing to bound
-        let on_axis: Vec<bool> = upright.ends().map(|[p, q]| p.x == 0.0 && q.x == 0.0).collect();
-        let mut cells = upright.cells(&surface);
-        for cell in &mut cells {
-            cell.retain(|side| !on_axis[side.facet as usize]);
-        }
-        turn.revolve(&lines, &cells, material, &mut brushes)?;
+        let bodies = shape.iter().map(|corners| turn.body(corners, material));
+        region.add(bodies.collect::<Result<Vec<_>, ShapeError>>()?)?;
     }
-    Ok(Tree::union_of(brushes))
+    Ok(region.into_tree())
 }
 
 /// The line of a side; one that ends on the axis passes through that point exactly.
@@ -116,6 +109,22 @@ impl Turn {
         DVec2::new(cosine, sine)
     }
 
+    /// The cells over a loop.
+    fn body(&self, corners: &[DVec2], material: MaterialId) -> Result<Vec<Brush>, ShapeError> {
+        let walls = Walls::over(corners)?;
+        let lines: Vec<Line> =
+            walls.half_spaces.iter().zip(walls.ends()).map(|(side, ends)| line(side, ends)).collect();
+        // a side on the axis has nothing to bound
+        let on_axis: Vec<bool> = walls.ends().map(|[p, q]| p.x == 0.0 && q.x == 0.0).collect();
+        let mut cells = walls.cells()?;
+        for cell in &mut cells {
+            cell.retain(|side| !on_axis[side.facet as usize]);
+        }
+        let mut brushes = Vec::new();
+        self.revolve(&lines, &cells, material, &mut brushes)?;
+        Ok(brushes)
+    }
+
     /// Adds a cell for each step and each cell of the outline.
     fn revolve(
         &self,
@@ -127,8 +136,8 @@ impl Turn {
         pieces(brushes.len() as u64 + u64::from(self.steps) * cells.len() as u64)?;
         for step in 0..self.steps {
             let planes = self.planes(lines, step)?;
-            let walls = vec![self.wall(step)?.flipped(), self.wall(step + 1)?];
-            brushes.extend(cells.iter().filter_map(|cell| brush_of(cell, &planes, walls.clone(), material)));
+            let walls = [self.wall(step)?.flipped(), self.wall(step + 1)?];
+            brushes.extend(cells.iter().filter_map(|cell| brush_of(cell, &planes, &walls, material)));
         }
         Ok(())
     }

@@ -86,16 +86,16 @@ fn side(p: DVec2, q: DVec2) -> Result<HalfSpace, ShapeError> {
     let is_exact = is_exact_difference(q.x, p.x) && is_exact_difference(q.y, p.y);
     let offset = if is_exact { exact_dot(normal, p) } else { None };
     let offset = offset.unwrap_or_else(|| 0.5 * (normal.dot(p) + normal.dot(q)));
-    // a largest component of 1 keeps the coefficients within their range wherever lengths are
-    let scale = normal.abs().max_element().log2().floor().exp2().recip();
+    // a largest component from 1 to 2 keeps the coefficients within their range wherever lengths are
+    let scale = f64::from_bits(normal.abs().max_element().to_bits() & !((1 << 52) - 1)).recip();
     plane((normal * scale).extend(0.0), offset * scale)
 }
 
 fn is_exact_difference(a: f64, b: f64) -> bool {
+    // Knuth's two-sum, of which only the error matters
     let difference = a - b;
-    // Knuth's two-sum
-    let (back_b, back_a) = (a - difference, difference + b);
-    back_b == b && back_a == a
+    let subtracted = difference - a;
+    (a - (difference - subtracted)) + (-b - subtracted) == 0.0
 }
 
 /// The scalar product, where it is a number without rounding.

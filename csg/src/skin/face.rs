@@ -1,10 +1,11 @@
 //! One face of one body: which part of it is boundary, and where that part ends.
 
+use super::clip::Clipper;
 use super::contact::{Contact, Facing, Owner, misses};
 use super::section::{Clip, Cover, Line, Piece, Polygon};
 use super::sweep::{Label, Side, Sweep};
 use super::{BoundaryEdge, Scene};
-use crate::body::{Body, BodyFace};
+use crate::body::BodyFace;
 use crate::bounds::Bounds;
 use crate::expression::Restriction;
 use crate::plane_table::PlaneTable;
@@ -51,7 +52,7 @@ pub(super) struct FaceWorker<'a> {
     region: Polygon,
     sections: Vec<Section>,
     live: usize,
-    spare: Polygon,
+    clipper: Clipper,
     pieces: Vec<Piece>,
     label: Label,
     sweep: Sweep,
@@ -69,7 +70,7 @@ impl<'a> FaceWorker<'a> {
             region: Polygon::default(),
             sections: Vec::new(),
             live: 0,
-            spare: Polygon::default(),
+            clipper: Clipper::default(),
             pieces: Vec::new(),
             label: Label::default(),
             sweep: Sweep::default(),
@@ -166,8 +167,7 @@ impl<'a> FaceWorker<'a> {
                 Role::Covers => self.covering.push(reaching),
                 Role::Open => self.open.push(reaching),
                 Role::Required => {
-                    let other = &scene.bodies[reaching.body];
-                    if clip_by(scene.table, face, other, &mut self.region, &mut self.spare) == Clip::Nothing {
+                    if self.clipper.clip(scene, face, reaching.body, &mut self.region) == Clip::Nothing {
                         return false;
                     }
                     self.label.fix(scene.expression, &mut self.restriction, &reaching);
@@ -179,8 +179,7 @@ impl<'a> FaceWorker<'a> {
 
     fn reaching(&self, leaf: usize, face: &BodyFace) -> Reaching {
         let body = self.bodies[leaf];
-        let same_plane = |other: &&BodyFace| other.plane.index() == face.plane.index();
-        let other = self.scene.bodies[body].faces.iter().find(same_plane);
+        let other = self.scene.face_on(body, face.plane);
         let contact = match other {
             None => Contact::Across,
             Some(other) if other.plane == face.plane => Contact::SameWay,
@@ -232,8 +231,7 @@ impl<'a> FaceWorker<'a> {
         let section = &mut self.sections[self.live];
         section.of = of;
         section.polygon.copy_from(&self.region.edges, &self.region.corners);
-        let body = &self.scene.bodies[of.body];
-        let clip = clip_by(self.scene.table, face, body, &mut section.polygon, &mut self.spare);
+        let clip = self.clipper.clip(self.scene, face, of.body, &mut section.polygon);
         if clip == Clip::Part {
             section.bounds = section.polygon.bounds();
         }
@@ -275,19 +273,6 @@ impl<'a> FaceWorker<'a> {
             }
         }
     }
-}
-
-/// Keeps of a polygon on the plane of a face what a body covers.
-fn clip_by(table: &PlaneTable, face: &BodyFace, body: &Body, polygon: &mut Polygon, spare: &mut Polygon) -> Clip {
-    let mut whole = true;
-    for cut in body.faces.iter().map(|face| face.plane).filter(|cut| cut.index() != face.plane.index()) {
-        match polygon.clip(table, face.plane, cut, spare) {
-            Clip::Nothing => return Clip::Nothing,
-            Clip::Part => whole = false,
-            Clip::Whole => {}
-        }
-    }
-    if whole { Clip::Whole } else { Clip::Part }
 }
 
 /// Takes out of `pieces`, which lie on an edge of section `own`, what other sections cover on the outer side.

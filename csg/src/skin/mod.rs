@@ -7,8 +7,10 @@
 //! [`sweep`] evaluates the tree along each edge. Only the part of the tree that reaches a face is ever looked at. Of coplanar
 //! faces one owner emits ([`contact`]).
 
+mod clip;
 mod contact;
 mod face;
+mod facets;
 mod section;
 mod sweep;
 
@@ -21,6 +23,7 @@ use crate::brush::MaterialId;
 use crate::expression::{Expression, Polarity};
 use crate::plane_table::{PlaneId, PlaneTable};
 use contact::{Facing, Owner};
+use facets::Facets;
 
 /// A piece of the boundary of the kept region of a plane: on the line of `face` and `edge`, directed along
 /// `n_face × n_edge`, so that the region lies to the left.
@@ -62,12 +65,34 @@ pub(crate) struct Scene<'a> {
     /// The leaf of each body, ascending.
     pub(crate) leaf_of_body: &'a [u32],
     pub(crate) expression: &'a Expression,
+    /// Where the faces of each body are, for bodies of many.
+    facets: Vec<Option<Facets>>,
     /// Orders materials: where coplanar faces overlap, the lower rank wins, so that the outcome does not depend on the
     /// order of the bodies.
     pub(crate) rank: &'a [u32],
 }
 
-impl Scene<'_> {
+impl<'a> Scene<'a> {
+    pub(crate) fn new(
+        table: &'a PlaneTable,
+        bodies: &'a [Body],
+        leaf_of_body: &'a [u32],
+        expression: &'a Expression,
+        rank: &'a [u32],
+    ) -> Self {
+        let facets = bodies.par_iter().map(|body| Facets::of(table, body)).collect();
+        Self { table, bodies, leaf_of_body, expression, facets, rank }
+    }
+
+    /// The face that a body has on a plane, whatever its side.
+    fn face_on(&self, body: usize, plane: PlaneId) -> Option<&'a BodyFace> {
+        let faces = &self.bodies[body].faces;
+        match &self.facets[body] {
+            Some(facets) => facets.on_plane(plane).map(|face| &faces[face as usize]),
+            None => faces.iter().find(|face| face.plane.index() == plane.index()),
+        }
+    }
+
     fn polarity(&self, body: usize) -> Polarity {
         self.expression.polarity(self.leaf_of_body[body])
     }
@@ -114,5 +139,5 @@ pub(crate) fn skin_of_union(table: &PlaneTable, bodies: &[Body], rank: &[u32]) -
     let count = bodies.len();
     let leaves: Vec<u32> = (0..count as u32).collect();
     let expression = Expression::union_of(count);
-    skin(&Scene { table, bodies, leaf_of_body: &leaves, expression: &expression, rank })
+    skin(&Scene::new(table, bodies, &leaves, &expression, rank))
 }

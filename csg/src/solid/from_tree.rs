@@ -61,7 +61,7 @@ impl Solid {
 }
 
 /// The body of each brush that has an interior, and the number of each brush's body.
-fn bodies_of(table: &PlaneTable, brushes: &[Brush], ids: &[PlaneId]) -> (Vec<Option<u32>>, Vec<Convex>) {
+pub(super) fn bodies_of(table: &PlaneTable, brushes: &[Brush], ids: &[PlaneId]) -> (Vec<Option<u32>>, Vec<Convex>) {
     let mut starts = Vec::with_capacity(brushes.len());
     let mut start = 0;
     for brush in brushes {

@@ -3,7 +3,7 @@
 //! - [`cell`]: a polytope of the kernel that knows the plane and the brush face behind each of its planes; [`convex`]: a body
 //!   that cells are held against.
 //! - [`flat`] finds for each leaf of a tree the [`formula`] that its part of the solid fulfils, [`carve`] cuts the cells,
-//!   [`order`] chooses along which planes first, [`merge`] joins neighbours. [`from_tree`] and [`boolean`] are made of these;
+//!   [`order`] chooses along which planes first, [`merge`] joins neighbours, for bodies that are given, too ([`join`]). [`from_tree`] and [`boolean`] are made of these;
 //!   [`boxes`] tells what comes near what.
 //! - [`cuts`] and [`motion`] change a solid; [`measure`], [`query`], [`ray`] and [`components`] ask it; [`skin`] gives its meshes
 //!   and [`sources`] the brush behind a place on them.
@@ -17,6 +17,7 @@ mod cuts;
 mod flat;
 mod formula;
 mod from_tree;
+mod join;
 mod measure;
 mod merge;
 mod motion;
@@ -32,6 +33,7 @@ use crate::bounds::Bounds;
 use crate::boxes::Boxes;
 pub use cell::{Cell, CellPlane};
 pub use cuts::CutId;
+pub(crate) use join::joined;
 use cuts::PlaneCut;
 pub use ray::RayHit;
 use sources::Sources;

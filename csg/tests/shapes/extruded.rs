@@ -68,7 +68,7 @@ fn random_extrusion(rng: &mut Rng) -> Extrusion {
     let scale = *rng.pick(&[DVec2::ONE, DVec2::splat(0.5), DVec2::splat(1.7), DVec2::new(1.2, 0.7)]);
     let twist = *rng.pick(&[0.0, 20.0, -33.0, 7.5]);
     let slices = if twist == 0.0 { rng.chance(0.5).then_some(1) } else { Some(4 + rng.below(10) as u32) };
-    Extrusion { height: rng.real(0.5, 4.0), twist, scale, slices, center: rng.chance(0.5) }
+    Extrusion { height: rng.real(0.5, 4.0), twist, scale, slices, center: rng.chance(0.5), ..Extrusion::straight(1.0) }
 }
 
 #[test]

@@ -18,6 +18,7 @@ mod judge;
 mod offsets;
 mod outlines;
 mod parameters;
+mod partitions;
 mod polygon;
 mod revolved;
 mod sections;

@@ -140,7 +140,7 @@ fn extrusions_of_random_bad_values() {
         let mut length = || *rng.pick(&LENGTHS);
         let (height, twist, scale) = (length(), length(), DVec2::new(length(), length()));
         let slices = rng.chance(0.5).then(|| *rng.pick(&[0, 1, 2, 5, MAX_SEGMENTS + 1]));
-        let extrusion = Extrusion { height, twist, scale, slices, center: rng.chance(0.5) };
+        let extrusion = Extrusion { height, twist, scale, slices, center: rng.chance(0.5), ..Extrusion::straight(1.0) };
         let factor = |v: f64| v == 0.0 || is_length(v);
         let counts = slices.map_or(twist.abs() <= 50_000.0, |k| (1..=MAX_SEGMENTS).contains(&k));
         let is_accepted = is_length(height) && twist.abs() <= 3.6e6 && factor(scale.x) && factor(scale.y) && counts;

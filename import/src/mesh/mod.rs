@@ -6,20 +6,25 @@
 //! touch in a vertex or edge from parts that are connected, so a sound mesh may come back with pinched vertices or edges
 //! used four times.
 
+mod decimals;
 mod error;
 mod gltf;
 mod merge;
 mod obj;
 mod ply;
 mod polygon;
+mod solid;
 mod stl;
 mod text;
 
 use std::ops::Range;
 
 use glam::DVec3;
+use planecut_csg::Material;
 
 pub use error::{MeshError, Place};
+pub use planecut_csg::polyhedron::Precision;
+pub use solid::{MeshImport, SolidError, read_solid};
 
 use error::Fault;
 
@@ -50,15 +55,6 @@ impl MeshFormat {
     }
 }
 
-/// How finely a format keeps coordinates.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Precision {
-    /// As `f32`, or coarser.
-    Single,
-    /// As `f64`, or as decimals, whose digits are not counted.
-    Double,
-}
-
 /// A named part of a mesh.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct MeshObject {
@@ -81,8 +77,23 @@ pub struct IndexedMesh {
     pub triangles: Vec<[u32; 3]>,
     /// The parts: OBJ objects (or groups, where there are no objects), solids of an ASCII STL, mesh nodes of glTF.
     pub objects: Vec<MeshObject>,
-    /// The coordinates' precision.
+    /// How exactly the coordinates are known: by the type of the numbers, or by the looks of decimals.
     pub precision: Precision,
+    /// The materials that OBJ (`usemtl`) and glTF name, as often as the file does.
+    pub materials: Vec<Material>,
+    /// Of each triangle the number of its material, where it has one; empty where the file names none.
+    pub material_of: Vec<Option<u32>>,
+    /// Where in the file each triangle's facet begins; empty where that says nothing.
+    pub places: Vec<Place>,
+}
+
+impl IndexedMesh {
+    /// A mesh of one object, without materials.
+    fn plain(positions: Vec<DVec3>, triangles: Vec<[u32; 3]>, precision: Precision) -> Self {
+        let objects = objects_from_starts(Vec::new(), triangles.len());
+        let (materials, material_of, places) = (Vec::new(), Vec::new(), Vec::new());
+        Self { positions, triangles, objects, precision, materials, material_of, places }
+    }
 }
 
 /// Reads a mesh; `name` is what errors call the file.

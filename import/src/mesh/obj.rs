@@ -1,13 +1,15 @@
-//! Wavefront OBJ: `v`, `f`, `o` and `g`; all other statements are passed over.
+//! Wavefront OBJ: `v`, `f`, `o`, `g` and `usemtl`; all other statements are passed over.
 
 use std::borrow::Cow;
 
 use glam::DVec3;
+use planecut_csg::Material;
 
 use super::error::{Fault, Place, quoted};
 use super::polygon::{MAX_CONCAVE_CORNERS, triangulate};
 use super::text::finite;
-use super::{IndexedMesh, Precision, objects_from_starts};
+use super::decimals::Decimals;
+use super::{IndexedMesh, objects_from_starts};
 
 /// Reads an OBJ file. Faces may name vertices that are defined before them, by position from either end.
 pub(super) fn read(bytes: &[u8]) -> Result<IndexedMesh, Fault> {
@@ -15,10 +17,12 @@ pub(super) fn read(bytes: &[u8]) -> Result<IndexedMesh, Fault> {
     for (line, statement) in (Statements { rest: bytes, line: 1 }) {
         reader.statement(&statement, line)?;
     }
-    let ObjReader { positions, triangles, objects, groups, .. } = reader;
+    let ObjReader { positions, decimals, triangles, places, materials, material_of, objects, groups, .. } = reader;
     let starts = if objects.is_empty() { groups } else { objects };
     let objects = objects_from_starts(starts, triangles.len());
-    Ok(IndexedMesh { positions, triangles, objects, precision: Precision::Double })
+    let precision = decimals.precision();
+    let material_of = if materials.is_empty() { Vec::new() } else { material_of };
+    Ok(IndexedMesh { positions, triangles, objects, precision, materials, material_of, places })
 }
 
 /// The statements with the line on which each begins: lines, of which those that end in a backslash are joined with the next.
@@ -63,7 +67,14 @@ impl<'a> Statements<'a> {
 #[derive(Default)]
 struct ObjReader {
     positions: Vec<DVec3>,
+    decimals: Decimals,
     triangles: Vec<[u32; 3]>,
+    /// The line of each triangle's face.
+    places: Vec<Place>,
+    /// Those that `usemtl` names, and the number of each triangle's.
+    materials: Vec<Material>,
+    material_of: Vec<Option<u32>>,
+    material: Option<u32>,
     /// First triangle and name of each `o`, and of each `g`.
     objects: Vec<(usize, Option<String>)>,
     groups: Vec<(usize, Option<String>)>,
@@ -79,20 +90,38 @@ impl ObjReader {
             Some(b"v") => self.vertex(words, line),
             Some(b"f") => self.face(words, line),
             Some(b"o") => {
-                self.objects.push((self.triangles.len(), object_name(text)));
+                self.objects.push((self.triangles.len(), name_after(text, b"o")));
                 Ok(())
             }
             Some(b"g") => {
-                self.groups.push((self.triangles.len(), object_name(text)));
+                self.groups.push((self.triangles.len(), name_after(text, b"g")));
+                Ok(())
+            }
+            Some(b"usemtl") => {
+                self.use_material(name_after(text, b"usemtl"));
                 Ok(())
             }
             _ => Ok(()),
         }
     }
 
+    fn use_material(&mut self, name: Option<String>) {
+        self.material = name.map(|name| {
+            let known = self.materials.iter().position(|material| material.name == name);
+            known.unwrap_or_else(|| {
+                self.materials.push(Material::named(name));
+                self.materials.len() - 1
+            }) as u32
+        });
+    }
+
     /// `v x y z`; a weight or colour after it is passed over.
     fn vertex<'w>(&mut self, mut words: impl Iterator<Item = &'w [u8]>, line: usize) -> Result<(), Fault> {
-        let mut coordinate = || finite(words.next().unwrap_or_default(), Place::Line(line));
+        let mut coordinate = || {
+            let word = words.next().unwrap_or_default();
+            self.decimals.add(word);
+            finite(word, Place::Line(line))
+        };
         self.positions.push(DVec3::new(coordinate()?, coordinate()?, coordinate()?));
         Ok(())
     }
@@ -114,6 +143,8 @@ impl ObjReader {
             let expected = format!("at most {MAX_CONCAVE_CORNERS} where it is not convex");
             return Err(Fault::new(Place::Line(line), format!("a face with {count} corners"), expected));
         }
+        self.places.resize(self.triangles.len(), Place::Line(line));
+        self.material_of.resize(self.triangles.len(), self.material);
         Ok(())
     }
 }
@@ -128,7 +159,7 @@ fn vertex_index(word: &[u8], count: usize) -> Option<u32> {
 }
 
 /// What follows the keyword, if anything.
-fn object_name(statement: &[u8]) -> Option<String> {
-    let name = String::from_utf8_lossy(&statement.trim_ascii()[1..]).trim().to_owned();
+fn name_after(statement: &[u8], keyword: &[u8]) -> Option<String> {
+    let name = String::from_utf8_lossy(&statement.trim_ascii()[keyword.len()..]).trim().to_owned();
     (!name.is_empty()).then_some(name)
 }

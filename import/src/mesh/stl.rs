@@ -46,6 +46,7 @@ fn read_binary(bytes: &[u8]) -> Result<IndexedMesh, Fault> {
     let facets = bytes[HEADER..].chunks_exact(FACET);
     let mut merger = PositionMerger::default();
     let mut triangles = Vec::with_capacity(facets.len());
+    let places = (0..facets.len()).map(|number| Place::Byte(HEADER + FACET * number)).collect();
     for (number, facet) in facets.enumerate() {
         let mut triangle = [0; 3];
         for (k, corner) in triangle.iter_mut().enumerate() {
@@ -56,8 +57,7 @@ fn read_binary(bytes: &[u8]) -> Result<IndexedMesh, Fault> {
         }
         triangles.push(triangle);
     }
-    let objects = objects_from_starts(Vec::new(), triangles.len());
-    Ok(IndexedMesh { positions: merger.into_positions(), triangles, objects, precision: Precision::Single })
+    Ok(IndexedMesh { places, ..IndexedMesh::plain(merger.into_positions(), triangles, Precision::Single) })
 }
 
 /// The little-endian `f32` at an offset; NaN past the end.
@@ -76,7 +76,7 @@ fn read_ascii(bytes: &[u8]) -> Result<IndexedMesh, Fault> {
     let mut words = Words::new(bytes, 1);
     let mut merger = PositionMerger::default();
     let mut triangles = Vec::new();
-    let mut starts = Vec::new();
+    let (mut starts, mut places) = (Vec::new(), Vec::new());
     while let Some(word) = words.next() {
         if word.eq_ignore_ascii_case(b"solid") {
             let name = String::from_utf8_lossy(words.rest_of_line()).into_owned();
@@ -84,13 +84,15 @@ fn read_ascii(bytes: &[u8]) -> Result<IndexedMesh, Fault> {
         } else if word.eq_ignore_ascii_case(b"endsolid") {
             words.rest_of_line();
         } else if word.eq_ignore_ascii_case(b"facet") {
+            places.push(words.place());
             triangles.push(read_facet(&mut words, &mut merger)?);
         } else {
             return Err(Fault::new(words.place(), quoted(word), "`facet`, `endsolid` or `solid`"));
         }
     }
     let objects = objects_from_starts(starts, triangles.len());
-    Ok(IndexedMesh { positions: merger.into_positions(), triangles, objects, precision: Precision::Single })
+    let mesh = IndexedMesh::plain(merger.into_positions(), triangles, Precision::Single);
+    Ok(IndexedMesh { objects, places, ..mesh })
 }
 
 /// A facet after its first word.

@@ -118,6 +118,7 @@ impl Maker<'_, '_> {
             scale: scale.into(),
             slices,
             center: center == Some(Kind::Bool(true)),
+            ..Extrusion::straight(1.0)
         };
         self.accept(primitives::extrude(outline, &extrusion, self.material))
     }

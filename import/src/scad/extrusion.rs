@@ -1,7 +1,7 @@
 //! Solids from regions of the plane.
 
 use planecut_csg::outline::Outline;
-use planecut_csg::primitives::{self, Extrusion};
+use planecut_csg::primitives::{self, Extrusion, LayerRules};
 use planecut_csg::{ShapeError, Transform, Tree};
 use planecut_kernel::{DVec2, DVec3};
 
@@ -27,6 +27,7 @@ pub(super) fn linear(turn: Turn<'_, '_>, outline: &Outline) -> Made {
         scale,
         slices: Some(slices(&arguments, outline, height, twist, scale)?),
         center: arguments.is_set("center"),
+        rules: LayerRules::OpenScad,
     };
     Ok(Some(primitives::extrude(outline, &extrusion, turn.frame.material)?.into()))
 }

@@ -12,21 +12,18 @@
 | `mesh_files` | meshes that are imported |
 | `solids` | solids as manifold3d's, or as trees of leaves |
 | `evaluate` | nodes to a solid |
+| `model` | the tree as a reference model |
 """
 
 from pathlib import Path
 
 from .evaluate import Evaluator
+from .model import CsgModel
 from .regions import Grid
-from .solids import Held, Manifolds, Trees
+from .solids import Held, Manifolds
 from .text import parse
 
-
-def read_csg(path: Path) -> tuple:
-    """The file as a `SolidTree`, and warnings. Raises `ValueError` where it cannot be evaluated."""
-    evaluator = Evaluator(Trees(), folder=path.parent)
-    solid = evaluator.solid(parse(path.read_text(encoding="utf-8", errors="replace")))
-    return None if solid is None else solid.settled(), evaluator.warnings
+__all__ = ["CsgModel", "evaluate_csg"]
 
 
 def evaluate_csg(path: Path, openscad: bool = False) -> tuple[Held | None, list[str]]:

@@ -10,7 +10,7 @@ from ..mesh import Mesh
 from . import extrude, primitives, regions
 from .fragments import Resolution
 from .mesh_files import read_mesh
-from .polyhedron import polyhedron
+from .polyhedron import bulges, polyhedron
 from .regions import Grid, Loops
 from .solids import Solids
 from .text import Node, ScadError
@@ -286,7 +286,10 @@ class Evaluator:
         mesh = polyhedron(node)
         faults = {} if mesh is None else mesh.twin_faults()
         if "open" not in faults:
-            return self._leaf(mesh, False, bool(faults))
+            if mesh is None or faults or not bulges(mesh):
+                return self._leaf(mesh, False, bool(faults))
+            self.leaves += 1
+            return Body(self.solids.hull(mesh.vertices[np.unique(mesh.triangles)]))
         self.leaves += 1
         self._warn(node, f"a polyhedron that is not closed is left out: {faults['open']} open edges")
         return Body(None, mesh.vertices[np.unique(mesh.triangles)])

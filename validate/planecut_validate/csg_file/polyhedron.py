@@ -1,5 +1,7 @@
 """`polyhedron`: faces over points, clockwise seen from outside."""
 
+import math
+
 import manifold3d
 import numpy as np
 
@@ -9,6 +11,7 @@ from .values import indices, point
 
 _PLANAR = 1e-9
 """Distance from a face's own plane, relative to the face, up to which corners lie on it."""
+_NEARLY = math.cos(math.radians(0.1))
 
 
 def polyhedron(node: Node) -> Mesh | None:
@@ -24,6 +27,27 @@ def polyhedron(node: Node) -> Mesh | None:
         return None
     # Some files give their faces the wrong way around, all of them.
     return Mesh(vertices, mesh.triangles[:, ::-1]) if mesh.volume() < 0.0 else mesh
+
+
+def bulges(mesh: Mesh) -> bool:
+    """Whether the mesh is nearly convex but not quite: OpenSCAD takes its hull where no edge is turned in by more than 0.1°.
+
+    Such meshes come from faces whose corners do not lie in one plane.
+    """
+    corners = mesh.vertices[mesh.triangles]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normals /= np.linalg.norm(normals, axis=1)[:, None] + 1e-300
+    size = len(mesh.vertices)
+    edges = np.concatenate([mesh.triangles[:, [k, (k + 1) % 3]] for k in range(3)])
+    tips = np.concatenate([mesh.triangles[:, (k + 2) % 3] for k in range(3)])
+    face = np.tile(np.arange(len(mesh.triangles)), 3)
+    order = np.argsort(edges[:, 0] * size + edges[:, 1])
+    found = np.searchsorted((edges[:, 0] * size + edges[:, 1])[order], edges[:, 1] * size + edges[:, 0])
+    twin = order[found]
+    beyond = np.einsum("ij,ij->i", normals[face], mesh.vertices[tips[twin]] - mesh.vertices[edges[:, 0]])
+    bent = np.einsum("ij,ij->i", normals[face], normals[face[twin]])
+    inward = beyond > _PLANAR * np.ptp(mesh.vertices, axis=0).max()
+    return bool(inward.any() and (bent[inward] >= _NEARLY).all())
 
 
 def _given(node: Node) -> tuple[np.ndarray | None, list[np.ndarray]]:

@@ -77,7 +77,7 @@ impl<'a> Sides<'a> {
         let (first, second) = (product(d0, e1), product(d1, e0));
         let above = Rounded { value: first.value - second.value, error: (first.error + second.error) * (1.0 + ERROR) };
         match (below.sign(), above.sign()) {
-            (Some(below), Some(above)) if below == Ordering::Greater => above,
+            (Some(Ordering::Greater), Some(above)) => above,
             (Some(_), Some(above)) => above.reverse(),
             _ => exact_turn_at_meet([a0, a1], other, own),
         }

@@ -17,6 +17,8 @@ const TRIANGLE_FAN: u32 = 6;
 pub(super) struct Geometry {
     pub(super) positions: Vec<DVec3>,
     pub(super) triangles: Vec<[u32; 3]>,
+    /// The material of each triangle.
+    pub(super) material_of: Vec<Option<u32>>,
 }
 
 /// Reads a mesh: its manifold primitive as it stands, or else its primitives with equal positions merged.
@@ -25,10 +27,11 @@ pub(super) fn read(document: &Document, buffers: &Buffers<'_>, mesh: usize) -> R
     if let Some(manifold) = &source.extensions.manifold {
         let place = format!("meshes/{mesh}/extensions/EXT_mesh_manifold/manifoldPrimitive");
         let (positions, triangles) = read_primitive(&manifold.manifold_primitive, buffers, &place)?;
-        return Ok(without_unused(&positions, triangles));
+        let material_of = materials_in_order(document, buffers, mesh, triangles.len())?;
+        return Ok(without_unused(&positions, triangles, material_of));
     }
     let mut merger = PositionMerger::default();
-    let mut merged = Vec::new();
+    let (mut merged, mut material_of) = (Vec::new(), Vec::new());
     for (number, primitive) in source.primitives.iter().enumerate() {
         let place = format!("meshes/{mesh}/primitives/{number}");
         let (positions, triangles) = read_primitive(primitive, buffers, &place)?;
@@ -43,20 +46,51 @@ pub(super) fn read(document: &Document, buffers: &Buffers<'_>, mesh: usize) -> R
                     .ok_or_else(|| Fault::new(Place::Json(place.clone()), "more vertices", "at most 4294967295"))?;
             }
             merged.push(corners);
+            material_of.push(material(document, primitive));
         }
     }
-    Ok(Geometry { positions: merger.into_positions(), triangles: merged })
+    Ok(Geometry { positions: merger.into_positions(), triangles: merged, material_of })
+}
+
+/// The number of a primitive's material, where there is such a one.
+fn material(document: &Document, primitive: &Primitive) -> Option<u32> {
+    primitive.material.filter(|material| *material < document.materials.len()).map(|material| material as u32)
+}
+
+/// The materials of a manifold primitive's triangles, which are those of the mesh's primitives one after another; none where
+/// they are not as many.
+fn materials_in_order(
+    document: &Document,
+    buffers: &Buffers<'_>,
+    mesh: usize,
+    count: usize,
+) -> Result<Vec<Option<u32>>, Fault> {
+    let primitives = &document.meshes[mesh].primitives;
+    if primitives.iter().all(|primitive| material(document, primitive).is_none()) {
+        return Ok(vec![None; count]);
+    }
+    let mut material_of = Vec::with_capacity(count);
+    for (number, primitive) in primitives.iter().enumerate() {
+        let (_, triangles) = read_primitive(primitive, buffers, &format!("meshes/{mesh}/primitives/{number}"))?;
+        material_of.resize(material_of.len() + triangles.len(), material(document, primitive));
+    }
+    Ok(if material_of.len() == count { material_of } else { vec![None; count] })
 }
 
 /// Keeps the vertices that triangles use, in their order.
-fn without_unused(positions: &[DVec3], mut triangles: Vec<[u32; 3]>) -> Geometry {
+fn without_unused(
+    positions: &[DVec3],
+    mut triangles: Vec<[u32; 3]>,
+    material_of: Vec<Option<u32>>,
+) -> Geometry {
     let mut used = vec![false; positions.len()];
     triangles.as_flattened().iter().for_each(|&v| used[v as usize] = true);
     let kept: Vec<u32> = (0..positions.len() as u32).filter(|&v| used[v as usize]).collect();
     let mut new_index = vec![0u32; positions.len()];
     kept.iter().enumerate().for_each(|(new, &old)| new_index[old as usize] = new as u32);
     triangles.iter_mut().flatten().for_each(|v| *v = new_index[*v as usize]);
-    Geometry { positions: kept.into_iter().map(|v| positions[v as usize]).collect(), triangles }
+    let positions = kept.into_iter().map(|v| positions[v as usize]).collect();
+    Geometry { positions, triangles, material_of }
 }
 
 /// The positions and triangles of a primitive; none for points and lines.

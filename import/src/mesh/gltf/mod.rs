@@ -14,6 +14,7 @@ mod geometry;
 mod transform;
 
 use glam::DVec3;
+use planecut_csg::Material;
 
 use super::error::{Fault, Place};
 use super::{IndexedMesh, MeshObject, Precision};
@@ -35,8 +36,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<IndexedMesh, Fault> {
     let document = document::parse(json)?;
     check_requirements(&document)?;
     let buffers = Buffers::new(&document, binary)?;
-    let mut mesh =
-        IndexedMesh { positions: Vec::new(), triangles: Vec::new(), objects: Vec::new(), precision: Precision::Single };
+    let mut mesh = IndexedMesh::plain(Vec::new(), Vec::new(), Precision::Single);
+    mesh.materials = document.materials.iter().enumerate().map(material).collect();
     let mut geometries: Vec<Option<Geometry>> = document.meshes.iter().map(|_| None).collect();
     for placed in transform::placed_meshes(&document)? {
         let slot = &mut geometries[placed.mesh];
@@ -47,6 +48,14 @@ pub(super) fn read(bytes: &[u8]) -> Result<IndexedMesh, Fault> {
         append(&mut mesh, geometry, &placed)?;
     }
     Ok(mesh)
+}
+
+/// A material of the file; one without a name is called by its number.
+fn material((number, material): (usize, &document::Material)) -> Material {
+    let name = material.name.clone().unwrap_or_else(|| format!("material {number}"));
+    let factors = &material.pbr_metallic_roughness;
+    let color = factors.base_color_factor.map(|[r, g, b, _]| [r, g, b]);
+    Material { color, metallic: factors.metallic_factor, roughness: factors.roughness_factor, ..Material::named(name) }
 }
 
 fn check_requirements(document: &Document) -> Result<(), Fault> {
@@ -84,6 +93,7 @@ fn append(mesh: &mut IndexedMesh, geometry: &Geometry, placed: &transform::Place
     let turned = |[a, b, c]: [u32; 3]| if mirrored { [a, c, b] } else { [a, b, c] };
     let first = mesh.triangles.len();
     mesh.triangles.extend(geometry.triangles.iter().map(|t| turned(t.map(|v| v + shift))));
+    mesh.material_of.extend(&geometry.material_of);
     mesh.objects.push(MeshObject { name: placed.name.clone(), triangles: first..mesh.triangles.len() });
     Ok(())
 }

@@ -5,9 +5,9 @@ mod header;
 
 use glam::DVec3;
 
-use super::error::Fault;
+use super::error::{Fault, Place};
 use super::polygon::{MAX_CONCAVE_CORNERS, triangulate};
-use super::{IndexedMesh, Precision, objects_from_starts};
+use super::{IndexedMesh, Precision};
 
 use body::Body;
 use header::{Element, Header, Property, Scalar};
@@ -38,9 +38,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<IndexedMesh, Fault> {
         }
     }
     let positions = positions.ok_or_else(|| Fault::whole("no element `vertex`", "one"))?;
-    let triangles = triangles.ok_or_else(|| Fault::whole("no element `face`", "one"))?;
-    let objects = objects_from_starts(Vec::new(), triangles.len());
-    Ok(IndexedMesh { positions, triangles, objects, precision: precision(&header) })
+    let (triangles, places) = triangles.ok_or_else(|| Fault::whole("no element `face`", "one"))?;
+    Ok(IndexedMesh { places, ..IndexedMesh::plain(positions, triangles, precision(&header)) })
 }
 
 fn precision(header: &Header) -> Precision {
@@ -77,15 +76,22 @@ fn read_vertices(element: &Element, body: &mut Body<'_>) -> Result<Vec<DVec3>, F
     Ok(positions)
 }
 
-fn read_faces(element: &Element, positions: &[DVec3], body: &mut Body<'_>) -> Result<Vec<[u32; 3]>, Fault> {
+/// The triangles, and where the face of each begins.
+fn read_faces(
+    element: &Element,
+    positions: &[DVec3],
+    body: &mut Body<'_>,
+) -> Result<(Vec<[u32; 3]>, Vec<Place>), Fault> {
     let is_indices =
         |p: &&Property| p.list_length.is_some() && ["vertex_indices", "vertex_index"].contains(&p.name.as_str());
     let Some(indices) = element.properties.iter().find(is_indices) else {
         return Err(Fault::whole("no list `vertex_indices` in element `face`", "one"));
     };
     let mut triangles = Vec::with_capacity(element.count);
+    let mut places = Vec::with_capacity(element.count);
     let mut corners = Vec::new();
     for _ in 0..element.count {
+        let before = body.place();
         for property in &element.properties {
             if !std::ptr::eq(property, indices) {
                 skip_property(property, body)?;
@@ -105,8 +111,11 @@ fn read_faces(element: &Element, positions: &[DVec3], body: &mut Body<'_>) -> Re
             let expected = format!("at most {MAX_CONCAVE_CORNERS} where it is not convex");
             return Err(Fault::new(body.place(), format!("a face with {count} corners"), expected));
         }
+        // of text the words are known once they are read
+        let place = if matches!(body, Body::Ascii(_)) { body.place() } else { before };
+        places.resize(triangles.len(), place);
     }
-    Ok(triangles)
+    Ok((triangles, places))
 }
 
 fn vertex_index(value: f64, count: usize, body: &Body<'_>) -> Result<u32, Fault> {

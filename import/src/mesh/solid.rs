@@ -1,0 +1,143 @@
+//! Closed meshes as models of convex cells.
+
+use glam::DVec3;
+use planecut_csg::polyhedron::{PolyhedronError, PolyhedronOptions, polyhedron};
+use planecut_csg::{Material, MaterialId, Model, Tree};
+use rustc_hash::FxHashMap;
+use thiserror::Error;
+
+use super::error::{MeshError, Place};
+use super::{IndexedMesh, MeshFormat, MeshObject, read_mesh};
+use crate::Warning;
+
+/// A mesh file as a model, and what was noticed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeshImport {
+    /// The union of the file's objects, each as convex cells that bear its name.
+    pub model: Model,
+    /// What was repaired.
+    pub warnings: Vec<Warning>,
+}
+
+/// Why a mesh file gives no solid. Displays as one line that begins with the file's name.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum SolidError {
+    /// It could not be read.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+    /// The surface of an object bounds no solid.
+    #[error("{name}:{place} {}{source}", of_object(.object.as_deref()))]
+    Surface {
+        /// The file's name as given to the reader.
+        name: String,
+        /// Where in the file.
+        place: Place,
+        /// The object, where it has a name.
+        object: Option<String>,
+        /// What is wrong with it.
+        source: PolyhedronError,
+    },
+}
+
+fn of_object(object: Option<&str>) -> String {
+    object.map_or_else(String::new, |name| format!("object `{}`: ", name.escape_debug()))
+}
+
+/// Reads a mesh whose objects are closed, as a model: each object becomes convex cells, and overlapping ones are united.
+///
+/// Where an object for itself is not closed, the file is taken as one surface. Faces have the materials of the file, or one named
+/// `default`. The brushes of an object bear its name, and the line of its first facet. glTF, in which y points up, is turned so
+/// that z does. `name` is what errors call the file.
+///
+/// # Errors
+/// [`SolidError`] where the file cannot be read, or an object's surface is not closed, crosses itself, or encloses nothing.
+pub fn read_solid(bytes: &[u8], format: MeshFormat, name: &str) -> Result<MeshImport, SolidError> {
+    let mut mesh = read_mesh(bytes, format, name)?;
+    if format == MeshFormat::Gltf {
+        mesh.positions.iter_mut().for_each(|p| *p = DVec3::new(p.x, 0.0 - p.z, p.y));
+    }
+    solid_of(&mesh).map_err(|(object, source)| {
+        let triangle = source.facet().map(|facet| object.triangles.start + facet);
+        let place = triangle.and_then(|triangle| mesh.places.get(triangle)).cloned().unwrap_or(Place::End);
+        SolidError::Surface { name: name.to_owned(), place, object: object.name.clone(), source }
+    })
+}
+
+/// An object's surface is wrong.
+type Fault = (MeshObject, PolyhedronError);
+
+fn solid_of(mesh: &IndexedMesh) -> Result<MeshImport, Fault> {
+    match united(mesh, &mesh.objects) {
+        Err((object, error @ PolyhedronError::Open { .. })) if mesh.objects.len() > 1 => {
+            let whole = MeshObject { name: None, triangles: 0..mesh.triangles.len() };
+            // what is wrong with the object says more than what is wrong with all
+            united(mesh, &[whole]).map_err(|_| (object, error))
+        }
+        result => result,
+    }
+}
+
+fn united(mesh: &IndexedMesh, objects: &[MeshObject]) -> Result<MeshImport, Fault> {
+    let (materials, material_of) = materials(mesh);
+    let mut import = MeshImport { model: Model { materials, tree: Tree::empty() }, warnings: Vec::new() };
+    let mut brushes = Vec::new();
+    for object in objects {
+        let (points, triangles) = own_points(mesh, object);
+        let options = PolyhedronOptions { precision: mesh.precision };
+        let solid = polyhedron(&points, &triangles, &material_of[object.triangles.clone()], &options)
+            .map_err(|error| (object.clone(), error))?;
+        let line = match mesh.places.get(object.triangles.start) {
+            Some(Place::Line(line)) => u32::try_from(*line).unwrap_or(0),
+            _ => 0,
+        };
+        if solid.is_turned {
+            let message = "found facets that are clockwise seen from outside, turned them over";
+            let message = format!("{}{message}", of_object(object.name.as_deref()));
+            import.warnings.push(Warning { line, message });
+        }
+        brushes.extend(solid.cells.into_iter().map(|mut brush| {
+            (brush.name, brush.line) = (object.name.clone(), line);
+            brush
+        }));
+    }
+    import.model.tree = Tree::union_of(brushes);
+    Ok(import)
+}
+
+/// The points that an object uses, and its triangles by their numbers.
+fn own_points(mesh: &IndexedMesh, object: &MeshObject) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+    let mut numbers: FxHashMap<u32, u32> = FxHashMap::default();
+    let mut points = Vec::new();
+    let mut own = |point: u32| {
+        *numbers.entry(point).or_insert_with(|| {
+            points.push(mesh.positions[point as usize]);
+            points.len() as u32 - 1
+        })
+    };
+    let triangles = mesh.triangles[object.triangles.clone()].iter().map(|t| t.map(&mut own)).collect();
+    (points, triangles)
+}
+
+/// The materials, each name once, and that of each triangle.
+fn materials(mesh: &IndexedMesh) -> (Vec<Material>, Vec<MaterialId>) {
+    let mut materials: Vec<Material> = Vec::new();
+    let mut number = |material: &Material| {
+        let known = materials.iter().position(|other| other.name == material.name);
+        MaterialId(known.unwrap_or_else(|| {
+            materials.push(material.clone());
+            materials.len() - 1
+        }) as u32)
+    };
+    let of_file: Vec<MaterialId> = mesh.materials.iter().map(&mut number).collect();
+    let mut default = None;
+    let mut of_triangle = |triangle: usize| match mesh.material_of.get(triangle).copied().flatten() {
+        Some(material) => of_file[material as usize],
+        None => *default.get_or_insert_with(|| number(&Material::named(DEFAULT))),
+    };
+    let material_of = (0..mesh.triangles.len()).map(&mut of_triangle).collect();
+    (materials, material_of)
+}
+
+/// The material of what has none.
+const DEFAULT: &str = "default";
