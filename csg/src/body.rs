@@ -126,9 +126,9 @@ pub(crate) fn body_of(
         let edges = edges.iter().map(|idx| idx.map(|idx| face_of(idx).0)).collect::<Option<Vec<PlaneId>>>()?;
         let (plane, material) = face_of(*plane);
         let face = body_face(table, plane, material, edges);
-        let triples =
-            (0..face.edges.len()).map(|i| [face.plane, face.edges[i], face.edges[(i + 1) % face.edges.len()]]);
-        let polygon: Vec<DVec3> = triples.filter_map(|triple| table.position(triple)).collect();
+        let triple = |i: usize| [face.plane, face.edges[i], face.edges[(i + 1) % face.edges.len()]];
+        let position = |i: usize| rounded(&face.corners[i]).or_else(|| table.position(triple(i)));
+        let polygon: Vec<DVec3> = (0..face.edges.len()).filter_map(position).collect();
         body.bounds = body.bounds.union(&face.bounds);
         polygons.push(polygon);
         body.faces.push(face);
@@ -142,6 +142,15 @@ fn body_face(table: &PlaneTable, plane: PlaneId, material: MaterialId, edges: Ve
     let corners: Vec<Homogeneous> = (0..n).map(|i| table.homogeneous([plane, edges[i], edges[(i + 1) % n]])).collect();
     let bounds = corners.iter().fold(Bounds::EMPTY, |bounds, corner| bounds.with_point(corner));
     BodyFace { plane, material, edges, corners, bounds }
+}
+
+/// A point rounded a few times, where it is well conditioned.
+fn rounded(point: &Homogeneous) -> Option<DVec3> {
+    const WELL: f64 = 64.0;
+    let [x, y, z, w] = point.value;
+    let [px, py, pz, pw] = point.permanent;
+    let is_well = pw <= WELL * w.abs() && px.max(py).max(pz) <= WELL * x.abs().max(y.abs()).max(z.abs());
+    is_well.then(|| DVec3::new(x, y, z) / w)
 }
 
 /// The volume between the polygons of a convex boundary, as a sum of tetrahedra from one corner: nothing cancels.

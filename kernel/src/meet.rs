@@ -37,18 +37,8 @@ fn meet_double_double(a: &Row, b: &Row, c: &Row, permanent: &[f64; 4]) -> Option
     if permanent.iter().any(|p| *p != 0.0 && !(1e-200..=1e200).contains(p)) {
         return None;
     }
-    let [a, b, c] = [a, b, c].map(Row::coefficients);
-    let cross = |p: &[f64; 4], q: &[f64; 4], u: usize, v: usize| {
-        DoubleDouble::product(p[u], q[v]).plus(DoubleDouble::product(p[v], q[u]).negated())
-    };
-    let mut w = DoubleDouble::default();
-    let mut numerators = [DoubleDouble::default(); 3];
-    for (axis, numerator) in numerators.iter_mut().enumerate() {
-        let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
-        let (bc, ca, ab) = (cross(b, c, u, v), cross(c, a, u, v), cross(a, b, u, v));
-        *numerator = bc.times(a[3]).plus(ca.times(b[3])).plus(ab.times(c[3]));
-        w = w.plus(bc.times(a[axis]));
-    }
+    let [x, y, z, w] = homogeneous_in_double_doubles([a, b, c]);
+    let numerators = [x, y, z];
     let w_error = DOUBLE_DOUBLE_BOUND * permanent[3] / w.high.abs();
     if w_error.is_nan() || w_error > 1e-3 {
         return None;
@@ -66,11 +56,93 @@ fn meet_double_double(a: &Row, b: &Row, c: &Row, permanent: &[f64; 4]) -> Option
     Some(DVec3::from_array(coordinates))
 }
 
+/// `(X, Y, Z, W)` of a meeting point, each with an error of at most [`DOUBLE_DOUBLE_BOUND`] times its permanent.
+fn homogeneous_in_double_doubles(planes: [&Row; 3]) -> [DoubleDouble; 4] {
+    let [a, b, c] = planes.map(Row::coefficients);
+    let mut w = DoubleDouble::default();
+    let mut numerators = [DoubleDouble::default(); 3];
+    for (axis, numerator) in numerators.iter_mut().enumerate() {
+        let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+        let (bc, ca, ab) = (minor(b, c, u, v), minor(c, a, u, v), minor(a, b, u, v));
+        *numerator = bc.times(a[3]).plus(ca.times(b[3])).plus(ab.times(c[3]));
+        w = w.plus(bc.times(a[axis]));
+    }
+    let [x, y, z] = numerators;
+    [x, y, z, w]
+}
+
+/// On which side of a plane the meeting point of three others lies, times the sign of `W`, where double-doubles decide it;
+/// `permanent` is that of the whole determinant.
+///
+/// The coordinates are off by [`DOUBLE_DOUBLE_BOUND`] of their permanents, and seven operations follow.
+pub(crate) fn certain_side(planes: [&Row; 3], h: &Row, permanent: f64) -> Option<Sign> {
+    const SIDE_BOUND: f64 = 1.5 * DOUBLE_DOUBLE_BOUND;
+    // outside this range the low words could underflow
+    if !(1e-150..=1e150).contains(&permanent) {
+        return None;
+    }
+    let [x, y, z, w] = homogeneous_in_double_doubles(planes);
+    let [a, b, c, d] = *h.coefficients();
+    let value = x.times(a).plus(y.times(b)).plus(z.times(c)).plus(w.times(-d));
+    (value.high.abs() > SIDE_BOUND * permanent).then(|| Sign::of(value.high))
+}
+
+/// The determinant of the columns `u`, `v` of two rows.
+fn minor(p: &[f64; 4], q: &[f64; 4], u: usize, v: usize) -> DoubleDouble {
+    DoubleDouble::product(p[u], q[v]).plus(DoubleDouble::product(p[v], q[u]).negated())
+}
+
+/// What tells the line of two planes from all others, each number correctly rounded: its slopes against the coordinate `axis`
+/// in the two coordinates after it in cyclic order, and these coordinates of the point at which `axis` is zero.
+///
+/// `None` where the line is perpendicular to the axis, or there is none.
+#[must_use]
+pub fn line_coordinates(a: &Row, b: &Row, axis: usize) -> Option<[f64; 4]> {
+    let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+    // the numerators, and last the denominator of all
+    let columns = [(v, axis), (axis, u), (3, v), (u, 3), (u, v)];
+    line_coordinates_in_double_doubles(a, b, columns).or_else(|| {
+        let [p, q] = [a, b].map(|row| big_integers(*row.coefficients()));
+        let minors = columns.map(|(i, j)| &p[i] * &q[j] - &p[j] * &q[i]);
+        let [x, y, z, w, denominator] = minors;
+        (!denominator.is_zero()).then(|| [x, y, z, w].map(|numerator| round_quotient(numerator, &denominator)))
+    })
+}
+
+/// `None` where some number cannot be rounded with certainty.
+fn line_coordinates_in_double_doubles(a: &Row, b: &Row, columns: [(usize, usize); 5]) -> Option<[f64; 4]> {
+    let (a, b) = (a.coefficients(), b.coefficients());
+    let permanents = columns.map(|(i, j)| (a[i] * b[j]).abs() + (a[j] * b[i]).abs());
+    // outside this range the low words could underflow
+    if permanents.iter().any(|p| *p != 0.0 && !(1e-200..=1e200).contains(p)) {
+        return None;
+    }
+    let minors = columns.map(|(i, j)| minor(a, b, i, j));
+    let denominator = minors[4];
+    let error = DOUBLE_DOUBLE_BOUND * permanents[4] / denominator.high.abs();
+    if error.is_nan() || error > 1e-3 {
+        return None;
+    }
+    let mut numbers = [0.0; 4];
+    for k in 0..4 {
+        if permanents[k] == 0.0 {
+            continue;
+        }
+        let relative = error + DOUBLE_DOUBLE_BOUND * permanents[k] / minors[k].high.abs();
+        let quotient = minors[k].over(denominator);
+        numbers[k] = quotient.rounded_with(2.0 * relative * quotient.high.abs())?;
+    }
+    Some(numbers)
+}
+
 /// The turn that the projections of three meeting points onto the coordinates `u`, `v` make: positive to the left, exactly.
 ///
-/// Each point is given by three planes with right-handed normals. Always by big integers: for what a filter left open.
+/// Each point is given by three planes with right-handed normals. Not by plain numbers: for what a filter left open.
 #[must_use]
 pub fn planar_turn(points: [[&Row; 3]; 3], u: usize, v: usize) -> Sign {
+    if let Some(sign) = certain_turn(points, u, v) {
+        return sign;
+    }
     let [p, q, r] = points.map(homogeneous_exactly);
     let minor = |i: usize, j: usize| &q[i] * &r[j] - &q[j] * &r[i];
     let determinant = &p[u] * minor(v, 3) + &p[v] * minor(3, u) + &p[3] * minor(u, v);
@@ -79,6 +151,27 @@ pub fn planar_turn(points: [[&Row; 3]; 3], u: usize, v: usize) -> Sign {
         Ordering::Equal => Sign::Zero,
         Ordering::Greater => Sign::Positive,
     }
+}
+
+/// The same, where double-doubles decide it.
+///
+/// Entries of the 3×3 determinant are off by [`DOUBLE_DOUBLE_BOUND`] of their permanents, so each term, a product of three, by
+/// little more than three times that of its own, and the twelve operations on terms add less than another.
+fn certain_turn(points: [[&Row; 3]; 3], u: usize, v: usize) -> Option<Sign> {
+    const TURN_BOUND: f64 = 4.5 * DOUBLE_DOUBLE_BOUND;
+    let permanents = points.map(|[a, b, c]| Homogeneous::of(a, b, c, OffsetColumn::Finite).permanent);
+    // products of three stay within the range of numbers, and so do their low words
+    if permanents.iter().flatten().any(|p| *p != 0.0 && !(1e-60..=1e60).contains(p)) {
+        return None;
+    }
+    let [p, q, r] = points.map(homogeneous_in_double_doubles);
+    let minor = |i: usize, j: usize| q[i].times_sum(r[j]).plus(q[j].times_sum(r[i]).negated());
+    let value = p[u].times_sum(minor(v, 3)).plus(p[v].times_sum(minor(3, u))).plus(p[3].times_sum(minor(u, v)));
+    let [p, q, r] = permanents;
+    let minor = |i: usize, j: usize| q[i] * r[j] + q[j] * r[i];
+    let permanent = p[u] * minor(v, 3) + p[v] * minor(3, u) + p[3] * minor(u, v);
+    // the permanents are rounded themselves
+    (value.high.abs() > 1.001 * TURN_BOUND * permanent).then(|| Sign::of(value.high))
 }
 
 /// The exact lexicographic order of two meeting points by the coordinates `axes`, each point given by three planes with

@@ -10,7 +10,7 @@ use planecut::import::model::ModelOptions;
 use planecut::import::scad::ScadOptions;
 
 use super::error::CliError;
-use super::input::{Input, ModelKind};
+use super::input::{Input, InputKind};
 use super::terminal;
 
 /// Convex-CSG modeling kernel: exact half-spaces in, watertight meshes out.
@@ -37,7 +37,7 @@ pub(crate) enum Command {
 /// Arguments of `build`.
 #[derive(Debug, Args)]
 pub(crate) struct BuildArgs {
-    /// The model, map or tree to read (.json, .map, .csg); `-` is standard input
+    /// The model, map, tree or closed mesh to read (.json, .map, .csg, .obj, .stl, .ply, .glb, .gltf); `-` is standard input
     #[arg(value_name = "INPUT")]
     pub(crate) input: PathBuf,
     /// Mesh to write, by its ending .glb, .gltf, .obj or .stl; may be given several times; `-` is standard output
@@ -82,7 +82,7 @@ pub(crate) struct InfoArgs {
 /// Arguments of `render`.
 #[derive(Debug, Args)]
 pub(crate) struct RenderArgs {
-    /// The model, map or tree to read (.json, .map, .csg); `-` is standard input
+    /// The model, map, tree or closed mesh to read (.json, .map, .csg, .obj, .stl, .ply, .glb, .gltf); `-` is standard input
     #[arg(value_name = "INPUT")]
     pub(crate) input: PathBuf,
     /// Picture to write (.png); `-` is standard output
@@ -118,7 +118,7 @@ pub(crate) struct CheckArgs {
 pub(crate) struct ReadingArgs {
     /// What the input is, whatever its name; by default what its ending says, and json for `-`
     #[arg(long, value_enum, value_name = "FORMAT")]
-    pub(crate) input_format: Option<ModelKind>,
+    pub(crate) input_format: Option<InputKind>,
     #[command(flatten)]
     model: ModelArgs,
     #[command(flatten)]
@@ -147,18 +147,18 @@ impl ReadingArgs {
     /// Sees that no option is for another kind of input.
     ///
     /// # Errors
-    /// [`CliError::Usage`]; `kind` is that of the input, none for a mesh.
-    pub(crate) fn check(&self, kind: Option<ModelKind>) -> Result<(), CliError> {
+    /// [`CliError::Usage`]; `kind` is that of the input.
+    pub(crate) fn check(&self, kind: InputKind) -> Result<(), CliError> {
         let refuse = |option: &str, expected: &str| {
             Err(CliError::Usage(format!("found {option} with another input, expected it with {expected}")))
         };
-        if kind != Some(ModelKind::Json) && !self.model.set.is_empty() {
+        if kind != InputKind::Json && !self.model.set.is_empty() {
             return refuse("--set", "a model file (.json)");
         }
-        if kind != Some(ModelKind::Map) && self.map.options() != MapOptions::default() {
+        if kind != InputKind::Map && self.map.options() != MapOptions::default() {
             return refuse("--world-only, --skip-texture or --skip-class", "a map (.map)");
         }
-        if kind != Some(ModelKind::Csg) && self.scad.keep_going {
+        if kind != InputKind::Csg && self.scad.keep_going {
             return refuse("--keep-going", "an OpenSCAD tree (.csg)");
         }
         Ok(())

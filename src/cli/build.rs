@@ -7,7 +7,7 @@ use planecut::export::{ExportOptions, Part, encode_parts, render_preview};
 use super::args::{BuildArgs, Style};
 use super::cells::Cells;
 use super::error::CliError;
-use super::input::{Input, ModelKind};
+use super::input::{Input, InputKind};
 use super::output::{MeshTarget, Target, check_targets};
 use super::pool::on_threads;
 use super::progress::Progress;
@@ -19,7 +19,7 @@ use super::terminal;
 struct Plan<'a> {
     args: &'a BuildArgs,
     input: Input,
-    kind: ModelKind,
+    kind: InputKind,
     meshes: Vec<MeshTarget>,
     preview: Option<Target>,
     report: Option<Target>,
@@ -65,8 +65,8 @@ pub(crate) fn run(args: &BuildArgs) -> Result<(), CliError> {
 
 impl<'a> Plan<'a> {
     fn resolve(args: &'a BuildArgs) -> Result<Self, CliError> {
-        let (input, kind) = Input::resolve_model(&args.input, args.reading.input_format)?;
-        args.reading.check(Some(kind))?;
+        let (input, kind) = Input::resolve_any(&args.input, args.reading.input_format)?;
+        args.reading.check(kind)?;
         let plan = Self {
             args,
             input,

@@ -7,7 +7,7 @@ use planecut::csg::{EvaluateError, Mesh, Model, Solid, Tree};
 use planecut::export::Part;
 
 use super::error::CliError;
-use super::input::{Input, ModelKind};
+use super::input::{Input, InputKind};
 use super::report::{MeshPart, milliseconds};
 use super::solve::Solved;
 
@@ -22,11 +22,11 @@ impl Cells {
     ///
     /// # Errors
     /// [`CliError::Evaluate`] for an unbounded solid, [`CliError::Bug`] for a bug.
-    pub(crate) fn new(input: &Input, kind: ModelKind, solved: &mut Solved) -> Result<Self, CliError> {
+    pub(crate) fn new(input: &Input, kind: InputKind, solved: &mut Solved) -> Result<Self, CliError> {
         let begin = Instant::now();
         let solid = match kind {
-            ModelKind::Json | ModelKind::Csg => Solid::from_tree(&solved.model.tree),
-            ModelKind::Map => Solid::from_tree(&without(&solved.model, &solved.unbounded)),
+            InputKind::Json | InputKind::Csg | InputKind::Mesh(_) => Solid::from_tree(&solved.model.tree),
+            InputKind::Map => Solid::from_tree(&without(&solved.model, &solved.unbounded)),
         };
         let mut meshes = solid
             .cell_meshes(&solved.model.materials)

@@ -5,7 +5,7 @@ use planecut::import::mesh::{MeshFormat, Precision, read_mesh};
 
 use super::args::CheckArgs;
 use super::error::CliError;
-use super::input::{Input, Kind};
+use super::input::{Input, InputKind};
 use super::pool::on_threads;
 use super::progress::Progress;
 use super::terminal;
@@ -17,8 +17,8 @@ use super::terminal;
 pub(crate) fn run(args: &CheckArgs) -> Result<(), CliError> {
     let expected = "a mesh: `.obj`, `.stl`, `.ply`, `.glb` or `.gltf`";
     let mesh_format = |kind| match kind {
-        Kind::Mesh(format) => Some(format),
-        Kind::Model(_) => None,
+        InputKind::Mesh(format) => Some(format),
+        InputKind::Json | InputKind::Map | InputKind::Csg => None,
     };
     let (input, format) = Input::resolve(&args.mesh, None, mesh_format, expected)?;
     let progress = Progress::start(args.common.quiet);
@@ -40,7 +40,7 @@ fn check(
     let mesh = read_mesh(&input.read()?, format, &input.name())?;
     let tolerance = tolerance.unwrap_or(match mesh.precision {
         Precision::Single => TOLERANCE_F32,
-        Precision::Double => TOLERANCE_F64,
+        Precision::Double | Precision::Digits(_) | Precision::Places(_) => TOLERANCE_F64,
     });
     progress.stage("checking");
     Ok(check_mesh(&mesh.positions, &mesh.triangles, &CheckOptions { tolerance, crossings: true }))

@@ -7,7 +7,7 @@ use planecut::csg::EvaluateError;
 use planecut::csg::check::MeshProblem;
 use planecut::export::ExportError;
 use planecut::import::map::MapError;
-use planecut::import::mesh::MeshError;
+use planecut::import::mesh::{MeshError, SolidError};
 use planecut::import::model::ModelError;
 use planecut::import::scad::ScadError;
 use rayon::ThreadPoolBuildError;
@@ -62,6 +62,9 @@ pub(crate) enum CliError {
     /// The input is no mesh.
     #[error(transparent)]
     Mesh(#[from] MeshError),
+    /// The input is no closed mesh.
+    #[error(transparent)]
+    Solid(#[from] SolidError),
     /// The mesh is not sound.
     #[error("{}: found {problem}, expected a watertight, manifold mesh that does not cross itself", .path.display())]
     NotSound {
@@ -130,7 +133,8 @@ impl CliError {
             | Self::Map(_)
             | Self::Model(_)
             | Self::Scad(_)
-            | Self::Mesh(_) => UNUSABLE,
+            | Self::Mesh(_)
+            | Self::Solid(_) => UNUSABLE,
             Self::NotSound { .. }
             | Self::Evaluate { .. }
             | Self::Bug { .. }

@@ -1,39 +1,36 @@
 //! `planecut info`: what a file holds, as the report's JSON on standard output.
 
+use std::fmt::Display;
 use std::time::Instant;
 
 use planecut::csg::check::check_topology;
 use planecut::import::Warning;
-use planecut::import::mesh::{MeshFormat, read_mesh};
+use planecut::import::mesh::{MeshFormat, SolidError, read_mesh};
 
 use super::args::InfoArgs;
 use super::error::CliError;
-use super::input::{Input, Kind};
+use super::input::{Input, InputKind};
 use super::pool::on_threads;
 use super::progress::Progress;
 use super::report::{Report, milliseconds};
 use super::solve::solve;
 use super::terminal;
 
-/// Runs the command. A model or a map is evaluated; a mesh is taken as it is.
+/// Runs the command. What makes a solid is evaluated; of a mesh, counts are those of the file.
 ///
 /// # Errors
 /// [`CliError`] where the input is unusable, or where the solid has no mesh.
 pub(crate) fn run(args: &InfoArgs) -> Result<(), CliError> {
     let begin = Instant::now();
-    let expected = "`.json`, `.map`, `.csg`, `.obj`, `.stl`, `.ply`, `.glb` or `.gltf`";
-    let (input, kind) = Input::resolve(&args.input, args.reading.input_format, Some, expected)?;
-    args.reading.check(match kind {
-        Kind::Model(kind) => Some(kind),
-        Kind::Mesh(_) => None,
-    })?;
+    let (input, kind) = Input::resolve_any(&args.input, args.reading.input_format)?;
+    args.reading.check(kind)?;
     let progress = Progress::start(args.common.quiet);
     let (mut report, warnings) = on_threads(args.common.threads, || match kind {
-        Kind::Model(kind) => {
+        InputKind::Mesh(format) => report_on_mesh(&input, format, args, &progress),
+        kind => {
             let solved = solve(&input, kind, &args.reading, &progress)?;
             Ok((solved.report, solved.warnings))
         }
-        Kind::Mesh(format) => report_on_mesh(&input, format),
     })?;
     drop(progress);
     if !args.common.quiet {
@@ -43,23 +40,34 @@ pub(crate) fn run(args: &InfoArgs) -> Result<(), CliError> {
     terminal::print_text(&report.to_json())
 }
 
-fn report_on_mesh(input: &Input, format: MeshFormat) -> Result<(Report, Vec<Warning>), CliError> {
+/// What the file says of the mesh, and what its solid is where there is one.
+fn report_on_mesh(
+    input: &Input,
+    format: MeshFormat,
+    args: &InfoArgs,
+    progress: &Progress,
+) -> Result<(Report, Vec<Warning>), CliError> {
     let begin = Instant::now();
     let mesh = read_mesh(&input.read()?, format, &input.name())?;
     let import_time = begin.elapsed();
     let topology = check_topology(&mesh.positions, &mesh.triangles);
-    let mut report = Report::of_mesh(input.given(), format_name(format), &topology);
+    let mut report = Report::of_mesh(input.given(), InputKind::Mesh(format).name(), &topology);
     report.time_ms.import = milliseconds(import_time);
-    let warning = topology.first_defect.map(|defect| Warning { line: 0, message: defect.to_string() });
-    report.warnings = warning.iter().map(ToString::to_string).collect();
-    Ok((report, warning.into_iter().collect()))
+    let mut warnings: Vec<Warning> = topology.first_defect.map(warning).into_iter().collect();
+    match solve(input, InputKind::Mesh(format), &args.reading, progress) {
+        Ok(solved) => {
+            report.take_model(solved.report);
+            warnings.extend(solved.warnings);
+        }
+        Err(error @ CliError::Solid(SolidError::Surface { .. })) => {
+            warnings.push(warning(format_args!("no solid: {error}")));
+        }
+        Err(error) => return Err(error),
+    }
+    report.warnings = warnings.iter().map(ToString::to_string).collect();
+    Ok((report, warnings))
 }
 
-fn format_name(format: MeshFormat) -> &'static str {
-    match format {
-        MeshFormat::Obj => "obj",
-        MeshFormat::Stl => "stl",
-        MeshFormat::Ply => "ply",
-        MeshFormat::Gltf => "gltf",
-    }
+fn warning(message: impl Display) -> Warning {
+    Warning { line: 0, message: message.to_string() }
 }

@@ -5,41 +5,59 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
+use clap::builder::PossibleValue;
 use planecut::import::mesh::MeshFormat;
 use planecut::import::model::MAX_TEXT;
 
 use super::error::CliError;
 
-/// An input that makes a solid.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum ModelKind {
+/// What an input is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum InputKind {
     /// The native model file.
     Json,
     /// A Quake-family map.
     Map,
     /// An evaluated tree of OpenSCAD.
     Csg,
+    /// A triangle mesh.
+    Mesh(MeshFormat),
 }
 
-impl ModelKind {
-    /// The name of the format, for reports.
+impl InputKind {
+    /// The name of the format, for arguments and reports.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Json => "json",
             Self::Map => "map",
             Self::Csg => "csg",
+            Self::Mesh(MeshFormat::Obj) => "obj",
+            Self::Mesh(MeshFormat::Stl) => "stl",
+            Self::Mesh(MeshFormat::Ply) => "ply",
+            Self::Mesh(MeshFormat::Gltf) => "gltf",
         }
     }
 }
 
-/// What a command can read.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Kind {
-    /// A tree of brushes.
-    Model(ModelKind),
-    /// A triangle mesh.
-    Mesh(MeshFormat),
+impl ValueEnum for InputKind {
+    fn value_variants<'a>() -> &'a [Self] {
+        use MeshFormat::{Gltf, Obj, Ply, Stl};
+        &[Self::Json, Self::Map, Self::Csg, Self::Mesh(Obj), Self::Mesh(Stl), Self::Mesh(Ply), Self::Mesh(Gltf)]
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        let help = match self {
+            Self::Json => "The native model file",
+            Self::Map => "A Quake-family map",
+            Self::Csg => "An evaluated tree of OpenSCAD",
+            Self::Mesh(_) => "A closed mesh",
+        };
+        Some(PossibleValue::new(self.name()).help(help))
+    }
 }
+
+/// The endings of all inputs.
+const EXPECTED: &str = "`.json`, `.map`, `.csg`, `.obj`, `.stl`, `.ply`, `.glb` or `.gltf`";
 
 /// Where an input is.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -65,16 +83,16 @@ impl Input {
     /// [`CliError::Ending`], which says `expected`, where the ending is that of no kind that is accepted.
     pub(crate) fn resolve<T>(
         path: &Path,
-        stated: Option<ModelKind>,
-        accept: impl FnOnce(Kind) -> Option<T>,
+        stated: Option<InputKind>,
+        accept: impl FnOnce(InputKind) -> Option<T>,
         expected: &'static str,
     ) -> Result<(Self, T), CliError> {
         let source = if path == Path::new("-") { Source::Stdin } else { Source::File };
         let of_name = || match source {
             Source::File => kind_of(path),
-            Source::Stdin => Some(Kind::Model(ModelKind::Json)),
+            Source::Stdin => Some(InputKind::Json),
         };
-        match stated.map(Kind::Model).or_else(of_name).and_then(accept) {
+        match stated.or_else(of_name).and_then(accept) {
             Some(kind) => {
                 let path = if source == Source::Stdin { PathBuf::from("standard input") } else { path.to_owned() };
                 Ok((Self { path, source }, kind))
@@ -83,16 +101,12 @@ impl Input {
         }
     }
 
-    /// A model or a map, for the commands that need brushes.
+    /// Any input.
     ///
     /// # Errors
-    /// [`CliError::Ending`] where it is neither by its name.
-    pub(crate) fn resolve_model(path: &Path, stated: Option<ModelKind>) -> Result<(Self, ModelKind), CliError> {
-        let model = |kind| match kind {
-            Kind::Model(kind) => Some(kind),
-            Kind::Mesh(_) => None,
-        };
-        Self::resolve(path, stated, model, "`.json`, `.map` or `.csg`, the inputs that this version builds from")
+    /// [`CliError::Ending`] where it is none by its name.
+    pub(crate) fn resolve_any(path: &Path, stated: Option<InputKind>) -> Result<(Self, InputKind), CliError> {
+        Self::resolve(path, stated, Some, EXPECTED)
     }
 
     /// The path for messages.
@@ -133,11 +147,8 @@ fn read_stdin() -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-fn kind_of(path: &Path) -> Option<Kind> {
+fn kind_of(path: &Path) -> Option<InputKind> {
     let ending = path.extension()?.to_str()?;
-    let model = ModelKind::value_variants().iter().copied().find(|kind| kind.name().eq_ignore_ascii_case(ending));
-    match model {
-        Some(kind) => Some(Kind::Model(kind)),
-        None => MeshFormat::from_extension(ending).map(Kind::Mesh),
-    }
+    let known = InputKind::value_variants().iter().copied().find(|kind| kind.name().eq_ignore_ascii_case(ending));
+    known.or_else(|| MeshFormat::from_extension(ending).map(InputKind::Mesh))
 }

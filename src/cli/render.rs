@@ -16,8 +16,8 @@ use super::terminal;
 /// # Errors
 /// [`CliError`] where the arguments or the input are unusable, or the picture cannot be written.
 pub(crate) fn run(args: &RenderArgs) -> Result<(), CliError> {
-    let (input, kind) = Input::resolve_model(&args.input, args.reading.input_format)?;
-    args.reading.check(Some(kind))?;
+    let (input, kind) = Input::resolve_any(&args.input, args.reading.input_format)?;
+    args.reading.check(kind)?;
     let target = Target::picture(&args.output)?;
     check_targets(input.file(), [&target].into_iter())?;
     let progress = Progress::start(args.common.quiet);

@@ -20,9 +20,9 @@ pub(crate) struct Report {
     input: String,
     /// The input's format.
     format: &'static str,
-    /// What the model holds; `null` for a mesh.
+    /// What the model holds; `null` for a mesh that bounds no solid.
     model: Option<ModelPart>,
-    /// The solid; `null` for a mesh that encloses none.
+    /// The solid; of a mesh that bounds none but is closed, what its triangles enclose.
     solid: Option<SolidPart>,
     /// The mesh.
     mesh: MeshPart,
@@ -71,6 +71,14 @@ impl Report {
             time_ms: Times::default(),
             warnings: Vec::new(),
         }
+    }
+
+    /// Takes what a report says of the model and its solid, and the times that it took.
+    pub(crate) fn take_model(&mut self, other: Self) {
+        self.model = other.model;
+        self.solid = other.solid;
+        self.signs = other.signs;
+        self.time_ms = other.time_ms;
     }
 
     /// Says that cells were written instead of the skin: how many, the sum of their volumes, and their meshes.

@@ -1,4 +1,4 @@
-//! From a model or a map to its solid and the report on it: what `build`, `info` and `render` share.
+//! From an input to its solid and the report on it: what `build`, `info` and `render` share.
 
 use std::time::Instant;
 
@@ -6,12 +6,13 @@ use planecut::csg::check::check_topology;
 use planecut::csg::{Evaluation, Mesh, Model, ModelSummary, UnboundedBrushes, evaluate_with};
 use planecut::import::Warning;
 use planecut::import::map::read_map;
+use planecut::import::mesh::read_solid;
 use planecut::import::model::read_model;
 use planecut::import::scad::read_scad;
 
 use super::args::ReadingArgs;
 use super::error::CliError;
-use super::input::{Input, ModelKind};
+use super::input::{Input, InputKind};
 use super::progress::Progress;
 use super::report::{MeshPart, Report, milliseconds};
 
@@ -32,11 +33,10 @@ pub(crate) struct Solved {
 /// Reads an input and evaluates its tree on the current thread pool.
 ///
 /// # Errors
-/// [`CliError::Read`], [`CliError::Map`] or [`CliError::Model`] for unusable input, [`CliError::Evaluate`] for a solid without
-/// a mesh, [`CliError::Bug`] for a bug.
+/// [`CliError`] for unusable input, [`CliError::Evaluate`] for a solid without a mesh, [`CliError::Bug`] for a bug.
 pub(crate) fn solve(
     input: &Input,
-    kind: ModelKind,
+    kind: InputKind,
     reading: &ReadingArgs,
     progress: &Progress,
 ) -> Result<Solved, CliError> {
@@ -60,36 +60,40 @@ pub(crate) fn solve(
     Ok(Solved { model, mesh: evaluation.mesh, unbounded: evaluation.model.unbounded, report, warnings })
 }
 
-fn read(input: &Input, kind: ModelKind, reading: &ReadingArgs) -> Result<(Model, Vec<Warning>), CliError> {
+fn read(input: &Input, kind: InputKind, reading: &ReadingArgs) -> Result<(Model, Vec<Warning>), CliError> {
     let bytes = input.read()?;
     Ok(match kind {
-        ModelKind::Json => {
+        InputKind::Json => {
             let import = read_model(&bytes, &input.name(), &reading.model_options())?;
             (import.model, import.warnings)
         }
-        ModelKind::Map => {
+        InputKind::Map => {
             let import = read_map(&bytes, &input.name(), &reading.map_options())?;
             (import.model, import.warnings)
         }
-        ModelKind::Csg => {
+        InputKind::Csg => {
             let import = read_scad(&bytes, &input.name(), &reading.scad_options(input))?;
+            (import.model, import.warnings)
+        }
+        InputKind::Mesh(format) => {
+            let import = read_solid(&bytes, format, &input.name())?;
             (import.model, import.warnings)
         }
     })
 }
 
-fn evaluate_model(input: &Input, kind: ModelKind, model: &Model) -> Result<Evaluation, CliError> {
+fn evaluate_model(input: &Input, kind: InputKind, model: &Model) -> Result<Evaluation, CliError> {
     let unbounded = match kind {
-        ModelKind::Json | ModelKind::Csg => UnboundedBrushes::Keep,
+        InputKind::Json | InputKind::Csg | InputKind::Mesh(_) => UnboundedBrushes::Keep,
         // Nobody means half of space in a map: the brush lacks a face.
-        ModelKind::Map => UnboundedBrushes::LeaveOut,
+        InputKind::Map => UnboundedBrushes::LeaveOut,
     };
     evaluate_with(model, unbounded).map_err(|source| CliError::of_evaluation(&input.path, source))
 }
 
 /// One warning for each kind of brush that adds nothing to the solid, on the line of the first of them.
-fn brush_warnings(kind: ModelKind, model: &Model, summary: &ModelSummary) -> impl Iterator<Item = Warning> {
-    let unbounded: &[usize] = if kind == ModelKind::Map { &summary.unbounded } else { &[] };
+fn brush_warnings(kind: InputKind, model: &Model, summary: &ModelSummary) -> impl Iterator<Item = Warning> {
+    let unbounded: &[usize] = if kind == InputKind::Map { &summary.unbounded } else { &[] };
     let kinds = [(&summary.empty[..], "without interior"), (unbounded, "that is not bounded")];
     kinds.into_iter().filter_map(|(numbers, kind)| {
         let line = model.tree.brushes()[*numbers.first()?].line;

@@ -10,13 +10,15 @@ from importlib.metadata import version
 from pathlib import Path
 
 from . import table
-from .batch import check_many_identities, check_random
+from .batch import CSG, MODELS, check_many_identities, check_random
 from .checks import check
 from .model import FORMATS
 from .report import write_report
 from .result import Options, Result
 
 WORKSPACE = Path(__file__).resolve().parents[2]
+_MOST_OF_CSG = 24
+"""Leaves of a random OpenSCAD tree: one of its leaves may be a thousand faces."""
 
 
 def main() -> int:
@@ -34,8 +36,8 @@ def main() -> int:
         if not found:
             return _unusable(f"{path}: no model found, expected {', '.join(FORMATS)}")
         models += found
-    if not (models or arguments.random or arguments.identities):
-        return _unusable("nothing to check: no PATH, no --random, no --identities")
+    if not (models or arguments.random or arguments.random_csg or arguments.identities):
+        return _unusable("nothing to check: no PATH, no --random, no --random-csg, no --identities")
     with ProcessPoolExecutor(max(1, arguments.jobs)) as pool:
         results = _check_all(models, arguments, options, pool)
     for path in arguments.report or [WORKSPACE / "out/validate.html"]:
@@ -56,7 +58,11 @@ def _check_all(
         results += _told(pool.map(partial(check, options=options), models), [str(m) for m in models])
     if arguments.random:
         print(f"{arguments.random} random trees of up to {arguments.leaves} leaves, from seed {options.seed}")
-        results += table.summed(check_random(arguments.random, arguments.leaves, options, arguments.keep, pool))
+        results += table.summed(check_random(MODELS, arguments.random, arguments.leaves, options, arguments.keep, pool))
+    if arguments.random_csg:
+        most = min(arguments.leaves, _MOST_OF_CSG)
+        print(f"{arguments.random_csg} random OpenSCAD trees of up to {most} leaves, from seed {options.seed}")
+        results += table.summed(check_random(CSG, arguments.random_csg, most, options, arguments.keep, pool))
     if arguments.identities:
         print(f"{arguments.identities} identities over random solids, from seed {options.seed}")
         results += table.summed(
@@ -80,6 +86,7 @@ def _arguments() -> argparse.Namespace:
     add("--lines", type=int, default=20_000, help="random lines per model (default %(default)s)")
     add("--seed", type=int, default=1, help="seed of the lines, and of the first random tree (default %(default)s)")
     add("--random", type=int, default=0, metavar="N", help="check N random trees")
+    add("--random-csg", type=int, default=0, metavar="N", help="check N random OpenSCAD trees")
     add("--identities", type=int, default=0, metavar="N", help="check N identities of set algebra over random solids")
     add("--leaves", type=int, default=60, help="most leaves of a random tree (default %(default)s)")
     add(

@@ -7,7 +7,7 @@ import numpy as np
 
 from .convex_body import ConvexBody
 from .leaf import ConvexLeaf
-from .lines import Coverage, Lines
+from .lines import POSITION, Coverage, Lines
 from .reference import AGREED, ReferenceSurface, ReferenceVolume
 from .result import SAME
 from .solid_tree import SolidTree
@@ -28,6 +28,7 @@ class BrushUnion:
     is_simple = False
     exact = None
     limit = SAME
+    position = POSITION
 
     def __init__(self, bodies: list[ConvexBody], brushes: int):
         self.brushes = brushes

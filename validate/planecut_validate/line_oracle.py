@@ -9,12 +9,10 @@ from typing import Protocol
 
 import numpy as np
 
-from .lines import TOUCHING, Coverage, Crossings, Lines
+from .lines import POSITION, TOUCHING, Coverage, Crossings, Lines
 from .mesh import Mesh
 from .mesh_lines import TriangleTree
 
-POSITION = 1e-6
-"""Largest distance of a crossing from its place, relative to the model's diagonal."""
 _TRIES = 8
 """How often an unclear line is drawn anew."""
 
@@ -24,6 +22,8 @@ class Covered(Protocol):
 
     low: np.ndarray
     high: np.ndarray
+    position: float
+    """Largest distance of a crossing from its place, relative to the model's diagonal."""
 
     def coverage(self, lines: Lines) -> Coverage:
         """Where the lines cross it."""
@@ -50,12 +50,16 @@ class LineReport:
 
 @dataclass
 class Drawn:
-    """Lines through a model and what it says of them; `redrawn` of them were unclear at first."""
+    """Lines through a model and what it says of them; `redrawn` of them were unclear at first.
+
+    `position`: largest distance of a crossing from its place, relative to `size`.
+    """
 
     lines: Lines
     coverage: Coverage
     size: float
     redrawn: int
+    position: float = POSITION
 
 
 def draw(model: Covered, lines: int, seed: int) -> Drawn:
@@ -63,7 +67,7 @@ def draw(model: Covered, lines: int, seed: int) -> Drawn:
     random = np.random.default_rng(seed)
     size = float(np.linalg.norm(model.high - model.low))
     drawn = _draw(model, lines, random)
-    return _redraw(model, Drawn(drawn, model.coverage(drawn), size, 0), random)
+    return _redraw(model, Drawn(drawn, model.coverage(drawn), size, 0, model.position), random)
 
 
 def compare(drawn: Drawn, mesh: Mesh) -> LineReport:
@@ -77,10 +81,10 @@ def compare_crossings(drawn: Drawn, found: Crossings) -> LineReport:
     coverage, count = drawn.coverage, len(drawn.lines)
     report = LineReport(count, len(found.t), redrawn=drawn.redrawn, unclear=int(coverage.unclear.sum()))
     wrong = coverage.endless.copy()
-    _compare_clear(coverage, found, drawn.size, wrong, report)
+    _compare_clear(drawn, found, wrong, report)
     for line in np.nonzero(coverage.unclear)[0]:
         expected, seen = (_closed(c.of(line), TOUCHING * drawn.size) for c in (coverage.crossings, found))
-        same = len(expected) == len(seen) and np.abs(expected - seen).max(initial=0.0) <= POSITION * drawn.size
+        same = len(expected) == len(seen) and np.abs(expected - seen).max(initial=0.0) <= drawn.position * drawn.size
         wrong[line] = not same
     report.mismatches = int(wrong.sum())
     report.examples = [_describe(line, drawn.lines, coverage.crossings, found) for line in np.nonzero(wrong)[0][:3]]
@@ -116,7 +120,7 @@ def _redraw(model: Covered, drawn: Drawn, random: np.random.Generator) -> Drawn:
         directions = _unit(lines.directions[which] + 100.0 * step * random.normal(size=(len(which), 3)))
         lines.origins[which], lines.directions[which] = origins, directions
         coverage = _replaced(coverage, which, model.coverage(lines[which]))
-    return Drawn(lines, coverage, drawn.size, drawn.redrawn)
+    return Drawn(lines, coverage, drawn.size, drawn.redrawn, drawn.position)
 
 
 def _replaced(old: Coverage, which: np.ndarray, new: Coverage) -> Coverage:
@@ -132,8 +136,9 @@ def _replaced(old: Coverage, which: np.ndarray, new: Coverage) -> Coverage:
     return Coverage(Crossings(line[order], t[order], sign[order]), unclear, endless)
 
 
-def _compare_clear(coverage: Coverage, found: Crossings, size: float, wrong: np.ndarray, report: LineReport) -> None:
+def _compare_clear(drawn: Drawn, found: Crossings, wrong: np.ndarray, report: LineReport) -> None:
     """Marks the clear lines whose crossings differ in number, sense or place."""
+    coverage, size = drawn.coverage, drawn.size
     expected, lines = coverage.crossings, len(wrong)
     counts = [np.bincount(c.line, minlength=lines) for c in (expected, found)]
     clear = ~coverage.unclear
@@ -142,7 +147,7 @@ def _compare_clear(coverage: Coverage, found: Crossings, size: float, wrong: np.
     left, right = (comparable[c.line] for c in (expected, found))
     line = expected.line[left]
     distance = np.abs(expected.t[left] - found.t[right]) / size if size else np.zeros(len(line))
-    bad = (distance > POSITION) | (expected.sign[left] != found.sign[right])
+    bad = (distance > drawn.position) | (expected.sign[left] != found.sign[right])
     wrong[line[bad]] = True
     report.deviation = float(distance.max(initial=0.0))
 

@@ -10,6 +10,8 @@ SURELY_TOUCHING = 1e-12
 """What rounding alone explains. A gap between the two values makes a line unclear."""
 CLOSE = 1e-7
 """Planes of a body that a line meets within this distance (relative to the diagonal): too near an edge or a corner."""
+POSITION = 1e-6
+"""Largest distance of a crossing from its place, relative to the model's diagonal."""
 GRAZING = 1e-4
 """Cosine to the normal of a face below which the line is taken to graze it."""
 

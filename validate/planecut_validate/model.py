@@ -42,6 +42,8 @@ class ReferenceModel(Protocol):
     """Volume and area where they are known without manifold3d."""
     limit: float
     """Largest relative difference of a volume from the one that manifold3d finds."""
+    position: float
+    """Largest distance of a crossing of a line from its place, relative to the diagonal."""
 
     def volume(self, candidate: float | None) -> ReferenceVolume:
         """The volume of the solid by manifold3d. Raises `ArithmeticError` where its answers do not settle on one.

@@ -7,11 +7,15 @@ from concurrent.futures import Executor
 _LISTS = ("union", "intersection", "difference", "xor")
 
 
-def shrink(node: dict, fails: Callable[[dict], bool], pool: Executor, seconds: float = 120.0) -> dict:
-    """The smallest NODE found in this time that still fails; several candidates are tried at once."""
+def shrink(tree, fails: Callable, pool: Executor, seconds: float = 120.0, smaller=None, size=None):
+    """The smallest tree found in this time that still fails; several candidates are tried at once.
+
+    `smaller`: all trees that are one step smaller; `size`: what is to become less; those of a NODE where none are named.
+    """
+    smaller, size = smaller or smaller_nodes, size or leaves
     end = time.monotonic() + seconds
     while time.monotonic() < end:
-        candidates = sorted(_smaller(node), key=leaves)
+        candidates = sorted(smaller(tree), key=size)
         found = None
         for at in range(0, len(candidates), _AT_ONCE):
             several = candidates[at : at + _AT_ONCE]
@@ -20,8 +24,8 @@ def shrink(node: dict, fails: Callable[[dict], bool], pool: Executor, seconds: f
                 break
         if found is None:
             break
-        node = found
-    return node
+        tree = found
+    return tree
 
 
 _AT_ONCE = 16
@@ -40,7 +44,7 @@ def _operands(node: dict) -> list[dict]:
     return [node["complement"]] if "complement" in node else []
 
 
-def _smaller(node: dict) -> Iterator[dict]:
+def smaller_nodes(node: dict) -> Iterator[dict]:
     """Trees with one node replaced by one of its operands, one operand less, or one transform less."""
     yield from _operands(node)
     # The complement of a complement is not bounded by itself.
@@ -51,11 +55,11 @@ def _smaller(node: dict) -> Iterator[dict]:
         for i in range(len(node["transform"])):
             yield node | {"transform": node["transform"][:i] + node["transform"][i + 1 :]}
     if "complement" in node:
-        for inner in _smaller(node["complement"]):
+        for inner in smaller_nodes(node["complement"]):
             yield {"complement": inner}
     for kind in _LISTS:
         operands = node.get(kind, [])
         if len(operands) > 1:
             yield from ({kind: operands[:i] + operands[i + 1 :]} for i in range(len(operands)))
         for i, operand in enumerate(operands):
-            yield from ({kind: [*operands[:i], inner, *operands[i + 1 :]]} for inner in _smaller(operand))
+            yield from ({kind: [*operands[:i], inner, *operands[i + 1 :]]} for inner in smaller_nodes(operand))

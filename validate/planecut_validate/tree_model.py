@@ -7,7 +7,7 @@ import numpy as np
 
 from . import rectilinear
 from .coincidence import any_coincident_faces
-from .lines import Coverage, Lines
+from .lines import POSITION, Coverage, Lines
 from .reference import AGREED, ReferenceSurface, ReferenceVolume
 from .result import SAME
 from .solid_tree import SolidTree
@@ -28,6 +28,7 @@ class TreeModel:
     counts_brushes = False
     empty_may_be_refused = False
     limit = SAME
+    position = POSITION
 
     def __init__(self, tree: SolidTree, notes: list[str] | None = None):
         self.tree = tree

@@ -1,7 +1,9 @@
 """Writes meshes as `planecut` does: OBJ with one object, GLB with one mesh node per piece."""
 
 import json
+import stat
 import struct
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -102,3 +104,11 @@ def _write_skin(mesh: Mesh, path: Path) -> None:
         ],
     }
     _pack(document, pieces, path)
+
+
+def fake_program(folder: Path) -> Path:
+    """A program in the folder that takes planecut's command line and writes what manifold3d makes of the model."""
+    program = folder / "planecut"
+    program.write_text(f"#!/bin/sh\nexec '{sys.executable}' '{Path(__file__).with_name('fake_planecut.py')}' \"$@\"\n")
+    program.chmod(program.stat().st_mode | stat.S_IXUSR)
+    return program

@@ -2,17 +2,16 @@
 
 import json
 import os
-import stat
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 from unittest import mock
 
+from fake_files import fake_program
+
 from planecut_validate.checks import check
 from planecut_validate.result import Options
 
-TESTS = Path(__file__).resolve().parent
 LINES, SEED = 4000, 7
 
 # A notched block of three overlapping and touching boxes, and one apart.
@@ -73,9 +72,7 @@ class Damage(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory(prefix="planecut-validate-")
         cls.addClassCleanup(cls.folder.cleanup)
-        cls.binary = Path(cls.folder.name) / "planecut"
-        cls.binary.write_text(f"#!/bin/sh\nexec '{sys.executable}' '{TESTS / 'fake_planecut.py'}' \"$@\"\n")
-        cls.binary.chmod(cls.binary.stat().st_mode | stat.S_IXUSR)
+        cls.binary = fake_program(Path(cls.folder.name))
         cls.map = Path(cls.folder.name) / "boxes.map"
         brushes = "".join(box_brush(low, high) for low, high in BOXES)
         cls.map.write_text('{\n"classname" "worldspawn"\n' + brushes + "}\n")

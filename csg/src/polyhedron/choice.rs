@@ -8,14 +8,16 @@ use super::edges::Edges;
 use super::part::{Part, Points};
 
 /// How many sides of points are asked for at most to choose a cut.
-const EFFORT: usize = 1 << 22;
+const EFFORT: usize = 100_000;
 /// How many planes are tried at least.
 const MIN_CANDIDATES: usize = 16;
 
 /// What it costs to cut a piece in two.
 const CUT_PIECE: f64 = 4.0;
 /// What a reflex edge is worth that is no longer one.
-const MENDED_EDGE: f64 = 12.0;
+const MENDED_EDGE: f64 = 24.0;
+/// What it costs that one side has a piece more than the other: parts that shrink slowly take long, and are cut more often.
+const IMBALANCE: f64 = 0.6;
 /// What it costs to pass a corner so near that it might have been on the plane.
 const DOUBT: f64 = 64.0;
 
@@ -88,8 +90,9 @@ impl Local {
         let mended = edges.reflex.iter().filter(|(ends, _)| ends.iter().all(is_on)).count();
         let is_useful =
             both > 0 || below > 0 && above > 0 || mended > 0 || self.parts_from_own(part, plane, below, above);
-        let balance = below.abs_diff(above) as f64 / part.pieces.len() as f64;
-        let cost = CUT_PIECE * both as f64 - MENDED_EDGE * mended as f64 + DOUBT * doubtful as f64 + balance;
+        let cost = CUT_PIECE * both as f64 - MENDED_EDGE * mended as f64
+            + DOUBT * doubtful as f64
+            + IMBALANCE * below.abs_diff(above) as f64;
         is_useful.then_some(cost)
     }
 

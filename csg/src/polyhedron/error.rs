@@ -103,7 +103,9 @@ impl PolyhedronError {
     #[must_use]
     pub fn facet(&self) -> Option<usize> {
         match self {
-            Self::UnknownPoint { facet, .. } | Self::TooManyCorners { facet, .. } | Self::Open { facet, .. } => Some(*facet),
+            Self::UnknownPoint { facet, .. } | Self::TooManyCorners { facet, .. } | Self::Open { facet, .. } => {
+                Some(*facet)
+            }
             Self::Crossing { facets, .. } => Some(facets[0]),
             _ => None,
         }

@@ -156,10 +156,7 @@ fn check_closed(polygons: &[(u32, Vec<u32>)], points: &[DVec3]) -> Result<(), Po
     Ok(())
 }
 
-fn triangulate(
-    polygons: &[(u32, Vec<u32>)],
-    points: &[DVec3],
-) -> Result<(Vec<[u32; 3]>, Vec<u32>), PolyhedronError> {
+fn triangulate(polygons: &[(u32, Vec<u32>)], points: &[DVec3]) -> Result<(Vec<[u32; 3]>, Vec<u32>), PolyhedronError> {
     let (mut triangles, mut facet_of) = (Vec::new(), Vec::new());
     for (facet, polygon) in polygons {
         let corners: Vec<DVec3> = polygon.iter().map(|v| points[*v as usize]).collect();

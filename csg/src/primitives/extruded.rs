@@ -124,13 +124,13 @@ pub fn extrude(outline: &Outline, extrusion: &Extrusion, material: MaterialId) -
 }
 
 /// Sides that are planar, whatever the slices.
-fn straight(corners: &[DVec2], extrusion: &Extrusion, material: MaterialId) -> Result<Vec<Brush>, ShapeError> {
+fn straight(corners: &[DVec2], extrusion: &Extrusion, material: MaterialId) -> Result<Vec<Tree>, ShapeError> {
     let walls = Walls::over(corners)?;
     let sides = walls.half_spaces.iter().map(|side| tilted(side, extrusion)).collect::<Result<Vec<_>, _>>()?;
     let ends = ends(extrusion, 0, extrusion.layers())?;
     let brush = |cell: &Vec<Side>| {
         let half_spaces = ends.iter().copied().chain(half_spaces(cell, &sides));
-        Brush::from_half_spaces(half_spaces, material)
+        Tree::from(Brush::from_half_spaces(half_spaces, material))
     };
     Ok(walls.cells()?.iter().map(brush).collect())
 }

@@ -12,6 +12,7 @@ use super::extruded::{Extrusion, LayerRules, brush_of, ends};
 use super::parameter::{pieces, refuse};
 use crate::brush::{Brush, MaterialId};
 use crate::check::{CheckOptions, check_mesh};
+use crate::tree::Tree;
 
 /// Of each facet the numbers of its corners, counter-clockwise seen from outside.
 type Facets = Vec<Vec<u32>>;
@@ -32,7 +33,7 @@ pub(super) fn layered(
     extrusion: &Extrusion,
     material: MaterialId,
     count: u64,
-) -> Result<Vec<Vec<Brush>>, ShapeError> {
+) -> Result<Vec<Vec<Tree>>, ShapeError> {
     let size = shape.iter().flatten().map(|p| p.abs().max_element()).fold(0.0, f64::max);
     let step = if extrusion.layers() == 1 { 0.0 } else { STEP * size };
     let mut rings: Vec<Ring> = shape.iter().enumerate().map(|(k, corners)| Ring::new(corners, k > 0, step)).collect();
@@ -62,7 +63,7 @@ pub(super) fn layered(
         let made = rings.iter().map(|ring| ring.brushes.len() as u64).sum::<u64>();
         pieces(count + made / u64::from(layer + 1) * u64::from(extrusion.layers()))?;
     }
-    Ok(rings.into_iter().map(|ring| ring.brushes).collect())
+    Ok(rings.into_iter().map(|ring| ring.brushes.into_iter().map(Tree::from).collect()).collect())
 }
 
 /// The outlines of odd layers are wider by this part of their size, and those of even ones narrower. Where layers meet, their

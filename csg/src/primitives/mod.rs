@@ -36,7 +36,7 @@ pub use extruded::{Extrusion, LayerRules, extrude};
 pub use flat::{body_of_half_spaces, cuboid, half_space, hull_of_points, wedge};
 pub use parameter::{MAX_LENGTH, MAX_PIECES, MAX_SEGMENTS};
 pub use regular::{RegularSolid, regular};
-pub use revolved::{revolve, torus};
+pub use revolved::{revolve, revolve_in_steps, torus};
 pub use round::{capsule, cone, cylinder, prism, pyramid, sphere};
 
 pub(crate) use circle::direction;

@@ -3,7 +3,7 @@
 use super::ShapeError;
 use super::parameter::pieces;
 use crate::brush::Brush;
-use crate::tree::Tree;
+use crate::tree::{Tree, TreeNode};
 
 /// The bodies over the shapes of an outline.
 ///
@@ -11,23 +11,26 @@ use crate::tree::Tree;
 /// each side of the hole.
 #[derive(Default)]
 pub(super) struct Region {
-    whole: Vec<Brush>,
-    pierced: Vec<Tree>,
+    /// Convex parts without holes.
+    convex: Vec<Brush>,
+    others: Vec<Tree>,
     count: u64,
 }
 
 impl Region {
-    /// Adds a shape: the cells over its outer loop, and those over each of its holes.
-    pub(super) fn add(&mut self, loops: impl IntoIterator<Item = Vec<Brush>>) -> Result<(), ShapeError> {
+    /// Adds a shape: the parts over its outer loop, and those over each of its holes.
+    pub(super) fn add(&mut self, loops: impl IntoIterator<Item = Vec<Tree>>) -> Result<(), ShapeError> {
         let mut loops = loops.into_iter();
         let outer = loops.next().unwrap_or_default();
-        let holes: Vec<Brush> = loops.flatten().collect();
-        self.count += (outer.len() + holes.len()) as u64;
+        let holes: Vec<Tree> = loops.flatten().collect();
+        self.count += outer.iter().chain(&holes).map(|tree| tree.brushes().len() as u64).sum::<u64>();
         if holes.is_empty() {
-            self.whole.extend(outer);
+            let is_brush = |part: &Tree| part.nodes() == [TreeNode::Leaf];
+            let (convex, others): (Vec<Tree>, Vec<Tree>) = outer.into_iter().partition(is_brush);
+            self.convex.extend(convex.into_iter().flat_map(Tree::into_brushes));
+            self.others.extend(others);
         } else {
-            let operands = std::iter::once(union(outer)).chain(holes.into_iter().map(Tree::from));
-            self.pierced.push(Tree::difference(operands));
+            self.others.push(Tree::difference(std::iter::once(union(outer)).chain(holes)));
         }
         pieces(self.count)
     }
@@ -38,19 +41,14 @@ impl Region {
     }
 
     pub(super) fn into_tree(mut self) -> Tree {
-        if self.pierced.is_empty() {
-            return Tree::union_of(self.whole);
+        if self.convex.is_empty() && self.others.len() == 1 {
+            return self.others.pop().unwrap_or_default();
         }
-        if self.pierced.len() == 1 && self.whole.is_empty() {
-            return self.pierced.pop().unwrap_or_default();
-        }
-        Tree::union([Tree::union_of(self.whole)].into_iter().chain(self.pierced))
+        Tree::union([Tree::union_of(self.convex)].into_iter().chain(self.others))
     }
 }
 
-fn union(mut brushes: Vec<Brush>) -> Tree {
-    match brushes.pop() {
-        Some(brush) if brushes.is_empty() => brush.into(),
-        last => Tree::union_of(brushes.into_iter().chain(last).collect()),
-    }
+/// The union, or the only one.
+fn union(mut parts: Vec<Tree>) -> Tree {
+    if parts.len() == 1 { parts.pop().unwrap_or_default() } else { Tree::union(parts) }
 }

@@ -33,8 +33,8 @@ use crate::bounds::Bounds;
 use crate::boxes::Boxes;
 pub use cell::{Cell, CellPlane};
 pub use cuts::CutId;
-pub(crate) use join::joined;
 use cuts::PlaneCut;
+pub(crate) use join::joined;
 pub use ray::RayHit;
 use sources::Sources;
 

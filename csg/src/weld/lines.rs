@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 
 use planecut_kernel::sign::{Row, Sign, orient3};
-use planecut_kernel::{DVec3, HalfSpace, meet};
+use planecut_kernel::{DVec3, HalfSpace, line_coordinates};
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
@@ -21,9 +21,8 @@ pub(super) struct Line {
     direction: [Sign; 3],
 }
 
-/// What equal lines share, correctly rounded: the axis, the direction relative to it, and where the line meets the
-/// coordinate plane of that axis.
-type Key = (usize, [u64; 6]);
+/// What equal lines share, correctly rounded: the axis, the slopes against it, and where the line meets its plane.
+type Key = (usize, [u64; 4]);
 
 /// Numbers the lines of plane pairs; gives the lines and the number of each pair, in order.
 pub(super) fn identify(table: &PlaneTable, pairs: &[[PlaneId; 2]]) -> (Vec<Line>, Vec<u32>) {
@@ -39,24 +38,82 @@ pub(super) fn identify(table: &PlaneTable, pairs: &[[PlaneId; 2]]) -> (Vec<Line>
             })
         })
         .collect();
-    let axes = AxisPlanes::new();
-    let keyed: Vec<(Line, Key)> =
-        distinct.par_iter().with_min_len(256).map(|pair| line_and_key(table, &axes, *pair)).collect();
-    let mut lines: Vec<Line> = Vec::new();
-    let mut by_key: FxHashMap<Key, Vec<u32>> = FxHashMap::default();
-    let of_distinct: Vec<u32> = keyed
-        .into_iter()
-        .map(|(line, key)| {
-            let bucket = by_key.entry(key).or_default();
-            let known = bucket.iter().copied().find(|k| axes.is_same(table, &lines[*k as usize], &line));
-            known.unwrap_or_else(|| {
-                lines.push(line);
-                bucket.push(lines.len() as u32 - 1);
-                lines.len() as u32 - 1
-            })
-        })
-        .collect();
+    let (lines, of_distinct) = number(table, &distinct);
     (lines, of_pair.into_iter().map(|k| of_distinct[k as usize]).collect())
+}
+
+/// Numbers the lines of different pairs.
+fn number(table: &PlaneTable, distinct: &[[PlaneId; 2]]) -> (Vec<Line>, Vec<u32>) {
+    let found: Vec<(Line, Mark)> =
+        distinct.par_iter().with_min_len(256).map(|pair| line_and_mark(table, *pair)).collect();
+    let mut order: Vec<u32> = (0..found.len() as u32).collect();
+    let mark = |k: &u32| &found[*k as usize].1;
+    order.sort_unstable_by(|p, q| mark(p).compare(mark(q)).then(p.cmp(q)));
+    // of lines that may be equal, the first in the order given; most are alone
+    let mut first: Vec<u32> = (0..found.len() as u32).collect();
+    let mut start = 0;
+    while start < order.len() {
+        let (mut end, mut reach) = (start + 1, mark(&order[start]).high());
+        while end < order.len()
+            && mark(&order[end]).axis == mark(&order[start]).axis
+            && mark(&order[end]).low() <= reach
+        {
+            reach = reach.max(mark(&order[end]).high());
+            end += 1;
+        }
+        if end - start > 1 {
+            order[start..end].sort_unstable();
+            join_equal(table, &found, &order[start..end], &mut first);
+        }
+        start = end;
+    }
+    let mut lines: Vec<Line> = Vec::new();
+    let mut number = vec![0; found.len()];
+    for k in 0..found.len() {
+        if first[k] == k as u32 {
+            number[k] = lines.len() as u32;
+            lines.push(found[k].0);
+        } else {
+            number[k] = number[first[k] as usize];
+        }
+    }
+    (lines, number)
+}
+
+/// Finds which of some lines, given in ascending order, are equal: by their exact keys, confirmed by signs.
+fn join_equal(table: &PlaneTable, found: &[(Line, Mark)], some: &[u32], first: &mut [u32]) {
+    let axes = AxisPlanes::new();
+    let mut by_key: FxHashMap<Key, Vec<u32>> = FxHashMap::default();
+    for k in some {
+        let line = &found[*k as usize].0;
+        let bucket = by_key.entry(key(table, line)).or_default();
+        match bucket.iter().copied().find(|other| axes.is_same(table, &found[*other as usize].0, line)) {
+            Some(other) => first[*k as usize] = other,
+            None => bucket.push(*k),
+        }
+    }
+}
+
+/// A number that equal lines share up to an error, and lines that differ hardly ever.
+#[derive(Debug, Clone, Copy)]
+struct Mark {
+    axis: usize,
+    value: f64,
+    error: f64,
+}
+
+impl Mark {
+    fn compare(&self, other: &Self) -> Ordering {
+        self.axis.cmp(&other.axis).then(self.low().total_cmp(&other.low()))
+    }
+
+    fn low(&self) -> f64 {
+        self.value - self.error
+    }
+
+    fn high(&self) -> f64 {
+        self.value + self.error
+    }
 }
 
 impl Line {
@@ -97,17 +154,15 @@ impl Line {
     }
 }
 
-/// The coordinate planes through the origin and at one.
+/// The coordinate planes through the origin.
 struct AxisPlanes {
     at_zero: [Row; 3],
-    at_one: [Row; 3],
 }
 
 impl AxisPlanes {
     fn new() -> Self {
-        let row =
-            |axis: DVec3, offset: f64| Row::new(&HalfSpace::new(axis, offset).expect("an axis is a valid normal"));
-        Self { at_zero: DVec3::AXES.map(|axis| row(axis, 0.0)), at_one: DVec3::AXES.map(|axis| row(axis, 1.0)) }
+        let row = |axis: DVec3| Row::new(&HalfSpace::new(axis, 0.0).expect("an axis is a valid normal"));
+        Self { at_zero: DVec3::AXES.map(row) }
     }
 
     /// Exactly: both planes of `other` hold the direction and one point of `line`.
@@ -123,7 +178,7 @@ impl AxisPlanes {
     }
 }
 
-fn line_and_key(table: &PlaneTable, axes: &AxisPlanes, [a, b]: [PlaneId; 2]) -> (Line, Key) {
+fn line_and_mark(table: &PlaneTable, [a, b]: [PlaneId; 2]) -> (Line, Mark) {
     let direction: [Sign; 3] = std::array::from_fn(|axis| table.cross_component(a, b, axis));
     let axis = direction.iter().position(|sign| *sign != Sign::Zero).expect("the planes of an edge are not parallel");
     let line = if direction[axis] == Sign::Positive {
@@ -131,14 +186,49 @@ fn line_and_key(table: &PlaneTable, axes: &AxisPlanes, [a, b]: [PlaneId; 2]) -> 
     } else {
         Line { planes: [b, a], axis, direction: direction.map(Sign::flip) }
     };
-    let through_origin = |plane: PlaneId| {
-        let normal = table.half_space(plane).normal();
-        Row::new(&HalfSpace::new(normal, 0.0).expect("the normal of a valid half-space"))
+    let (value, error) = rounded_mark(table, &line).unwrap_or_else(|| exact_mark(table, &line));
+    (line, Mark { axis, value, error })
+}
+
+/// By which the numbers of a key are multiplied and summed up to a [`Mark`]: none is a short sum of the others.
+const WEIGHTS: [f64; 4] = [0.731_592_653_589, 0.467_182_818_284, 0.618_033_988_749, 0.914_213_562_373];
+
+/// From the determinants of the planes' columns in plain numbers, where these are well conditioned: each is off by less than
+/// three roundings of its permanent, the quotient by those of both and its own.
+fn rounded_mark(table: &PlaneTable, line: &Line) -> Option<(f64, f64)> {
+    const ROUNDING: f64 = 4.0 * f64::EPSILON;
+    const WELL: f64 = 1e4;
+    let [a, b] = line.planes.map(|plane| table.row(plane).coefficients());
+    let (u, v) = ((line.axis + 1) % 3, (line.axis + 2) % 3);
+    let minor = |i: usize, j: usize| {
+        let (p, q) = (a[i] * b[j], a[j] * b[i]);
+        (p - q, p.abs() + q.abs())
     };
-    let independent = "the line crosses the coordinate plane of its axis";
-    let slope = meet(&through_origin(a), &through_origin(b), &axes.at_one[axis]).expect(independent);
-    let foot = meet(table.row(a), table.row(b), &axes.at_zero[axis]).expect(independent);
-    let bits = |v: DVec3| v.to_array().map(f64::to_bits);
-    let ([x, y, z], [u, v, w]) = (bits(slope), bits(foot));
-    (line, (axis, [x, y, z, u, v, w]))
+    let (whole, whole_permanent) = minor(u, v);
+    if whole_permanent > WELL * whole.abs() {
+        return None;
+    }
+    let (mut mark, mut error) = (0.0, 0.0);
+    for (weight, (i, j)) in WEIGHTS.iter().zip([(v, line.axis), (line.axis, u), (3, v), (u, 3)]) {
+        let (value, permanent) = minor(i, j);
+        let quotient = value / whole;
+        mark += weight * quotient;
+        error += ROUNDING * (permanent + quotient.abs() * whole_permanent) / whole.abs() + ROUNDING * quotient.abs();
+    }
+    mark.is_finite().then_some((mark, 2.0 * error))
+}
+
+fn exact_mark(table: &PlaneTable, line: &Line) -> (f64, f64) {
+    let numbers = exact_numbers(table, line);
+    let terms = || numbers.into_iter().zip(WEIGHTS).map(|(number, weight)| number * weight);
+    (terms().sum(), 8.0 * f64::EPSILON * terms().map(f64::abs).sum::<f64>())
+}
+
+fn exact_numbers(table: &PlaneTable, line: &Line) -> [f64; 4] {
+    let [a, b] = line.planes.map(|plane| table.row(plane));
+    line_coordinates(a, b, line.axis).expect("the line crosses the planes of its axis")
+}
+
+fn key(table: &PlaneTable, line: &Line) -> Key {
+    (line.axis, exact_numbers(table, line).map(f64::to_bits))
 }

@@ -86,6 +86,9 @@ impl Points {
     /// order of the brushes.
     pub(super) fn renumber(&mut self, table: &PlaneTable, mut runs: Vec<Run>) -> Vec<Run> {
         let mut order: Vec<u32> = runs.iter().flat_map(|run| [run.from, run.to]).collect();
+        // each once: where coordinates tie, comparing is dear
+        order.sort_unstable();
+        order.dedup();
         let key = |p: u32| self.positions[p as usize].to_array();
         order.sort_unstable_by(|p, q| {
             let (a, b) = (key(*p), key(*q));
@@ -94,7 +97,6 @@ impl Points {
                 .then(a[2].total_cmp(&b[2]))
                 .then_with(|| self.compare_exactly(table, *p, *q))
         });
-        order.dedup();
         let mut number = vec![0; self.planes.len()];
         for (new, old) in order.iter().enumerate() {
             number[*old as usize] = new as u32;

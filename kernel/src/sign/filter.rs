@@ -6,8 +6,8 @@
 //! that. Underflow cannot matter: the accepted coefficient range (see [`HalfSpace`](crate::HalfSpace)) keeps every
 //! non-zero product of a permanent above `2⁻⁹⁰⁰`, while an underflowed product is off by at most `2⁻¹⁰⁷⁵`.
 
-use super::{Row, Sign, counts};
-use super::{big, small_int};
+use super::{Row, Sign, big, counts, small_int};
+use crate::meet::certain_side;
 
 const U: f64 = f64::EPSILON / 2.0;
 
@@ -306,6 +306,11 @@ impl Probe {
 fn side_exact([a, b, c]: [&Row; 3], h: &Row, column: OffsetColumn, value: f64, permanent: f64) -> Sign {
     if let Some(sign) = small_int::side4([a, b, c], h, column, value, permanent) {
         counts::note_small_int();
+        return sign;
+    }
+    if column == OffsetColumn::Finite
+        && let Some(sign) = certain_side([a, b, c], h, permanent)
+    {
         return sign;
     }
     counts::note_big();

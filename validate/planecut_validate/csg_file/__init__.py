@@ -20,13 +20,17 @@ from pathlib import Path
 from .evaluate import Evaluator
 from .model import CsgModel
 from .regions import Grid
-from .solids import Held, Manifolds
-from .text import parse
+from .solids import Manifolds
+from .text import Node, parse
 
-__all__ = ["CsgModel", "evaluate_csg"]
+__all__ = ["CsgModel", "evaluator", "parsed"]
 
 
-def evaluate_csg(path: Path, openscad: bool = False) -> tuple[Held | None, list[str]]:
-    """The file as a solid of manifold3d, and warnings; with `openscad`, flat shapes on OpenSCAD's own grid."""
-    evaluator = Evaluator(Manifolds(), Grid(openscad), path.parent)
-    return evaluator.solid(parse(path.read_text(encoding="utf-8", errors="replace"))), evaluator.warnings
+def parsed(path: Path) -> list[Node]:
+    """The nodes of a file. Raises `ValueError` where it cannot be read."""
+    return parse(path.read_text(encoding="utf-8", errors="replace"))
+
+
+def evaluator(path: Path, openscad: bool = False) -> Evaluator:
+    """Evaluates nodes of that file to solids of manifold3d; with `openscad`, flat shapes on OpenSCAD's own grid."""
+    return Evaluator(Manifolds(), Grid(openscad), path.parent)

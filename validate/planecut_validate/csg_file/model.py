@@ -13,6 +13,7 @@ class CsgModel(TreeModel):
     """A tree in numbers of six digits: faces that were meant to be one differ by what they lack, and may be made one."""
 
     limit = 1e-6
+    position = 1e-5
 
     @classmethod
     def load(cls, path: Path) -> "CsgModel":
