@@ -2,7 +2,8 @@
 
 manifold3d evaluates the tree in this process: making primitives and all operations are on the clock, reading the text and
 loading fonts are not. planecut is a process of its own: its time is what its report says for everything from the text to
-the triangles; `wall` is the whole process as a user meets it, mesh file written. Both have all cores, and the best of some rounds counts.
+the triangles; `wall` is the whole process as a user meets it, mesh file written. Both have all cores, and the best of some
+rounds counts.
 """
 
 import argparse

@@ -39,7 +39,9 @@ def _model_node(seed: int, most_leaves: int) -> dict:
 
 
 MODELS = Source(".json", FAMILIES, _model_node, _model_text, smaller_nodes, leaves)
-CSG = Source(".csg", random_files.FAMILIES, random_files.random_nodes, printed, random_files.smaller, random_files.leaves)
+CSG = Source(
+    ".csg", random_files.FAMILIES, random_files.random_nodes, printed, random_files.smaller, random_files.leaves
+)
 
 
 def check_random(
@@ -84,9 +86,7 @@ def _fails(tree, source: Source, kind: str, options: Options) -> bool:
     return bool(result.failures) and _kind(result) == kind
 
 
-def _keep_smallest(
-    source: Source, kind: str, tree, name: str, options: Options, keep: Path, pool: Executor
-) -> None:
+def _keep_smallest(source: Source, kind: str, tree, name: str, options: Options, keep: Path, pool: Executor) -> None:
     """Writes and prints the smallest tree found that fails in this way."""
     fails = partial(_fails, source=source, kind=kind, options=options)
     smallest = shrink(tree, fails, pool, smaller=source.smaller, size=source.leaves)
@@ -95,7 +95,9 @@ def _keep_smallest(
     text = source.text(smallest)
     path.write_text(text, encoding="utf-8")
     shown = text[:_SHOWN].rstrip() + "…" * (len(text) > _SHOWN)
-    print(f"smallest found with {kind!r}, from {name}: {source.leaves(smallest)} leaves, in {path}\n{shown}", flush=True)
+    print(
+        f"smallest found with {kind!r}, from {name}: {source.leaves(smallest)} leaves, in {path}\n{shown}", flush=True
+    )
 
 
 _SHOWN = 1500

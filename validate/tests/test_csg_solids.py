@@ -11,7 +11,6 @@ from pathlib import Path
 from unittest import mock
 
 import numpy as np
-
 from fake_files import fake_program
 
 from planecut_validate.checks import check
@@ -125,13 +124,18 @@ class Volumes(unittest.TestCase):
 
         area("difference() { square([4, 3]); circle(r = 1, $fn = 8); }", 12.0 - ngon(8, 1.0) / 4.0)
         area("polygon(points = [[0, 0], [4, 0], [0, 4]]);", 8.0)
-        area("polygon(points = [[0,0],[9,0],[9,9],[0,9],[3,3],[6,3],[6,6],[3,6]], paths = [[0,1,2,3],[4,5,6,7]]);", 72.0)
+        area(
+            "polygon(points = [[0,0],[9,0],[9,9],[0,9],[3,3],[6,3],[6,6],[3,6]], paths = [[0,1,2,3],[4,5,6,7]]);", 72.0
+        )
         # Crosses itself: two triangles of each 1.
         area("polygon(points = [[0, 0], [2, 2], [2, 0], [0, 2]]);", 2.0)
         area("polygon(points = [[0, 0, 0], [2, 2], [2, 0]]);", 0.0)
         area("hull() { square(1); polygon(points = [[5, 0], [6, 0], [6, 1]]); }", 6.0)
         area("minkowski() { square([3, 2]); square(1); }", 12.0)
-        area("minkowski() { difference() { square(9, center = true); square(5, center = true); } square(1); }", 100.0 - 16.0)
+        area(
+            "minkowski() { difference() { square(9, center = true); square(5, center = true); } square(1); }",
+            100.0 - 16.0,
+        )
         area("resize([6, 0]) { square([3, 2]); }", 6.0)
         area("resize([6, 0, 0]) { square([3, 2]); }", 12.0)
         area("resize([6, 0, 0], auto = true) { square([3, 2]); }", 24.0)
@@ -162,11 +166,15 @@ class Volumes(unittest.TestCase):
     def test_rotate_extrude(self):
         # Of each piece, half of 7² − 5² times the sine of its angle is the area seen from above.
         moment = 0.5 * (49.0 - 25.0) * 3.0
-        text = "rotate_extrude(angle = {}, $fn = {}) {{ multmatrix([[1, 0, 0, 5], [0, 1, 0, 0]]) {{ square([2, 3]); }} }}"
+        text = (
+            "rotate_extrude(angle = {}, $fn = {}) {{ multmatrix([[1, 0, 0, 5], [0, 1, 0, 0]]) {{ square([2, 3]); }} }}"
+        )
         for angle, count, pieces in ((360, 12, 12), (90, 12, 3), (-90, 12, 3), (100, 7, 1)):
             turn = math.radians(abs(angle)) / pieces
             self.same(text.format(angle, count), moment * pieces * math.sin(turn))
-        self.same("rotate_extrude($fn = 6) { polygon(points = [[0, 0], [2, 0], [0, 3]]); }", frustum(ngon(6, 2.0), 0.0, 3.0))
+        self.same(
+            "rotate_extrude($fn = 6) { polygon(points = [[0, 0], [2, 0], [0, 3]]); }", frustum(ngon(6, 2.0), 0.0, 3.0)
+        )
         self.same("rotate_extrude($fn = 6) { square(2, center = true); }", 0.0)
 
     def test_hull_and_sum(self):
@@ -201,7 +209,8 @@ class Volumes(unittest.TestCase):
         self.same(house + walls, 4 * 4 * 2 + 4 * 4 / 2)
 
     def test_bodies_that_touch_themselves_are_left_out(self):
-        corners = "linear_extrude(height = 2) { difference() { square(4, center = true); square(2); polygon([[0,0],[-2,0],[-2,-2],[0,-2]]); } }"
+        away = "square(2); polygon([[0, 0], [-2, 0], [-2, -2], [0, -2]]);"
+        corners = f"linear_extrude(height = 2) {{ difference() {{ square(4, center = true); {away} }} }}"
         self.same(corners, 16.0)
         self.same(corners + "cube(1);", 1.0, warned=1)
 
@@ -214,14 +223,27 @@ class Volumes(unittest.TestCase):
             binary += struct.pack("<12f", 0, 0, 0, *corners[face].ravel()) + b"\0\0"
             rows = "".join(f"  vertex {x} {y} {z}\n" for x, y, z in corners[face])
             words += f"facet normal 0 0 0\n outer loop\n{rows} endloop\nendfacet\n"
-        off = "OFF\n4 4 0\n" + "".join(f"{x} {y} {z}\n" for x, y, z in corners) + "".join(f"3 {a} {b} {c}\n" for a, b, c in faces)
-        obj = "".join(f"v {x} {y} {z}\n" for x, y, z in corners) + "".join(f"f {a + 1} {b + 1} {c + 1}\n" for a, b, c in faces)
+        off = (
+            "OFF\n4 4 0\n"
+            + "".join(f"{x} {y} {z}\n" for x, y, z in corners)
+            + "".join(f"3 {a} {b} {c}\n" for a, b, c in faces)
+        )
+        obj = "".join(f"v {x} {y} {z}\n" for x, y, z in corners) + "".join(
+            f"f {a + 1} {b + 1} {c + 1}\n" for a, b, c in faces
+        )
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
-            files = {"b.stl": binary, "a.stl": (words + "endsolid t\n").encode(), "m.off": off.encode(), "m.obj": obj.encode()}
+            files = {
+                "b.stl": binary,
+                "a.stl": (words + "endsolid t\n").encode(),
+                "m.off": off.encode(),
+                "m.obj": obj.encode(),
+            }
             for file, data in files.items():
                 (folder / file).write_bytes(data)
-                self.assertAlmostEqual(self.volume(f'import(file = "{file}");', folder), 1.0 / 6.0, delta=1e-9, msg=file)
+                self.assertAlmostEqual(
+                    self.volume(f'import(file = "{file}");', folder), 1.0 / 6.0, delta=1e-9, msg=file
+                )
             self.assertEqual(self.volume('import(file = "none.stl"); cube(1);', folder, warned=1), 1.0)
 
     @unittest.skipUnless(shutil.which("fc-match"), "no fonts")
@@ -278,7 +300,11 @@ class Checking(unittest.TestCase):
         self.assertEqual(self.check_csg(512.0 - 3 * 2 * 8.0).failures, [])
 
     def test_damage_is_caught(self):
-        for damage, sign in (("removed triangle", "open"), ("membrane", "lines differ"), ("union for difference", "OBJ volume")):
+        for damage, sign in (
+            ("removed triangle", "open"),
+            ("membrane", "lines differ"),
+            ("union for difference", "OBJ volume"),
+        ):
             self.assertIn(sign, " ".join(self.check_csg(None, damage).failures), damage)
 
     def test_a_known_volume_that_manifold3d_denies_is_a_note(self):

@@ -10,14 +10,14 @@ from planecut_validate.csg_file.text import ScadError, parse
 
 class Reading(unittest.TestCase):
     def test_arguments_children_and_lines(self):
-        text = '''// first
+        text = """// first
         group() {
           /* two
              lines */ color([1, 0.5, -2e-1, 1], name = "a \\"b\\" \\x41\\u00e9\\n") {
             cube(size = [1, 2, [3]], center = true);
           }
         }
-        '''
+        """
         (group,) = parse(text)
         (color,) = group.children
         (cube,) = color.children
@@ -28,7 +28,9 @@ class Reading(unittest.TestCase):
 
     def test_words_that_are_no_numbers(self):
         (node,) = parse("cylinder($fn = inf, h = undef, r1 = -inf, r2 = [nan, 1], center = false);")
-        self.assertEqual([node.get(k) for k in ("$fn", "h", "r1", "r2", "center")], [None, None, None, [None, 1.0], False])
+        self.assertEqual(
+            [node.get(k) for k in ("$fn", "h", "r1", "r2", "center")], [None, None, None, [None, 1.0], False]
+        )
 
     def test_modifiers(self):
         top = parse("%#group() { *cube(); !sphere(); }\n*group() { cube(); }")

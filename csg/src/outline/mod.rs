@@ -35,14 +35,17 @@ impl Outline {
     /// # Errors
     /// [`ShapeError::Parameter`] where a loop has fewer than three points or a coordinate is not accepted.
     pub fn from_loops(loops: &[Vec<DVec2>]) -> Result<Self, ShapeError> {
-        let accepted = |corners: &Vec<DVec2>| {
-            if corners.len() < 3 {
-                return Err(refuse("polygon", &format!("a loop of {} points", corners.len()), &"at least 3"));
-            }
-            corners.iter().map(|p| planar_point("polygon", *p)).collect()
-        };
-        let loops = loops.iter().map(accepted).collect::<Result<Vec<Vec<DVec2>>, ShapeError>>()?;
-        Ok(Self::even_odd(&loops))
+        Ok(Self::even_odd(&accepted(loops)?))
+    }
+
+    /// What loops go around, counting counter-clockwise turns as positive and clockwise ones as negative, a number of times
+    /// that is not zero: loops that overlap in one sense join, those of opposite sense are holes in each other. It is the rule
+    /// of glyphs.
+    ///
+    /// # Errors
+    /// As [`from_loops`](Self::from_loops).
+    pub fn from_wound_loops(loops: &[Vec<DVec2>]) -> Result<Self, ShapeError> {
+        Ok(Self::union_of_loops(&accepted(loops)?))
     }
 
     /// The rectangle between two corners.
@@ -108,6 +111,17 @@ impl Outline {
         let loops = self.loops().map(moved).collect::<Result<Vec<_>, ShapeError>>()?;
         Ok(Self::even_odd(&loops))
     }
+}
+
+/// Loops of at least three accepted points each.
+fn accepted(loops: &[Vec<DVec2>]) -> Result<Vec<Vec<DVec2>>, ShapeError> {
+    let accepted = |corners: &Vec<DVec2>| {
+        if corners.len() < 3 {
+            return Err(refuse("polygon", &format!("a loop of {} points", corners.len()), &"at least 3"));
+        }
+        corners.iter().map(|p| planar_point("polygon", *p)).collect()
+    };
+    loops.iter().map(accepted).collect()
 }
 
 /// A point without coordinates that are mere rounding noise, so that they stay within the accepted range.

@@ -170,15 +170,14 @@ fn stepped_arc(bend: &Bend, segments: u32) -> Vec<DVec2> {
     let fewest = std::f64::consts::PI / (1.0 - CLIPPER_TOLERANCE).acos();
     let segments = if sagitta > CLIPPER_TOLERANCE { fewest } else { f64::from(segments) };
     let step = std::f64::consts::TAU / segments;
-    let steps = (angle(bend).abs() / step).round() as u32;
+    let steps = ((angle(bend).abs() / step).round() as u32).max(1);
     arc(bend, step.copysign(angle(bend)), steps)
 }
 
 /// The directions after `0, 1, … steps − 1` steps, and the last.
 fn arc(bend: &Bend, step: f64, steps: u32) -> Vec<DVec2> {
     let between = (1..steps).map(|k| DVec2::from_angle(step * f64::from(k)).rotate(bend.before));
-    let first = (steps > 0).then_some(bend.before);
-    first.into_iter().chain(between).chain([bend.after]).collect()
+    std::iter::once(bend.before).chain(between).chain([bend.after]).collect()
 }
 
 /// The angle from one normal to the other counter-clockwise, up to half a turn of either sense.

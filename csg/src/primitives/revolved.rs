@@ -115,6 +115,7 @@ fn flipped((a, b, d): Line) -> Line {
 }
 
 /// Steps about the axis.
+#[derive(Debug, Clone, Copy)]
 struct Turn {
     angle: f64,
     steps: u32,

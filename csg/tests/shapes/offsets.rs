@@ -72,7 +72,7 @@ fn clipper_offsets_of_convex_polygons_by_formulas() {
         let (bend, step) = (std::f64::consts::TAU / f64::from(n), std::f64::consts::TAU / f64::from(segments));
         let strips = shape.area() + f64::from(n) * 2.0 * radius * (0.5 * bend).sin() * by;
         let count = f64::from(n);
-        let whole = (bend / step).round() - 1.0;
+        let whole = (bend / step).round().max(1.0) - 1.0;
         let fan = 0.5 * by * by * (whole * step.sin() + (bend - whole * step).sin());
         let miter = by * by * (0.5 * bend).tan();
         // the cut takes a triangle off the miter, by (1 / cos − 1) high and as wide as the miter is blunt

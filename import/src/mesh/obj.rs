@@ -5,10 +5,10 @@ use std::borrow::Cow;
 use glam::DVec3;
 use planecut_csg::Material;
 
+use super::decimals::Decimals;
 use super::error::{Fault, Place, quoted};
 use super::polygon::{MAX_CONCAVE_CORNERS, triangulate};
 use super::text::finite;
-use super::decimals::Decimals;
 use super::{IndexedMesh, objects_from_starts};
 
 /// Reads an OBJ file. Faces may name vertices that are defined before them, by position from either end.

@@ -6,12 +6,13 @@
 use planecut_csg::{Brush, Model, Outline, Tree};
 
 use super::error::Fault;
+use super::font::Fonts;
 use super::frame::{Frame, Matrix};
 use super::materials::Materials;
 use super::problem::{Body, Geometry, Made, Problem};
 use super::syntax::Node;
 use super::value::Value;
-use super::{ScadImport, ScadOptions, extrusion, flat, leaf, polyhedron, solid};
+use super::{ScadImport, ScadOptions, extrusion, flat, import, leaf, polyhedron, solid, text};
 use crate::Warning;
 use crate::lines::LineTable;
 
@@ -26,6 +27,7 @@ pub(super) struct Evaluator<'s, 'a> {
     options: &'s ScadOptions,
     frames: Vec<Frame>,
     materials: Materials,
+    fonts: Fonts,
     /// What the children of each node gave, last one first.
     made: Vec<Vec<Option<Geometry>>>,
     pub(super) warnings: Vec<Warning>,
@@ -42,7 +44,16 @@ impl<'s, 'a> Evaluator<'s, 'a> {
     pub(super) fn new(nodes: &'s [Node<'a>], lines: &'s LineTable, options: &'s ScadOptions) -> Self {
         let mut made = Vec::new();
         made.resize_with(nodes.len(), Vec::new);
-        Self { nodes, lines, options, frames: Vec::new(), materials: Materials::new(), made, warnings: Vec::new() }
+        Self {
+            nodes,
+            lines,
+            options,
+            frames: Vec::new(),
+            materials: Materials::new(),
+            fonts: Fonts::default(),
+            made,
+            warnings: Vec::new(),
+        }
     }
 
     /// # Errors
@@ -163,11 +174,23 @@ impl<'s, 'a> Evaluator<'s, 'a> {
             "square" => made_flat(leaf::square(node)),
             "circle" => made_flat(leaf::circle(node)),
             "polyhedron" => Ok(self.polyhedron(turn)),
+            "import" => {
+                let (tree, message) = import::mesh(node, &self.options.folder, material)?;
+                if let Some(message) = message {
+                    self.warn(turn, message);
+                }
+                Ok(Some(tree.into()))
+            }
             "polygon" => {
                 let (outline, message) = leaf::polygon(node)?;
                 if let Some(message) = message {
                     self.warn(turn, message);
                 }
+                Ok(Some(Geometry::Flat(outline)))
+            }
+            "text" => {
+                let (outline, messages) = text::text(node, &mut self.fonts)?;
+                messages.into_iter().for_each(|message| self.warn(turn, message));
                 Ok(Some(Geometry::Flat(outline)))
             }
             _ => Err(Problem::new(

@@ -5,7 +5,8 @@
 //! become materials, and where OpenSCAD is lenient this is too, with a warning.
 //!
 //! The stages, each in its own file: bytes → tokens (`token`), tokens → nodes (`syntax`, `value`), what nodes inherit
-//! (`frame`, `materials`), nodes → bodies and regions (`leaf`, `polyhedron`, `fragments`, `extrusion`), and their combination
+//! (`frame`, `materials`), nodes → bodies and regions (`leaf`, `polyhedron`, `import`, `fragments`,
+//! `extrusion`), and their combination
 //! (`evaluate`, `flat`, `solid`). No stage is recursive, so trees can be nested to any depth.
 //!
 //! Source: the OpenSCAD User Manual, and the behaviour of OpenSCAD 2021.01.
@@ -15,14 +16,17 @@ mod error;
 mod evaluate;
 mod extrusion;
 mod flat;
+mod font;
 mod fragments;
 mod frame;
+mod import;
 mod leaf;
 mod materials;
 mod polyhedron;
 mod problem;
 mod solid;
 mod syntax;
+mod text;
 mod token;
 mod value;
 

@@ -63,7 +63,7 @@ fn surface(node: &Node<'_>) -> Result<Surface, String> {
     Ok((points, facets))
 }
 
-/// Whether a closed surface is no manifold once corners at the same place are one: an edge has more than two faces, or a corner
+/// Whether a surface is no closed manifold once corners at the same place are one: an edge has other than two faces, or a corner
 /// more than one fan of them.
 pub(super) fn touches_itself(points: &[DVec3], facets: &[Vec<u32>]) -> bool {
     let mut known: FxHashMap<[u64; 3], u32> = FxHashMap::default();
@@ -87,6 +87,9 @@ pub(super) fn touches_itself(points: &[DVec3], facets: &[Vec<u32>]) -> bool {
                 return true;
             }
         }
+    }
+    if fans.keys().any(|(from, to)| !fans.contains_key(&(*to, *from))) {
+        return true;
     }
     // going from face to face comes back after all of them
     let is_one_fan = |corner: u32, start: u32| {

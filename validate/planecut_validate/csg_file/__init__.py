@@ -11,7 +11,12 @@
 | `writing` | text by a font of the machine |
 | `mesh_files` | meshes that are imported |
 | `solids` | solids as manifold3d's, or as trees of leaves |
+| `sections` | plane sections of meshes |
+| `affine` | matrices and sizes that nodes name |
+| `operations` | operations on whatever children a node has |
 | `evaluate` | nodes to a solid |
+| `printing` | nodes back to text |
+| `random_files` | random trees, and smaller ones |
 | `model` | the tree as a reference model |
 """
 

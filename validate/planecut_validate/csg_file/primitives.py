@@ -29,9 +29,10 @@ def box(size: np.ndarray, center: bool) -> Mesh:
     return Mesh(corners - size / 2.0 if center else corners, _BOX)
 
 
-_BOX = np.array(
-    [[0, 2, 1], [1, 2, 3], [4, 5, 6], [5, 7, 6], [0, 1, 4], [1, 5, 4], [2, 6, 3], [3, 6, 7], [0, 4, 2], [2, 4, 6], [1, 3, 5], [3, 7, 5]]
-)  # fmt: skip
+_BOX = np.array([
+    [0, 2, 1], [1, 2, 3], [4, 5, 6], [5, 7, 6], [0, 1, 4], [1, 5, 4],
+    [2, 6, 3], [3, 6, 7], [0, 4, 2], [2, 4, 6], [1, 3, 5], [3, 7, 5],
+])  # fmt: skip
 
 
 def sphere(node: Node) -> Mesh | None:

@@ -142,7 +142,11 @@ class _Maker:
         )
 
     def resolution(self) -> dict:
-        return {"S_fn": self.random.choice([0, 0, 3, 4, 5, 6, 8, 12, 17]), "S_fa": 12, "S_fs": self.random.choice([2, 0.7])}
+        return {
+            "S_fn": self.random.choice([0, 0, 3, 4, 5, 6, 8, 12, 17]),
+            "S_fa": 12,
+            "S_fs": self.random.choice([2, 0.7]),
+        }
 
     def placed(self, node: Node) -> Node:
         """Moved; turned too, where the family does so."""
@@ -186,13 +190,19 @@ class _Maker:
         away = self.random.choice([0, 7, 9])
         inside = self.outline(1) if away else _call("square", size=[self.size(), self.size()], center=False)
         moved = _call("multmatrix", [[1, 0, 0, away], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]], children=[inside])
-        return _call("rotate_extrude", **named, **self.resolution(), children=[moved])
+        resolution = self.resolution()
+        if resolution["S_fn"] and named["angle"] != 360:
+            # One piece of half a turn or more crosses itself.
+            resolution["S_fn"] = max(resolution["S_fn"], 5)
+        return _call("rotate_extrude", **named, **resolution, children=[moved])
 
     def cut_through(self) -> Node:
         """The section or the shadow of a body, drawn out."""
         body = self.placed(self.random.choice([self.cube, self.sphere, self.cylinder])())
         flat = _call("projection", cut=self.chance(0.5), convexity=0, children=[body])
-        return _call("linear_extrude", height=self.size(), center=False, convexity=1, **self.resolution(), children=[flat])
+        return _call(
+            "linear_extrude", height=self.size(), center=False, convexity=1, **self.resolution(), children=[flat]
+        )
 
     def outline(self, depth: int) -> Node:
         """Something flat."""
@@ -201,7 +211,9 @@ class _Maker:
         kind = self.random.random()
         children = [self.outline(depth - 1) for _ in range(self.random.randint(1, 3))]
         if kind < 0.25:
-            by = self.random.choice([{"r": 0.5}, {"r": -0.3}, {"delta": 0.4, "chamfer": False}, {"delta": 0.4, "chamfer": True}])
+            by = self.random.choice(
+                [{"r": 0.5}, {"r": -0.3}, {"delta": 0.4, "chamfer": False}, {"delta": 0.4, "chamfer": True}]
+            )
             return _call("offset", **by, **self.resolution(), children=children)
         if kind < 0.35:
             return _call("hull", children=children)

@@ -11,7 +11,7 @@ _TOKEN = re.compile(
       |(?P<mark>[()\[\]{},;=%\#*!:])""",
     re.VERBOSE | re.DOTALL,
 )
-_ESCAPE = re.compile(r'\\(?:x([0-7][0-9a-fA-F])|u([0-9a-fA-F]{4})|U([0-9a-fA-F]{6})|(.))', re.DOTALL)
+_ESCAPE = re.compile(r"\\(?:x([0-7][0-9a-fA-F])|u([0-9a-fA-F]{4})|U([0-9a-fA-F]{6})|(.))", re.DOTALL)
 _SHORT = {"n": "\n", "t": "\t", "r": "\r"}
 _WORDS = {"true": True, "false": False, "undef": None}
 # OpenSCAD writes these, and reads them as names that mean nothing.
@@ -167,4 +167,6 @@ class _Tokens:
     def expect(self, mark: str) -> None:
         kind, value = self.next()
         if kind != "mark" or value != mark:
-            raise ScadError(self.line, f"expected {mark}, found {value!r}" if kind else f"expected {mark} before the end")
+            raise ScadError(
+                self.line, f"expected {mark}, found {value!r}" if kind else f"expected {mark} before the end"
+            )

@@ -78,11 +78,7 @@ fn materials_in_order(
 }
 
 /// Keeps the vertices that triangles use, in their order.
-fn without_unused(
-    positions: &[DVec3],
-    mut triangles: Vec<[u32; 3]>,
-    material_of: Vec<Option<u32>>,
-) -> Geometry {
+fn without_unused(positions: &[DVec3], mut triangles: Vec<[u32; 3]>, material_of: Vec<Option<u32>>) -> Geometry {
     let mut used = vec![false; positions.len()];
     triangles.as_flattened().iter().for_each(|&v| used[v as usize] = true);
     let kept: Vec<u32> = (0..positions.len() as u32).filter(|&v| used[v as usize]).collect();
