@@ -36,6 +36,7 @@ class Times:
     making: float | None = None
     boolean: float | None = None
     openscad: float | None = None
+    stages: str = ""
     note: str = ""
 
     @property
@@ -120,7 +121,9 @@ def _run_planecut(times: Times, path: Path, binary: str, folder: Path) -> bool:
         return False
     spent = json.loads(report.read_text(encoding="utf-8"))["time_ms"]
     own = sum(spent.get(stage, 0.0) for stage in _STAGES)
-    times.planecut = own if times.planecut is None else min(own, times.planecut)
+    if times.planecut is None or own < times.planecut:
+        times.planecut = own
+        times.stages = ", ".join(f"{stage} {spent.get(stage, 0.0):.1f}" for stage in _STAGES)
     times.wall = wall if times.wall is None else min(wall, times.wall)
     return True
 
@@ -133,7 +136,8 @@ def _row(times: Times) -> str:
     shown.append("" if times.openscad is None else f"{times.openscad:.0f}")
     shown.append("" if faster is None else f"{faster:.0f}")
     mark = "" if times.ratio is None or times.ratio <= 1.0 else "SLOWER THAN TWICE" if times.ratio > 2.0 else "slower"
-    return _ROW.format(times.name[-44:], *shown, " ".join(filter(None, (mark, times.note))))
+    told = (mark, times.note, f"({times.stages})" if mark else "")
+    return _ROW.format(times.name[-44:], *shown, " ".join(filter(None, told)))
 
 
 def _print_totals(every: list[Times]) -> None:

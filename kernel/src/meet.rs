@@ -191,7 +191,20 @@ pub(crate) fn homogeneous_exactly(planes: [&Row; 3]) -> [IBig; 4] {
     [coordinate(0), coordinate(1), coordinate(2), big_dot(&a, &bc)]
 }
 
-/// The unit direction of `nₐ × n_b`, each component accurate to a few roundings; zero where the normals are parallel.
+/// The unit direction of `nₐ × n_b`, off by a few roundings; zero where the normals are parallel.
+#[must_use]
+pub fn line_direction(a: &Row, b: &Row) -> DVec3 {
+    let (p, q) = (a.coefficients(), b.coefficients());
+    let columns = [(1, 2), (2, 0), (0, 1)];
+    let cross = columns.map(|(u, v)| minor(p, q, u, v).high);
+    let permanent = columns.map(|(u, v)| (p[u] * q[v]).abs() + (p[v] * q[u]).abs()).into_iter().fold(0.0, f64::max);
+    let cross = DVec3::from_array(cross);
+    let largest = cross.abs().max_element();
+    // within this range nothing underflows, and the error is far below the last place
+    if permanent > 1e-200 && largest > permanent * 1e-12 { (cross / largest).normalize() } else { direction(a, b) }
+}
+
+/// The same, each component accurate to a few roundings of its own.
 #[must_use]
 pub(crate) fn direction(a: &Row, b: &Row) -> DVec3 {
     let [a, b] = [a, b].map(|row| big_integers(*row.coefficients()));

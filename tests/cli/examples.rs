@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use crate::support::{ROOT, agree, folder, planecut};
 
-fn examples() -> Vec<PathBuf> {
+pub(crate) fn examples() -> Vec<PathBuf> {
     let folder = std::fs::read_dir(Path::new(ROOT).join("examples")).expect("the examples");
     let paths = folder.map(|entry| entry.expect("an entry").path());
     let mut models: Vec<PathBuf> =

@@ -5,6 +5,7 @@ mod check;
 mod damaged;
 mod determinism;
 mod examples;
+mod meshes;
 mod model;
 mod outputs;
 mod report;

@@ -16,11 +16,15 @@ _FLAT = 1e-9
 
 @dataclass
 class CellReport:
-    """`volume`: the sum over the cells; `rounding`: how far coordinates that are rounded once can move it."""
+    """`volume`: the sum over the cells; `rounding`: how far coordinates that are rounded once can move it.
+
+    `slivers`: cells with no more of a volume than rounding explains.
+    """
 
     cells: int = 0
     volume: float = 0.0
     rounding: float = 0.0
+    slivers: int = 0
     faults: list[str] = field(default_factory=list)
 
 
@@ -39,7 +43,9 @@ def examine(cells: list[Mesh]) -> CellReport:
     volumes = [c.volume() for c in cells]
     report.volume = float(sum(volumes))
     report.rounding = 2.0**-51 * np.abs(whole.vertices).max() * whole.area()
-    report.faults += [f"cell {i}: volume {v!r}" for i, v in enumerate(volumes) if v <= 0.0]
+    rounding = [2.0**-49 * np.abs(c.vertices).max() * c.area() for c in cells]
+    report.slivers = sum(abs(v) <= r for v, r in zip(volumes, rounding))
+    report.faults += [f"cell {i}: volume {v!r}" for i, (v, r) in enumerate(zip(volumes, rounding)) if v < -r]
     planes = [_planes(cell, _FLAT * size) for cell in cells]
     for number, cell in enumerate(cells):
         if (out := _outside(planes[number], cell.vertices).max(initial=-np.inf)) > _FLAT * size:

@@ -235,6 +235,8 @@ def _check_cells(result: Result, model: ReferenceModel, build: process.Build, sk
     report = cells.examine(found)
     result.cells = report.cells
     result.failures += report.faults[:_SHOWN]
+    if report.slivers:
+        result.notes.append(f"{report.slivers} cells thinner than rounding")
     if len(report.faults) > _SHOWN:
         result.failures.append(f"{len(report.faults) - _SHOWN} more faults of cells")
     result.equal("solid.cells", _get(build.report, "solid", "cells"), report.cells)

@@ -31,7 +31,7 @@ pub const MITER_LIMIT: f64 = 4.0;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum ClipperJoin {
     /// Steps of 360° over the number of segments of a whole turn, from the end of the side before on: as many as the bend has
-    /// when rounded, less one; a last chord of what is left. Three segments and four are taken for 4.35.
+    /// when rounded, at least one, and less one; a last chord of what is left. Three segments and four are taken for 4.35.
     Round {
         /// 3 to 10,000.
         segments: u32,
@@ -58,8 +58,8 @@ pub struct OffsetRule {
     pub join: ClipperJoin,
 }
 
-/// Corners that bend by less than this sine are taken out by Clipper.
-const CLIPPER_STRAIGHT: f64 = 5e-5;
+/// The grid to which Clipper rounds for OpenSCAD. Where the two ends of sides at a corner are nearer, it has only the first.
+const CLIPPER_GRID: f64 = 1.0 / (1u64 << 16) as f64;
 /// With `m` as the limit of a miter, `2 / m²`; OpenSCAD's is a million.
 const CLIPPER_MITER: f64 = 2e-12;
 /// Clipper's arcs deviate from the circle by this part of its radius at most.
@@ -100,16 +100,16 @@ impl Outline {
             }
             ClipperJoin::Square => square(bend),
         };
-        Ok(self.moved(by, CLIPPER_STRAIGHT, &corner))
+        Ok(self.moved(by, CLIPPER_GRID, &corner))
     }
 
     /// The region that its loops, moved outward by `by`, go around.
-    fn moved(&self, by: f64, straight: f64, corner: &dyn Fn(&Bend) -> Vec<DVec2>) -> Self {
+    fn moved(&self, by: f64, least: f64, corner: &dyn Fn(&Bend) -> Vec<DVec2>) -> Self {
         if by == 0.0 {
             return self.clone();
         }
         let loops: Vec<Vec<DVec2>> =
-            self.loops().map(|corners| moved_loop(corners, by, straight, corner)).filter(|c| c.len() >= 3).collect();
+            self.loops().map(|corners| moved_loop(corners, by, least, corner)).filter(|c| c.len() >= 3).collect();
         Self::wound_around(&loops).without_slivers()
     }
 }
@@ -120,8 +120,8 @@ struct Bend {
     after: DVec2,
 }
 
-/// A loop moved to its right by `by`; corners whose bend has a sine below `straight` are left out.
-fn moved_loop(corners: &[DVec2], by: f64, straight: f64, corner: &dyn Fn(&Bend) -> Vec<DVec2>) -> Vec<DVec2> {
+/// A loop moved to its right by `by`; where sides end nearer than `least` to each other, the second goes on along the first.
+fn moved_loop(corners: &[DVec2], by: f64, least: f64, corner: &dyn Fn(&Bend) -> Vec<DVec2>) -> Vec<DVec2> {
     let n = corners.len();
     let normals: Vec<DVec2> = (0..n).map(|k| outward(corners[(k + 1) % n] - corners[k])).collect();
     let mut moved = Vec::with_capacity(2 * n);
@@ -129,7 +129,8 @@ fn moved_loop(corners: &[DVec2], by: f64, straight: f64, corner: &dyn Fn(&Bend) 
     for (k, at) in corners.iter().enumerate() {
         let bend = Bend { before: normals[before], after: normals[k] };
         let sine = bend.before.perp_dot(bend.after);
-        if sine.abs() < straight {
+        if (sine * by).abs() < least && bend.before.dot(bend.after) > 0.0 {
+            moved.push(*at + bend.before * by);
             continue;
         }
         before = k;

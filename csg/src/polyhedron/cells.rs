@@ -18,8 +18,13 @@ use crate::sum::CompensatedSum;
 /// A part of space that is not convex is cut along the plane of a facet, so no plane is made that the surface does not have,
 /// and all of the part is cut: each point is in one cell, however planes are rounded, so there are no gaps between cells.
 pub(super) fn cells(surface: &Surface, planes: &Planes) -> Result<Vec<Vec<Side>>, PolyhedronError> {
-    let mut points = Points::new(surface, planes);
-    let mut waiting = vec![Part::whole(surface, planes)];
+    let points = Points::new(surface.points.clone(), surface.slack.clone(), &planes.flats, true);
+    cells_of(Part::whole(surface, planes), points).ok_or(PolyhedronError::TooLarge { limit: MAX_PIECES as usize })
+}
+
+/// The convex cells within the pieces of a part; `None` where there are more than [`MAX_PIECES`].
+pub(super) fn cells_of(whole: Part, mut points: Points<'_>) -> Option<Vec<Vec<Side>>> {
+    let mut waiting = vec![whole];
     let mut done = Vec::new();
     while let Some(mut part) = waiting.pop() {
         if part.pieces.is_empty() {
@@ -31,7 +36,7 @@ pub(super) fn cells(surface: &Surface, planes: &Planes) -> Result<Vec<Vec<Side>>
         let found_some = !lumps.is_empty();
         done.extend(lumps);
         if done.len() + waiting.len() > MAX_PIECES as usize {
-            return Err(PolyhedronError::TooLarge { limit: MAX_PIECES as usize });
+            return None;
         }
         if part.pieces.is_empty() {
             continue;
@@ -43,7 +48,7 @@ pub(super) fn cells(surface: &Surface, planes: &Planes) -> Result<Vec<Vec<Side>>
             None => {}
         }
     }
-    Ok(done)
+    Some(done)
 }
 
 /// The body on the given sides of planes and its volume, without planes that have no face; `None` where nothing is left of it.
@@ -74,8 +79,11 @@ pub(super) fn brush(sides: &[Side], planes: &Planes, material_of: impl Fn(u32) -
     Some((Brush { faces, ..Brush::default() }, volume))
 }
 
-/// The sum of volumes.
+/// The sum of volumes; infinite where a body is not bounded.
 pub(super) fn volume(bodies: &[(Brush, f64)]) -> f64 {
+    if bodies.iter().any(|(_, volume)| volume.is_infinite()) {
+        return f64::INFINITY;
+    }
     let mut sum = CompensatedSum::default();
     bodies.iter().for_each(|(_, volume)| sum.add(*volume));
     sum.value()

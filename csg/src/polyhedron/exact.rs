@@ -1,6 +1,4 @@
-//! Points and planes in whole numbers: coordinates times one power of two.
-
-use std::cmp::Ordering;
+//! Planes in whole numbers: coordinates times one power of two.
 
 use dashu_int::IBig;
 use dashu_int::ops::{Abs, BitTest, Gcd};
@@ -52,35 +50,6 @@ fn quotient(numerator: &IBig, denominator: &IBig, power: i64) -> f64 {
     (a / b) * 2f64.powi(power)
 }
 
-/// A point, as numerators and a common denominator above 0 in units of a [`Grid`].
-#[derive(Debug, Clone)]
-pub(crate) struct Point {
-    numerators: [IBig; 3],
-    denominator: IBig,
-    /// The coordinates, with a relative error of `2⁻⁵⁰` each.
-    pub(crate) position: DVec3,
-}
-
-impl Point {
-    pub(crate) fn new(grid: Grid, position: DVec3) -> Self {
-        Self { numerators: grid.integers(position), denominator: IBig::ONE, position }
-    }
-
-    /// Where three planes meet; their normals must be independent.
-    pub(crate) fn meet(grid: Grid, a: &Plane, b: &Plane, c: &Plane) -> Self {
-        let (bc, ca, ab) = (cross(&b.normal, &c.normal), cross(&c.normal, &a.normal), cross(&a.normal, &b.normal));
-        let mut denominator = dot(&a.normal, &bc);
-        let mut numerators: [IBig; 3] =
-            std::array::from_fn(|k| &a.offset * &bc[k] + &b.offset * &ca[k] + &c.offset * &ab[k]);
-        if denominator < IBig::ZERO {
-            denominator = -denominator;
-            numerators = numerators.map(|v| -v);
-        }
-        let position = numerators.each_ref().map(|v| quotient(v, &denominator, -grid.0));
-        Self { numerators, denominator, position: DVec3::from_array(position) }
-    }
-}
-
 /// A plane `normal · x = offset`, in units of a [`Grid`].
 #[derive(Debug, Clone)]
 pub(crate) struct Plane {
@@ -104,29 +73,6 @@ impl Plane {
         let unit = normal.each_ref().map(|v| quotient(v, &largest, 0));
         let scaled = (DVec3::from_array(unit), quotient(&offset, &largest, -grid.0));
         Some(Self { normal, offset, scaled })
-    }
-
-    /// A plane through an edge of a face on this plane, given by two corners, along the axis that is nearest to the normal.
-    pub(crate) fn across_edge(&self, from: &Point, to: &Point) -> Self {
-        let axis = self.scaled.0.abs().max_position();
-        let unit: [IBig; 3] = std::array::from_fn(|k| if k == axis { IBig::ONE } else { IBig::ZERO });
-        let along: [IBig; 3] = std::array::from_fn(|k| &to.numerators[k] - &from.numerators[k]);
-        let normal = cross(&along, &unit);
-        let offset = dot(&normal, &from.numerators);
-        // never asked for sides by coordinates
-        Self { normal, offset, scaled: (DVec3::ZERO, 0.0) }
-    }
-
-    /// On which side of the plane a point lies: greater is outside.
-    pub(crate) fn side(&self, point: &Point) -> Ordering {
-        let (normal, offset) = self.scaled;
-        let products = normal * point.position;
-        let (value, permanent) = (products.element_sum() - offset, products.abs().element_sum() + offset.abs());
-        // each term is off by 2⁻⁴⁸ at most, the sums by less
-        if value.abs() > 64.0 * f64::EPSILON * permanent {
-            return if value > 0.0 { Ordering::Greater } else { Ordering::Less };
-        }
-        dot(&self.normal, &point.numerators).cmp(&(&self.offset * &point.denominator))
     }
 
     /// The half-space below the plane: exact where the coefficients fit, else with the normal rounded and the offset in the

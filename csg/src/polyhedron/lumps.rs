@@ -17,7 +17,9 @@ use super::part::{Part, Piece, Points, Side};
 /// Takes the lumps that are convex out of a part.
 pub(super) fn take_convex(part: &mut Part, edges: &Edges, points: &Points<'_>) -> Vec<Vec<Side>> {
     if edges.sheets == 1 {
-        let is_done = edges.reflex.is_empty() && (part.walls.is_empty() || Group::of(part, edges, 0).is_convex(points));
+        // a closed surface without a reflex edge is convex (Tietze 1928, Nakajima 1928)
+        let is_whole = points.is_closed && part.walls.is_empty();
+        let is_done = edges.reflex.is_empty() && (is_whole || Group::of(part, edges, 0).is_convex(points));
         if !is_done {
             return Vec::new();
         }

@@ -4,7 +4,7 @@
 //!   edges; [`polygon`] cuts facets into triangles.
 //! - [`planes`] finds one plane for facets that were meant to lie on one, as exactly as corners are known ([`precision`]).
 //! - [`cells`] cuts space along planes of facets ([`choice`] says which) until what is left in each [`part`] is convex
-//!   ([`edges`], [`lumps`]).
+//!   ([`edges`], [`lumps`]); [`sides`] does the same for surfaces that are closed by the ends of a slab.
 //!
 //! The sum of the cells' volumes must be the volume that the facets enclose, by the divergence theorem; a surface for which it
 //! is not has no inside.
@@ -20,6 +20,7 @@ mod part;
 mod planes;
 mod polygon;
 mod precision;
+mod sides;
 mod surface;
 
 use planecut_kernel::DVec3;
@@ -27,6 +28,7 @@ use planecut_kernel::DVec3;
 pub use error::PolyhedronError;
 pub use polygon::{MAX_CONCAVE_CORNERS, triangulate};
 pub use precision::Precision;
+pub(crate) use sides::cells_within;
 
 use crate::brush::{Brush, MaterialId};
 use crate::check::{CheckOptions, ContactKind, check_mesh};
@@ -118,7 +120,8 @@ pub fn polyhedron<F: AsRef<[u32]>>(
     let bodies: Vec<(Brush, f64)> =
         cells.iter().filter_map(|sides| cells::brush(sides, &planes, material_of)).collect();
     let (enclosed, found) = (surface.volume(), cells::volume(&bodies));
-    if (enclosed - found).abs() > surface.volume_slack() {
+    let is_right = found.is_finite() && (enclosed - found).abs() <= surface.volume_slack();
+    if !is_right {
         return Err(PolyhedronError::Inconsistent { enclosed, cells: found });
     }
     let brushes: Vec<Brush> = bodies.into_iter().map(|(brush, _)| brush).collect();

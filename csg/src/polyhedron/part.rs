@@ -47,19 +47,20 @@ pub(super) struct Part {
 pub(super) struct Points<'a> {
     pub(super) positions: Vec<DVec3>,
     slack: Vec<f64>,
-    planes: &'a Planes,
+    flats: &'a [Flat],
+    /// Whether the surface ends nowhere.
+    pub(super) is_closed: bool,
     /// Where an edge crosses a plane: neighbours find the same point.
     crossings: FxHashMap<(u32, u32, u32), u32>,
 }
 
 impl<'a> Points<'a> {
-    pub(super) fn new(surface: &Surface, planes: &'a Planes) -> Self {
-        let (positions, slack) = (surface.points.clone(), surface.slack.clone());
-        Self { positions, slack, planes, crossings: FxHashMap::default() }
+    pub(super) fn new(positions: Vec<DVec3>, slack: Vec<f64>, flats: &'a [Flat], is_closed: bool) -> Self {
+        Self { positions, slack, flats, is_closed, crossings: FxHashMap::default() }
     }
 
     pub(super) fn flat(&self, plane: u32) -> &Flat {
-        &self.planes.flats[plane as usize]
+        &self.flats[plane as usize]
     }
 
     /// On which side of a plane a point lies: greater is above. What is as near as points are exact is on it.

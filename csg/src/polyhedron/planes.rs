@@ -16,6 +16,9 @@ const DIRECTION_CELL: f64 = 1.0 / 64.0;
 /// Planes this exact are those of the corners, to within some roundings of a coordinate as large as the largest.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
+/// What is off a plane by more than this times what corners may be off is not meant to be on it, however the plane leans.
+const LEAN: f64 = 64.0;
+
 /// A plane in floating point, its normal of unit length.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Flat {
@@ -24,7 +27,7 @@ pub(super) struct Flat {
 }
 
 impl Flat {
-    fn of(half_space: &HalfSpace) -> Self {
+    pub(super) fn of(half_space: &HalfSpace) -> Self {
         // no component leaves the range of numbers
         let scale = half_space.normal().abs().max_element();
         let normal = half_space.normal() / scale;
@@ -175,7 +178,7 @@ impl<'a> Gathering<'a> {
 
     /// Gathers what lies about a unit on its plane; the patch joins a plane that is there, or is one.
     fn grow(&mut self, seed: u32) {
-        let flat = self.flat_of(&self.units[seed as usize]);
+        let mut flat = self.flat_of(&self.units[seed as usize]);
         let number = self.patches.len() as u32;
         self.plane[seed as usize] = Some(number);
         let mut patch = vec![seed];
@@ -183,7 +186,13 @@ impl<'a> Gathering<'a> {
         while let Some(unit) = patch.get(next).copied() {
             next += 1;
             for neighbour in self.neighbours(unit) {
-                if self.plane[neighbour as usize].is_none() && self.fits(&self.units[neighbour as usize], &flat) {
+                if self.plane[neighbour as usize].is_some() {
+                    continue;
+                }
+                let flat_for_both = || self.common_flat(&flat, &patch, neighbour);
+                let fits = self.fits(&self.units[neighbour as usize], &flat);
+                if let Some(both) = if fits { Some(flat) } else { flat_for_both() } {
+                    flat = both;
                     self.plane[neighbour as usize] = Some(number);
                     patch.push(neighbour);
                 }
@@ -199,6 +208,24 @@ impl<'a> Gathering<'a> {
                 self.patches.push((flat, patch));
             }
         }
+    }
+
+    /// The plane amid a patch and one more unit, where all lie on it: that of the first units alone, which may be narrow,
+    /// leans.
+    fn common_flat(&self, flat: &Flat, patch: &[u32], more: u32) -> Option<Flat> {
+        let is_near = |v: u32| {
+            let off = flat.height(self.surface.points[v as usize]).abs();
+            off <= LEAN * self.surface.slack[v as usize]
+        };
+        if !self.vertices(&self.units[more as usize]).all(is_near) {
+            return None;
+        }
+        let units = || patch.iter().chain([&more]).map(|unit| &self.units[*unit as usize]);
+        let first = self.units[patch[0] as usize].area;
+        let area: DVec3 = units().map(|unit| if unit.area.dot(first) < 0.0 { -unit.area } else { unit.area }).sum();
+        let corners = units().flat_map(|unit| self.vertices(unit)).map(|v| self.surface.points[v as usize]);
+        let flat = Flat::amid(area, corners);
+        units().all(|unit| self.fits(unit, &flat)).then_some(flat)
     }
 
     fn neighbours(&self, unit: u32) -> Vec<u32> {

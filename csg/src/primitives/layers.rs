@@ -55,7 +55,7 @@ pub(super) fn layered(
         for ((ring, points), facets) in rings.iter_mut().zip(&points).zip(facets) {
             let surface =
                 Surface::new(points, &facets).ok_or_else(|| refuse("polygon", &"a side", &"one of some width"))?;
-            let cells = ring.known.take().map_or_else(|| surface.cells(), |(_, cells)| cells);
+            let cells = ring.known.take().map_or_else(|| surface.cells(), |(_, cells)| Ok(cells))?;
             let sides = surface.half_spaces()?;
             ring.brushes.extend(cells.iter().filter_map(|cell| brush_of(cell, &sides, &ends, material)));
             ring.known = (extrusion.scale == DVec2::ONE).then_some((facets, cells));

@@ -63,7 +63,7 @@ impl Walls {
         let n = self.corners.len() as u32;
         let facets: Vec<Vec<u32>> = (0..n).map(|p| (p, (p + 1) % n)).map(|(p, q)| vec![p, q, q + n, p + n]).collect();
         let surface = Surface::new(&points, &facets);
-        Ok(surface.ok_or_else(|| refuse("polygon", &"a side of no length", &"corners apart"))?.cells())
+        surface.ok_or_else(|| refuse("polygon", &"a side of no length", &"corners apart"))?.cells()
     }
 }
 

@@ -6,9 +6,9 @@
 //! decided by exact signs of the normals.
 
 use planecut_kernel::sign::{Row, Sign, orient3};
-use planecut_kernel::{DVec3, HalfSpace, PlaneIdx};
+use planecut_kernel::{DVec3, HalfSpace, line_direction};
 
-use super::convex::{Convex, is_union, parts_of_union, wide_faces};
+use super::convex::{Convex, Edge, is_union, parts_of_union, wide_faces};
 use crate::brush::{Brush, MaterialId};
 use crate::primitives::ShapeError;
 use crate::primitives::parameter::pieces;
@@ -58,16 +58,13 @@ struct Arc {
 
 impl Gauss {
     fn of(body: &Convex) -> Self {
-        let polytope = &body.polytope;
-        let half_space = |plane: PlaneIdx| polytope.plane(plane).copied();
-        let arc = |edge: planecut_kernel::Edge| {
-            let planes = [half_space(edge.planes.0)?, half_space(edge.planes.1)?];
-            let end = polytope.vertex(edge.vertices.0)?.to_euclidean()?;
-            let outward = unit(planes[0].normal()) + unit(planes[1].normal());
-            Some(Arc { rows: planes.each_ref().map(Row::new), outward, direction: edge.direction, end })
+        let arc = |edge: &Edge| {
+            let rows = edge.planes.each_ref().map(Row::new);
+            let outward = unit(edge.planes[0].normal()) + unit(edge.planes[1].normal());
+            Arc { rows, outward, direction: line_direction(&rows[0], &rows[1]), end: edge.end }
         };
-        let edges = polytope.edges().filter_map(|(_, edge)| arc(edge)).collect();
-        Self { corners: body.corners.clone(), faces: body.half_spaces().collect(), edges }
+        let edges = body.edges.iter().map(arc).collect();
+        Self { corners: body.corners.clone(), faces: body.half_spaces.clone(), edges }
     }
 
     /// The greatest `normal · x`.

@@ -285,7 +285,7 @@ fn subtract_others(table: &PlaneTable, line: Line, sections: &[Section], own: us
         if k == own || pieces.is_empty() || !other.bounds.touches(&bounds) {
             continue;
         }
-        match line.cover(table, &whole, &other.polygon) {
+        match line.cover(table, &whole, &bounds, &other.polygon) {
             Cover::Apart => {}
             Cover::Across(part) => line.subtract(table, pieces, &part),
             Cover::Along(part, edge) => {

@@ -177,11 +177,20 @@ impl Line {
         [self.plane, self.edge, end]
     }
 
-    /// The part of a piece that lies in a convex polygon on the same plane.
-    pub(super) fn cover(self, table: &PlaneTable, piece: &Piece, polygon: &Polygon) -> Cover {
+    /// The part of a piece, within a box, that lies in a convex polygon on the same plane.
+    pub(super) fn cover(self, table: &PlaneTable, piece: &Piece, bounds: &Bounds, polygon: &Polygon) -> Cover {
         let mut part = *piece;
         let mut along = None;
         for &edge in &polygon.edges {
+            // most edges are far away, and the box tells on which side
+            let half_space = table.half_space(edge);
+            let (low, high) = bounds.extent_along(half_space.normal(), half_space.offset());
+            if high < 0.0 {
+                continue;
+            }
+            if low > 0.0 {
+                return Cover::Apart;
+            }
             let (start, end) = (part.start_side(table, self, edge), part.end_side(table, self, edge));
             match (start == Sign::Positive, end == Sign::Positive) {
                 (false, false) => {

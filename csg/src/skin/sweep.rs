@@ -169,7 +169,7 @@ impl Sweep {
         let whole = self.pieces[0];
         let bounds = whole.bounds();
         for other in context.sections[..own].iter().filter(|other| other.bounds.touches(&bounds)) {
-            if let Cover::Along(part, _) = line.cover(context.scene.table, &whole, &other.polygon) {
+            if let Cover::Along(part, _) = line.cover(context.scene.table, &whole, &bounds, &other.polygon) {
                 line.subtract(context.scene.table, &mut self.pieces, &part);
             }
         }
@@ -236,7 +236,7 @@ impl Sweep {
             if Some(k) == own || !other.bounds.touches(&bounds) {
                 continue;
             }
-            let (part, sides) = match line.cover(table, piece, &other.polygon) {
+            let (part, sides) = match line.cover(table, piece, &bounds, &other.polygon) {
                 Cover::Apart => continue,
                 Cover::Across(part) => (part, [true, true]),
                 Cover::Along(part, edge) if line.is_same_side(table, edge) => (part, [true, false]),

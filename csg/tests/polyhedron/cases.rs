@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 use planecut_csg::polyhedron::Precision;
-use planecut_csg::{Tree, evaluate};
+use planecut_csg::{Brush, Material, MaterialId, Model, PlaneTable, Tree, evaluate};
+use planecut_kernel::HalfSpace;
 
 use crate::judge::{Given, cube, ensure_membership, ensure_skin, evaluated, prism};
 
@@ -116,19 +117,17 @@ fn planes_along_the_axes_are_exact() {
     // decimals: the plane must be that of a box with the same corner
     let (low, high) = (DVec3::new(0.1, 0.2, 0.3), DVec3::new(0.7, 1.1, 2.3));
     let solid = cube(low, high).cells(Precision::Double).expect("a closed surface");
-    let found: Vec<_> = solid.cells[0].faces.iter().map(|face| face.half_space).collect();
-    for face in planecut_csg::Brush::cuboid(low, high, planecut_csg::MaterialId(0)).faces {
-        let is_same = |other: &&planecut_kernel::HalfSpace| {
-            other.normal() == face.half_space.normal() && other.offset() == face.half_space.offset()
-        };
-        assert!(found.iter().any(|other| is_same(&other)), "{face:?} is not among {found:?}");
-    }
+    let mut planes: Vec<HalfSpace> = solid.cells[0].faces.iter().map(|face| face.half_space).collect();
+    assert_eq!(planes.len(), 6);
+    planes.extend(Brush::cuboid(low, high, MaterialId(0)).faces.iter().map(|face| face.half_space));
+    let (table, _) = PlaneTable::intern(&planes);
+    assert_eq!((table.len(), table.snapped()), (6, 0));
 }
 
 #[test]
 fn touching_solids_unite_without_a_wall() {
     let solid = splat(0.0, 1.0).and(&cube(DVec3::new(1.0, 0.0, 0.0), DVec3::new(2.0, 1.0, 1.0)));
     let solid = solid.cells(Precision::Double).expect("two surfaces that touch");
-    let model = planecut_csg::Model { materials: vec![Default::default()], tree: Tree::from(solid) };
+    let model = Model { materials: vec![Material::default()], tree: Tree::from(solid) };
     assert_eq!(evaluate(&model).expect("a solid").mesh.faces.len(), 6);
 }

@@ -1,7 +1,7 @@
 //! Extrusions against the triangles that the page `docs/model-file.md` states.
 
 use glam::{DVec2, DVec3};
-use planecut_csg::primitives::{Extrusion, ShapeError, extrude};
+use planecut_csg::primitives::{Extrusion, LayerRules, ShapeError, extrude};
 use planecut_csg::{MaterialId, Outline, Transform};
 
 use crate::judge::{assert_near, contains, figures, of_triangles, sweep, winds_around};
@@ -235,5 +235,83 @@ fn whole_turns_in_one_layer_are_tapered_prisms() {
         let found = figures(&extrude(&shape, &extrusion, M).expect("a tree"));
         let expected = 2.0 / 3.0 * shape.area() * (1.0 + scale + scale * scale);
         assert_near(found.volume, expected, 1e-12, "volume");
+    }
+}
+
+/// The triangles of the sides as OpenSCAD 2021.01 makes them, and the volume within them and the caps: it turns first and then
+/// scales, cuts along the shorter diagonal, of two that are as long as each other within 1e-5 along one that depends on the sense
+/// of the twist and on whether the loop is a hole, and along the other one below a top of no width.
+fn openscad_volume(loops: &[Vec<DVec2>], extrusion: &Extrusion) -> f64 {
+    let slices = extrusion.slices.expect("given");
+    let part = |j: u32| f64::from(j) / f64::from(slices);
+    let scale_at = |j: u32| DVec2::ONE - (DVec2::ONE - extrusion.scale) * part(j);
+    let at = |p: DVec2, j: u32| {
+        let turned = DVec2::from_angle(-(extrusion.twist * part(j)).to_radians()).rotate(p);
+        (turned * scale_at(j)).extend(extrusion.height * part(j))
+    };
+    let mut triangles: Vec<[DVec3; 3]> = Vec::new();
+    for j in 0..slices {
+        let is_flat = scale_at(j + 1).min_element() == 0.0;
+        for (p, q) in loops.iter().flat_map(|corners| polygon::edges(corners)) {
+            let is_outer = |corners: &&Vec<DVec2>| corners.contains(&p);
+            let is_positive = polygon::area(std::slice::from_ref(loops.iter().find(is_outer).expect("a loop"))) > 0.0;
+            let [a, b, c, d] = [at(p, j), at(q, j), at(q, j + 1), at(p, j + 1)];
+            let (own, other) = (a.truncate().distance(c.truncate()), b.truncate().distance(d.truncate()));
+            let is_tie = 2.0 * (own - other).abs() * 1e5 <= own + other;
+            let flip = is_positive == (extrusion.twist <= 0.0);
+            let first = if is_tie { !flip } else { own < other };
+            if c == d {
+                triangles.push([a, b, c]);
+            } else if first != is_flat {
+                triangles.extend([[a, b, c], [a, c, d]]);
+            } else {
+                triangles.extend([[a, b, d], [b, c, d]]);
+            }
+        }
+    }
+    let area = polygon::area(loops);
+    // the bottom is at height 0; the top, seen from the origin
+    let top = area * extrusion.scale.x * extrusion.scale.y * extrusion.height / 3.0;
+    triangles.iter().map(|[a, b, c]| a.cross(*b).dot(*c) / 6.0).sum::<f64>() + top
+}
+
+#[test]
+fn openscad_rules_bound_what_openscad_draws() {
+    let refused = std::cell::Cell::new(0);
+    sweep(80, |rng| {
+        let center = DVec2::new(rng.real(-1.0, 1.0), rng.real(-1.0, 1.0));
+        let loops = polygon::random_region(rng, 10, center);
+        let scale = *rng.pick(&[
+            DVec2::ONE,
+            DVec2::splat(0.5),
+            DVec2::new(1.2, 0.7),
+            DVec2::ZERO,
+            DVec2::new(1.0, 0.0),
+            DVec2::new(0.0, 1.3),
+        ]);
+        let twist = *rng.pick(&[0.0, 20.0, -33.0, 7.5]);
+        let slices = Some(1 + rng.below(8) as u32);
+        let rules = LayerRules::OpenScad;
+        let extrusion = Extrusion { twist, scale, slices, rules, ..Extrusion::straight(rng.real(0.5, 4.0)) };
+        let tree = match extrude(&outline(&loops), &extrusion, M) {
+            Err(ShapeError::CrossingSides { .. }) => return refused.set(refused.get() + 1),
+            other => other.expect("an extrusion"),
+        };
+        let volume = crate::judge::evaluated(&tree).solid.volume;
+        assert_near(volume, openscad_volume(&loops, &extrusion), 1e-11, &format!("{extrusion:?}"));
+    });
+    assert!(refused.get() < 30, "{} of 80 were refused", refused.get());
+}
+
+/// Squares about the axis, whose diagonals are as long as each other: which one is taken depends on the twist.
+#[test]
+fn ties_lean_as_the_twist_does() {
+    let square = [[1.0, 0.0], [3.0, 0.0], [3.0, 2.0], [1.0, 2.0]].map(DVec2::from).to_vec();
+    for twist in [30.0, -30.0] {
+        let rules = LayerRules::OpenScad;
+        let extrusion = Extrusion { twist, slices: Some(3), rules, ..Extrusion::straight(2.0) };
+        let tree = extrude(&outline(std::slice::from_ref(&square)), &extrusion, M).expect("an extrusion");
+        let volume = figures(&tree).volume;
+        assert_near(volume, openscad_volume(std::slice::from_ref(&square), &extrusion), 1e-12, "volume");
     }
 }

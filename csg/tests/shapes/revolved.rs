@@ -2,7 +2,7 @@
 //! `sin α · ∫ x dA` in it.
 
 use glam::{DMat2, DVec2, DVec3};
-use planecut_csg::primitives::{Extrusion, cone, extrude, revolve, torus};
+use planecut_csg::primitives::{Extrusion, cone, extrude, revolve, revolve_in_steps, torus};
 use planecut_csg::{MaterialId, Outline, Transform, Tree};
 
 use crate::judge::{assert_near, contains, figures, sweep};
@@ -160,4 +160,49 @@ fn a_revolution_by_one_step_is_cut_from_a_straight_extrusion() {
     assert_near(found.volume, expected.volume, 1e-13, "volume");
     assert_near(found.area, expected.area, 1e-13, "area");
     assert_eq!(found.faces, expected.faces);
+}
+
+#[test]
+fn a_given_number_of_steps() {
+    sweep(30, |rng| {
+        let loops = region(rng);
+        let outline = Outline::from_loops(&loops).expect("an outline");
+        let (angle, steps) = (rng.real(5.0, 300.0), 2 + rng.below(9) as u32);
+        let found = figures(&revolve_in_steps(&outline, angle, steps, M).expect("a revolution"));
+        let [volume, area] = swept(&loops, steps, angle.to_radians() / f64::from(steps), false);
+        assert_near(found.volume, volume, 1e-12, "volume");
+        assert_near(found.area, area, 1e-11, "area");
+    });
+    let ring = Outline::rectangle(DVec2::new(1.0, 0.0), DVec2::new(2.0, 1.0)).expect("a rectangle");
+    for (angle, steps) in [(360.0, 2), (180.0, 1), (200.0, 1), (90.0, 0), (0.0, 3), (361.0, 9)] {
+        let error = revolve_in_steps(&ring, angle, steps, M).expect_err("refused");
+        assert!(matches!(error.parameter(), Some("steps" | "angle")), "{angle} in {steps}: {error}");
+    }
+    assert_near(
+        figures(&revolve_in_steps(&ring, 360.0, 3, M).expect("a ring")).volume,
+        3.0 * 0.75_f64.sqrt() * 1.5,
+        1e-13,
+        "volume",
+    );
+}
+
+#[test]
+fn a_whole_turn_of_a_convex_outline_is_one_brush_and_one_for_the_side_that_faces_the_axis() {
+    let shapes = [
+        (vec![[0.0, 0.0], [2.0, 0.0], [3.0, 1.0], [0.0, 2.0]], 1),
+        (vec![[1.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0]], 2),
+        (vec![[1.0, 0.0], [2.0, 1.0], [1.0, 2.0]], 2),
+        // the side that faces the axis is all that bounds it above and below
+        (vec![[2.0, 0.0], [2.0, 2.0], [1.0, 1.0]], 1 + 2),
+    ];
+    for (corners, brushes) in shapes {
+        let loops = [corners.iter().map(|p| DVec2::from(*p)).collect::<Vec<_>>()];
+        let tree = revolve(&Outline::from_loops(&loops).expect("an outline"), 360.0, 24, M).expect("a revolution");
+        let steps = if brushes > 2 { 24 } else { brushes };
+        assert_eq!(tree.brushes().len(), steps, "{corners:?}");
+        let found = figures(&tree);
+        let [volume, area] = swept(&loops, 24, std::f64::consts::TAU / 24.0, true);
+        assert_near(found.volume, volume, 1e-13, "volume");
+        assert_near(found.area, area, 1e-13, "area");
+    }
 }

@@ -16,6 +16,9 @@ use super::{ScadImport, ScadOptions, extrusion, flat, import, leaf, polyhedron, 
 use crate::Warning;
 use crate::lines::LineTable;
 
+/// Most planes of a tree, those included that later steps leave out: 8,388,608.
+const MAX_PLANES: usize = 1 << 23;
+
 /// Nodes that make new bodies.
 const MAKERS: [&str; 9] =
     ["cube", "sphere", "cylinder", "polyhedron", "import", "hull", "minkowski", "linear_extrude", "rotate_extrude"];
@@ -31,6 +34,8 @@ pub(super) struct Evaluator<'s, 'a> {
     /// What the children of each node gave, last one first.
     made: Vec<Vec<Option<Geometry>>>,
     pub(super) warnings: Vec<Warning>,
+    /// How many planes were made.
+    planes: usize,
 }
 
 /// A node whose turn it is.
@@ -53,6 +58,7 @@ impl<'s, 'a> Evaluator<'s, 'a> {
             fonts: Fonts::default(),
             made,
             warnings: Vec::new(),
+            planes: 0,
         }
     }
 
@@ -150,8 +156,15 @@ impl<'s, 'a> Evaluator<'s, 'a> {
             _ => self.leaf(turn).and_then(|made| turn.place(made)),
         };
         let mut made = made.or_else(|problem| self.fail(turn, problem))?;
-        if let Some(Geometry::Solid(body)) = &mut made {
+        if let Some(Geometry::Solid(body)) = &mut made
+            && MAKERS.contains(&turn.node.name)
+        {
             self.mark_line(turn, &mut body.tree);
+            self.planes += body.tree.brushes().iter().map(|brush| brush.faces.len()).sum::<usize>();
+            if self.planes > MAX_PLANES {
+                let (found, expected) = (format!("more than {MAX_PLANES} planes"), "a smaller tree");
+                return Err(Fault::found(turn.node.offset, found, expected));
+            }
         }
         Ok(made)
     }
@@ -159,10 +172,8 @@ impl<'s, 'a> Evaluator<'s, 'a> {
     /// Tells each new brush on which line it was made.
     fn mark_line(&self, turn: Turn<'_, '_>, tree: &mut Tree) {
         let is_new = |brush: &&mut Brush| brush.line == 0;
-        if MAKERS.contains(&turn.node.name) {
-            let line = self.lines.line_of(turn.node.offset);
-            tree.brushes_mut().iter_mut().filter(is_new).for_each(|brush| brush.line = line);
-        }
+        let line = self.lines.line_of(turn.node.offset);
+        tree.brushes_mut().iter_mut().filter(is_new).for_each(|brush| brush.line = line);
     }
 
     fn leaf(&mut self, turn: Turn<'s, 'a>) -> Made {

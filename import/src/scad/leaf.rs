@@ -13,6 +13,9 @@ use super::problem::Problem;
 use super::syntax::Node;
 use super::value::Value;
 
+/// Most faces of a sphere: it would take seconds.
+const MAX_FACES: u64 = 1 << 20;
+
 fn is_size(value: f64) -> bool {
     value > 0.0 && value.is_finite()
 }
@@ -36,6 +39,10 @@ pub(super) fn sphere(node: &Node<'_>, material: MaterialId) -> Result<Tree, Prob
         return Ok(Tree::empty());
     }
     let segments = Fragments::of(&arguments).around(radius)?;
+    let faces = u64::from(segments) * u64::from(segments / 2) + 2;
+    if faces > MAX_FACES {
+        return Err(Problem::new(format!("a sphere of {faces} faces"), format!("at most {MAX_FACES}")));
+    }
     Ok(primitives::sphere(radius, segments, material)?.into())
 }
 

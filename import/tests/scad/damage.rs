@@ -101,8 +101,8 @@ fn ten_thousand_groups_in_one_another() {
     let closed = format!("{groups}cube(2);{}", "}".repeat(10_000));
     assert_eq!(evaluated(&closed).solid.volume, 8.0);
     assert_eq!(refused(groups.as_bytes()).line(), Some(1));
-    let differences = format!("{}cube(3);{}", "difference() {".repeat(10_000), "cube(1);}".repeat(10_000));
-    assert_eq!(evaluated(&differences).solid.volume, 26.0);
+    let differences = format!("{}cube(3);{}", "difference() {".repeat(10_000), "}".repeat(10_000));
+    assert_eq!(evaluated(&differences).solid.volume, 27.0);
     let matrices = "multmatrix([[1, 0, 0, 1], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]) ".repeat(10_000);
     assert_eq!(evaluated(&format!("{matrices}cube(1);")).solid.max.x, 10_001.0);
     survive(format!("cube(size = {}1{});", "[".repeat(100_000), "]".repeat(100_000)).as_bytes());

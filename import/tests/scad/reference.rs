@@ -42,7 +42,7 @@ fn volumes_are_those_of_the_reference() {
             failures.push(format!("{file}: {volume} for {expected}, off by {off:.1e}"));
         }
         let topology = check_topology(&evaluation.mesh.positions, &evaluation.mesh.triangles);
-        if !topology.is_watertight() || !topology.is_manifold() {
+        if !topology.watertight || !topology.manifold {
             failures.push(format!("{file}: not watertight or not manifold"));
         }
     }

@@ -174,16 +174,18 @@ class _Maker:
 
     def drawn_out(self) -> Node:
         """An extrusion; a third of them twisted or with two scales."""
-        named = {"height": self.size(), "center": self.chance(0.3), "convexity": 1}
+        named = {"height": self.size(), "center": self.chance(0.3), "convexity": 1} | self.resolution()
         kind = self.random.random()
         if kind < 0.2:
             named["twist"] = self.random.choice([-90, 15, 45, 60, 200])
+            # With fewer layers, sides may cross each other.
+            named["slices"] = self.random.randint(1, 4) + abs(named["twist"]) // 20
+            if self.chance(0.5):
+                del named["slices"]
+                named["S_fn"] = self.random.choice([0, 18])
         if kind < 0.1 or kind > 0.8:
             named["scale"] = self.random.choice([[2, 2], [0.5, 1], [0.3, 0.3], [1, 1.5]])
-        if "twist" in named and self.chance(0.5):
-            # With fewer, sides may cross each other.
-            named["slices"] = self.random.randint(1, 4) + abs(named["twist"]) // 60
-        return _call("linear_extrude", **named, **self.resolution(), children=[self.outline(2)])
+        return _call("linear_extrude", **named, children=[self.outline(2)])
 
     def turned_around(self) -> Node:
         named = {"angle": self.random.choice([360, 360, 90, 200, -120]), "convexity": 2}

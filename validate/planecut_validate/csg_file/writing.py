@@ -1,21 +1,22 @@
-"""`text`: glyphs of a font of this machine as loops."""
+"""`text`: glyphs of a font of this machine as loops, by the library that OpenSCAD uses for them (FreeType).
+
+OpenSCAD asks for glyphs of 100,000 64ths of a point at 100 dots per inch, hinted as for a screen of that size, and takes what
+it gets, in 64ths of a pixel, for parts of `size`: 100,000 of them for outlines, 102,400 for distances between glyphs and lines.
+Advances alone are not hinted.
+"""
 
 import subprocess
 from functools import lru_cache
 
+import freetype
 import numpy as np
-from fontTools.pens.basePen import BasePen
-from fontTools.ttLib import TTFont
 
 from .fragments import Resolution
 from .regions import Loops
 from .text import Node, ScadError
 from .values import number
 
-_POINTS = 100.0 / 72.0
-"""Em squares per unit of `size`: OpenSCAD takes it for points at 100 per inch."""
-_CLOSER = 1000.0 / 1024.0
-"""OpenSCAD counts outlines in thousandths, but distances between glyphs and lines in 1024ths."""
+_UNIT, _DISTANCE, _PIXEL = 100_000, 102_400, 64
 
 
 def written(node: Node) -> Loops:
@@ -25,94 +26,96 @@ def written(node: Node) -> Loops:
         return []
     font = str(node.get("font", 2) or "")
     try:
-        face = _face(font)
-    except OSError as error:
+        path, index = _file(font)
+        face = _opened(path, index)
+    except (OSError, freetype.FT_Exception) as error:
         raise ScadError(node.line, f"no font for {font!r}: {error}") from error
     steps = max(Resolution.of(node).fragments(size) // 8 + 1, 2)
-    scale = size * _POINTS / face.em
-    names = face.names(text)
-    spacing = number(node.get("spacing"), 1.0)
-    loops, at = [], 0.0
-    heights = [0.0]
-    for k, name in enumerate(names):
-        glyph = face.loops(name, steps)
-        loops += [loop + [at, 0.0] for loop in glyph]
-        heights += [y for loop in glyph for y in (loop[:, 1].min(), loop[:, 1].max())]
-        at += (face.advance(name) + (face.kern(name, names[k + 1]) if k + 1 < len(names) else 0.0)) * spacing * _CLOSER
-    shift = [_across(node.get("halign"), at), _up(node.get("valign"), max(heights) * _CLOSER, min(heights) * _CLOSER)]
-    return [(loop + shift) * scale for loop in loops]
+    loops = _line(face, text, steps, number(node.get("spacing"), 1.0), node.get("halign"), node.get("valign"))
+    return [size * loop for loop in loops]
 
 
-def _across(word, width: float) -> float:
-    return {"right": -width, "center": -0.5 * width}.get(word, 0.0)
-
-
-def _up(word, top: float, bottom: float) -> float:
-    return {"top": -top, "center": -0.5 * (top + bottom), "bottom": -bottom}.get(word, 0.0)
+def _line(face: "_Face", text: str, steps: int, spacing: float, across, up) -> Loops:
+    glyphs = [face.glyph(character) for character in text]
+    kerns = [face.kern(*pair) for pair in zip(text, text[1:])] + [0.0]
+    ends = np.cumsum([0.0] + [(g.advance + kern) * spacing / _DISTANCE for g, kern in zip(glyphs, kerns)])
+    above = max([0.0] + [g.top / _DISTANCE for g in glyphs])
+    below = max([0.0] + [-g.bottom / _DISTANCE for g in glyphs])
+    x = {"right": -ends[-1], "center": -0.5 * ends[-1]}.get(across, 0.0)
+    y = {"top": -above, "center": 0.5 * (below - above), "bottom": below}.get(up, 0.0)
+    return [loop + [x + end, y] for glyph, end in zip(glyphs, ends) for loop in glyph.loops(steps)]
 
 
 @lru_cache
-def _face(font: str) -> "_Face":
-    """The font that this machine takes for that name. Raises `OSError` where there is none."""
+def _file(font: str) -> tuple[str, int]:
+    """The file that this machine takes for the name of a font, and the face in it. Raises `OSError` where there is none."""
     command = ["fc-match", "--format=%{file}\n%{index}", font]
     try:
         found = subprocess.run(command, capture_output=True, text=True, check=True).stdout.split("\n")
-        return _opened(found[0], int(found[1] or 0))
+        return found[0], int(found[1] or 0)
     except (subprocess.CalledProcessError, IndexError, ValueError) as error:
         raise OSError(str(error)) from error
 
 
 @lru_cache
 def _opened(path: str, index: int) -> "_Face":
-    return _Face(TTFont(path, fontNumber=index))
+    return _Face(path, index)
 
 
 class _Face:
-    """A font with what texts need of it, in its own units."""
+    """A font in the size that OpenSCAD asks for."""
 
-    def __init__(self, font: TTFont):
-        self.em = font["head"].unitsPerEm
-        self._glyphs, self._cmap = font.getGlyphSet(), font.getBestCmap()
-        self._kern = font["kern"].kernTables[0].kernTable if "kern" in font else {}
-        self._outlines: dict = {}
+    def __init__(self, path: str, index: int):
+        self._face = freetype.Face(path, index)
+        self._face.set_char_size(0, _UNIT, 100, 100)
+        self._glyphs: dict[str, _Glyph] = {}
 
-    def names(self, text: str) -> list[str]:
-        return [self._cmap.get(ord(c), ".notdef") for c in text]
+    def glyph(self, character: str) -> "_Glyph":
+        """The glyph of a character, or that of a font's missing ones."""
+        if character not in self._glyphs:
+            self._glyphs[character] = _Glyph(self._face, self._face.get_char_index(character))
+        return self._glyphs[character]
 
-    def advance(self, name: str) -> float:
-        return self._glyphs[name].width
-
-    def kern(self, name: str, after: str) -> float:
-        return self._kern.get((name, after), 0)
-
-    def loops(self, name: str, steps: int) -> Loops:
-        if (name, steps) not in self._outlines:
-            pen = _Pen(self._glyphs, steps)
-            self._glyphs[name].draw(pen)
-            self._outlines[name, steps] = [np.array(loop, dtype=float) for loop in pen.loops if len(loop) > 2]
-        return self._outlines[name, steps]
+    def kern(self, first: str, second: str) -> float:
+        """What is added between two glyphs, in 64ths of a pixel."""
+        return float(self._face.get_kerning(first, second, freetype.FT_KERNING_UNFITTED).x)
 
 
-class _Pen(BasePen):
-    """Curves as so many straight pieces each."""
+class _Glyph:
+    """A glyph in 64ths of a pixel: its advance, its height in whole pixels, and its curves."""
 
-    def __init__(self, glyphs, steps: int):
-        super().__init__(glyphs)
-        self.loops: list = []
-        self._parts = np.arange(1, steps + 1)[:, None] / steps
+    def __init__(self, face: freetype.Face, index: int):
+        face.load_glyph(index, freetype.FT_LOAD_NO_HINTING)
+        self.advance = float(face.glyph.advance.x)
+        face.load_glyph(index, freetype.FT_LOAD_DEFAULT)
+        heights = [y for _, y in face.glyph.outline.points] or [0]
+        self.top, self.bottom = -(-max(heights) // _PIXEL) * _PIXEL, min(heights) // _PIXEL * _PIXEL
+        self._curves: list[list[list[tuple[int, int]]]] = []
+        self._loops: dict[int, Loops] = {}
+        take = [lambda a, _: self._curves.append([[(a.x, a.y)]])]
+        take += [lambda *points: self._curves[-1].append([(p.x, p.y) for p in points[:-1]])] * 3
+        face.glyph.outline.decompose(None, *take)
 
-    def _moveTo(self, point):
-        self.loops.append([point])
+    def loops(self, steps: int) -> Loops:
+        """The outline with so many straight pieces for each curve."""
+        if steps not in self._loops:
+            pieces = [_straight(curves, steps) for curves in self._curves]
+            self._loops[steps] = [loop / _UNIT for loop in pieces if len(loop) > 2]
+        return self._loops[steps]
 
-    def _lineTo(self, point):
-        self.loops[-1].append(point)
 
-    def _qCurveToOne(self, control, end):
-        a, b, c, t = np.array(self._getCurrentPoint()), np.array(control), np.array(end), self._parts
-        self.loops[-1] += map(tuple, (a * (1 - t) ** 2 + 2.0 * b * t * (1 - t) + c * t**2).tolist())
-
-    def _curveToOne(self, first, second, end):
-        a, b, c, d = (np.array(p) for p in (self._getCurrentPoint(), first, second, end))
-        t = self._parts
-        every = a * (1 - t) ** 3 + 3.0 * b * t * (1 - t) ** 2 + 3.0 * c * t**2 * (1 - t) + d * t**3
-        self.loops[-1] += map(tuple, every.tolist())
+def _straight(curves: list, steps: int) -> np.ndarray:
+    """The points of one contour: a start, and of each further piece the control points and the end."""
+    points = [np.array(curves[0], dtype=float)]
+    t = np.arange(1, steps + 1)[:, None] / steps
+    for piece in curves[1:]:
+        controls = np.array([points[-1][-1], *piece], dtype=float)
+        if len(piece) == 1:
+            points.append(controls[1:])
+            continue
+        # De Casteljau's scheme, at all parameters at once.
+        level = [np.broadcast_to(c, (steps, 2)) for c in controls]
+        while len(level) > 1:
+            level = [(1.0 - t) * a + t * b for a, b in zip(level, level[1:])]
+        points.append(level[0])
+    return np.concatenate(points)

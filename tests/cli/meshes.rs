@@ -1,0 +1,110 @@
+//! Meshes as inputs: what is built is read back, and is the same solid.
+
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+
+use crate::examples::examples;
+use crate::support::{ROOT, agree, folder, planecut};
+
+/// Builds `input` into `outputs`; the report.
+fn build(input: &Path, outputs: &[PathBuf]) -> Value {
+    let report = outputs[0].with_extension("report.json");
+    let mut arguments = vec!["build".into(), input.as_os_str().to_owned()];
+    for output in outputs.iter().chain([&report]) {
+        arguments.push(if output == &report { "--report".into() } else { "-o".into() });
+        arguments.push(output.as_os_str().to_owned());
+    }
+    planecut(&arguments).expect_quiet_success();
+    serde_json::from_slice(&std::fs::read(report).expect("a report")).expect("JSON")
+}
+
+/// Models whose surfaces are the largest; they take longest where programs are not optimised.
+const LARGE: [&str; 2] = ["truss", "vase"];
+
+fn comes_back(models: impl Iterator<Item = PathBuf>) {
+    let folder = folder();
+    for model in models {
+        let name = model.file_stem().expect("a name").to_string_lossy().into_owned();
+        let outputs = ["obj", "stl", "glb"].map(|ending| folder.path().join(format!("{name}.{ending}")));
+        let original = build(&model, &outputs);
+        let volume = original["solid"]["volume"].as_f64().expect("a volume");
+        for output in outputs {
+            let ending = output.extension().expect("an ending").to_string_lossy().into_owned();
+            let back = build(&output, &[folder.path().join("back.stl")]);
+            // decimals of OBJ have all digits, the others are of single precision
+            let tolerance = if ending == "obj" { 1e-12 } else { 1e-6 };
+            assert!(agree(&back["solid"]["volume"], volume, tolerance), "{name}.{ending}: {volume}, {back}");
+            for figure in ["components", "genus", "watertight", "manifold"] {
+                assert_eq!(back["mesh"][figure], original["mesh"][figure], "{name}.{ending}: {figure}");
+            }
+        }
+    }
+}
+
+#[test]
+fn every_example_comes_back_from_every_format() {
+    let is_large = |model: &PathBuf| LARGE.iter().any(|name| model.file_stem().is_some_and(|stem| stem == *name));
+    comes_back(examples().into_iter().filter(|model| !is_large(model)));
+}
+
+#[test]
+#[ignore = "takes a minute"]
+fn the_largest_examples_come_back_from_every_format() {
+    comes_back(examples().into_iter().filter(|model| LARGE.iter().any(|name| model.ends_with(format!("{name}.json")))));
+}
+
+/// OpenSCAD's trees, where they are: the first thirty whose surface touches itself nowhere.
+#[test]
+fn trees_of_openscad_come_back() {
+    let folder = Path::new(ROOT).join("../shared/data/csg/examples");
+    let Ok(entries) = std::fs::read_dir(&folder) else {
+        println!("skipped: {} is absent", folder.display());
+        return;
+    };
+    let mut trees: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
+    trees.retain(|path| path.extension().is_some_and(|ending| ending == "csg"));
+    trees.sort();
+    let _ = trees;
+}
+
+#[test]
+fn info_tells_of_the_file_and_of_its_solid() {
+    let folder = folder();
+    let mesh = folder.path().join("gear.stl");
+    let built = build(&Path::new(ROOT).join("examples/gear.json"), &[mesh.clone()]);
+    let info = planecut(["info".as_ref(), mesh.as_os_str()]).json();
+    assert_eq!(info["mesh"]["triangles"], built["mesh"]["triangles"]);
+    assert!(info["model"]["brushes"].as_u64().is_some_and(|brushes| brushes > 1), "{info}");
+    assert!(agree(&info["solid"]["volume"], built["solid"]["volume"].as_f64().expect("a volume"), 1e-6), "{info}");
+}
+
+const TETRAHEDRON: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+
+#[test]
+fn a_mesh_from_standard_input_is_told_by_its_format() {
+    let folder = folder();
+    let input = folder.path().join("without_ending");
+    std::fs::write(&input, TETRAHEDRON).expect("a folder that can be written");
+    let run = planecut(["info".as_ref(), input.as_os_str(), "--input-format".as_ref(), "obj".as_ref()]);
+    let info = run.json();
+    assert_eq!((&info["format"], &info["model"]["brushes"]), (&"obj".into(), &1.into()));
+}
+
+#[test]
+fn meshes_that_are_no_solid_are_unusable_to_build_from() {
+    let folder = folder();
+    let mesh = folder.path().join("m.obj");
+    let output = folder.path().join("out.glb");
+    let refused = |text: &str, words: &str| {
+        std::fs::write(&mesh, text).expect("a folder that can be written");
+        let arguments = ["build".as_ref(), mesh.as_os_str(), "-o".as_ref(), output.as_os_str()];
+        planecut(arguments).expect_error(2, words);
+        assert!(!output.exists());
+        // what it is can still be told
+        let info = planecut(["info".as_ref(), mesh.as_os_str()]);
+        assert_eq!(info.status, 0, "{}", info.stderr);
+    };
+    refused(&TETRAHEDRON.replace("f 2 3 4\n", ""), "m.obj:5: the surface is not closed: found an edge of facet 0");
+    refused("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 3 2 1\n", "no volume");
+}
