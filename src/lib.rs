@@ -10,7 +10,7 @@
 //! |---|---|
 //! | [`kernel`] | exact signs, half-spaces, convex polyhedra that planes are added to and taken back from |
 //! | [`csg`] | trees of set operations, their skin as a mesh and their convex cells, primitives, outlines, checks of any mesh |
-//! | [`import`] | readers of the native model file, of Quake-family `.map` files, and of OBJ, STL, PLY and glTF meshes |
+//! | [`import`] | readers of the native model file, of OpenSCAD's evaluated trees, of Quake-family `.map` files, and of OBJ, STL, PLY and glTF meshes |
 //! | [`export`] | writers of GLB, glTF, OBJ and STL, and rendered previews |
 //!
 //! # Example

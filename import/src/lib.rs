@@ -1,4 +1,4 @@
-//! Readers of brush maps, model files and meshes.
+//! Readers of brush maps, model files, OpenSCAD's trees and meshes.
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 

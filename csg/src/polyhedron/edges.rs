@@ -22,9 +22,11 @@ impl Edges {
         let mut sets = Sets((0..part.pieces.len() as u32).collect());
         let mut reflex = Vec::new();
         for at_edge in sides.chunk_by(|a, b| a.0 == b.0) {
-            let &[((a, b), p), (_, q)] = at_edge else { continue };
-            sets.join(p, q);
-            if is_reflex(part, points, p, q) {
+            at_edge.windows(2).for_each(|pair| sets.join(pair[0].1, pair[1].1));
+            // where sheets touch it is not known which pieces are neighbours
+            if let &[((a, b), p), (_, q)] = at_edge
+                && is_reflex(part, points, p, q)
+            {
                 reflex.push(([a, b], [p, q]));
             }
         }

@@ -6,6 +6,7 @@ use super::cells::cells_of;
 use super::part::{Part, Piece, Points, Side};
 use super::planes::Flat;
 use super::precision::Precision;
+use super::surface::merged;
 
 /// Convex cells that together are what a surface of convex facets bounds, each as facets and whether the cell is on the side of
 /// the facet's plane where the facet's solid is not. `half_spaces` are those of the facets, the solid below them.
@@ -18,14 +19,16 @@ pub(crate) fn cells_within(
     half_spaces: &[HalfSpace],
 ) -> Option<Vec<Vec<(u32, bool)>>> {
     let flats: Vec<Flat> = half_spaces.iter().map(Flat::of).collect();
+    let (points, number) = merged(points);
     let piece = |(facet, corners): (u32, &Vec<u32>)| Piece {
         plane: facet,
         is_reversed: false,
         facet,
-        corners: corners.clone(),
+        corners: corners.iter().map(|corner| number[*corner as usize]).collect(),
     };
     let whole = Part { walls: Vec::new(), pieces: (0..).zip(facets).map(piece).collect() };
-    let points = Points::new(points.to_vec(), Precision::Double.slack(points), &flats, false);
+    let slack = Precision::Double.slack(&points);
+    let points = Points::new(points, slack, &flats, false);
     let side = |side: Side| (side.plane, side.is_above);
     let cells = cells_of(whole, points)?;
     Some(cells.into_iter().map(|cell| cell.into_iter().map(side).collect()).collect())

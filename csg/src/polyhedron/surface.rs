@@ -86,26 +86,30 @@ fn used_points(triangles: &[[u32; 3]], points: usize) -> usize {
     used.into_iter().filter(|used| *used).count()
 }
 
-/// The different positions, and the number of each point's.
+/// The different positions, and the number of each point's, where all are accepted.
 fn merge_points(points: &[DVec3]) -> Result<(Vec<DVec3>, Vec<u32>), PolyhedronError> {
+    // not true of NaN
+    let is_accepted = |p: &DVec3| p.to_array().iter().all(|v| v.abs() <= MAX_COORDINATE);
+    match points.iter().position(|p| !is_accepted(p)) {
+        Some(point) => Err(PolyhedronError::Point { point, position: points[point] }),
+        None => Ok(merged(points)),
+    }
+}
+
+/// The different positions, and the number of each point's.
+pub(super) fn merged(points: &[DVec3]) -> (Vec<DVec3>, Vec<u32>) {
     let mut numbers: FxHashMap<[u64; 3], u32> = FxHashMap::default();
     let mut merged = Vec::new();
-    let mut number = Vec::with_capacity(points.len());
-    for (point, &position) in points.iter().enumerate() {
-        // not true of NaN
-        if !(position.abs().max_element() <= MAX_COORDINATE) || position.is_nan() {
-            return Err(PolyhedronError::Point { point, position });
-        }
+    let number = points.iter().map(|&position| {
         // adding zero turns -0 into 0
         let position = position + DVec3::ZERO;
-        let next = merged.len() as u32;
-        let known = *numbers.entry(position.to_array().map(f64::to_bits)).or_insert(next);
-        if known == next {
+        *numbers.entry(position.to_array().map(f64::to_bits)).or_insert_with(|| {
             merged.push(position);
-        }
-        number.push(known);
-    }
-    Ok((merged, number))
+            merged.len() as u32 - 1
+        })
+    });
+    let number = number.collect();
+    (merged, number)
 }
 
 /// The facets that have at least three corners, with their numbers.

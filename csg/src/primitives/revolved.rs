@@ -27,8 +27,9 @@ use crate::tree::Tree;
 /// A line of the outline `a x + b z = d`, the outline below it.
 type Line = (f64, f64, f64);
 
-/// Up to this many sides that face the axis are left out one by one; more of them overlap too much.
-const MAX_INNER: usize = 1;
+/// Up to this many sides that face the axis are left out one by one, where the outline touches the axis and where it does not;
+/// more of them overlap too much.
+const MAX_INNER: [usize; 2] = [4, 1];
 
 /// A torus about z: a circle of `tube_segments` about `(radius, 0)`, revolved in `segments` steps.
 ///
@@ -157,7 +158,8 @@ impl Turn {
             .collect();
         // All cells in the same way: where they touch on the surface its edges are the same to the last bit.
         let inner = |cell: &Vec<Line>| cell.iter().filter(|(a, ..)| *a < 0.0).count();
-        let is_whole = self.is_full() && cells.iter().all(|cell| inner(cell) <= MAX_INNER);
+        let is_apart = corners.iter().all(|corner| corner.x > 0.0);
+        let is_whole = self.is_full() && cells.iter().all(|cell| inner(cell) <= MAX_INNER[usize::from(is_apart)]);
         let slab = Slab::around(corners)?;
         let mut parts = Vec::new();
         for cell in &cells {

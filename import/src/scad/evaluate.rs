@@ -236,10 +236,8 @@ impl<'s, 'a> Evaluator<'s, 'a> {
         }
         let union = self.combine(turn, children, Combination::Union).ok().flatten()?;
         match &union {
-            Geometry::Solid(body) if matrix.flattens_solids() => {
-                if !body.is_empty() {
-                    self.warn(turn, "a matrix that flattens solids: what it moves is left out");
-                }
+            Geometry::Solid(_) if matrix.flattens_solids() => {
+                self.warn(turn, "a matrix that flattens solids: what it moves is left out");
                 Some(Tree::empty().into())
             }
             Geometry::Flat(_) if matrix.flattens_outlines() => {

@@ -31,13 +31,18 @@ def written(node: Node) -> Loops:
     except (OSError, freetype.FT_Exception) as error:
         raise ScadError(node.line, f"no font for {font!r}: {error}") from error
     steps = max(Resolution.of(node).fragments(size) // 8 + 1, 2)
-    loops = _line(face, text, steps, number(node.get("spacing"), 1.0), node.get("halign"), node.get("valign"))
+    kerned = str(node.get("script") or "latn")[:4].lower() in _KERNED
+    loops = _line(face, text, steps, number(node.get("spacing"), 1.0), node.get("halign"), node.get("valign"), kerned)
     return [size * loop for loop in loops]
 
 
-def _line(face: "_Face", text: str, steps: int, spacing: float, across, up) -> Loops:
+_KERNED = {"latn", "cyrl", "grek", "armn", "geor"}
+"""Scripts whose letters are moved together in pairs. Of a script that there is not (`Lati` in some files) none are."""
+
+
+def _line(face: "_Face", text: str, steps: int, spacing: float, across, up, kerned: bool) -> Loops:
     glyphs = [face.glyph(character) for character in text]
-    kerns = [face.kern(*pair) for pair in zip(text, text[1:])] + [0.0]
+    kerns = [face.kern(*pair) if kerned else 0.0 for pair in zip(text, text[1:])] + [0.0]
     ends = np.cumsum([0.0] + [(g.advance + kern) * spacing / _DISTANCE for g, kern in zip(glyphs, kerns)])
     above = max([0.0] + [g.top / _DISTANCE for g in glyphs])
     below = max([0.0] + [-g.bottom / _DISTANCE for g in glyphs])
