@@ -10,6 +10,7 @@ use planecut_kernel::DVec2;
 use super::Outline;
 use crate::primitives::ShapeError;
 use crate::primitives::parameter::{coordinate, segments as accepted_segments};
+use crate::transform::sine_and_cosine;
 
 /// What an offset makes of a corner that it goes around.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -167,11 +168,13 @@ fn equal_arc(bend: &Bend, segments: u32) -> Vec<DVec2> {
 
 /// An arc of steps as large as those of a whole turn, and what is left.
 fn stepped_arc(bend: &Bend, segments: u32) -> Vec<DVec2> {
-    let sagitta = 1.0 - (std::f64::consts::PI / f64::from(segments)).cos();
+    let sagitta = 1.0 - sine_and_cosine(180.0 / f64::from(segments)).1;
     let fewest = std::f64::consts::PI / (1.0 - CLIPPER_TOLERANCE).acos();
-    let segments = if sagitta > CLIPPER_TOLERANCE { fewest } else { f64::from(segments) };
+    let segments = if sagitta > CLIPPER_TOLERANCE { fewest } else { std::f64::consts::PI / (1.0 - sagitta).acos() };
     let step = std::f64::consts::TAU / segments;
-    let steps = ((angle(bend).abs() / step).round() as u32).max(1);
+    // in this order, as halves of steps are rounded as they come out
+    let steps = segments / std::f64::consts::TAU * angle(bend).abs();
+    let steps = ((steps + 0.5).floor() as u32).max(1);
     arc(bend, step.copysign(angle(bend)), steps)
 }
 

@@ -7,6 +7,7 @@ use super::cells::Side;
 use super::flat::plane;
 use super::layers;
 use super::parameter::{MAX_SEGMENTS, angle, not_negative, positive, refuse};
+use super::pockets::{HullAndPockets, hull_and_pockets};
 use super::region::Region;
 use super::walls::Walls;
 use crate::brush::{Brush, MaterialId};
@@ -125,9 +126,17 @@ pub fn extrude(outline: &Outline, extrusion: &Extrusion, material: MaterialId) -
 
 /// Sides that are planar, whatever the slices.
 fn straight(corners: &[DVec2], extrusion: &Extrusion, material: MaterialId) -> Result<Vec<Tree>, ShapeError> {
+    let ends = ends(extrusion, 0, extrusion.layers())?;
+    if let Some(HullAndPockets { hull, pockets }) = hull_and_pockets(corners)? {
+        let body = |walls: &Vec<HalfSpace>| {
+            let sides = walls.iter().map(|side| tilted(side, extrusion)).collect::<Result<Vec<_>, _>>()?;
+            Ok(Tree::from(Brush::from_half_spaces(ends.iter().copied().chain(sides), material)))
+        };
+        let bodies = std::iter::once(&hull).chain(&pockets).map(body).collect::<Result<Vec<_>, ShapeError>>()?;
+        return Ok(vec![Tree::difference(bodies)]);
+    }
     let walls = Walls::over(corners)?;
     let sides = walls.half_spaces.iter().map(|side| tilted(side, extrusion)).collect::<Result<Vec<_>, _>>()?;
-    let ends = ends(extrusion, 0, extrusion.layers())?;
     let brush = |cell: &Vec<Side>| {
         let half_spaces = ends.iter().copied().chain(half_spaces(cell, &sides));
         Tree::from(Brush::from_half_spaces(half_spaces, material))

@@ -25,6 +25,7 @@ mod flat;
 mod layers;
 pub(crate) mod parameter;
 mod partition;
+mod pockets;
 mod region;
 mod regular;
 mod revolved;

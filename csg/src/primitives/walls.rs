@@ -69,7 +69,7 @@ impl Walls {
 
 /// The half-space to the left of a side: exact where the side runs along an axis or its coefficients fit, else the normal
 /// rounded and the offset in the middle of what the two ends ask for.
-fn side(p: DVec2, q: DVec2) -> Result<HalfSpace, ShapeError> {
+pub(super) fn side(p: DVec2, q: DVec2) -> Result<HalfSpace, ShapeError> {
     if p == q {
         return Err(refuse("polygon", &"a side of no length", &"corners apart"));
     }

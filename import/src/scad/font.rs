@@ -35,8 +35,6 @@ pub(super) struct Font {
     pub(super) data: Vec<u8>,
     /// Which one of a collection.
     pub(super) index: u32,
-    /// What to tell where it is not the one that was asked for.
-    pub(super) warning: Option<String>,
 }
 
 /// The fonts of the system; nothing is read before the first one is asked for.
@@ -47,13 +45,13 @@ pub(super) struct Fonts {
 }
 
 impl Fonts {
-    /// The font of a name, or the one that takes its place.
+    /// The font of a name, or the one that takes its place, which is told when the name comes up first.
     ///
     /// # Errors
     /// [`TextError::NoFont`] where the system has none, [`TextError::Unreadable`].
-    pub(super) fn find(&mut self, name: &str) -> Result<Rc<Font>, TextError> {
+    pub(super) fn find(&mut self, name: &str) -> Result<(Rc<Font>, Option<String>), TextError> {
         if let Some(font) = self.found.get(name) {
-            return Ok(Rc::clone(font));
+            return Ok((Rc::clone(font), None));
         }
         let database = self.database.get_or_insert_with(system_fonts);
         let request = Request::parse(name);
@@ -63,9 +61,9 @@ impl Fonts {
             is_other.then(|| format!("the font `{}` is not there, `{}` takes its place", request.family(), family()));
         let unreadable = || TextError::Unreadable(family().to_owned());
         let data = database.with_face_data(face.id, |data, _| data.to_vec()).ok_or_else(unreadable)?;
-        let font = Rc::new(Font { data, index: face.index, warning });
+        let font = Rc::new(Font { data, index: face.index });
         self.found.insert(name.to_owned(), Rc::clone(&font));
-        Ok(font)
+        Ok((font, warning))
     }
 }
 

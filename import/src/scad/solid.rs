@@ -108,7 +108,8 @@ fn corners(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
 fn factors(size: DVec3, wanted: [f64; 3], follows: [bool; 3]) -> DVec3 {
     let stretched = |axis: usize| wanted[axis] > 0.0 && size[axis] > 0.0;
     let factor = |axis: usize| if stretched(axis) { wanted[axis] / size[axis] } else { 1.0 };
-    let largest = (0..3).max_by(|a, b| wanted[*a].total_cmp(&wanted[*b])).unwrap_or(0);
+    // the first of those that are equal
+    let largest = (0..3).rev().max_by(|a, b| wanted[*a].total_cmp(&wanted[*b])).unwrap_or(0);
     DVec3::from_array(std::array::from_fn(|axis| {
         if follows[axis] && wanted[axis] <= 0.0 { factor(largest) } else { factor(axis) }
     }))

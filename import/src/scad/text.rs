@@ -100,8 +100,8 @@ pub(super) enum TextError {
 /// # Errors
 /// [`TextError`].
 fn outline(text: &Text<'_>, fonts: &mut Fonts) -> Result<(Outline, Vec<String>), TextError> {
-    let font = fonts.find(text.font)?;
-    let mut warnings: Vec<String> = font.warning.iter().cloned().collect();
+    let (font, warning) = fonts.find(text.font)?;
+    let mut warnings: Vec<String> = warning.into_iter().collect();
     let unreadable = || TextError::Unreadable(text.font.to_owned());
     let face = FontRef::from_index(&font.data, font.index).map_err(|_| unreadable())?;
     let line = Line::shaped(text, &face);
@@ -111,7 +111,7 @@ fn outline(text: &Text<'_>, fonts: &mut Fonts) -> Result<(Outline, Vec<String>),
     let mut loops: Vec<Vec<DVec2>> = Vec::new();
     let mut pen = start;
     for (glyph, drawing) in line.glyphs.iter().zip(&drawn) {
-        let place = |p: DVec2| (pen + glyph.offset + p) * text.size;
+        let place = |p: DVec2| (pen + glyph.offset + p * (DOT / UNITS)) * text.size;
         loops.extend(drawing.loops(segments).into_iter().map(|c| c.into_iter().map(place).collect()));
         pen += glyph.advance * text.spacing;
     }
@@ -199,7 +199,7 @@ impl Line {
     }
 }
 
-/// A piece of the boundary of a glyph.
+/// A piece of the boundary of a glyph, in dots, of which whole numbers are exact.
 enum Stroke {
     Move(DVec2),
     Line(DVec2),
@@ -207,11 +207,11 @@ enum Stroke {
     Cubic([DVec2; 3]),
 }
 
-/// A glyph for a text of size 1.
+/// A glyph.
 #[derive(Default)]
 struct Drawing {
     strokes: Vec<Stroke>,
-    /// The least box of whole dots around all points, those beside curves too.
+    /// The least box of whole dots around all points, those beside curves too, for a text of size 1.
     min: DVec2,
     max: DVec2,
 }
@@ -242,11 +242,10 @@ impl Drawing {
             Some(bounds.map_or((p, p), |(min, max)| (min.min(p), max.max(p))))
         });
         let Some((min, max)) = bounds else { return };
-        let dots = UNITS / DOT;
-        (self.min, self.max) = ((min * dots).floor() / dots, (max * dots).ceil() / dots);
+        (self.min, self.max) = (min.floor() * (DOT / UNITS), max.ceil() * (DOT / UNITS));
     }
 
-    /// The loops, each curve cut into so many segments of equal parameter.
+    /// The loops in dots, each curve cut into so many segments of equal parameter.
     fn loops(&self, segments: u32) -> Vec<Vec<DVec2>> {
         let mut loops: Vec<Vec<DVec2>> = Vec::new();
         let mut pen = DVec2::ZERO;
@@ -290,9 +289,8 @@ impl Drawing {
     }
 }
 
-/// A point in dots.
 fn point(x: f32, y: f32) -> DVec2 {
-    DVec2::new(f64::from(x), f64::from(y)) * (DOT / UNITS)
+    DVec2::new(f64::from(x), f64::from(y))
 }
 
 impl OutlinePen for Drawing {

@@ -1,0 +1,96 @@
+//! A loop as its hull without pockets: what lies between the hull and the loop.
+//!
+//! A notch along an arc has a reflex corner at each of its sides, and a cell of the solid for each; but it is one convex pocket.
+//!
+//! A pocket is bounded by sides of the loop and by one line of the hull, its lid. The lid is no boundary of the solid, so nothing may
+//! depend on how it is rounded: the hull ends a little beyond it, and pockets do not end there at all.
+
+use planecut_kernel::{DVec2, HalfSpace};
+use robust::{Coord, orient2d};
+
+use super::ShapeError;
+use super::extruded::half_spaces;
+use super::flat::plane;
+use super::walls::{Walls, side};
+use crate::outline::signed_area;
+
+/// Loops of fewer reflex corners are cut into cells.
+const MANY: usize = 8;
+/// How far the hull reaches beyond lids, as a part of the loop's size.
+const BEYOND: f64 = 1.0 / (1u64 << 30) as f64;
+
+/// Walls of the hull, and those of each convex part of the pockets.
+pub(super) struct HullAndPockets {
+    pub(super) hull: Vec<HalfSpace>,
+    pub(super) pockets: Vec<Vec<HalfSpace>>,
+}
+
+/// The hull and the pockets of a loop that runs either way, where that takes far fewer bodies than cells.
+pub(super) fn hull_and_pockets(corners: &[DVec2]) -> Result<Option<HullAndPockets>, ShapeError> {
+    let mut corners = corners.to_vec();
+    if signed_area(&corners) < 0.0 {
+        corners.reverse();
+    }
+    let n = corners.len();
+    let is_reflex = |k: usize| turn(corners[(k + n - 1) % n], corners[k], corners[(k + 1) % n]) < 0.0;
+    let reflex = (0..n).filter(|k| is_reflex(*k)).count();
+    if reflex < MANY {
+        return Ok(None);
+    }
+    let Some(hull) = hull_corners(&corners) else { return Ok(None) };
+    let size = corners.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
+    let mut found = HullAndPockets { hull: Vec::new(), pockets: Vec::new() };
+    for (k, from) in hull.iter().enumerate() {
+        let to = hull[(k + 1) % hull.len()];
+        let between = (to + n - from) % n;
+        let line = side(corners[*from], corners[to])?;
+        if between == 1 {
+            found.hull.push(line);
+            continue;
+        }
+        let reach = line.normal().length() * size * BEYOND;
+        found.hull.push(plane(line.normal(), line.offset() + reach)?);
+        // the lid, and then the sides from its end back to its start
+        let pocket: Vec<DVec2> =
+            [*from].into_iter().chain((1..=between).rev().map(|step| (from + step) % n)).map(|k| corners[k]).collect();
+        let walls = Walls::over(&pocket)?;
+        for mut cell in walls.cells()? {
+            cell.retain(|side| side.facet != 0);
+            found.pockets.push(half_spaces(&cell, &walls.half_spaces).collect());
+        }
+    }
+    Ok((3 * found.pockets.len() < reflex).then_some(found))
+}
+
+/// The numbers of the corners of the convex hull, counter-clockwise, without those in line with others; `None` where they do not
+/// come in the order of the loop.
+fn hull_corners(corners: &[DVec2]) -> Option<Vec<usize>> {
+    let mut order: Vec<usize> = (0..corners.len()).collect();
+    let key = |k: &usize| corners[*k];
+    order.sort_by(|a, b| key(a).x.total_cmp(&key(b).x).then(key(a).y.total_cmp(&key(b).y)));
+    let mut hull: Vec<usize> = Vec::new();
+    let mut chain = |numbers: &mut dyn Iterator<Item = usize>| {
+        let start = hull.len();
+        for number in numbers {
+            while hull.len() > start + 1
+                && turn(corners[hull[hull.len() - 2]], corners[hull[hull.len() - 1]], corners[number]) <= 0.0
+            {
+                hull.pop();
+            }
+            hull.push(number);
+        }
+        hull.pop();
+    };
+    // below from left to right (Andrew's monotone chain), then above and back
+    chain(&mut order.iter().copied());
+    chain(&mut order.iter().rev().copied());
+    let first = hull.iter().enumerate().min_by_key(|(_, number)| **number)?.0;
+    hull.rotate_left(first);
+    hull.is_sorted_by(|a, b| a < b).then_some(hull)
+}
+
+/// Positive where three points turn left, exactly.
+fn turn(a: DVec2, b: DVec2, c: DVec2) -> f64 {
+    let coord = |p: DVec2| Coord { x: p.x, y: p.y };
+    orient2d(coord(a), coord(b), coord(c))
+}
