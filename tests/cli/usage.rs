@@ -53,7 +53,10 @@ fn names_that_do_not_end_well() {
     refused("build m.map -o a", "a: found a name without an ending");
     refused("build m.map -o a.glb --preview p.jpg", "p.jpg: found");
     refused("render m.map -o p.gif", "p.gif: found");
-    refused("build m.scad -o a.glb", "m.scad: found a name that ends in `.scad`, expected `.json`, `.map`, `.csg`, `.obj`");
+    refused(
+        "build m.scad -o a.glb",
+        "m.scad: found a name that ends in `.scad`, expected `.json`, `.map`, `.csg`, `.obj`",
+    );
     refused("info m.xyz", "m.xyz: found");
     refused("check m.map", "m.map: found a name that ends in `.map`, expected a mesh");
 }

@@ -18,7 +18,7 @@ use crate::sum::CompensatedSum;
 /// A part of space that is not convex is cut along the plane of a facet, so no plane is made that the surface does not have,
 /// and all of the part is cut: each point is in one cell, however planes are rounded, so there are no gaps between cells.
 pub(super) fn cells(surface: &Surface, planes: &Planes) -> Result<Vec<Vec<Side>>, PolyhedronError> {
-    let points = Points::new(surface.points.clone(), surface.slack.clone(), &planes.flats, true);
+    let points = Points::new(surface.points.clone(), planes.slack(surface), &planes.flats, true);
     cells_of(Part::whole(surface, planes), points).ok_or(PolyhedronError::TooLarge { limit: MAX_PIECES as usize })
 }
 
@@ -31,7 +31,10 @@ pub(super) fn cells_of(whole: Part, mut points: Points<'_>) -> Option<Vec<Vec<Si
             done.push(part.walls);
             continue;
         }
-        let edges = Edges::of(&part, &points);
+        let mut edges = Edges::of(&part, &points);
+        if part.drop_slivers(&edges, &points) {
+            edges = Edges::of(&part, &points);
+        }
         let lumps = take_convex(&mut part, &edges, &points);
         let found_some = !lumps.is_empty();
         done.extend(lumps);
@@ -42,10 +45,9 @@ pub(super) fn cells_of(whole: Part, mut points: Points<'_>) -> Option<Vec<Vec<Si
             continue;
         }
         let edges = if found_some { Edges::of(&part, &points) } else { edges };
-        match best_cut(&part, &edges, &points) {
-            Some(plane) => waiting.extend(part.cut(&mut points, plane).into_iter().flatten()),
-            // sheets that enclose nothing
-            None => {}
+        // sheets that cannot be cut enclose nothing
+        if let Some(plane) = best_cut(&part, &edges, &points) {
+            waiting.extend(part.cut(&mut points, plane).into_iter().flatten());
         }
     }
     Some(done)

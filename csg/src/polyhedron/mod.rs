@@ -112,11 +112,29 @@ pub fn polyhedron<F: AsRef<[u32]>>(
     if materials.len() != 1 && materials.len() != facets.len() {
         return Err(PolyhedronError::Materials { found: materials.len(), facets: facets.len() });
     }
-    let surface = Surface::new(points, facets, options.precision)?;
+    let mut surface = Surface::new(points, facets, options.precision)?;
     check_crossings(&surface)?;
-    let planes = Planes::of(&surface)?;
     let material_of = |facet: u32| if materials.len() == 1 { materials[0] } else { materials[facet as usize] };
-    let cells = cells::cells(&surface, &planes)?;
+    let first = solid(&surface, material_of);
+    for _ in 0..MORE_TRIALS {
+        if !matches!(first, Err(PolyhedronError::Inconsistent { .. })) {
+            break;
+        }
+        surface.slack.iter_mut().for_each(|slack| *slack *= LESS_SLACK);
+        if let Ok(solid) = solid(&surface, material_of) {
+            return Ok(solid);
+        }
+    }
+    first
+}
+
+/// Where details are finer than corners are exact, planes are sought once more with so much less tolerance, up to so often.
+const LESS_SLACK: f64 = 1.0 / 16.0;
+const MORE_TRIALS: usize = 2;
+
+fn solid(surface: &Surface, material_of: impl Fn(u32) -> MaterialId + Copy) -> Result<Polyhedron, PolyhedronError> {
+    let planes = Planes::of(surface)?;
+    let cells = cells::cells(surface, &planes)?;
     let bodies: Vec<(Brush, f64)> =
         cells.iter().filter_map(|sides| cells::brush(sides, &planes, material_of)).collect();
     let (enclosed, found) = (surface.volume(), cells::volume(&bodies));

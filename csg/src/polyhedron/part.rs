@@ -5,6 +5,7 @@ use std::cmp::Ordering;
 use planecut_kernel::DVec3;
 use rustc_hash::FxHashMap;
 
+use super::edges::Edges;
 use super::planes::{Flat, Planes};
 use super::polygon::area_vector;
 use super::surface::Surface;
@@ -112,6 +113,15 @@ impl<'a> Points<'a> {
         area_vector(&corners)
     }
 
+    /// Whether a piece is wider than points are exact.
+    fn is_wide(&self, piece: &Piece) -> bool {
+        let first = self.positions[piece.corners[0] as usize];
+        let extent = |v: &u32| self.positions[*v as usize].distance(first);
+        let extent = piece.corners.iter().map(extent).fold(0.0, f64::max);
+        let slack = piece.corners.iter().map(|v| self.slack(*v)).fold(0.0, f64::max);
+        self.area(piece).length() > 2.0 * slack * extent
+    }
+
     /// What a plane leaves of a piece on one side of it.
     fn beside(&mut self, piece: &Piece, plane: u32, wanted: Ordering) -> Option<Piece> {
         let sides: Vec<Ordering> = piece.corners.iter().map(|v| self.side(*v, plane)).collect();
@@ -148,6 +158,18 @@ impl Part {
         Self { walls: Vec::new(), pieces: surface.triangles.iter().enumerate().map(piece).collect() }
     }
 
+    /// Drops sheets of slivers: what they enclose is noise. Tells whether there were any.
+    pub(super) fn drop_slivers(&mut self, edges: &Edges, points: &Points<'_>) -> bool {
+        let mut is_wide = vec![false; edges.sheets];
+        for (piece, sheet) in self.pieces.iter().zip(&edges.sheet_of) {
+            let known = &mut is_wide[*sheet as usize];
+            *known = *known || points.is_wide(piece);
+        }
+        let mut sheets = edges.sheet_of.iter();
+        self.pieces.retain(|_| sheets.next().is_some_and(|sheet| is_wide[*sheet as usize]));
+        is_wide.contains(&false)
+    }
+
     /// What lies below a plane of one of the pieces, and what lies above; each is `None` where there is no solid.
     pub(super) fn cut(self, points: &mut Points<'_>, plane: u32) -> [Option<Self>; 2] {
         let (mut below, mut above, mut on) = (Vec::new(), Vec::new(), Vec::new());
@@ -166,7 +188,10 @@ impl Part {
             above.extend(high);
         }
         let covers = Covers::of(points, &on, plane);
-        let part = |pieces: Vec<Piece>, is_above: bool| {
+        let part = |mut pieces: Vec<Piece>, is_above: bool| {
+            if !pieces.iter().any(|piece| points.is_wide(piece)) {
+                pieces.clear();
+            }
             let wall = Side { plane, is_above, facet: covers.widest(is_above) };
             let has_solid = !pieces.is_empty() || covers.is_solid(is_above);
             has_solid.then(|| Self { walls: self.walls.iter().copied().chain([wall]).collect(), pieces })

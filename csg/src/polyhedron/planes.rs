@@ -72,6 +72,18 @@ impl Planes {
         gathering.gather();
         gathering.finish()
     }
+
+    /// How far each point may lie from a plane that it is on: at least as far as it lies from those of its triangles.
+    pub(super) fn slack(&self, surface: &Surface) -> Vec<f64> {
+        let mut slack = surface.slack.clone();
+        for (corners, plane) in surface.triangles.iter().zip(&self.of_triangle) {
+            for vertex in corners.map(|v| v as usize) {
+                let height = self.flats[*plane as usize].height(surface.points[vertex]).abs();
+                slack[vertex] = slack[vertex].max(height * (1.0 + ROUNDING));
+            }
+        }
+        slack
+    }
 }
 
 /// Triangles that share a plane because they are one facet, or a single triangle.
@@ -80,6 +92,8 @@ struct Unit {
     triangles: std::ops::Range<usize>,
     /// Twice the area, along the normal.
     area: DVec3,
+    /// Whether the corners tell a normal: whether they lie on more than a line.
+    is_wide: bool,
 }
 
 struct Gathering<'a> {
@@ -89,6 +103,8 @@ struct Gathering<'a> {
     bent_facets: usize,
     /// The plane of each unit.
     plane: Vec<Option<u32>>,
+    /// For units without a normal of their own a neighbour on the same plane, which had its plane before.
+    like: Vec<Option<u32>>,
     /// The first idea of each plane, and its units.
     patches: Vec<(Flat, Vec<u32>)>,
     directions: FxHashMap<[i32; 3], Vec<u32>>,
@@ -102,6 +118,7 @@ impl<'a> Gathering<'a> {
             unit_of: vec![0; surface.triangles.len()],
             bent_facets: 0,
             plane: Vec::new(),
+            like: Vec::new(),
             patches: Vec::new(),
             directions: FxHashMap::default(),
         };
@@ -111,6 +128,7 @@ impl<'a> Gathering<'a> {
             start += facet.len();
         }
         gathering.plane = vec![None; gathering.units.len()];
+        gathering.like = vec![None; gathering.units.len()];
         gathering
     }
 
@@ -118,13 +136,24 @@ impl<'a> Gathering<'a> {
     fn add_facet(&mut self, triangles: std::ops::Range<usize>) {
         let area = |t: usize| area_vector(&self.surface.corners(t));
         let areas: Vec<DVec3> = triangles.clone().map(area).collect();
-        let whole = Unit { triangles: triangles.clone(), area: areas.iter().sum() };
+        let whole = self.unit(triangles.clone(), areas.iter().sum());
         if triangles.len() == 1 || whole.area != DVec3::ZERO && self.fits(&whole, &self.flat_of(&whole)) {
             self.push(whole);
         } else {
             self.bent_facets += 1;
-            triangles.zip(areas).for_each(|(t, area)| self.push(Unit { triangles: t..t + 1, area }));
+            for (t, area) in triangles.zip(areas) {
+                let unit = self.unit(t..t + 1, area);
+                self.push(unit);
+            }
         }
+    }
+
+    fn unit(&self, triangles: std::ops::Range<usize>, area: DVec3) -> Unit {
+        let vertices = || self.surface.triangles[triangles.clone()].as_flattened().iter().map(|v| *v as usize);
+        let slack = vertices().map(|v| self.surface.slack[v]).fold(0.0, f64::max);
+        let first = vertices().next().map_or(DVec3::ZERO, |v| self.surface.points[v]);
+        let extent = vertices().map(|v| self.surface.points[v].distance(first)).fold(0.0, f64::max);
+        Unit { is_wide: area.length() > 2.0 * slack * extent, triangles, area }
     }
 
     fn push(&mut self, unit: Unit) {
@@ -153,27 +182,14 @@ impl<'a> Gathering<'a> {
         let mut order: Vec<u32> = (0..self.units.len() as u32).collect();
         let area = |unit: &u32| self.units[*unit as usize].area.length_squared();
         order.sort_by(|a, b| area(b).total_cmp(&area(a)).then(a.cmp(b)));
-        let (wide, narrow): (Vec<u32>, Vec<u32>) = order.into_iter().partition(|unit| self.has_direction(*unit));
+        let (wide, narrow): (Vec<u32>, Vec<u32>) =
+            order.into_iter().partition(|unit| self.units[*unit as usize].is_wide);
         for unit in wide {
             if self.plane[unit as usize].is_none() {
                 self.grow(unit);
             }
         }
         self.fill(narrow);
-    }
-
-    /// Whether the corners tell a normal: whether they lie on more than a line.
-    fn has_direction(&self, unit: u32) -> bool {
-        let unit = &self.units[unit as usize];
-        let slack = self.vertices(unit).map(|v| self.surface.slack[v as usize]).fold(0.0, f64::max);
-        unit.area.length() > 2.0 * slack * self.extent(unit)
-    }
-
-    /// About how far the corners are apart.
-    fn extent(&self, unit: &Unit) -> f64 {
-        let mut corners = self.vertices(unit).map(|v| self.surface.points[v as usize]);
-        let Some(first) = corners.next() else { return 0.0 };
-        corners.map(|p| p.distance(first)).fold(0.0, f64::max)
     }
 
     /// Gathers what lies about a unit on its plane; the patch joins a plane that is there, or is one.
@@ -194,6 +210,7 @@ impl<'a> Gathering<'a> {
                 if let Some(both) = if fits { Some(flat) } else { flat_for_both() } {
                     flat = both;
                     self.plane[neighbour as usize] = Some(number);
+                    self.like[neighbour as usize] = Some(unit);
                     patch.push(neighbour);
                 }
             }
@@ -251,8 +268,9 @@ impl<'a> Gathering<'a> {
         loop {
             let before = narrow.len();
             narrow.retain(|unit| match self.plane_beside(*unit) {
-                Some(plane) => {
+                Some((plane, neighbour)) => {
                     self.plane[*unit as usize] = Some(plane);
+                    self.like[*unit as usize] = Some(neighbour);
                     self.patches[plane as usize].1.push(*unit);
                     false
                 }
@@ -274,8 +292,8 @@ impl<'a> Gathering<'a> {
         }
     }
 
-    /// The plane of the neighbour that a unit lies nearest to, where it is near enough.
-    fn plane_beside(&self, unit: u32) -> Option<u32> {
+    /// The plane of a neighbour to which a unit lies nearest, and that neighbour.
+    fn plane_beside(&self, unit: u32) -> Option<(u32, u32)> {
         let off = |plane: u32| {
             let flat = &self.patches[plane as usize].0;
             let heights = self.vertices(&self.units[unit as usize]).map(|v| {
@@ -284,8 +302,9 @@ impl<'a> Gathering<'a> {
             });
             heights.fold(0.0, f64::max)
         };
-        let planes = self.neighbours(unit).into_iter().filter_map(|n| self.plane[n as usize]);
-        planes.map(|plane| (off(plane), plane)).min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, plane)| plane)
+        let planes = self.neighbours(unit).into_iter().filter_map(|n| Some((self.plane[n as usize]?, n)));
+        let nearest = planes.map(|(plane, n)| (off(plane), plane, n)).min_by(|a, b| a.0.total_cmp(&b.0));
+        nearest.map(|(_, plane, neighbour)| (plane, neighbour))
     }
 
     fn finish(&self) -> Result<Planes, PolyhedronError> {
@@ -300,10 +319,15 @@ impl<'a> Gathering<'a> {
         for (number, (seed, units)) in self.patches.iter().enumerate() {
             let half_space = self.half_space(grid, seed, units)?;
             let flat = Flat::of(&half_space);
-            for unit in units {
-                let unit = &self.units[*unit as usize];
+            for number_of_unit in units {
+                let unit = &self.units[*number_of_unit as usize];
+                let like = self.like[*number_of_unit as usize].filter(|_| !unit.is_wide);
+                let is_reversed = match like {
+                    Some(other) => planes.is_reversed[self.units[other as usize].triangles.start],
+                    None => unit.area.dot(flat.normal) < 0.0,
+                };
                 planes.of_triangle[unit.triangles.clone()].fill(number as u32);
-                planes.is_reversed[unit.triangles.clone()].fill(unit.area.dot(flat.normal) < 0.0);
+                planes.is_reversed[unit.triangles.clone()].fill(is_reversed);
             }
             planes.flats.push(flat);
             planes.half_spaces.push(half_space);

@@ -19,6 +19,9 @@ const MANY: usize = 8;
 /// How far the hull reaches beyond lids, as a part of the loop's size.
 const BEYOND: f64 = 1.0 / (1u64 << 30) as f64;
 
+/// Corners nearer than this part of the loop's size to a lid lie on it.
+const NOISE: f64 = 1e-12;
+
 /// Walls of the hull, and those of each convex part of the pockets.
 pub(super) struct HullAndPockets {
     pub(super) hull: Vec<HalfSpace>,
@@ -37,8 +40,9 @@ pub(super) fn hull_and_pockets(corners: &[DVec2]) -> Result<Option<HullAndPocket
     if reflex < MANY {
         return Ok(None);
     }
-    let Some(hull) = hull_corners(&corners) else { return Ok(None) };
     let size = corners.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
+    let Some(hull) = hull_corners(&corners) else { return Ok(None) };
+    let hull = with_corners_on_lids(&corners, &hull, NOISE * size);
     let mut found = HullAndPockets { hull: Vec::new(), pockets: Vec::new() };
     for (k, from) in hull.iter().enumerate() {
         let to = hull[(k + 1) % hull.len()];
@@ -87,6 +91,20 @@ fn hull_corners(corners: &[DVec2]) -> Option<Vec<usize>> {
     let first = hull.iter().enumerate().min_by_key(|(_, number)| **number)?.0;
     hull.rotate_left(first);
     hull.is_sorted_by(|a, b| a < b).then_some(hull)
+}
+
+/// The corners of the hull, and those that lie on its lines but for noise: pockets do not touch their lids in between.
+fn with_corners_on_lids(corners: &[DVec2], hull: &[usize], noise: f64) -> Vec<usize> {
+    let n = corners.len();
+    let mut all = Vec::with_capacity(hull.len());
+    for (k, from) in hull.iter().enumerate() {
+        let to = hull[(k + 1) % hull.len()];
+        let (start, along) = (corners[*from], corners[to] - corners[*from]);
+        let is_on_lid = |number: &usize| along.perp_dot(corners[*number] - start) <= noise * along.length();
+        all.push(*from);
+        all.extend((1..(to + n - from) % n).map(|step| (from + step) % n).filter(is_on_lid));
+    }
+    all
 }
 
 /// Positive where three points turn left, exactly.

@@ -40,20 +40,20 @@ fn turned_polygon(rng: &mut Rng, n: u32, radius: f64) -> Outline {
 #[test]
 fn a_quarter_turn_has_as_many_steps_as_it_rounds_to() {
     // 90° in steps of 360°/n: n/4 of them when rounded, and the end; 3 and 4 segments are taken for 4.35
-    for (segments, points) in [(28, 8), (10, 4), (13, 4), (16, 5), (5, 2), (4, 2), (3, 2), (64, 17)] {
+    for (segments, points) in [(28, 8), (11, 4), (13, 4), (16, 5), (5, 2), (4, 2), (3, 2), (64, 17)] {
         let grown = offset(&square(0.0, 10.0), 1.0, round(segments));
         assert_eq!(corners(&grown), 4 * points, "{segments} segments");
     }
     // the arc begins where the side before ends, so what is left over comes last
-    let grown = offset(&square(0.0, 10.0), 1.0, round(10));
-    let step = 36_f64.to_radians();
+    let grown = offset(&square(0.0, 10.0), 1.0, round(11));
+    let step = (360.0 / 11.0_f64).to_radians();
     for k in 0..3 {
         let expected = DVec2::splat(10.0) + DVec2::from_angle(step * f64::from(k));
         assert!(grown.loops().flatten().any(|p| p.distance(expected) < 1e-14), "{expected}");
     }
     // shrinking a hole begins there too
     let frame = outline(&[loops(&square(0.0, 30.0)).remove(0), loops(&square(10.0, 20.0)).remove(0)]);
-    let shrunk = offset(&frame, -1.0, round(10));
+    let shrunk = offset(&frame, -1.0, round(11));
     assert_eq!(corners(&shrunk), 4 + 4 * 4);
     for k in 0..3 {
         // a hole runs clockwise: the side before the corner (20, 20) comes up along its left, the one after leaves to the right

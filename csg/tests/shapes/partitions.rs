@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use glam::{DMat2, DVec2};
 use planecut_csg::primitives::{Extrusion, extrude};
-use planecut_csg::{Material, MaterialId, Model, Outline, Tree, summarize};
+use planecut_csg::{Material, MaterialId, Model, Operation, Outline, Tree, TreeNode, evaluate, summarize};
 
 use crate::judge::{assert_near, contains, sweep};
 use crate::polygon;
@@ -22,12 +22,20 @@ fn reflex_corners(corners: &[DVec2]) -> usize {
     (0..n).filter(|k| (corners[(k + 1) % n] - corners[*k]).perp_dot(corners[(k + 2) % n] - corners[*k]) < 0.0).count()
 }
 
-/// The cells of one loop: at most one more than reflex corners, disjoint, all sides on lines of the loop.
+/// The cells of one loop: at most one more than reflex corners, disjoint, all sides on lines of the loop; or the hull and its
+/// pockets, far fewer.
 fn assert_partition(corners: &[DVec2]) -> usize {
     let tree = prism(&[corners.to_vec()]);
     let cells = tree.brushes().len();
     assert!(cells <= reflex_corners(corners) + 1, "{cells} cells for {} reflex corners", reflex_corners(corners));
     let model = Model { materials: vec![Material::named("m")], tree: tree.clone() };
+    let is_difference = |node: &TreeNode| matches!(node, TreeNode::Operation { operation: Operation::Difference, .. });
+    if tree.nodes().iter().any(is_difference) {
+        assert!(3 * (cells - 1) < reflex_corners(corners), "{cells} for {} reflex corners", reflex_corners(corners));
+        let volume = evaluate(&model).expect("a mesh").solid.volume;
+        assert_near(volume, polygon::area(&[corners.to_vec()]), 1e-11, "the hull without pockets");
+        return cells;
+    }
     let summary = summarize(&model);
     let area = polygon::area(&[corners.to_vec()]);
     // cells that add up and cover everything do not overlap
@@ -71,7 +79,7 @@ fn lattice_loop(rng: &mut Rng) -> Vec<DVec2> {
         let low = DVec2::new(f64::from(*x), f64::from(*y)) * 0.1;
         Outline::rectangle(low, low + 0.1).expect("a square")
     });
-    let union = Outline::combine(planecut_csg::Operation::Union, &squares.collect::<Vec<_>>()).expect("a union");
+    let union = Outline::combine(Operation::Union, &squares.collect::<Vec<_>>()).expect("a union");
     let largest = |a: &&Vec<Vec<DVec2>>, b: &&Vec<Vec<DVec2>>| {
         polygon::area(&[a[0].clone()]).total_cmp(&polygon::area(&[b[0].clone()]))
     };
@@ -158,5 +166,19 @@ fn loops_that_touch_themselves() {
         let tree = prism(&[corners]);
         let model = Model { materials: vec![Material::named("m")], tree };
         assert_near(summarize(&model).brush_volume_sum, area, 1e-14, "the sum of all cells");
+    }
+}
+
+#[test]
+fn a_notch_along_an_arc_is_one_pocket() {
+    // a square with half a disc of many sides taken out of its left side, turned so that no plane is along an axis
+    for sides in [20, 64, 301] {
+        let arc = (0..=sides)
+            .map(|k| 0.25 * DVec2::from_angle(std::f64::consts::PI * (f64::from(k) / f64::from(sides) - 0.5)));
+        let mut corners = [[0.0, -1.0], [2.0, -1.0], [2.0, 1.0], [0.0, 1.0]].map(DVec2::from).to_vec();
+        corners.extend(arc.collect::<Vec<_>>().into_iter().rev());
+        for angle in [0.0, 0.3, std::f64::consts::FRAC_PI_2, 2.0] {
+            assert_eq!(assert_partition(&turned(&corners, angle)), 2, "{sides} sides turned by {angle}");
+        }
     }
 }

@@ -132,7 +132,11 @@ impl Boundary<'_> {
 
     /// Whether a node lies in the closed triangle of three others, counter-clockwise.
     fn is_in_triangle(&self, [a, b, c]: [u32; 3], node: u32) -> bool {
-        [(a, b), (b, c), (c, a)].into_iter().all(|(from, to)| self.turn(from, to, node) != Sign::Negative)
+        let sides = [(a, b), (b, c), (c, a)];
+        let corner = |node: u32| &self.nodes[node as usize].corner;
+        // mostly one side tells, and the others need not be asked exactly
+        !sides.iter().any(|(from, to)| Turns::is_surely_right(corner(*from), corner(*to), corner(node)))
+            && sides.into_iter().all(|(from, to)| self.turn(from, to, node) != Sign::Negative)
     }
 
     /// The nodes of a ring from `start` on.

@@ -38,6 +38,12 @@ impl Turns<'_> {
         planar_turn(rows, self.projection.u, self.projection.v)
     }
 
+    /// Whether the exact points certainly turn right, from the rounded coordinates.
+    pub(super) fn is_surely_right(a: &Corner, b: &Corner, c: &Corner) -> bool {
+        let (value, bound) = rounded_turn(a.at, b.at, c.at);
+        value < -bound
+    }
+
     /// The exact order of two corners from left to right, then upwards.
     pub(super) fn order(&self, a: &Corner, b: &Corner) -> Ordering {
         if a.point == b.point {
