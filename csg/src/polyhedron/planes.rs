@@ -103,7 +103,7 @@ struct Gathering<'a> {
     bent_facets: usize,
     /// The plane of each unit.
     plane: Vec<Option<u32>>,
-    /// For units without a normal of their own a neighbour on the same plane, which had its plane before.
+    /// The neighbour on the same plane through which a unit was found.
     like: Vec<Option<u32>>,
     /// The first idea of each plane, and its units.
     patches: Vec<(Flat, Vec<u32>)>,
@@ -321,8 +321,8 @@ impl<'a> Gathering<'a> {
             let flat = Flat::of(&half_space);
             for number_of_unit in units {
                 let unit = &self.units[*number_of_unit as usize];
-                let like = self.like[*number_of_unit as usize].filter(|_| !unit.is_wide);
-                let is_reversed = match like {
+                // the corners of small facets can be off so far that these are folded over
+                let is_reversed = match self.like[*number_of_unit as usize] {
                     Some(other) => planes.is_reversed[self.units[other as usize].triangles.start],
                     None => unit.area.dot(flat.normal) < 0.0,
                 };

@@ -3,7 +3,7 @@
 //! A plane enters as four numbers `[nx, ny, nz, d]` that are taken as exact ([`Row`]). [`orient3`] is the sign of the
 //! determinant of three normals, [`orient4`] that of four whole rows. Each is answered by the first tier that can:
 //!
-//! 1. floating point with a proven error bound (`filter`);
+//! 1. floating point with a proven error bound (`filter`), sides of planes also by sums of two numbers each (`crate::meet`);
 //! 2. `i128`, where the rows are small integers (`small_int`): on grids about a fifth of all signs are true zeros;
 //! 3. longer integers (`big`), always: of a fixed length (`wide`) or, where that does not suffice, of any.
 //!
