@@ -72,7 +72,7 @@ fn trees_of_openscad_come_back() {
 fn info_tells_of_the_file_and_of_its_solid() {
     let folder = folder();
     let mesh = folder.path().join("gear.stl");
-    let built = build(&Path::new(ROOT).join("examples/gear.json"), &[mesh.clone()]);
+    let built = build(&Path::new(ROOT).join("examples/gear.json"), std::slice::from_ref(&mesh));
     let info = planecut(["info".as_ref(), mesh.as_os_str()]).json();
     assert_eq!(info["mesh"]["triangles"], built["mesh"]["triangles"]);
     assert!(info["model"]["brushes"].as_u64().is_some_and(|brushes| brushes > 1), "{info}");

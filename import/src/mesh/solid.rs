@@ -36,7 +36,7 @@ pub enum SolidError {
         /// The object, where it has a name.
         object: Option<String>,
         /// What is wrong with it.
-        source: PolyhedronError,
+        source: Box<PolyhedronError>,
     },
 }
 
@@ -60,7 +60,7 @@ pub fn read_solid(bytes: &[u8], format: MeshFormat, name: &str) -> Result<MeshIm
     solid_of(&mesh).map_err(|(object, source)| {
         let triangle = source.facet().map(|facet| object.triangles.start + facet);
         let place = triangle.and_then(|triangle| mesh.places.get(triangle)).cloned().unwrap_or(Place::End);
-        SolidError::Surface { name: name.to_owned(), place, object: object.name.clone(), source }
+        SolidError::Surface { name: name.to_owned(), place, object: object.name.clone(), source: Box::new(source) }
     })
 }
 

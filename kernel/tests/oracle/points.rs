@@ -70,6 +70,17 @@ fn the_order_is_that_of_the_rationals() {
     assert!(seen.iter().all(|n| *n > DRAWS / 10), "{seen:?}");
 }
 
+/// Which way three points turn in the plane of two coordinates.
+fn true_turn([p, q, r]: &[Point; 3], u: usize, v: usize) -> Sign {
+    let step = |to: &Point, axis: usize| &to.at[axis] - &p.at[axis];
+    let area = step(q, u) * step(r, v) - step(q, v) * step(r, u);
+    match area.cmp(&RBig::ZERO) {
+        Ordering::Less => Sign::Negative,
+        Ordering::Equal => Sign::Zero,
+        Ordering::Greater => Sign::Positive,
+    }
+}
+
 #[test]
 fn the_turn_is_that_of_the_rationals() {
     let mut rng = Rng::new(first_seed());
@@ -78,13 +89,7 @@ fn the_turn_is_that_of_the_rationals() {
         let points = [(); 3].map(|()| draw(&mut rng, k % 2 == 0));
         let [p, q, r] = &points;
         for (u, v) in [(0, 1), (1, 2), (2, 0), (1, 0)] {
-            let step = |to: &Point, axis: usize| &to.at[axis] - &p.at[axis];
-            let area = step(q, u) * step(r, v) - step(q, v) * step(r, u);
-            let truth = match area.cmp(&RBig::ZERO) {
-                Ordering::Less => Sign::Negative,
-                Ordering::Equal => Sign::Zero,
-                Ordering::Greater => Sign::Positive,
-            };
+            let truth = true_turn(&points, u, v);
             let found = planar_turn([p.rows(), q.rows(), r.rows()], u, v);
             assert_eq!(found, truth, "{:?} {:?} {:?} {u} {v}", p.rows, q.rows, r.rows);
             seen[truth as usize] += 1;
@@ -117,13 +122,7 @@ fn turns_of_points_that_rounding_parts_are_those_of_the_rationals() {
         let points = draw_near(&mut rng);
         let [p, q, r] = &points;
         for (u, v) in [(0, 1), (2, 0)] {
-            let step = |to: &Point, axis: usize| &to.at[axis] - &p.at[axis];
-            let area = step(q, u) * step(r, v) - step(q, v) * step(r, u);
-            let truth = match area.cmp(&RBig::ZERO) {
-                Ordering::Less => Sign::Negative,
-                Ordering::Equal => Sign::Zero,
-                Ordering::Greater => Sign::Positive,
-            };
+            let truth = true_turn(&points, u, v);
             let found = planar_turn([p.rows(), q.rows(), r.rows()], u, v);
             assert_eq!(found, truth, "{:?} {:?} {:?} {u} {v}", p.rows, q.rows, r.rows);
             seen[truth as usize] += 1;
