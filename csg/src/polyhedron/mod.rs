@@ -1,10 +1,10 @@
 //! Solids from closed surfaces of facets, as convex cells.
 //!
-//! - [`surface`] merges points by position, checks that the surface is closed and pairs its triangles ([`pairing`]) along
-//!   edges; [`polygon`] cuts facets into triangles.
-//! - [`planes`] finds one plane for facets that were meant to lie on one, as exactly as corners are known ([`precision`]).
-//! - [`cells`] cuts space along planes of facets ([`choice`] says which) until what is left in each [`part`] is convex
-//!   ([`edges`], [`lumps`]); [`sides`] does the same for surfaces that are closed by the ends of a slab.
+//! - `surface` merges points by position, checks that the surface is closed and pairs its triangles (`pairing`) along
+//!   edges; `polygon` cuts facets into triangles.
+//! - `planes` finds one plane for facets that were meant to lie on one, as exactly as corners are known (`precision`).
+//! - `cells` cuts space along planes of facets (`choice` says which) until what is left in each `part` is convex
+//!   (`edges`, `lumps`); `sides` does the same for surfaces that are closed by the ends of a slab.
 //!
 //! The sum of the cells' volumes must be the volume that the facets enclose, by the divergence theorem; a surface for which it
 //! is not has no inside.

@@ -13,7 +13,7 @@ mod generate;
 #[allow(dead_code, reason = "shared with the tests of unions")]
 mod rng;
 #[path = "../union/scene.rs"]
-#[allow(dead_code, reason = "shared with the tests of unions")]
+#[allow(dead_code, unused_macros, unused_imports, reason = "shared with the tests of unions")]
 mod scene;
 #[path = "../solid/shape.rs"]
 #[allow(dead_code, reason = "shared with the tests of solids")]
