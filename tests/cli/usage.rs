@@ -73,7 +73,11 @@ fn options_for_another_input() {
     for setting in ["a", "a=", "=1", "a=b", "a=nan", "a=1e999"] {
         refused(&format!("build m.json -o a.glb --set {setting}"), "expected NAME=VALUE, the value a number");
     }
-    refused("build m.json -o a.glb --input-format csg", "csg");
+    refused("build m.json -o a.glb --input-format dxf", "dxf");
+    refused(
+        "build m.json -o a.glb --keep-going",
+        "found --keep-going with another input, expected it with an OpenSCAD tree",
+    );
     refused("info m.obj --input-format map --set a=1", "found --set with another input");
 }
 

@@ -11,7 +11,7 @@ use super::frame::{Frame, Matrix};
 use super::materials::Materials;
 use super::problem::{Body, Geometry, Made, Problem};
 use super::syntax::Node;
-use super::value::Value;
+use super::turn::{Combination, Turn};
 use super::{ScadImport, ScadOptions, extrusion, flat, import, leaf, polyhedron, solid, text};
 use crate::Warning;
 use crate::lines::LineTable;
@@ -36,13 +36,6 @@ pub(super) struct Evaluator<'s, 'a> {
     pub(super) warnings: Vec<Warning>,
     /// How many planes were made.
     planes: usize,
-}
-
-/// A node whose turn it is.
-#[derive(Clone, Copy)]
-pub(super) struct Turn<'s, 'a> {
-    pub(super) node: &'s Node<'a>,
-    pub(super) frame: Frame,
 }
 
 impl<'s, 'a> Evaluator<'s, 'a> {
@@ -116,7 +109,7 @@ impl<'s, 'a> Evaluator<'s, 'a> {
             "multmatrix" => frame.within_matrix(&Matrix::of(node)),
             "color" => {
                 let color = node.arguments.iter().find(|(name, _)| name.is_none_or(|name| name == "c"));
-                let color = color.and_then(|(_, value)| color_of(value));
+                let color = color.and_then(|(_, value)| value.color());
                 frame.within_color(color, &mut self.materials)
             }
             "minkowski" | "linear_extrude" | "rotate_extrude" | "projection" | "offset" | "resize" => frame.unplaced(),
@@ -360,39 +353,6 @@ impl<'s, 'a> Evaluator<'s, 'a> {
         );
         Ok(None)
     }
-}
-
-/// How children become one.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Combination {
-    Union,
-    Difference,
-    Intersection,
-    Hull,
-    Minkowski,
-}
-
-impl Turn<'_, '_> {
-    /// Puts what was made in the node's own frame where it belongs.
-    fn place(&self, made: Option<Geometry>) -> Made {
-        match made {
-            None => Ok(None),
-            Some(Geometry::Flat(outline)) => match self.frame.flat_map() {
-                Some(map) => Ok(Some(Geometry::Flat(flat::moved(outline, map)?))),
-                None => Ok(Some(Geometry::Flat(Outline::empty()))),
-            },
-            Some(Geometry::Solid(body)) => match self.frame.solid_map() {
-                Some(map) => solid::moved(body, &map).map(|body| Some(Geometry::Solid(body))),
-                None => Ok(Some(Tree::empty().into())),
-            },
-        }
-    }
-}
-
-/// Red, green, blue and opacity, the last one 1 where it is not given.
-fn color_of(value: &Value) -> Option<[f64; 4]> {
-    let opaque = || value.numbers::<3>().map(|[red, green, blue]| [red, green, blue, 1.0]);
-    value.numbers::<4>().or_else(opaque)
 }
 
 fn made_solid(tree: Result<Tree, Problem>) -> Made {

@@ -6,9 +6,10 @@ use planecut_csg::{ShapeError, Transform, Tree, sine_and_cosine};
 use planecut_kernel::{DVec2, DVec3};
 
 use super::arguments::Arguments;
-use super::evaluate::{Evaluator, Turn};
+use super::evaluate::Evaluator;
 use super::fragments::{Fragments, TooMany};
 use super::problem::{Body, Geometry, Made, Problem};
+use super::turn::Turn;
 use super::{polyhedron, solid};
 
 /// `linear_extrude`: an outline drawn up along z, turned and stretched on the way.

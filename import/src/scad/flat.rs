@@ -4,11 +4,11 @@ use planecut_csg::outline::{ClipperJoin, OffsetRule, Outline};
 use planecut_csg::{Operation, ShapeError};
 
 use super::arguments::Arguments;
-use super::evaluate::Combination;
 use super::fragments::Fragments;
 use super::frame::FlatMap;
 use super::problem::{Geometry, Made, Problem};
 use super::syntax::Node;
+use super::turn::Combination;
 
 /// The combination of operands, in their order; what is not there counts as empty.
 pub(super) fn combine(how: Combination, operands: Vec<Option<Outline>>) -> Result<Outline, Problem> {

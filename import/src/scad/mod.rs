@@ -28,6 +28,7 @@ mod solid;
 mod syntax;
 mod text;
 mod token;
+mod turn;
 mod value;
 
 use std::path::PathBuf;

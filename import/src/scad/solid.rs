@@ -5,9 +5,9 @@ use planecut_csg::{MaterialId, Model, Operation, ShapeError, Transform, Tree, ev
 use planecut_kernel::{DVec2, DVec3};
 
 use super::arguments::Arguments;
-use super::evaluate::Combination;
 use super::problem::{Body, Geometry, Made, Problem};
 use super::syntax::Node;
+use super::turn::Combination;
 use super::value::Value;
 
 /// The combination of operands, in their order. Where one is not there, an intersection is empty, and so is a difference from

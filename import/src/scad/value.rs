@@ -39,4 +39,10 @@ impl Value {
     pub(super) fn finite<const N: usize>(&self) -> Option<[f64; N]> {
         self.numbers().filter(|numbers| numbers.iter().all(|number| number.is_finite()))
     }
+
+    /// Red, green, blue and opacity, the last one 1 where it is not given.
+    pub(super) fn color(&self) -> Option<[f64; 4]> {
+        let opaque = || self.numbers::<3>().map(|[red, green, blue]| [red, green, blue, 1.0]);
+        self.numbers::<4>().or_else(opaque)
+    }
 }
