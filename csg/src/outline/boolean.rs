@@ -5,8 +5,9 @@
 //! that went in: only corners where edges cross are new, and only they are rounded.
 
 use i_overlay::core::fill_rule::FillRule;
-use i_overlay::core::overlay::{Overlay, ShapeType};
+use i_overlay::core::overlay::{IntOverlayOptions, Overlay, ShapeType};
 use i_overlay::core::overlay_rule::OverlayRule;
+use i_overlay::core::solver::{Precision, Solver};
 use i_overlay::i_float::int::point::IntPoint;
 use planecut_kernel::DVec2;
 use rustc_hash::FxHashMap;
@@ -23,6 +24,11 @@ const BITS: i32 = 57;
 const SLIVER: f64 = 1e-13;
 
 pub(super) type Loop = Vec<IntPoint<i64>>;
+
+/// Crossings take the place of corners nearer than `2⁸` units of the grid, which is a few roundings of the largest coordinate.
+/// Each time that new crossings come of this it is four times as far: with less, many needles that nearly cover each other,
+/// as in a shadow, multiply until memory ends.
+const PRECISION: Precision = Precision { start: 16, progression: 4 };
 
 impl Outline {
     /// A set operation on outlines, regularised; [`Operation::Difference`] takes the others from the first.
@@ -86,7 +92,9 @@ impl Outline {
 }
 
 fn run(subject: &[Loop], clip: &[Loop], rule: OverlayRule, fill: FillRule) -> Vec<Vec<Loop>> {
-    let mut overlay = Overlay::<i64>::new(subject.iter().chain(clip).map(Vec::len).sum());
+    let solver = Solver { precision: PRECISION, ..Solver::AUTO };
+    let capacity = subject.iter().chain(clip).map(Vec::len).sum();
+    let mut overlay = Overlay::<i64>::new_custom(capacity, IntOverlayOptions::default(), solver);
     overlay.add_source(subject, ShapeType::Subject);
     overlay.add_source(clip, ShapeType::Clip);
     overlay.overlay(rule, fill)

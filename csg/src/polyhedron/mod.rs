@@ -115,41 +115,55 @@ pub fn polyhedron<F: AsRef<[u32]>>(
     let mut surface = Surface::new(points, facets, options.precision)?;
     check_crossings(&surface)?;
     let material_of = |facet: u32| if materials.len() == 1 { materials[0] } else { materials[facet as usize] };
-    let first = solid(&surface, material_of);
+    let mut best = solid(&surface, material_of);
     for _ in 0..MORE_TRIALS {
-        if !matches!(first, Err(PolyhedronError::Inconsistent { .. })) {
+        if best.as_ref().map_or_else(is_final, |(_, off)| *off <= GOOD_VOLUME * surface.volume_slack()) {
             break;
         }
         surface.slack.iter_mut().for_each(|slack| *slack *= LESS_SLACK);
-        if let Ok(solid) = solid(&surface, material_of) {
-            return Ok(solid);
+        if let Ok((solid, off)) = solid(&surface, material_of)
+            && best.as_ref().map_or(true, |(_, least)| off < *least)
+        {
+            best = Ok((solid, off));
         }
     }
-    first
+    best.map(|(solid, _)| solid)
+}
+
+/// Whether less tolerance would not help.
+fn is_final(error: &PolyhedronError) -> bool {
+    !matches!(error, PolyhedronError::Inconsistent { .. })
 }
 
 /// Where details are finer than corners are exact, planes are sought once more with so much less tolerance, up to so often.
 const LESS_SLACK: f64 = 1.0 / 16.0;
 const MORE_TRIALS: usize = 2;
+/// Cells whose volume is off by no more than this part of what is allowed are taken without another trial.
+const GOOD_VOLUME: f64 = 1.0 / 6.0;
 
-fn solid(surface: &Surface, material_of: impl Fn(u32) -> MaterialId + Copy) -> Result<Polyhedron, PolyhedronError> {
+/// The solid, and by how much the volume of its cells is off.
+fn solid(
+    surface: &Surface,
+    material_of: impl Fn(u32) -> MaterialId + Copy,
+) -> Result<(Polyhedron, f64), PolyhedronError> {
     let planes = Planes::of(surface)?;
     let cells = cells::cells(surface, &planes)?;
     let bodies: Vec<(Brush, f64)> =
         cells.iter().filter_map(|sides| cells::brush(sides, &planes, material_of)).collect();
     let (enclosed, found) = (surface.volume(), cells::volume(&bodies));
-    let is_right = found.is_finite() && (enclosed - found).abs() <= surface.volume_slack();
-    if !is_right {
+    let off = (enclosed - found).abs();
+    if !(found.is_finite() && off <= surface.volume_slack()) {
         return Err(PolyhedronError::Inconsistent { enclosed, cells: found });
     }
     let brushes: Vec<Brush> = bodies.into_iter().map(|(brush, _)| brush).collect();
-    Ok(Polyhedron {
+    let solid = Polyhedron {
         cells: if brushes.len() > 1 { joined(&brushes) } else { brushes },
         volume: enclosed,
         is_turned: surface.is_turned,
         touches_itself: surface.touches_itself,
         bent_facets: planes.bent_facets,
-    })
+    };
+    Ok((solid, off))
 }
 
 fn check_crossings(surface: &Surface) -> Result<(), PolyhedronError> {

@@ -49,8 +49,18 @@ pub(super) fn hull_and_pockets(corners: &[DVec2]) -> Result<Option<HullAndPocket
         let between = (to + n - from) % n;
         let line = side(corners[*from], corners[to])?;
         if between == 1 {
+            let is_short = corners[*from].distance(corners[to]) <= BEYOND * size;
+            let depth = |p: &DVec2| (line.offset() - line.normal().truncate().dot(*p)) / line.normal().length();
+            if is_short && corners.iter().any(|p| depth(p) < -BEYOND * size) {
+                // rounding turns so short a side anywhere, also across the body
+                return Ok(None);
+            }
             found.hull.push(line);
             continue;
+        }
+        if corners[*from].distance(corners[to]) <= BEYOND * size {
+            // a mouth that is no wider than what the hull reaches beyond
+            return Ok(None);
         }
         let reach = line.normal().length() * size * BEYOND;
         found.hull.push(plane(line.normal(), line.offset() + reach)?);

@@ -27,6 +27,7 @@ impl Walls {
         if signed_area(&corners) < 0.0 {
             corners.reverse();
         }
+        drop_short_sides(&mut corners);
         let n = corners.len();
         let half_space = |k: usize| side(corners[k], corners[(k + 1) % n]);
         let mut half_spaces = (0..n).map(half_space).collect::<Result<Vec<HalfSpace>, ShapeError>>()?;
@@ -34,6 +35,14 @@ impl Walls {
         let (table, ids) = PlaneTable::intern(&half_spaces);
         for (half_space, id) in half_spaces.iter_mut().zip(&ids).filter(|_| table.snapped() > 0) {
             *half_space = *table.half_space(*id);
+        }
+        // a side between two sides on one line is on it too, however it is turned by rounding
+        let mut ids = ids;
+        for k in 0..2 * n {
+            let [before, at, after] = [k + n - 1, k, k + 1].map(|k| k % n);
+            if ids[before] == ids[after] && ids[at] != ids[before] {
+                (ids[at], half_spaces[at]) = (ids[before], half_spaces[before]);
+            }
         }
         let lines = ids.iter().map(|id| id.index()).collect();
         Ok(Self { corners, half_spaces, lines })
@@ -47,6 +56,9 @@ impl Walls {
 
     /// Convex cells that together are the prism.
     pub(super) fn cells(&self) -> Result<Vec<Vec<Side>>, ShapeError> {
+        if self.corners.len() < 3 {
+            return Ok(Vec::new());
+        }
         match partition(&self.corners, &self.lines) {
             Some(cells) => Ok(cells),
             None => self.cells_in_space(),
@@ -64,6 +76,18 @@ impl Walls {
         let facets: Vec<Vec<u32>> = (0..n).map(|p| (p, (p + 1) % n)).map(|(p, q)| vec![p, q, q + n, p + n]).collect();
         let surface = Surface::new(&points, &facets);
         surface.ok_or_else(|| refuse("polygon", &"a side of no length", &"corners apart"))?.cells()
+    }
+}
+
+/// Sides shorter than this part of the loop's size are rounding noise: they may point anywhere.
+const SHORT: f64 = 1.0 / (1u64 << 46) as f64;
+
+fn drop_short_sides(corners: &mut Vec<DVec2>) {
+    let size = corners.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
+    let is_short = |p: DVec2, q: DVec2| p.distance(q) <= SHORT * size;
+    corners.dedup_by(|q, p| is_short(*p, *q));
+    while corners.len() > 1 && is_short(corners[0], corners[corners.len() - 1]) {
+        corners.pop();
     }
 }
 

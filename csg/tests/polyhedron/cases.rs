@@ -82,6 +82,26 @@ fn a_corner_on_an_edge_of_a_neighbour_is_a_corner_of_both() {
     assert_eq!((solid.volume, solid.cells.len(), solid.cells[0].faces.len()), (8.0, 1, 6));
 }
 
+/// The box with a point on an edge, off it by some noise, that only the front has; a sliver on top closes the gap. Where the
+/// point lies inward, the sliver is folded over.
+fn box_with_a_sliver(noise: f64) -> Given {
+    let mut given = splat(0.0, 2.0);
+    given.points.push(DVec3::new(1.0, noise, 2.0));
+    given.facets[2] = vec![0, 1, 5, 8, 4];
+    given.facets.push(vec![4, 8, 5]);
+    given
+}
+
+#[test]
+fn slivers_that_are_folded_over_do_no_harm() {
+    let cases = [(1e-17, Precision::Double), (-1e-17, Precision::Double), (3e-8, Precision::Single)];
+    for (noise, precision) in cases {
+        let solid = box_with_a_sliver(noise).cells(precision).unwrap_or_else(|error| panic!("{noise}: {error}"));
+        assert!((solid.volume - 8.0).abs() < 1e-6, "{noise}: {}", solid.volume);
+        assert_eq!((solid.cells.len(), solid.cells[0].faces.len()), (1, 6), "{noise}");
+    }
+}
+
 #[test]
 fn frames_have_a_handle() {
     let outer = cube(DVec3::new(0.0, 0.0, 0.0), DVec3::new(4.0, 4.0, 1.0));

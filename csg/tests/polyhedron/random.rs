@@ -1,11 +1,13 @@
 //! Surfaces of random trees.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use planecut_csg::check::check_topology;
 use planecut_csg::polyhedron::{PolyhedronError, Precision};
-use planecut_csg::{Model, evaluate};
+use planecut_csg::primitives::{cuboid, prism, sphere, torus};
+use planecut_csg::{MaterialId, Model, Operation, Transform, Tree, evaluate};
 
 use crate::judge::{Given, ensure_membership, ensure_skin};
+use crate::rng::Rng;
 use crate::scene::{Scene, ensure, sweep};
 use crate::shape::{Kind, Shape, bounded, random_shape};
 
@@ -64,6 +66,35 @@ fn trees_of_turned_bodies() {
 #[test]
 fn trees_of_all_bodies() {
     random(Kind::Mixed, 8, 40);
+}
+
+/// Rings, balls, prisms and boxes at lattice points, some of them turned: combined, they touch and nearly touch anyhow.
+fn bodies(rng: &mut Rng) -> Shape {
+    let count = 2 + rng.below(5);
+    let operations = [Operation::Union, Operation::Union, Operation::Difference, Operation::Xor];
+    (1..count).fold(body(rng), |shape, _| Shape::Node(*rng.pick(&operations), vec![shape, body(rng)]))
+}
+
+fn body(rng: &mut Rng) -> Shape {
+    let mut number = |low, high| f64::from(rng.integer(low, high));
+    let (at, size) =
+        (DVec3::new(number(0, 7), number(0, 7), number(0, 7)), DVec3::new(number(1, 5), number(1, 5), number(1, 5)));
+    let (sides, rings) = (number(3, 11) as u32, number(3, 11) as u32);
+    let material = MaterialId(0);
+    let tree: Tree = match number(0, 3) as u32 {
+        0 => cuboid(DVec3::ZERO, size, material).expect("a box").into(),
+        1 => prism(size.x, 0.5 * size.y, sides, material).expect("a prism").into(),
+        2 => sphere(size.x, 2 * sides, material).expect("a ball").into(),
+        _ => torus(3.0 + 0.2 * size.x, 0.2 * size.y, sides, rings, material).expect("a ring"),
+    };
+    let turn = if rng.chance(0.5) { DMat3::from_quat(rng.rotation()) } else { DMat3::IDENTITY };
+    let placed = tree.transformed(&Transform::new(turn, at).expect("a motion")).expect("planes in range");
+    Shape::Node(Operation::Union, placed.into_brushes().into_iter().map(Shape::Leaf).collect())
+}
+
+#[test]
+fn rings_and_other_bodies() {
+    sweep(60, bodies, judge);
 }
 
 /// Coordinates as other formats keep them: the cells have the volume of the rounded surface. What rounding lets cross itself is

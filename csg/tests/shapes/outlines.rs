@@ -261,3 +261,21 @@ fn offsets_of_rectangles_are_exact() {
     }
     assert_eq!(shape.offset(0.0, Join::Round, 32).expect("the same"), shape);
 }
+
+/// Once without end: needles that all but cover each other, as upright faces are in a shadow.
+#[test]
+fn needles_that_cover_each_other() {
+    sweep(5, |rng| {
+        let mut fans: Vec<Vec<DVec2>> = Vec::new();
+        for _ in 0..150 {
+            let (from, to) = (DVec2::from_angle(rng.real(0.0, 0.5)) * rng.real(1.0, 2.0), DVec2::new(-1.0, 0.3));
+            // points that lie on one line but for rounding
+            let on_line = |part: f64| from + (to - from) * part;
+            let parts = [0.0, rng.real(0.0, 1.0), rng.real(0.0, 1.0), 1.0].map(on_line);
+            fans.extend([[parts[0], parts[1], parts[2]], [parts[1], parts[3], parts[2]]].map(Vec::from));
+        }
+        fans.push([[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]].map(DVec2::from).to_vec());
+        let union = Outline::from_wound_loops(&fans).expect("an outline");
+        assert!((union.area() - 1.0).abs() < 1e-12, "{}", union.area());
+    });
+}

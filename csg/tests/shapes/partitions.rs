@@ -182,3 +182,31 @@ fn a_notch_along_an_arc_is_one_pocket() {
         }
     }
 }
+
+/// Corners along a straight side are in line but for rounding, and sides between near ones may point anywhere. Once they cut off
+/// half of the body.
+#[test]
+fn rounding_along_a_side_is_no_boundary() {
+    sweep(100, |rng| {
+        let l =
+            turned(&[[0, 0], [3, 0], [3, 1], [1, 1], [1, 4], [0, 4]].map(|[x, y]| DVec2::new(x.into(), y.into())), 0.1);
+        let l = turned(&l, rng.real(0.0, 6.0));
+        let mut corners = Vec::new();
+        for (p, q) in polygon::edges(&l) {
+            let mut parts = vec![0.0];
+            for _ in 0..rng.below(4) {
+                let part = rng.real(0.1, 0.9);
+                parts.extend([part, part + 10f64.powi(-rng.integer(8, 15))]);
+            }
+            parts.sort_by(f64::total_cmp);
+            corners.extend(parts.into_iter().map(|part| p + (q - p) * part));
+        }
+        corners.dedup();
+        let tree = prism(&[corners]);
+        let model = Model { materials: vec![Material::named("m")], tree };
+        let evaluation = evaluate(&model).expect("a mesh");
+        assert_near(evaluation.solid.volume, 6.0, 1e-11, "volume");
+        // two or three, and some that are no wider than rounding
+        assert!(model.tree.brushes().len() <= 8, "{} cells", model.tree.brushes().len());
+    });
+}

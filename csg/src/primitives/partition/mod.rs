@@ -25,10 +25,11 @@ pub(super) fn partition(corners: &[DVec2], lines: &[u32]) -> Option<Vec<Vec<Side
     let mut cutter = Cutter::new(Sides::new(corners, lines));
     let cells = cutter.cells()?;
     // A loop that runs through one point several times, or into itself, may be cut wrongly. Cells that overlap or leave gaps
-    // do not add up.
+    // do not add up, and others are not convex.
     let area = signed_area(corners);
     let found: f64 = cells.iter().map(|cell| cutter.area(cell).max(0.0)).sum();
     let size = corners.iter().map(|p| (*p - corners[0]).abs().max_element()).fold(0.0, f64::max);
     let is_whole = (found - area).abs() <= 1e-12 * corners.len() as f64 * size * size;
-    is_whole.then(|| cells.iter().map(|cell| cell.sides()).collect())
+    let is_sound = is_whole && cells.iter().all(|cell| cutter.is_convex(cell, 1e-9 * size));
+    is_sound.then(|| cells.iter().map(|cell| cell.sides()).collect())
 }

@@ -90,6 +90,17 @@ impl<'a> Cutter<'a> {
         signed_area(&corners)
     }
 
+    /// Whether the neighbours of each side are to its left, but for a distance.
+    pub(super) fn is_convex(&self, polygon: &Polygon, margin: f64) -> bool {
+        let n = polygon.0.len();
+        let vertex = |k: usize| self.position(polygon.0[k % n].from);
+        (0..n).all(|k| {
+            let edge = &polygon.0[k];
+            let depth = |p: DVec2| self.sides.distance(edge.side, p) * if edge.is_outer { -1.0 } else { 1.0 };
+            depth(vertex(k + n - 1)) >= -margin && depth(vertex(k + 2)) >= -margin
+        })
+    }
+
     fn position(&self, vertex: u32) -> DVec2 {
         self.sides.position(self.vertices[vertex as usize])
     }

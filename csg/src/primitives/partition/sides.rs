@@ -83,6 +83,12 @@ impl<'a> Sides<'a> {
         }
     }
 
+    /// How far a point is to the left of the line of a side, but for rounding.
+    pub(super) fn distance(&self, side: u32, point: DVec2) -> f64 {
+        let [p, q] = self.ends(side);
+        (q - p).perp_dot(point - p) / (q - p).length()
+    }
+
     /// Where a vertex is, but for rounding.
     pub(super) fn position(&self, vertex: Vertex) -> DVec2 {
         match vertex {
