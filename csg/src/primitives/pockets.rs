@@ -16,6 +16,8 @@ use crate::outline::signed_area;
 
 /// Loops of fewer reflex corners are cut into cells.
 const MANY: usize = 8;
+/// More pockets than these take longer than cells: the lids of the hull are cut by each of them.
+const MOST: usize = 16;
 /// How far the hull reaches beyond lids, as a part of the loop's size.
 const BEYOND: f64 = 1.0 / (1u64 << 30) as f64;
 
@@ -73,7 +75,8 @@ pub(super) fn hull_and_pockets(corners: &[DVec2]) -> Result<Option<HullAndPocket
             found.pockets.push(half_spaces(&cell, &walls.half_spaces).collect());
         }
     }
-    Ok((3 * found.pockets.len() < reflex).then_some(found))
+    let count = found.pockets.len();
+    Ok((count <= MOST && 3 * count < reflex).then_some(found))
 }
 
 /// The numbers of the corners of the convex hull, counter-clockwise, without those in line with others; `None` where they do not
