@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use planecut::csg::check::check_topology;
 use planecut::import::Warning;
-use planecut::import::mesh::{MeshFormat, SolidError, read_mesh};
+use planecut::import::mesh::{MeshFormat, read_mesh, solid_of_mesh};
 
 use super::args::InfoArgs;
 use super::error::CliError;
@@ -13,7 +13,7 @@ use super::input::{Input, InputKind};
 use super::pool::on_threads;
 use super::progress::Progress;
 use super::report::{Report, milliseconds};
-use super::solve::solve;
+use super::solve::{solve, solve_read};
 use super::terminal;
 
 /// Runs the command. What makes a solid is evaluated; of a mesh, counts are those of the file.
@@ -26,7 +26,7 @@ pub(crate) fn run(args: &InfoArgs) -> Result<(), CliError> {
     args.reading.check(kind)?;
     let progress = Progress::start(args.common.quiet);
     let (mut report, warnings) = on_threads(args.common.threads, || match kind {
-        InputKind::Mesh(format) => report_on_mesh(&input, format, args, &progress),
+        InputKind::Mesh(format) => report_on_mesh(&input, format, &progress),
         kind => {
             let solved = solve(&input, kind, &args.reading, &progress)?;
             Ok((solved.report, solved.warnings))
@@ -41,28 +41,25 @@ pub(crate) fn run(args: &InfoArgs) -> Result<(), CliError> {
 }
 
 /// What the file says of the mesh, and what its solid is where there is one.
-fn report_on_mesh(
-    input: &Input,
-    format: MeshFormat,
-    args: &InfoArgs,
-    progress: &Progress,
-) -> Result<(Report, Vec<Warning>), CliError> {
+fn report_on_mesh(input: &Input, format: MeshFormat, progress: &Progress) -> Result<(Report, Vec<Warning>), CliError> {
     let begin = Instant::now();
+    progress.stage("reading");
+    let kind = InputKind::Mesh(format);
     let mesh = read_mesh(&input.read()?, format, &input.name())?;
-    let import_time = begin.elapsed();
+    let reading_time = begin.elapsed();
     let topology = check_topology(&mesh.positions, &mesh.triangles);
-    let mut report = Report::of_mesh(input.given(), InputKind::Mesh(format).name(), &topology);
-    report.time_ms.import = milliseconds(import_time);
+    let mut report = Report::of_mesh(input.given(), kind.name(), &topology);
+    report.time_ms.import = milliseconds(reading_time);
     let mut warnings: Vec<Warning> = topology.first_defect.map(warning).into_iter().collect();
-    match solve(input, InputKind::Mesh(format), &args.reading, progress) {
-        Ok(solved) => {
+    let begin = Instant::now();
+    match solid_of_mesh(mesh, format, &input.name()) {
+        Ok(import) => {
+            let read = (import.model, import.warnings);
+            let solved = solve_read(input, kind, read, reading_time + begin.elapsed(), progress)?;
             report.take_model(solved.report);
             warnings.extend(solved.warnings);
         }
-        Err(error @ CliError::Solid(SolidError::Surface { .. })) => {
-            warnings.push(warning(format_args!("no solid: {error}")));
-        }
-        Err(error) => return Err(error),
+        Err(error) => warnings.push(warning(format_args!("no solid: {error}"))),
     }
     report.warnings = warnings.iter().map(ToString::to_string).collect();
     Ok((report, warnings))

@@ -1,6 +1,6 @@
 //! From an input to its solid and the report on it: what `build`, `info` and `render` share.
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use planecut::csg::check::check_topology;
 use planecut::csg::{Evaluation, Mesh, Model, ModelSummary, UnboundedBrushes, evaluate_with};
@@ -42,8 +42,21 @@ pub(crate) fn solve(
 ) -> Result<Solved, CliError> {
     let begin = Instant::now();
     progress.stage("reading");
-    let (model, mut warnings) = read(input, kind, reading)?;
-    let import_time = begin.elapsed();
+    let read = read(input, kind, reading)?;
+    solve_read(input, kind, read, begin.elapsed(), progress)
+}
+
+/// The same for what was read of an input, and how long that took.
+///
+/// # Errors
+/// [`CliError::Evaluate`] for a solid without a mesh, [`CliError::Bug`] for a bug.
+pub(crate) fn solve_read(
+    input: &Input,
+    kind: InputKind,
+    (model, mut warnings): (Model, Vec<Warning>),
+    import_time: Duration,
+    progress: &Progress,
+) -> Result<Solved, CliError> {
     progress.stage("evaluating");
     let evaluation = evaluate_model(input, kind, &model)?;
     progress.stage("checking");

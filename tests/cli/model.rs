@@ -1,12 +1,10 @@
 //! Model files on the command line: from a file, from standard input, with other parameters, as skin and as cells.
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::Stdio;
 
 use serde_json::{Value, json};
 
-use crate::support::{Run, agree, block, command, finish, folder, planecut, write_map};
+use crate::support::{Run, agree, block, command, finish, folder, planecut, run_with, write_map};
 
 /// A plate with a hole: 10 × 10 × 2 without 2 × 2 × 2, two cubes wide where `n` is 2.
 const PLATE: &str = r#"{
@@ -27,23 +25,6 @@ fn write(folder: &Path, name: &str, text: &str) -> PathBuf {
     let path = folder.join(name);
     std::fs::write(&path, text).expect("a folder that can be written");
     path
-}
-
-/// Runs the program in `folder` with `input` on standard input.
-fn run_with(folder: &Path, args: &str, input: &[u8]) -> Run {
-    let mut child = command()
-        .current_dir(folder)
-        .args(args.split(' '))
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("the program starts");
-    // A program that refuses its arguments does not read.
-    let _ = child.stdin.take().expect("a pipe").write_all(input);
-    let output = child.wait_with_output().expect("the program ends");
-    let stderr = String::from_utf8(output.stderr).expect("messages are UTF-8");
-    Run { status: output.status.code().unwrap_or(-1), stdout: output.stdout, stderr }
 }
 
 fn run(folder: &Path, args: &str) -> Run {

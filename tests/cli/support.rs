@@ -1,6 +1,7 @@
 //! Running the program, and small maps to run it on.
 
 use std::ffi::OsStr;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
@@ -53,6 +54,23 @@ pub(crate) fn command() -> Command {
 /// Runs the program.
 pub(crate) fn planecut<S: AsRef<OsStr>>(args: impl IntoIterator<Item = S>) -> Run {
     finish(command().args(args))
+}
+
+/// Runs the program in `folder` with `input` on standard input.
+pub(crate) fn run_with(folder: &Path, args: &str, input: &[u8]) -> Run {
+    let mut child = command()
+        .current_dir(folder)
+        .args(args.split(' '))
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program starts");
+    // A program that refuses its arguments does not read.
+    let _ = child.stdin.take().expect("a pipe").write_all(input);
+    let output = child.wait_with_output().expect("the program ends");
+    let stderr = String::from_utf8(output.stderr).expect("messages are UTF-8");
+    Run { status: output.status.code().unwrap_or(-1), stdout: output.stdout, stderr }
 }
 
 /// Runs a command to its end.

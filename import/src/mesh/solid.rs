@@ -53,7 +53,14 @@ fn of_object(object: Option<&str>) -> String {
 /// # Errors
 /// [`SolidError`] where the file cannot be read, or an object's surface is not closed, crosses itself, or encloses nothing.
 pub fn read_solid(bytes: &[u8], format: MeshFormat, name: &str) -> Result<MeshImport, SolidError> {
-    let mut mesh = read_mesh(bytes, format, name)?;
+    solid_of_mesh(read_mesh(bytes, format, name)?, format, name)
+}
+
+/// The same for a mesh that was read already.
+///
+/// # Errors
+/// [`SolidError::Surface`] where an object's surface is not closed, crosses itself, or encloses nothing.
+pub fn solid_of_mesh(mut mesh: IndexedMesh, format: MeshFormat, name: &str) -> Result<MeshImport, SolidError> {
     if format == MeshFormat::Gltf {
         mesh.positions.iter_mut().for_each(|p| *p = DVec3::new(p.x, 0.0 - p.z, p.y));
     }
