@@ -36,6 +36,7 @@ pub mod outline;
 mod plane_table;
 pub mod polyhedron;
 pub mod primitives;
+mod sets;
 pub mod shaping;
 mod skin;
 mod solid;

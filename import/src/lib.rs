@@ -7,6 +7,7 @@ pub mod map;
 pub mod mesh;
 pub mod model;
 pub mod scad;
+mod source;
 mod warning;
 
 pub use warning::Warning;

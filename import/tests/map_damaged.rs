@@ -175,7 +175,7 @@ fn endless_tokens_take_linear_time() {
     for (text, expected) in [
         (
             format!("{{ {{ ( {long} 0 0 )"),
-            "m:1: found `99999999999999999999999999999999…`, expected a finite decimal number",
+            "m:1: found `9999999999999999999999999999999999999999…`, expected a finite decimal number",
         ),
         (
             format!("{{ {{ ( 0 0 0 ) ( 0 0 1 ) ( 0 1 0 ) {long}"),

@@ -38,22 +38,32 @@ fn meet_double_double(a: &Row, b: &Row, c: &Row, permanent: &[f64; 4]) -> Option
         return None;
     }
     let [x, y, z, w] = homogeneous_in_double_doubles([a, b, c]);
-    let numerators = [x, y, z];
-    let w_error = DOUBLE_DOUBLE_BOUND * permanent[3] / w.high.abs();
-    if w_error.is_nan() || w_error > 1e-3 {
+    let coordinates = rounded_quotients([x, y, z], w, |k| permanent[k], permanent[3])?;
+    Some(DVec3::from_array(coordinates))
+}
+
+/// Numerators over one denominator, each correctly rounded, where all are off by at most [`DOUBLE_DOUBLE_BOUND`] of their permanents;
+/// `None` where some quotient cannot be rounded with certainty.
+fn rounded_quotients<const N: usize>(
+    numerators: [DoubleDouble; N],
+    denominator: DoubleDouble,
+    permanent: impl Fn(usize) -> f64,
+    denominator_permanent: f64,
+) -> Option<[f64; N]> {
+    let error = DOUBLE_DOUBLE_BOUND * denominator_permanent / denominator.high.abs();
+    if error.is_nan() || error > 1e-3 {
         return None;
     }
-    let mut coordinates = [0.0; 3];
-    for axis in 0..3 {
-        let numerator = numerators[axis];
-        if permanent[axis] == 0.0 {
+    let mut rounded = [0.0; N];
+    for (k, numerator) in numerators.into_iter().enumerate() {
+        if permanent(k) == 0.0 {
             continue;
         }
-        let relative = w_error + DOUBLE_DOUBLE_BOUND * permanent[axis] / numerator.high.abs();
-        let quotient = numerator.over(w);
-        coordinates[axis] = quotient.rounded_with(2.0 * relative * quotient.high.abs())?;
+        let relative = error + DOUBLE_DOUBLE_BOUND * permanent(k) / numerator.high.abs();
+        let quotient = numerator.over(denominator);
+        rounded[k] = quotient.rounded_with(2.0 * relative * quotient.high.abs())?;
     }
-    Some(DVec3::from_array(coordinates))
+    Some(rounded)
 }
 
 /// `(X, Y, Z, W)` of a meeting point, each with an error of at most [`DOUBLE_DOUBLE_BOUND`] times its permanent.
@@ -117,22 +127,8 @@ fn line_coordinates_in_double_doubles(a: &Row, b: &Row, columns: [(usize, usize)
     if permanents.iter().any(|p| *p != 0.0 && !(1e-200..=1e200).contains(p)) {
         return None;
     }
-    let minors = columns.map(|(i, j)| minor(a, b, i, j));
-    let denominator = minors[4];
-    let error = DOUBLE_DOUBLE_BOUND * permanents[4] / denominator.high.abs();
-    if error.is_nan() || error > 1e-3 {
-        return None;
-    }
-    let mut numbers = [0.0; 4];
-    for k in 0..4 {
-        if permanents[k] == 0.0 {
-            continue;
-        }
-        let relative = error + DOUBLE_DOUBLE_BOUND * permanents[k] / minors[k].high.abs();
-        let quotient = minors[k].over(denominator);
-        numbers[k] = quotient.rounded_with(2.0 * relative * quotient.high.abs())?;
-    }
-    Some(numbers)
+    let [x, y, z, w, denominator] = columns.map(|(i, j)| minor(a, b, i, j));
+    rounded_quotients([x, y, z, w], denominator, |k| permanents[k], permanents[4])
 }
 
 /// The turn that the projections of three meeting points onto the coordinates `u`, `v` make: positive to the left, exactly.

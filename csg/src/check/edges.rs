@@ -2,6 +2,8 @@
 //!
 //! Half-edge `3 t + k` runs from corner `k` of triangle `t` to the next corner.
 
+use crate::sets::DisjointSets;
+
 /// The twin of a half-edge that has none, or not exactly one.
 pub(crate) const NO_TWIN: u32 = u32::MAX;
 
@@ -144,35 +146,4 @@ fn gather(vertices: usize, triangles: &[[u32; 3]]) -> (Vec<u32>, Vec<EdgeUse>) {
         }
     }
     (starts, uses)
-}
-
-/// A forest of parents (union-find with path halving).
-struct DisjointSets(Vec<u32>);
-
-impl DisjointSets {
-    fn new(count: usize) -> Self {
-        Self((0..count as u32).collect())
-    }
-
-    fn root(&mut self, mut i: u32) -> u32 {
-        while self.0[i as usize] != i {
-            let grandparent = self.0[self.0[i as usize] as usize];
-            self.0[i as usize] = grandparent;
-            i = grandparent;
-        }
-        i
-    }
-
-    /// The smaller root stays, so that the result does not depend on the order of joins.
-    fn join(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.root(a), self.root(b));
-        self.0[a.max(b) as usize] = a.min(b);
-    }
-
-    /// Number of sets that hold one of the given elements.
-    ///
-    /// No set may hold both given and other elements: then each set is counted at its root.
-    fn count(&self, elements: impl Iterator<Item = usize>) -> usize {
-        elements.filter(|&i| self.0[i] as usize == i).count()
-    }
 }

@@ -4,7 +4,6 @@
 //! all within a factor of 16 of it are whole without rounding, and each corner that comes back takes the very coordinates
 //! that went in: only corners where edges cross are new, and only they are rounded.
 
-use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay::{IntOverlayOptions, Overlay, ShapeType};
 use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::core::solver::{Precision, Solver};
@@ -12,7 +11,7 @@ use i_overlay::i_float::int::point::IntPoint;
 use planecut_kernel::DVec2;
 use rustc_hash::FxHashMap;
 
-use super::{Outline, signed_area};
+use super::{FillRule, Outline, largest_coordinate, signed_area};
 use crate::primitives::ShapeError;
 use crate::primitives::parameter::refuse;
 use crate::tree::Operation;
@@ -37,7 +36,7 @@ impl Outline {
     /// [`ShapeError::Parameter`] for [`Operation::Complement`]: no outline is unbounded.
     pub fn combine(operation: Operation, operands: &[Self]) -> Result<Self, ShapeError> {
         let points = || operands.iter().flat_map(Self::loops).flatten();
-        let mut grid = Grid::of(points().copied());
+        let mut grid = Grid::of(points());
         let loops: Vec<Vec<Loop>> = operands.iter().map(|operand| grid.loops(operand.loops())).collect();
         let Some((first, rest)) = loops.split_first() else { return Ok(Self::empty()) };
         let all = || loops.concat();
@@ -57,30 +56,17 @@ impl Outline {
         Ok(grid.outline(&result))
     }
 
-    /// What lies within an odd number of loops, whatever way they run.
-    pub(crate) fn even_odd(loops: &[Vec<DVec2>]) -> Self {
-        let mut grid = Grid::of(loops.iter().flatten().copied());
+    /// What loops fill by one of the common rules: where they wind an odd number of times (`EvenOdd`), at all (`NonZero`), or more
+    /// often counter-clockwise (`Positive`).
+    pub(crate) fn filled(loops: &[Vec<DVec2>], rule: FillRule) -> Self {
+        let mut grid = Grid::of(loops.iter().flatten());
         let loops = grid.loops(loops.iter());
-        grid.outline(&run(&loops, &[], OverlayRule::Subject, FillRule::EvenOdd))
-    }
-
-    /// What loops go around in either sense.
-    pub(crate) fn union_of_loops(loops: &[Vec<DVec2>]) -> Self {
-        let mut grid = Grid::of(loops.iter().flatten().copied());
-        let loops = grid.loops(loops.iter());
-        grid.outline(&run(&loops, &[], OverlayRule::Subject, FillRule::NonZero))
-    }
-
-    /// What loops go around counter-clockwise, once or more, counting clockwise turns as negative.
-    pub(super) fn wound_around(loops: &[Vec<DVec2>]) -> Self {
-        let mut grid = Grid::of(loops.iter().flatten().copied());
-        let loops = grid.loops(loops.iter());
-        grid.outline(&run(&loops, &[], OverlayRule::Subject, FillRule::Positive))
+        grid.outline(&run(&loops, &[], OverlayRule::Subject, rule))
     }
 
     /// Without loops that are no wider than rounding.
     pub(super) fn without_slivers(mut self) -> Self {
-        let size = self.loops().flatten().map(|p| p.abs().max_element()).fold(0.0, f64::max);
+        let size = largest_coordinate(self.loops().flatten());
         let is_wide = |corners: &Vec<DVec2>| {
             let length: f64 = (0..corners.len()).map(|k| corners[k].distance(corners[(k + 1) % corners.len()])).sum();
             signed_area(corners).abs() > SLIVER * size * length
@@ -118,16 +104,20 @@ pub(super) struct Grid {
 }
 
 impl Grid {
-    fn of(points: impl Iterator<Item = DVec2>) -> Self {
-        let largest = points.map(|p| p.abs().max_element()).fold(0.0, f64::max);
+    fn of<'a>(points: impl Iterator<Item = &'a DVec2>) -> Self {
+        Self::up_to(largest_coordinate(points))
+    }
+
+    /// A grid for coordinates up to a magnitude.
+    fn up_to(largest: f64) -> Self {
         let exponent = if largest > 0.0 { (largest.to_bits() >> 52) as i32 - 1023 } else { 0 };
         Self { scale: 2f64.powi(BITS - exponent), known: FxHashMap::default() }
     }
 
     /// A grid that holds the sums of a corner of each.
     pub(super) fn of_sums(a: &Outline, b: &Outline) -> Self {
-        let size = |outline: &Outline| outline.loops().flatten().map(|p| p.abs().max_element()).fold(0.0, f64::max);
-        Self::of([DVec2::splat(size(a) + size(b))].into_iter())
+        let size = |outline: &Outline| largest_coordinate(outline.loops().flatten());
+        Self::up_to(size(a) + size(b))
     }
 
     /// The sum of two points, which is exact on the grid.

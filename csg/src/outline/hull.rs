@@ -8,15 +8,10 @@ use super::Outline;
 impl Outline {
     /// The convex hull of all operands together, its corners those of the operands, without any on a straight line; nothing
     /// where there is none.
-    ///
-    /// Andrew's monotone chain (1979), with exact turns.
     #[must_use]
     pub fn hull(operands: &[Self]) -> Self {
-        let mut points: Vec<DVec2> = operands.iter().flat_map(Self::loops).flatten().copied().collect();
-        points.sort_by(|p, q| p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)));
-        points.dedup();
-        let mut corners = chain(points.iter());
-        corners.extend(chain(points.iter().rev()));
+        let points: Vec<DVec2> = operands.iter().flat_map(Self::loops).flatten().copied().collect();
+        let corners: Vec<DVec2> = corners_of_hull(&points).into_iter().map(|k| points[k]).collect();
         if corners.len() < 3 {
             return Self::empty();
         }
@@ -24,23 +19,35 @@ impl Outline {
     }
 }
 
+/// The numbers of the corners of the convex hull of points, counter-clockwise from the least, without any on a straight line;
+/// fewer than three where there is no hull.
+///
+/// Andrew's monotone chain (1979), with exact turns.
+pub(crate) fn corners_of_hull(points: &[DVec2]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..points.len()).collect();
+    order.sort_by(|p, q| points[*p].x.total_cmp(&points[*q].x).then(points[*p].y.total_cmp(&points[*q].y)));
+    let mut corners = chain(points, order.iter());
+    corners.extend(chain(points, order.iter().rev()));
+    corners
+}
+
 /// The points that a walk along sorted points keeps when it only turns left, without the last.
-fn chain<'a>(points: impl Iterator<Item = &'a DVec2>) -> Vec<DVec2> {
-    let mut kept: Vec<DVec2> = Vec::new();
-    for point in points {
+fn chain<'a>(points: &[DVec2], walk: impl Iterator<Item = &'a usize>) -> Vec<usize> {
+    let mut kept: Vec<usize> = Vec::new();
+    for number in walk {
         while let [.., p, q] = kept[..]
-            && !turns_left(p, q, *point)
+            && turn(points[p], points[q], points[*number]) <= 0.0
         {
             kept.pop();
         }
-        kept.push(*point);
+        kept.push(*number);
     }
     kept.pop();
     kept
 }
 
-/// Whether a way by three points turns left at the second, exactly.
-pub(super) fn turns_left(p: DVec2, q: DVec2, r: DVec2) -> bool {
+/// Positive where a way by three points turns left at the second, negative where it turns right, exactly.
+pub(crate) fn turn(p: DVec2, q: DVec2, r: DVec2) -> f64 {
     let at = |p: DVec2| Coord { x: p.x, y: p.y };
-    orient2d(at(p), at(q), at(r)) > 0.0
+    orient2d(at(p), at(q), at(r))
 }

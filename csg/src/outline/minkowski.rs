@@ -8,7 +8,7 @@
 use planecut_kernel::DVec2;
 
 use super::boolean::Grid;
-use super::hull::turns_left;
+use super::hull::turn;
 use super::{Outline, signed_area};
 use crate::plane_table::SNAP_TOLERANCE;
 use crate::primitives::ShapeError;
@@ -46,7 +46,7 @@ impl Outline {
         let [shape] = &self.shapes[..] else { return None };
         let [corners] = &shape[..] else { return None };
         let n = corners.len();
-        let turns = |k: usize| turns_left(corners[k], corners[(k + 1) % n], corners[(k + 2) % n]);
+        let turns = |k: usize| turn(corners[k], corners[(k + 1) % n], corners[(k + 2) % n]) > 0.0;
         // a loop that does not cross itself turns around once
         (signed_area(corners) > 0.0 && (0..n).all(turns)).then_some(corners)
     }
@@ -64,7 +64,7 @@ fn merged(a: &[DVec2], b: &[DVec2]) -> Vec<DVec2> {
         } else if j == b.len() {
             1.0
         } else {
-            turn([a[i], a[(i + 1) % a.len()]], [b[j], b[(j + 1) % b.len()]])
+            turn_of_sides([a[i], a[(i + 1) % a.len()]], [b[j], b[(j + 1) % b.len()]])
         };
         i += usize::from(turn >= 0.0);
         j += usize::from(turn <= 0.0);
@@ -83,7 +83,7 @@ fn from_lowest(corners: &[DVec2]) -> Vec<DVec2> {
 
 /// Above 0 where the second side turns left of the first one, below where it turns right; both go up, or both down, or the one
 /// that goes up comes first.
-fn turn(a: [DVec2; 2], b: [DVec2; 2]) -> f64 {
+fn turn_of_sides(a: [DVec2; 2], b: [DVec2; 2]) -> f64 {
     let rises = |side: [DVec2; 2]| side[1].y > side[0].y || side[1].y == side[0].y && side[1].x > side[0].x;
     match (rises(a), rises(b)) {
         (true, false) => 1.0,

@@ -6,12 +6,14 @@ mod minkowski;
 mod offset;
 
 use glam::DMat2;
+pub(crate) use i_overlay::core::fill_rule::FillRule;
 use planecut_kernel::DVec2;
 
 use crate::primitives::ShapeError;
 use crate::primitives::direction;
 use crate::primitives::parameter::{planar_point, positive, refuse, segments as accepted_segments};
 
+pub(crate) use hull::{corners_of_hull, turn};
 pub use offset::{ClipperJoin, Join, MITER_LIMIT, OffsetRule};
 
 /// A region of the plane, bounded by loops that do not cross: outer ones counter-clockwise, holes clockwise. Lengths have no
@@ -35,7 +37,7 @@ impl Outline {
     /// # Errors
     /// [`ShapeError::Parameter`] where a loop has fewer than three points or a coordinate is not accepted.
     pub fn from_loops(loops: &[Vec<DVec2>]) -> Result<Self, ShapeError> {
-        Ok(Self::even_odd(&accepted(loops)?))
+        Ok(Self::filled(&accepted(loops)?, FillRule::EvenOdd))
     }
 
     /// What loops go around, counting counter-clockwise turns as positive and clockwise ones as negative, a number of times
@@ -45,7 +47,7 @@ impl Outline {
     /// # Errors
     /// As [`from_loops`](Self::from_loops).
     pub fn from_wound_loops(loops: &[Vec<DVec2>]) -> Result<Self, ShapeError> {
-        Ok(Self::union_of_loops(&accepted(loops)?))
+        Ok(Self::filled(&accepted(loops)?, FillRule::NonZero))
     }
 
     /// The rectangle between two corners.
@@ -109,7 +111,7 @@ impl Outline {
             moved.collect::<Result<Vec<DVec2>, ShapeError>>()
         };
         let loops = self.loops().map(moved).collect::<Result<Vec<_>, ShapeError>>()?;
-        Ok(Self::even_odd(&loops))
+        Ok(Self::filled(&loops, FillRule::EvenOdd))
     }
 }
 
@@ -134,4 +136,9 @@ fn clean(moved: DVec2, from: DVec2) -> DVec2 {
 pub(crate) fn signed_area(corners: &[DVec2]) -> f64 {
     let Some(origin) = corners.first() else { return 0.0 };
     0.5 * corners.windows(2).map(|pair| (pair[0] - origin).perp_dot(pair[1] - origin)).sum::<f64>()
+}
+
+/// The largest magnitude of a coordinate of some points; 0 without any.
+pub(crate) fn largest_coordinate<'a>(points: impl IntoIterator<Item = &'a DVec2>) -> f64 {
+    points.into_iter().map(|p| p.abs().max_element()).fold(0.0, f64::max)
 }

@@ -7,7 +7,7 @@
 
 use planecut_kernel::DVec2;
 
-use super::Outline;
+use super::{FillRule, Outline};
 use crate::primitives::ShapeError;
 use crate::primitives::parameter::{coordinate, segments as accepted_segments};
 use crate::transform::sine_and_cosine;
@@ -111,7 +111,7 @@ impl Outline {
         }
         let loops: Vec<Vec<DVec2>> =
             self.loops().map(|corners| moved_loop(corners, by, least, corner)).filter(|c| c.len() >= 3).collect();
-        Self::wound_around(&loops).without_slivers()
+        Self::filled(&loops, FillRule::Positive).without_slivers()
     }
 }
 

@@ -1,6 +1,7 @@
 //! Which pieces of a part share edges, and where the solid is folded inward.
 
 use super::part::{Part, Points};
+use crate::sets::DisjointSets;
 
 /// The pieces of a part in connected sheets, and the edges at which they are not convex.
 pub(super) struct Edges {
@@ -19,7 +20,7 @@ impl Edges {
             sides.extend(piece.edges().map(|(a, b)| ((a.min(b), a.max(b)), number)));
         }
         sides.sort_unstable();
-        let mut sets = Sets((0..part.pieces.len() as u32).collect());
+        let mut sets = DisjointSets::new(part.pieces.len());
         let mut reflex = Vec::new();
         for at_edge in sides.chunk_by(|a, b| a.0 == b.0) {
             at_edge.windows(2).for_each(|pair| sets.join(pair[0].1, pair[1].1));
@@ -40,41 +41,4 @@ fn is_reflex(part: &Part, points: &Points<'_>, p: u32, q: u32) -> bool {
     let [p, q] = [p, q].map(|piece| &part.pieces[piece as usize]);
     let reaches = |p: &super::part::Piece, q: &super::part::Piece| p.corners.iter().any(|v| points.is_beyond(*v, q));
     p.plane != q.plane && (reaches(p, q) || reaches(q, p))
-}
-
-/// A forest of parents (union-find with path halving).
-struct Sets(Vec<u32>);
-
-impl Sets {
-    fn root(&mut self, mut i: u32) -> u32 {
-        while self.0[i as usize] != i {
-            let grandparent = self.0[self.0[i as usize] as usize];
-            self.0[i as usize] = grandparent;
-            i = grandparent;
-        }
-        i
-    }
-
-    fn join(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.root(a), self.root(b));
-        self.0[a.max(b) as usize] = a.min(b);
-    }
-
-    /// The number of each element's set, and how many sets there are.
-    fn numbered(mut self) -> (Vec<u32>, usize) {
-        let n = self.0.len();
-        let mut number = vec![0; n];
-        let mut count = 0;
-        for i in 0..n {
-            let root = self.root(i as u32) as usize;
-            if root == i {
-                number[i] = count;
-                count += 1;
-            } else {
-                // roots are the least of their sets
-                number[i] = number[root];
-            }
-        }
-        (number, count as usize)
-    }
 }

@@ -12,6 +12,7 @@ use super::extruded::{Extrusion, LayerRules, brush_of, ends};
 use super::parameter::{pieces, refuse};
 use crate::brush::{Brush, MaterialId};
 use crate::check::{CheckOptions, check_mesh};
+use crate::outline::largest_coordinate;
 use crate::tree::Tree;
 
 /// Of each facet the numbers of its corners, counter-clockwise seen from outside.
@@ -34,7 +35,7 @@ pub(super) fn layered(
     material: MaterialId,
     count: u64,
 ) -> Result<Vec<Vec<Tree>>, ShapeError> {
-    let size = shape.iter().flatten().map(|p| p.abs().max_element()).fold(0.0, f64::max);
+    let size = largest_coordinate(shape.iter().flatten());
     let step = if extrusion.layers() == 1 { 0.0 } else { STEP * size };
     let mut rings: Vec<Ring> = shape.iter().enumerate().map(|(k, corners)| Ring::new(corners, k > 0, step)).collect();
     for layer in 0..extrusion.layers() {

@@ -6,13 +6,12 @@
 //! depend on how it is rounded: the hull ends a little beyond it, and pockets do not end there at all.
 
 use planecut_kernel::{DVec2, HalfSpace};
-use robust::{Coord, orient2d};
 
 use super::ShapeError;
 use super::extruded::half_spaces;
 use super::flat::plane;
 use super::walls::{Walls, side};
-use crate::outline::signed_area;
+use crate::outline::{corners_of_hull, largest_coordinate, signed_area, turn};
 
 /// Loops of fewer reflex corners are cut into cells.
 const MANY: usize = 8;
@@ -42,7 +41,7 @@ pub(super) fn hull_and_pockets(corners: &[DVec2]) -> Result<Option<HullAndPocket
     if reflex < MANY {
         return Ok(None);
     }
-    let size = corners.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
+    let size = largest_coordinate(&corners);
     let Some(hull) = hull_corners(&corners) else { return Ok(None) };
     let hull = with_corners_on_lids(&corners, &hull, NOISE * size);
     let mut found = HullAndPockets { hull: Vec::new(), pockets: Vec::new() };
@@ -79,28 +78,9 @@ pub(super) fn hull_and_pockets(corners: &[DVec2]) -> Result<Option<HullAndPocket
     Ok((count <= MOST && 3 * count < reflex).then_some(found))
 }
 
-/// The numbers of the corners of the convex hull, counter-clockwise, without those in line with others; `None` where they do not
-/// come in the order of the loop.
+/// The numbers of the corners of the convex hull, ascending; `None` where they do not come in the order of the loop.
 fn hull_corners(corners: &[DVec2]) -> Option<Vec<usize>> {
-    let mut order: Vec<usize> = (0..corners.len()).collect();
-    let key = |k: &usize| corners[*k];
-    order.sort_by(|a, b| key(a).x.total_cmp(&key(b).x).then(key(a).y.total_cmp(&key(b).y)));
-    let mut hull: Vec<usize> = Vec::new();
-    let mut chain = |numbers: &mut dyn Iterator<Item = usize>| {
-        let start = hull.len();
-        for number in numbers {
-            while hull.len() > start + 1
-                && turn(corners[hull[hull.len() - 2]], corners[hull[hull.len() - 1]], corners[number]) <= 0.0
-            {
-                hull.pop();
-            }
-            hull.push(number);
-        }
-        hull.pop();
-    };
-    // below from left to right (Andrew's monotone chain), then above and back
-    chain(&mut order.iter().copied());
-    chain(&mut order.iter().rev().copied());
+    let mut hull = corners_of_hull(corners);
     let first = hull.iter().enumerate().min_by_key(|(_, number)| **number)?.0;
     hull.rotate_left(first);
     hull.is_sorted_by(|a, b| a < b).then_some(hull)
@@ -118,10 +98,4 @@ fn with_corners_on_lids(corners: &[DVec2], hull: &[usize], noise: f64) -> Vec<us
         all.extend((1..(to + n - from) % n).map(|step| (from + step) % n).filter(is_on_lid));
     }
     all
-}
-
-/// Positive where three points turn left, exactly.
-fn turn(a: DVec2, b: DVec2, c: DVec2) -> f64 {
-    let coord = |p: DVec2| Coord { x: p.x, y: p.y };
-    orient2d(coord(a), coord(b), coord(c))
 }

@@ -7,7 +7,7 @@ use super::cells::{Side, Surface};
 use super::flat::plane;
 use super::parameter::refuse;
 use super::partition::partition;
-use crate::outline::signed_area;
+use crate::outline::{largest_coordinate, signed_area};
 use crate::plane_table::PlaneTable;
 
 /// The upright prism over a loop.
@@ -68,7 +68,7 @@ impl Walls {
     /// The same for loops that touch themselves, by planes through all of space.
     fn cells_in_space(&self) -> Result<Vec<Vec<Side>>, ShapeError> {
         // any height does; one like the outline's size keeps the numbers short
-        let size = self.corners.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
+        let size = largest_coordinate(&self.corners);
         let height = f64::from_bits(size.to_bits() & !((1 << 52) - 1));
         let points: Vec<DVec3> =
             [0.0, height].into_iter().flat_map(|z| self.corners.iter().map(move |p| p.extend(z))).collect();
@@ -83,7 +83,7 @@ impl Walls {
 const SHORT: f64 = 1.0 / (1u64 << 46) as f64;
 
 fn drop_short_sides(corners: &mut Vec<DVec2>) {
-    let size = corners.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
+    let size = largest_coordinate(&*corners);
     let is_short = |p: DVec2, q: DVec2| p.distance(q) <= SHORT * size;
     corners.dedup_by(|q, p| is_short(*p, *q));
     while corners.len() > 1 && is_short(corners[0], corners[corners.len() - 1]) {

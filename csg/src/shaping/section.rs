@@ -6,7 +6,7 @@ use rustc_hash::FxHashMap;
 use super::convex::evaluated;
 use crate::brush::MaterialId;
 use crate::mesh::Mesh;
-use crate::outline::Outline;
+use crate::outline::{FillRule, Outline};
 use crate::primitives::parameter::coordinate;
 use crate::primitives::{ShapeError, body_of_half_spaces};
 use crate::tree::Tree;
@@ -28,7 +28,7 @@ pub fn slice(tree: &Tree, height: f64) -> Result<Outline, ShapeError> {
         mesh.faces[*face as usize].normal == DVec3::Z && triangles.iter().flatten().all(on_plane)
     });
     let loops: Vec<Vec<DVec2>> = lid.flat_map(|(_, triangles)| boundary(&mesh, &triangles)).collect();
-    Ok(Outline::even_odd(&loops))
+    Ok(Outline::filled(&loops, FillRule::EvenOdd))
 }
 
 /// The shadow of a solid on the x–y plane.
@@ -39,7 +39,7 @@ pub fn project(tree: &Tree) -> Result<Outline, ShapeError> {
     let mesh = evaluated(tree)?.mesh;
     let faces = triangles_by_face(&mesh).into_iter().filter(|(face, _)| mesh.faces[*face as usize].normal.z > 0.0);
     let loops: Vec<Vec<DVec2>> = faces.flat_map(|(_, triangles)| boundary(&mesh, &triangles)).collect();
-    Ok(Outline::union_of_loops(&loops))
+    Ok(Outline::filled(&loops, FillRule::NonZero))
 }
 
 fn triangles_by_face(mesh: &Mesh) -> Vec<(u32, Vec<[u32; 3]>)> {

@@ -9,39 +9,36 @@
 //! `F ∩ B` has no area. If a corner of `P` lies strictly inside of all planes whose faces do not meet `F`, so does all
 //! of `P` near it, and the former holds; if it lies outside of one of them, the latter.
 
+use std::ops::ControlFlow;
+
 use planecut_kernel::sign::Sign;
 
 use super::contact::misses;
 use super::section::Polygon;
 use crate::body::{Body, BodyFace};
 use crate::bounds::Bounds;
+use crate::boxes::Boxes;
 use crate::plane_table::{PlaneId, PlaneTable};
 
 /// Bodies of fewer faces are asked face by face.
 const MANY: usize = 20;
-/// Leaves hold at most this many faces.
-const LEAF: usize = 4;
 /// Relative room for rounding where bounds of planes are held against bounds of a point.
 const ROOM: f64 = 1e-12;
 
-/// Faces that are near each other: where they are, and bounds of the coefficients of their planes.
+/// Bounds of the coefficients of some planes.
 #[derive(Debug, Clone, Copy)]
-struct Group {
-    bounds: Bounds,
+struct Coefficients {
     low: [f64; 4],
     high: [f64; 4],
-    start: u32,
-    end: u32,
-    /// Index of the second child (the first follows the group); 0 for a leaf.
-    second: u32,
 }
 
 /// A hierarchy of the faces of a body.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Facets {
-    groups: Vec<Group>,
-    /// The faces in the order of the leaves.
-    order: Vec<u32>,
+    /// Where the faces are.
+    boxes: Boxes,
+    /// Of each node of this hierarchy, what its planes are like.
+    coefficients: Vec<Coefficients>,
     /// The planes without their sides, ascending, and the face on each.
     by_plane: Vec<(u32, u32)>,
 }
@@ -62,35 +59,11 @@ impl Facets {
         }
         let mut by_plane: Vec<(u32, u32)> = (0..).zip(&body.faces).map(|(k, face)| (face.plane.index(), k)).collect();
         by_plane.sort_unstable();
-        let mut facets = Self { groups: Vec::new(), order: (0..body.faces.len() as u32).collect(), by_plane };
         let planes: Vec<[f64; 4]> = body.faces.iter().map(|face| coefficients(table, face)).collect();
-        facets.split_all(body, &planes);
-        Some(facets)
-    }
-
-    /// Splits ranges until they are short; the first half of each directly follows it.
-    fn split_all(&mut self, body: &Body, planes: &[[f64; 4]]) {
-        // (start, end, the group whose second child this is)
-        let mut waiting = vec![(0, self.order.len(), None)];
-        while let Some((start, end, second_of)) = waiting.pop() {
-            let number = self.groups.len();
-            if let Some(parent) = second_of {
-                let parent: &mut Group = &mut self.groups[parent];
-                parent.second = number as u32;
-            }
-            let range = &mut self.order[start..end];
-            let mut group = Group::of(range.iter().map(|k| (&body.faces[*k as usize], &planes[*k as usize])));
-            (group.start, group.end) = (start as u32, end as u32);
-            let bounds = group.bounds;
-            self.groups.push(group);
-            if end - start > LEAF {
-                let axis = (bounds.max - bounds.min).max_position();
-                let half = range.len() / 2;
-                let key = |k: &u32| body.faces[*k as usize].bounds.center()[axis];
-                range.select_nth_unstable_by(half, |a, b| key(a).total_cmp(&key(b)).then(a.cmp(b)));
-                waiting.extend([(start + half, end, Some(number)), (start, start + half, None)]);
-            }
-        }
+        let boxes = Boxes::new(body.faces.iter().map(|face| face.bounds).collect());
+        let coefficients =
+            boxes.nodes().map(|faces| Coefficients::of(faces.iter().map(|k| &planes[*k as usize]))).collect();
+        Some(Self { boxes, coefficients, by_plane })
     }
 
     /// The face on a plane, whatever its side.
@@ -111,21 +84,11 @@ impl Facets {
         let half_space = table.half_space(face.plane);
         let (normal, offset) = (half_space.normal(), half_space.offset());
         let meets = |other: &Bounds| other.touches(bounds) && !misses(other, normal, offset);
+        let mut faces = Vec::new();
+        self.boxes.find(meets, &mut faces);
         found.clear();
-        let mut waiting: Vec<u32> = vec![0];
-        while let Some(number) = waiting.pop() {
-            let group = &self.groups[number as usize];
-            if !meets(&group.bounds) {
-                continue;
-            }
-            if group.second != 0 {
-                waiting.extend([number + 1, group.second]);
-                continue;
-            }
-            let faces = group.faces(&self.order).map(|k| &body.faces[k]);
-            let other_planes = faces.filter(|other| other.plane.index() != face.plane.index());
-            found.extend(other_planes.filter(|other| meets(&other.bounds)).map(|other| other.plane));
-        }
+        let planes = faces.into_iter().map(|k| body.faces[k as usize].plane);
+        found.extend(planes.filter(|other| other.index() != face.plane.index()));
         found.sort_unstable();
     }
 
@@ -141,47 +104,35 @@ impl Facets {
         let (planes, corner) = (polygon.corner(face.plane, 0), &polygon.corners[0]);
         let point = Bounds::EMPTY.with_point(corner);
         let mut place = Place::Inside;
-        let mut waiting: Vec<u32> = vec![0];
-        while let Some(number) = waiting.pop() {
-            let group = &self.groups[number as usize];
-            if group.surely_hold(&point) {
-                continue;
-            }
-            if group.second != 0 {
-                waiting.extend([number + 1, group.second]);
-                continue;
-            }
-            for other in group.faces(&self.order).map(|k| body.faces[k].plane) {
+        let outside = self.boxes.walk(
+            |node| !self.coefficients[node].surely_hold(&point),
+            |k| {
+                let other = body.faces[k as usize].plane;
                 if other.index() == face.plane.index() || near.binary_search(&other).is_ok() {
-                    continue;
+                    return ControlFlow::Continue(());
                 }
                 match table.side(planes, corner, other) {
-                    Sign::Positive => return Place::Outside,
+                    Sign::Positive => return ControlFlow::Break(()),
                     Sign::Zero => place = Place::Unknown,
                     Sign::Negative => {}
                 }
-            }
-        }
-        place
+                ControlFlow::Continue(())
+            },
+        );
+        if outside.is_break() { Place::Outside } else { place }
     }
 }
 
-impl Group {
-    fn of<'a>(faces: impl Iterator<Item = (&'a BodyFace, &'a [f64; 4])>) -> Self {
-        let (low, high) = ([f64::INFINITY; 4], [f64::NEG_INFINITY; 4]);
-        let mut group = Self { bounds: Bounds::EMPTY, low, high, start: 0, end: 0, second: 0 };
-        for (face, plane) in faces {
-            group.bounds = group.bounds.union(&face.bounds);
+impl Coefficients {
+    fn of<'a>(planes: impl Iterator<Item = &'a [f64; 4]>) -> Self {
+        let mut all = Self { low: [f64::INFINITY; 4], high: [f64::NEG_INFINITY; 4] };
+        for plane in planes {
             for (k, coefficient) in plane.iter().enumerate() {
-                group.low[k] = group.low[k].min(*coefficient);
-                group.high[k] = group.high[k].max(*coefficient);
+                all.low[k] = all.low[k].min(*coefficient);
+                all.high[k] = all.high[k].max(*coefficient);
             }
         }
-        group
-    }
-
-    fn faces<'a>(&self, order: &'a [u32]) -> impl Iterator<Item = usize> + 'a {
-        order[self.start as usize..self.end as usize].iter().map(|k| *k as usize)
+        all
     }
 
     /// Whether all points of a box lie strictly inside of all planes.

@@ -51,6 +51,7 @@ fn number(table: &PlaneTable, distinct: &[[PlaneId; 2]]) -> (Vec<Line>, Vec<u32>
     order.sort_unstable_by(|p, q| mark(p).compare(mark(q)).then(p.cmp(q)));
     // of lines that may be equal, the first in the order given; most are alone
     let mut first: Vec<u32> = (0..found.len() as u32).collect();
+    let axes = AxisPlanes::new();
     let mut start = 0;
     while start < order.len() {
         let (mut end, mut reach) = (start + 1, mark(&order[start]).high());
@@ -63,7 +64,7 @@ fn number(table: &PlaneTable, distinct: &[[PlaneId; 2]]) -> (Vec<Line>, Vec<u32>
         }
         if end - start > 1 {
             order[start..end].sort_unstable();
-            join_equal(table, &found, &order[start..end], &mut first);
+            join_equal(table, &axes, &found, &order[start..end], &mut first);
         }
         start = end;
     }
@@ -81,8 +82,7 @@ fn number(table: &PlaneTable, distinct: &[[PlaneId; 2]]) -> (Vec<Line>, Vec<u32>
 }
 
 /// Finds which of some lines, given in ascending order, are equal: by their exact keys, confirmed by signs.
-fn join_equal(table: &PlaneTable, found: &[(Line, Mark)], some: &[u32], first: &mut [u32]) {
-    let axes = AxisPlanes::new();
+fn join_equal(table: &PlaneTable, axes: &AxisPlanes, found: &[(Line, Mark)], some: &[u32], first: &mut [u32]) {
     let mut by_key: FxHashMap<Key, Vec<u32>> = FxHashMap::default();
     for k in some {
         let line = &found[*k as usize].0;

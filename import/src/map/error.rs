@@ -6,6 +6,7 @@ use planecut_kernel::HalfSpaceError;
 
 use super::token::is_delimiter;
 use crate::lines::LineTable;
+use crate::source::shown_token;
 
 /// Why a map could not be read; displays as one line that names file and line.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -92,9 +93,6 @@ impl SyntaxError {
     }
 }
 
-/// Most characters of a token that an error shows.
-const MAX_SHOWN: usize = 32;
-
 /// The token at the start of `text`, on one line and not too long.
 fn describe_token(text: &[u8]) -> String {
     let Some(first) = text.first() else { return "the end of the file".to_owned() };
@@ -103,11 +101,5 @@ fn describe_token(text: &[u8]) -> String {
         b if is_delimiter(*b) => 1,
         _ => text.iter().position(|b| is_delimiter(*b)).unwrap_or(text.len()),
     };
-    // Four bytes a character at most, so no more of an endless token need be looked at.
-    let token = String::from_utf8_lossy(&text[..length.min(4 * MAX_SHOWN)]);
-    let token = token.trim_end();
-    let printable = |c: char| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c };
-    let shown: String = token.chars().take(MAX_SHOWN).map(printable).collect();
-    let ellipsis = if token.chars().nth(MAX_SHOWN).is_some() { "…" } else { "" };
-    format!("`{shown}{ellipsis}`")
+    shown_token(text, length)
 }

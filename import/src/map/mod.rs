@@ -33,6 +33,7 @@ pub use error::MapError;
 
 use crate::Warning;
 use crate::lines::LineTable;
+use crate::source::without_byte_order_mark;
 use build::Builder;
 
 /// Which brushes of a map to leave aside.
@@ -86,7 +87,7 @@ pub struct MapImport {
 /// [`MapError`], with the line, where the text is not a map, a plane is outside the accepted range, or the file is
 /// empty. A map whose brushes were all skipped or left out is no error; it carries a warning.
 pub fn read_map(text: &[u8], name: &str, options: &MapOptions) -> Result<MapImport, MapError> {
-    let text = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
+    let text = without_byte_order_mark(text);
     let lines = LineTable::new(text);
     let mut builder = Builder::new(name, &lines, options);
     let mut input = LocatingSlice::new(text);
@@ -95,6 +96,3 @@ pub fn read_map(text: &[u8], name: &str, options: &MapOptions) -> Result<MapImpo
     }
     builder.finish()
 }
-
-/// The UTF-8 mark that some Windows editors put in front of a file.
-const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";

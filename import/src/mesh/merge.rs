@@ -5,14 +5,14 @@ use rustc_hash::FxHashMap;
 
 /// Gives equal positions one index. Equal means bit for bit, except that `-0` equals `0`.
 #[derive(Default)]
-pub(super) struct PositionMerger {
+pub(crate) struct PositionMerger {
     indices: FxHashMap<[u64; 3], u32>,
     positions: Vec<DVec3>,
 }
 
 impl PositionMerger {
     /// The index of a position; new ones are numbered as they come. `None` after the last 32-bit index.
-    pub(super) fn index(&mut self, position: DVec3) -> Option<u32> {
+    pub(crate) fn index(&mut self, position: DVec3) -> Option<u32> {
         // Adding zero turns -0 into 0.
         let position = position + DVec3::ZERO;
         let next = u32::try_from(self.positions.len()).ok()?;
@@ -24,7 +24,7 @@ impl PositionMerger {
     }
 
     /// The positions by index.
-    pub(super) fn into_positions(self) -> Vec<DVec3> {
+    pub(crate) fn into_positions(self) -> Vec<DVec3> {
         self.positions
     }
 }

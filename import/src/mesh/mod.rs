@@ -9,7 +9,7 @@
 mod decimals;
 mod error;
 mod gltf;
-mod merge;
+pub(crate) mod merge;
 mod obj;
 mod ply;
 mod polygon;

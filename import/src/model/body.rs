@@ -7,8 +7,9 @@ use planecut_csg::{Brush, MaterialId, Tree};
 use planecut_kernel::{HalfSpaceError, HullError};
 
 use super::error::{Checked, Fault};
-use super::json::{Document, Entry, Kind, shorten};
+use super::json::{Document, Entry, Kind};
 use super::values::Values;
+use crate::source::shorten;
 
 /// Segments of a circle where the file does not say.
 const SEGMENTS: u32 = 32;

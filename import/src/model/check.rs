@@ -5,12 +5,13 @@ use rustc_hash::FxHashMap;
 use super::error::{Checked, Fault};
 use super::expression::{self, Expression};
 use super::form::{PlaceForm, find, kind_of, list, place_of, unknown_key};
-use super::json::{Document, Entry, Kind, shorten};
+use super::json::{Document, Entry, Kind};
 use super::keys::{
     Field, MATERIAL, NODE_EXTRAS, NODE_KINDS, OUTLINE_EXTRAS, OUTLINE_KINDS, PLACE, STEP_KINDS, TURN, WITH, Want,
 };
 use super::names::Names;
 use super::{MAX_BRUSHES, MAX_DEPTH};
+use crate::source::shorten;
 
 /// What was learned from looking at every value once.
 #[derive(Debug, Default)]

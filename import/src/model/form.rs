@@ -1,8 +1,9 @@
 //! What an object is, by its keys.
 
 use super::error::{Checked, Fault};
-use super::json::{Document, Entry, Kind, shorten};
+use super::json::{Document, Entry, Kind};
 use super::keys::{Field, WITH};
+use crate::source::shorten;
 
 /// How a place of an instance is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -4,11 +4,12 @@ use planecut_csg::{Material, MaterialId, Tree};
 use rustc_hash::FxHashSet;
 
 use super::error::Checked;
-use super::json::{Document, Entry, shorten};
+use super::json::{Document, Entry};
 use super::names::{NamedMaterial, Names};
 use super::values::Values;
 use crate::Warning;
 use crate::lines::LineTable;
+use crate::source::shorten;
 
 /// Stands for a material on faces that have none yet.
 pub(super) const NO_MATERIAL: MaterialId = MaterialId(u32::MAX);

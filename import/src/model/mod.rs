@@ -27,6 +27,7 @@ pub use error::ModelError;
 
 use crate::Warning;
 use crate::lines::LineTable;
+use crate::source::{shorten, without_byte_order_mark};
 use check::{Checker, Findings, Use};
 use error::{Checked, Fault};
 use evaluate::Evaluator;
@@ -35,8 +36,8 @@ use names::Names;
 use order::{describe_circle, order};
 use parameters::{Definitions, numbers_of};
 
-/// Most bytes of a file: 1 GiB.
-pub const MAX_TEXT: usize = 1 << 30;
+pub use crate::source::MAX_TEXT;
+
 /// Most nodes around a node.
 pub const MAX_DEPTH: u32 = 10_000;
 /// Most brushes of a model, copies of instances counted: 4,194,304.
@@ -90,7 +91,7 @@ pub fn read_model(text: &[u8], name: &str, options: &ModelOptions) -> Result<Mod
     if text.len() > MAX_TEXT {
         return Err(ModelError::TooLong { name: name.to_owned(), bytes: text.len() });
     }
-    let text = decode(text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text), name)?;
+    let text = decode(without_byte_order_mark(text), name)?;
     let lines = LineTable::new(text.as_bytes());
     let document = json::parse(text).map_err(|fault| ModelError::Syntax {
         name: name.to_owned(),
@@ -121,8 +122,6 @@ pub fn read_model(text: &[u8], name: &str, options: &ModelOptions) -> Result<Mod
     Ok(ModelImport { model: Model { materials, tree }, parameters, warnings })
 }
 
-/// The UTF-8 mark that some Windows editors put in front of a file.
-const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 /// The keys of the outermost object.
 const ROOT_KEYS: [&str; 6] = ["planecut", "model", "materials", "parameters", "parts", "outlines"];
 /// The version of the format.
@@ -158,7 +157,7 @@ fn model_of(document: &Document<'_>) -> Checked<Entry> {
     for (key, value) in document.members(root) {
         let key = document.text(key);
         if !ROOT_KEYS.contains(&&*key) {
-            let found = format!("the key `{}`", json::shorten(&key));
+            let found = format!("the key `{}`", shorten(&key));
             return Err(Fault::new(value, found, format!("one of {}", ROOT_KEYS.join(", "))));
         }
     }

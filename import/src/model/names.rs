@@ -4,7 +4,8 @@ use rustc_hash::FxHashMap;
 
 use super::error::{Checked, Fault};
 use super::expression::{FUNCTIONS, PI, is_name};
-use super::json::{Document, Entry, Kind, shorten};
+use super::json::{Document, Entry, Kind};
+use crate::source::shorten;
 
 /// Definitions of one kind, numbered in the order of the file.
 #[derive(Debug, Default)]

@@ -1,5 +1,7 @@
 //! What needs what: an order in which everything comes after what it needs, or a circle.
 
+use crate::source::shorten;
+
 /// An order of `0..needs.len()` in which each comes after all that it needs.
 ///
 /// # Errors
@@ -47,11 +49,11 @@ pub(super) fn order(needs: &[Vec<usize>]) -> Result<Vec<usize>, Vec<usize>> {
 /// A circle for people: `a → b → a`, the middle of a long one left out.
 pub(super) fn describe_circle<'n>(circle: &[usize], name: impl Fn(usize) -> &'n str) -> String {
     const MOST: usize = 6;
-    let mut shown: Vec<String> = circle.iter().take(MOST).map(|vertex| super::json::shorten(name(*vertex))).collect();
+    let mut shown: Vec<String> = circle.iter().take(MOST).map(|vertex| shorten(name(*vertex))).collect();
     if circle.len() > MOST {
         shown.push("…".to_owned());
     }
-    shown.extend(circle.first().map(|vertex| super::json::shorten(name(*vertex))));
+    shown.extend(circle.first().map(|vertex| shorten(name(*vertex))));
     shown.join(" → ")
 }
 

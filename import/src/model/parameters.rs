@@ -6,10 +6,11 @@ use rustc_hash::FxHashMap;
 
 use super::error::{Checked, Fault, ModelError};
 use super::expression::Expression;
-use super::json::{Document, Entry, shorten};
+use super::json::{Document, Entry};
 use super::names::Names;
 use super::order::{describe_circle, order};
 use super::values::Values;
+use crate::source::shorten;
 
 /// How parameters depend on one another.
 #[derive(Debug)]

@@ -7,8 +7,9 @@ use rustc_hash::FxHashMap;
 use super::error::{Checked, Fault};
 use super::expression::Expression;
 use super::form::{PlaceForm, kind_of, place_of};
-use super::json::{Document, Entry, Kind, shorten};
+use super::json::{Document, Entry, Kind};
 use super::keys::STEP_KINDS;
+use crate::source::shorten;
 
 /// Reads values, with parameters of certain values.
 #[derive(Debug, Clone, Copy)]

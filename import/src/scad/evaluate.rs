@@ -23,6 +23,9 @@ const MAX_PLANES: usize = 1 << 23;
 const MAKERS: [&str; 9] =
     ["cube", "sphere", "cylinder", "polyhedron", "import", "hull", "minkowski", "linear_extrude", "rotate_extrude"];
 
+/// Nodes that make something of their children in a frame of its own, and put that in place.
+const IN_PLACE_LATER: [&str; 6] = ["minkowski", "linear_extrude", "rotate_extrude", "projection", "offset", "resize"];
+
 /// Makes the model of a list of nodes.
 pub(super) struct Evaluator<'s, 'a> {
     nodes: &'s [Node<'a>],
@@ -36,10 +39,13 @@ pub(super) struct Evaluator<'s, 'a> {
     pub(super) warnings: Vec<Warning>,
     /// How many planes were made.
     planes: usize,
+    /// The node that stands for all, where one is marked so.
+    root: Option<usize>,
 }
 
 impl<'s, 'a> Evaluator<'s, 'a> {
     pub(super) fn new(nodes: &'s [Node<'a>], lines: &'s LineTable, options: &'s ScadOptions) -> Self {
+        let root = nodes.iter().position(|node| node.modifiers.is_root && !node.modifiers.is_left_out);
         let mut made = Vec::new();
         made.resize_with(nodes.len(), Vec::new);
         Self {
@@ -52,6 +58,7 @@ impl<'s, 'a> Evaluator<'s, 'a> {
             made,
             warnings: Vec::new(),
             planes: 0,
+            root,
         }
     }
 
@@ -60,7 +67,6 @@ impl<'s, 'a> Evaluator<'s, 'a> {
     pub(super) fn run(mut self) -> Result<ScadImport, Fault> {
         self.hand_down();
         let mut outermost = Vec::new();
-        let root = self.nodes.iter().position(|node| node.modifiers.is_root && !node.modifiers.is_left_out);
         for number in (0..self.nodes.len()).rev() {
             let turn = Turn { node: &self.nodes[number], frame: self.frames[number] };
             if turn.frame.is_left_out {
@@ -69,8 +75,8 @@ impl<'s, 'a> Evaluator<'s, 'a> {
             let mut children = std::mem::take(&mut self.made[number]);
             children.reverse();
             let made = self.make(turn, children)?;
-            match turn.node.parent.filter(|_| root != Some(number)) {
-                Some(parent) => self.made[parent as usize].push(made),
+            match self.parent(number) {
+                Some(parent) => self.made[parent].push(made),
                 None => outermost.push(made),
             }
         }
@@ -83,23 +89,21 @@ impl<'s, 'a> Evaluator<'s, 'a> {
 
     /// Works out what each node inherits.
     fn hand_down(&mut self) {
-        let is_root = |node: &Node<'_>| node.modifiers.is_root && !node.modifiers.is_left_out;
-        let root = self.nodes.iter().position(is_root);
         self.frames.reserve(self.nodes.len());
-        let mut within_root = vec![root.is_none(); self.nodes.len()];
         for (number, node) in self.nodes.iter().enumerate() {
-            let parent = node.parent.map(|parent| parent as usize);
-            within_root[number] |= root == Some(number) || parent.is_some_and(|parent| within_root[parent]);
-            let mut frame = match parent.filter(|_| root != Some(number)) {
+            let mut frame = match self.parent(number) {
                 Some(parent) => self.within(parent),
                 None => Frame::outermost(),
             };
-            frame.is_left_out |= node.modifiers.is_left_out;
+            let is_outside = self.root.is_some_and(|root| root != number) && node.parent.is_none();
+            frame.is_left_out |= node.modifiers.is_left_out || is_outside;
             self.frames.push(frame);
         }
-        for (frame, within) in self.frames.iter_mut().zip(within_root) {
-            frame.is_left_out |= !within;
-        }
+    }
+
+    /// The node that a node is handed up to.
+    fn parent(&self, number: usize) -> Option<usize> {
+        self.nodes[number].parent.filter(|_| self.root != Some(number)).map(|parent| parent as usize)
     }
 
     /// What the children of a node inherit.
@@ -112,7 +116,7 @@ impl<'s, 'a> Evaluator<'s, 'a> {
                 let color = color.and_then(|(_, value)| value.color());
                 frame.within_color(color, &mut self.materials)
             }
-            "minkowski" | "linear_extrude" | "rotate_extrude" | "projection" | "offset" | "resize" => frame.unplaced(),
+            name if IN_PLACE_LATER.contains(&name) => frame.unplaced(),
             _ => frame,
         }
     }
@@ -120,32 +124,12 @@ impl<'s, 'a> Evaluator<'s, 'a> {
     /// What a node makes of what its children made.
     fn make(&mut self, turn: Turn<'s, 'a>, children: Vec<Option<Geometry>>) -> Result<Option<Geometry>, Fault> {
         let made = match turn.node.name {
-            "multmatrix" => Ok(self.moved(turn, children)),
+            "multmatrix" => self.moved(turn, children),
             "group" | "union" | "render" | "color" => self.combine(turn, children, Combination::Union),
             "difference" => self.combine(turn, children, Combination::Difference),
             "intersection" => self.combine(turn, children, Combination::Intersection),
             "hull" => self.combine(turn, children, Combination::Hull),
-            "minkowski" => self.combine(turn, children, Combination::Minkowski).and_then(|made| turn.place(made)),
-            "resize" => self
-                .combine(turn, children, Combination::Union)
-                .and_then(|made| solid::resized(turn.node, made))
-                .and_then(|made| turn.place(made)),
-            "linear_extrude" => self
-                .flat_union(turn, children)
-                .and_then(|flat| extrusion::linear(turn, &flat))
-                .and_then(|made| turn.place(made)),
-            "rotate_extrude" => self
-                .flat_union(turn, children)
-                .and_then(|flat| extrusion::rotational(self, turn, flat))
-                .and_then(|made| turn.place(made)),
-            "offset" => self
-                .flat_union(turn, children)
-                .and_then(|flat| flat::offset(turn.node, &flat))
-                .and_then(|made| turn.place(made)),
-            "projection" => self
-                .solid_union(turn, children)
-                .and_then(|solid| solid::projection(turn.node, &solid))
-                .and_then(|made| turn.place(made)),
+            name if IN_PLACE_LATER.contains(&name) => self.unplaced(turn, children).and_then(|made| turn.place(made)),
             _ => self.leaf(turn).and_then(|made| turn.place(made)),
         };
         let mut made = made.or_else(|problem| self.fail(turn, problem))?;
@@ -160,6 +144,21 @@ impl<'s, 'a> Evaluator<'s, 'a> {
             }
         }
         Ok(made)
+    }
+
+    /// What a node makes of its children in a frame of its own.
+    fn unplaced(&mut self, turn: Turn<'s, 'a>, children: Vec<Option<Geometry>>) -> Made {
+        match turn.node.name {
+            "minkowski" => self.combine(turn, children, Combination::Minkowski),
+            "resize" => solid::resized(turn.node, self.combine(turn, children, Combination::Union)?),
+            "linear_extrude" => extrusion::linear(turn, &self.flat_union(turn, children)?),
+            "rotate_extrude" => {
+                let flat = self.flat_union(turn, children)?;
+                extrusion::rotational(self, turn, flat)
+            }
+            "offset" => flat::offset(turn.node, &self.flat_union(turn, children)?),
+            _ => solid::projection(turn.node, &self.solid_union(turn, children)?),
+        }
     }
 
     /// Tells each new brush on which line it was made.
@@ -221,24 +220,25 @@ impl<'s, 'a> Evaluator<'s, 'a> {
     }
 
     /// The union of the children; the matrix is already in them.
-    fn moved(&mut self, turn: Turn<'s, 'a>, children: Vec<Option<Geometry>>) -> Option<Geometry> {
+    fn moved(&mut self, turn: Turn<'s, 'a>, children: Vec<Option<Geometry>>) -> Made {
         let matrix = Matrix::of(turn.node);
         if !matrix.is_finite() {
             self.warn(turn, "a matrix that is not finite: what it moves is left out");
-            return None;
+            return Ok(None);
         }
-        let union = self.combine(turn, children, Combination::Union).ok().flatten()?;
-        match &union {
-            Geometry::Solid(_) if matrix.flattens_solids() => {
+        let mut union = self.combine(turn, children, Combination::Union)?;
+        match &mut union {
+            Some(Geometry::Solid(body)) if matrix.flattens_solids() => {
                 self.warn(turn, "a matrix that flattens solids: what it moves is left out");
-                Some(Tree::empty().into())
+                *body = Body::default();
             }
-            Geometry::Flat(_) if matrix.flattens_outlines() => {
+            Some(Geometry::Flat(outline)) if matrix.flattens_outlines() => {
                 self.warn(turn, "a matrix that flattens outlines: what it moves is left out");
-                Some(Geometry::Flat(Outline::empty()))
+                *outline = Outline::empty();
             }
-            _ => Some(union),
+            _ => {}
         }
+        Ok(union)
     }
 
     fn combine(&mut self, turn: Turn<'s, 'a>, children: Vec<Option<Geometry>>, how: Combination) -> Made {

@@ -39,10 +39,10 @@ pub use error::ScadError;
 
 use crate::Warning;
 use crate::lines::LineTable;
+use crate::source::without_byte_order_mark;
 use evaluate::Evaluator;
 
-/// Most bytes of a file: 1 GiB.
-pub const MAX_TEXT: usize = 1 << 30;
+pub use crate::source::MAX_TEXT;
 
 /// How a tree is read.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -88,13 +88,10 @@ pub fn read_scad(text: &[u8], name: &str, options: &ScadOptions) -> Result<ScadI
     if text.len() > MAX_TEXT {
         return Err(ScadError::TooLong { name: name.to_owned(), bytes: text.len() });
     }
-    let text = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
+    let text = without_byte_order_mark(text);
     let lines = LineTable::new(text);
     let located = |fault: error::Fault| fault.locate(name, text, &lines);
     let nodes = syntax::parse(text).map_err(located)?;
     let evaluator = Evaluator::new(&nodes, &lines, options);
     evaluator.run().map_err(located)
 }
-
-/// The UTF-8 mark that some Windows editors put in front of a file.
-const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";

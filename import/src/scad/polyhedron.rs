@@ -10,6 +10,7 @@ use super::leaf::corners;
 use super::problem::Body;
 use super::syntax::Node;
 use super::value::Value;
+use crate::mesh::merge::PositionMerger;
 
 /// Significant digits of the numbers that OpenSCAD writes.
 const DIGITS: u32 = 6;
@@ -66,18 +67,12 @@ fn surface(node: &Node<'_>) -> Result<Surface, String> {
 /// Whether a surface is no closed manifold once corners at the same place are one: an edge has other than two faces, or a corner
 /// more than one fan of them.
 pub(super) fn touches_itself(points: &[DVec3], facets: &[Vec<u32>]) -> bool {
-    let mut known: FxHashMap<[u64; 3], u32> = FxHashMap::default();
-    let mut place = |corner: u32| {
-        // adding zero turns -0 into 0
-        let key = (points[corner as usize] + DVec3::ZERO).to_array().map(f64::to_bits);
-        let next = known.len() as u32;
-        *known.entry(key).or_insert(next)
-    };
-    let facets: Vec<Vec<u32>> =
-        facets.iter().map(|facet| facet.iter().map(|corner| place(*corner)).collect()).collect();
+    let mut places = PositionMerger::default();
+    let mut place = |corner: &u32| places.index(points[*corner as usize]).expect("no more places than corners");
+    let facets: Vec<Vec<u32>> = facets.iter().map(|facet| facet.iter().map(&mut place).collect()).collect();
     // after each corner of a face, seen from that corner: where the face came from, by where it goes
     let mut fans: FxHashMap<(u32, u32), u32> = FxHashMap::default();
-    let mut degree = vec![0_u32; known.len()];
+    let mut degree = vec![0_u32; places.into_positions().len()];
     for facet in &facets {
         let n = facet.len();
         for k in 0..n {

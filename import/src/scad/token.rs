@@ -8,6 +8,7 @@ use winnow::stream::{LocatingSlice, Location, Stream};
 use winnow::token::{take_till, take_while};
 
 use super::error::Fault;
+use crate::source::shown_token;
 
 /// What is left of the text.
 pub(super) type Input<'a> = LocatingSlice<&'a [u8]>;
@@ -125,9 +126,6 @@ fn unescape(text: String) -> String {
     plain
 }
 
-/// Most characters of a token that an error shows.
-const MAX_SHOWN: usize = 32;
-
 /// The token at the start of a text, on one line and not too long.
 pub(super) fn describe(text: &[u8]) -> Cow<'static, str> {
     let Some(first) = text.first() else { return "the end of the file".into() };
@@ -136,10 +134,5 @@ pub(super) fn describe(text: &[u8]) -> Cow<'static, str> {
         b'"' => text[1..].iter().position(|byte| matches!(byte, b'"' | b'\n' | b'\r')).map_or(text.len(), |i| i + 2),
         _ => 1,
     };
-    // Four bytes a character at most, so no more of an endless token need be looked at.
-    let token = String::from_utf8_lossy(&text[..length.min(4 * MAX_SHOWN)]);
-    let printable = |c: char| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c };
-    let shown: String = token.trim_end().chars().take(MAX_SHOWN).map(printable).collect();
-    let ellipsis = if token.chars().nth(MAX_SHOWN).is_some() { "…" } else { "" };
-    format!("`{shown}{ellipsis}`").into()
+    shown_token(text, length).into()
 }

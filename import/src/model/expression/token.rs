@@ -21,7 +21,7 @@ pub(super) enum Token<'a> {
 impl std::fmt::Display for Token<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::Number(text) | Self::Name(text) => write!(f, "`{}`", crate::model::json::shorten(text)),
+            Self::Number(text) | Self::Name(text) => write!(f, "`{}`", crate::source::shorten(text)),
             Self::Symbol(symbol) => write!(f, "`{symbol}`"),
             Self::End => f.write_str("its end"),
         }

@@ -2,9 +2,7 @@
 
 use super::parse::word_of;
 use super::{Document, Entry, Kind};
-
-/// Most characters of the text that an error shows.
-const MAX_SHOWN: usize = 40;
+use crate::source::{shorten, shown_token};
 
 impl Document<'_> {
     /// A value in a few words: a number or a short text as it is written.
@@ -38,14 +36,5 @@ pub(super) fn token(text: &str, offset: usize) -> String {
         [b'"', ..] => rest[1..].iter().position(|byte| matches!(byte, b'"' | b'\n')).map_or(rest.len(), |at| at + 2),
         _ => word_of(rest).len().max(1),
     };
-    // Four bytes a character at most, so no more of an endless token need be looked at.
-    let token = String::from_utf8_lossy(&rest[..length.min(4 * (MAX_SHOWN + 1))]);
-    format!("`{}`", shorten(token.trim_end()))
-}
-
-/// The beginning of a text, on one line.
-pub(in crate::model) fn shorten(text: &str) -> String {
-    let printable = |c: char| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c };
-    let shown: String = text.chars().take(MAX_SHOWN).map(printable).collect();
-    if text.chars().nth(MAX_SHOWN).is_some() { shown + "…" } else { shown }
+    shown_token(rest, length)
 }

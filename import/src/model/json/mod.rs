@@ -9,7 +9,6 @@ mod path;
 
 use std::borrow::Cow;
 
-pub(super) use describe::shorten;
 pub(super) use parse::parse;
 
 /// A value: its place in [`Document`]'s list.

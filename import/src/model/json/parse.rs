@@ -9,6 +9,7 @@ use winnow::token::one_of;
 use winnow::{ModalResult, Parser};
 
 use super::{Document, Entry, Kind, Record};
+use crate::source::shorten;
 
 /// Where a text is not JSON.
 #[derive(Debug, Clone, PartialEq)]
@@ -210,7 +211,7 @@ impl<'a> Parsing<'a> {
         };
         let token = &self.document.text[self.offset..self.offset + length];
         if token.contains('\\') && serde_json::from_str::<Cow<'_, str>>(token).is_err() {
-            let found = format!("{} with an escape that JSON does not know", super::describe::shorten(token));
+            let found = format!("{} with an escape that JSON does not know", shorten(token));
             self.fail_at_value(
                 self.offset,
                 "one of \\\" \\\\ \\/ \\b \\f \\n \\r \\t, or \\u and four digits",
@@ -225,7 +226,7 @@ impl<'a> Parsing<'a> {
         let mut seen = FxHashSet::default();
         let repeated = self.document.members(object).find(|(key, _)| !seen.insert(self.document.text(*key)));
         if let Some((key, value)) = repeated {
-            let found = Some(format!("the key `{}` a second time", super::describe::shorten(&self.document.text(key))));
+            let found = Some(format!("the key `{}` a second time", shorten(&self.document.text(key))));
             let offset = self.document.offset(key);
             self.fault = Some(Fault { offset, expected: "each key once", found, at: Some(value) });
         }

@@ -1,0 +1,29 @@
+//! What all readers of texts do first, and how they show what they found.
+
+/// Most bytes of a text that is read: 1 GiB.
+pub const MAX_TEXT: usize = 1 << 30;
+
+/// Most characters of a text that an error shows.
+const MAX_SHOWN: usize = 40;
+
+/// The UTF-8 mark that some Windows editors put in front of a file.
+const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+
+/// A text without the mark of its encoding.
+pub(crate) fn without_byte_order_mark(text: &[u8]) -> &[u8] {
+    text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text)
+}
+
+/// The beginning of a text, on one line.
+pub(crate) fn shorten(text: &str) -> String {
+    let printable = |c: char| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c };
+    let shown: String = text.chars().take(MAX_SHOWN).map(printable).collect();
+    if text.chars().nth(MAX_SHOWN).is_some() { shown + "…" } else { shown }
+}
+
+/// A token of which the first `length` bytes count, for an error.
+pub(crate) fn shown_token(text: &[u8], length: usize) -> String {
+    // Four bytes a character at most, so no more of an endless token need be looked at.
+    let token = String::from_utf8_lossy(&text[..length.min(4 * (MAX_SHOWN + 1)).min(text.len())]);
+    format!("`{}`", shorten(token.trim_end()))
+}
