@@ -1,9 +1,12 @@
 //! The exact boundary of each brush, as plane ids: what the skin works on.
 
+use std::hash::BuildHasher;
+
 use glam::DVec3;
 use planecut_kernel::sign::{Counts, Homogeneous};
 use planecut_kernel::{HalfSpace, IncrementalPolytope, PlaneIdx};
 use rayon::prelude::*;
+use rustc_hash::{FxBuildHasher, FxHashMap};
 
 use crate::bounds::Bounds;
 use crate::brush::{Brush, MaterialId};
@@ -47,6 +50,40 @@ pub(crate) struct BrushBodies {
     pub(crate) planes: Vec<Vec<PlaneId>>,
     pub(crate) bodies: Vec<BrushBody>,
     pub(crate) signs: Counts,
+}
+
+/// Numbers that are equal for bodies with the same faces of the same materials, and for no others.
+pub(crate) fn kinds(bodies: &[BrushBody]) -> Vec<u32> {
+    let faces = |number: u32| match &bodies[number as usize] {
+        BrushBody::Bounded(body, _) => body.faces.as_slice(),
+        BrushBody::Empty | BrushBody::Unbounded => &[],
+    };
+    let sorted = |number: u32| {
+        let mut faces: Vec<(PlaneId, MaterialId)> =
+            faces(number).iter().map(|face| (face.plane, face.material)).collect();
+        faces.sort_unstable();
+        faces
+    };
+    let hasher = FxBuildHasher;
+    // a sum, so that the order of faces does not count
+    let hash = |number: u32| {
+        let each = faces(number).iter().map(|face| hasher.hash_one((face.plane, face.material)));
+        each.fold(0_u64, u64::wrapping_add)
+    };
+    let mut known: FxHashMap<u64, Vec<u32>> = FxHashMap::default();
+    let kind = |number: u32| {
+        if faces(number).is_empty() {
+            return number;
+        }
+        let alike = known.entry(hash(number)).or_default();
+        let equal = (!alike.is_empty()).then(|| sorted(number));
+        let first = equal.and_then(|own| alike.iter().copied().find(|other| sorted(*other) == own));
+        first.unwrap_or_else(|| {
+            alike.push(number);
+            number
+        })
+    };
+    (0..bodies.len() as u32).map(kind).collect()
 }
 
 /// Interns the planes of brushes and builds the body of each, in parallel.

@@ -6,7 +6,7 @@ use glam::DVec3;
 use planecut_kernel::sign::Counts;
 use thiserror::Error;
 
-use crate::body::{Body, BrushBodies, BrushBody, build_bodies};
+use crate::body::{Body, BrushBodies, BrushBody, build_bodies, kinds};
 use crate::brush::{Material, MaterialId, Model};
 use crate::expression::Expression;
 use crate::mesh::Mesh;
@@ -140,7 +140,9 @@ pub fn evaluate_with(model: &Model, unbounded: UnboundedBrushes) -> Result<Evalu
     let keeps = unbounded == UnboundedBrushes::Keep && !summary.unbounded.is_empty();
     let mut leaves = Leaves::default();
     let outer = (keeps || expression.base()).then(|| OuterBox::new(&mut table));
-    for (leaf, (body, planes)) in bodies.into_iter().zip(&planes).enumerate() {
+    let repeated = expression.repeated_leaves(&kinds(&bodies));
+    let brushes = bodies.into_iter().zip(&planes).enumerate().zip(repeated);
+    for ((leaf, (body, planes)), _) in brushes.filter(|(_, is_repeated)| !is_repeated) {
         match (body, outer) {
             (BrushBody::Bounded(body, _), _) => leaves.push(leaf, body),
             (BrushBody::Unbounded, Some(outer)) if keeps => {

@@ -4,6 +4,9 @@
 //! they leave of the tree ([`Restriction`]) is as small as their number, however large or deep the tree is: chains of
 //! operations between two branchings come to nothing, a negation, or a constant, which is looked up.
 
+#[cfg(test)]
+mod random_trees;
+mod repeats;
 mod restriction;
 
 use crate::tree::{Operation, TreeNode};
@@ -61,6 +64,8 @@ impl Polarity {
 #[derive(Debug, Clone)]
 pub(crate) struct Expression {
     nodes: Vec<Node>,
+    /// The node above each node.
+    parents: Vec<u32>,
     leaves: Vec<u32>,
     /// For the leaves `k` and `k + 1` the lowest node above both, then minima over ranges of powers of two of it.
     between: Vec<Vec<u32>>,
@@ -95,7 +100,7 @@ impl Expression {
         }
         descend(&mut nodes, &parents);
         let between = lowest_between(&nodes, &leaves, &parents);
-        Self { nodes, leaves, between }
+        Self { nodes, parents, leaves, between }
     }
 
     /// The union of as many leaves.

@@ -1,0 +1,145 @@
+//! Leaves that say again what is said elsewhere, so that the tree says the same without them.
+//!
+//! Scripts often make a part twice at the same place; all its faces would lie in each other. Where an operand of a union holds a point,
+//! it does not matter what the other operands hold; and elsewhere this operand is 0. So an operand `X` counts as 0 wherever it
+//! comes again below the same union, in other operands however deep: `X ∪ f(X) = X ∪ f(∅)`. In the same way what is taken away
+//! counts as 0 wherever it comes below the same difference: `f(X) − X = f(∅) − X`.
+//!
+//! All that is found can be left out at once. At a point where no operand of the unions around a union holds, what these have
+//! made 0 was 0 there; and of the operands that hold of the union itself, one of the fewest leaves has nothing within it that
+//! equals another one that holds. So it still holds.
+
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use super::{Expression, NONE};
+use crate::tree::Operation;
+
+impl Expression {
+    /// For each leaf whether the tree says the same where it is 0; `kinds` tells which leaves are equal.
+    pub(crate) fn repeated_leaves(&self, kinds: &[u32]) -> Vec<bool> {
+        let mut repeated = vec![false; kinds.len()];
+        let different: FxHashSet<u32> = kinds.iter().copied().collect();
+        if different.len() == kinds.len() {
+            return repeated;
+        }
+        let (numbers, unions) = (self.numbers(kinds), self.unions());
+        let has_leaves = |k: usize| self.nodes[k].first_leaf < self.nodes[k].end_leaf;
+        // operands of unions within unions are compared instead of these
+        let is_operand =
+            |k: usize| unions[k] != NONE && self.nodes[k].operation != Some(Operation::Union) && has_leaves(k);
+        let mut operands: Vec<Vec<u32>> = vec![Vec::new(); self.nodes.len()];
+        let mut said: FxHashSet<(u32, u32)> = FxHashSet::default();
+        let mut is_again = vec![false; self.nodes.len()];
+        for k in (0..self.nodes.len()).filter(|k| is_operand(*k)) {
+            is_again[k] = !said.insert((unions[k], numbers[k]));
+            if !is_again[k] {
+                operands[unions[k] as usize].push(numbers[k]);
+            }
+        }
+        // from the root down: how many of the unions around a node have an operand of each number
+        let mut around: FxHashMap<u32, u32> = FxHashMap::default();
+        let mut open: Vec<usize> = Vec::new();
+        for (k, node) in self.nodes.iter().enumerate().rev().filter(|(k, _)| has_leaves(*k)) {
+            while let Some(union) = open.pop_if(|union| self.nodes[*union].first_leaf >= node.end_leaf) {
+                for number in &operands[union] {
+                    around.entry(*number).and_modify(|count| *count -= 1);
+                }
+            }
+            let others = around.get(&numbers[k]).copied().unwrap_or(0) - u32::from(is_operand(k));
+            // without its leaves it must come to nothing
+            if (is_again[k] || others > 0) && !node.base {
+                repeated[node.first_leaf as usize..node.end_leaf as usize].fill(true);
+            }
+            if !operands[k].is_empty() {
+                operands[k].iter().for_each(|number| *around.entry(*number).or_insert(0) += 1);
+                open.push(k);
+            }
+        }
+        repeated
+    }
+
+    /// For each node the one in which it is an operand of a union, that of unions within unions being the outermost.
+    fn unions(&self) -> Vec<u32> {
+        let mut unions = vec![NONE; self.nodes.len()];
+        for k in (0..self.nodes.len()).rev() {
+            let parent = self.parents[k];
+            let Some(above) = self.nodes.get(parent as usize) else { continue };
+            unions[k] = match above.operation {
+                Some(Operation::Union) if unions[parent as usize] != NONE => unions[parent as usize],
+                Some(Operation::Union | Operation::Complement) => parent,
+                Some(Operation::Difference) if above.negates(self.nodes[k].first_leaf) => parent,
+                _ => NONE,
+            };
+        }
+        unions
+    }
+
+    /// Numbers that are equal for nodes of the same operations on equal leaves.
+    fn numbers(&self, kinds: &[u32]) -> Vec<u32> {
+        let mut operands: Vec<Vec<u32>> = vec![Vec::new(); self.nodes.len()];
+        let mut numbers: Vec<u32> = Vec::with_capacity(self.nodes.len());
+        let mut known: FxHashMap<(Option<Operation>, Vec<u32>), u32> = FxHashMap::default();
+        for (k, node) in self.nodes.iter().enumerate() {
+            let mut key = std::mem::take(&mut operands[k]);
+            match node.operation {
+                None => key.push(kinds[node.first_leaf as usize]),
+                Some(Operation::Difference) => key[1.min(node.operands as usize)..].sort_unstable(),
+                Some(_) => key.sort_unstable(),
+            }
+            let next = known.len() as u32;
+            let number = *known.entry((node.operation, key)).or_insert(next);
+            numbers.push(number);
+            if let Some(above) = operands.get_mut(self.parents[k] as usize) {
+                above.push(number);
+            }
+        }
+        numbers
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expression::random_trees::{Random, random_tree, value};
+    use crate::tree::TreeNode;
+
+    #[test]
+    fn trees_say_the_same_without_repeated_leaves() {
+        const KINDS: u64 = 4;
+        let mut found = 0;
+        for seed in 1..4000_u64 {
+            let mut random = Random(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15));
+            let entries = random_tree(&mut random);
+            let count = entries.iter().filter(|entry| **entry == TreeNode::Leaf).count();
+            let kinds: Vec<u32> = (0..count).map(|_| random.below(KINDS) as u32).collect();
+            let repeated = Expression::new(&entries).repeated_leaves(&kinds);
+            found += repeated.iter().filter(|repeated| **repeated).count();
+            for values in 0..1 << KINDS {
+                let all: Vec<bool> = kinds.iter().map(|kind| values >> kind & 1 == 1).collect();
+                let fewer: Vec<bool> = all.iter().zip(&repeated).map(|(value, repeated)| *value && !repeated).collect();
+                let message = || format!("seed {seed}: {entries:?} {kinds:?} without {repeated:?} at {values:b}");
+                assert_eq!(value(&entries, &all), value(&entries, &fewer), "{}", message());
+            }
+        }
+        assert!(found > 1000, "only {found} leaves of these trees are repeated");
+    }
+
+    #[test]
+    fn operands_are_compared_as_a_whole() {
+        use Operation::{Difference, Intersection, Union};
+        let operation = |operation, operands| TreeNode::Operation { operation, operands };
+        // (b ∪ c) − (a ∪ b), where b is taken away
+        let either = [TreeNode::Leaf, TreeNode::Leaf, operation(Union, 2)];
+        let entries = [&either[..], &either, &[operation(Difference, 2)]].concat();
+        assert_eq!(Expression::new(&entries).repeated_leaves(&[1, 2, 0, 1]), [true, false, false, false]);
+        // (a − b − c) ∪ ((a − c − b) ∪ (a ∩ b)) ∪ (a − b)
+        let less_two = [TreeNode::Leaf, TreeNode::Leaf, TreeNode::Leaf, operation(Difference, 3)];
+        let both = [TreeNode::Leaf, TreeNode::Leaf, operation(Intersection, 2)];
+        let less_one = [TreeNode::Leaf, TreeNode::Leaf, operation(Difference, 2)];
+        let inner = [&less_two[..], &both, &[operation(Union, 2)]].concat();
+        let entries = [&less_two[..], &inner, &less_one, &[operation(Union, 3)]].concat();
+        let repeated = Expression::new(&entries).repeated_leaves(&[0, 1, 2, 0, 2, 1, 0, 1, 0, 1]);
+        let places: Vec<usize> = (0..repeated.len()).filter(|k| repeated[*k]).collect();
+        assert_eq!(places, [3, 4, 5]);
+    }
+}
