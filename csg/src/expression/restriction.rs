@@ -65,6 +65,24 @@ impl Restriction {
         if branch.is_mute { None } else { branch.decides[usize::from(value)] }
     }
 
+    /// Whether a leaf cannot change the root while another one has a value, as that forces a node above both.
+    pub(crate) fn silences(&self, expression: &Expression, leaf: usize, other: usize, value: bool) -> bool {
+        let silent = &expression.nodes[self.branches[self.leaves[leaf] as usize].node as usize];
+        let (mut at, mut value) = (&self.branches[self.leaves[other] as usize], value);
+        if at.is_mute {
+            return false;
+        }
+        while let Some(above) = self.branches.get(at.parent as usize) {
+            let node = &expression.nodes[above.node as usize];
+            let Some(forced) = above.forced_by(node, at, value ^ at.is_negated) else { return false };
+            if node.first_leaf <= silent.first_leaf && silent.end_leaf <= node.end_leaf {
+                return true;
+            }
+            (at, value) = (above, forced);
+        }
+        false
+    }
+
     /// Sets a leaf in one channel.
     pub(crate) fn set(&mut self, expression: &Expression, leaf: usize, channel: Channel, value: bool) {
         let mut at = self.leaves[leaf];
@@ -272,6 +290,22 @@ mod tests {
                 }
             }
             assert_eq!(restriction.root(0), expression.base(), "channels are apart");
+            for (k, &leaf) in near.iter().enumerate() {
+                for (j, &other) in near.iter().enumerate().filter(|(j, _)| *j != k) {
+                    let on = random.below(2) == 1;
+                    if restriction.silences(&expression, k, j, on) {
+                        let mut all: Vec<bool> = all.clone();
+                        all[other as usize] = on;
+                        let before = value(&entries, &all);
+                        all[leaf as usize] = !all[leaf as usize];
+                        assert_eq!(
+                            value(&entries, &all),
+                            before,
+                            "seed {seed}: {other} silences {leaf} in {entries:?}"
+                        );
+                    }
+                }
+            }
             for (k, leaf) in near.iter().enumerate().filter(|(k, _)| !restriction.matters(*k)) {
                 let mut other = all.clone();
                 other[*leaf as usize] ^= true;

@@ -49,6 +49,8 @@ pub(super) struct FaceWorker<'a> {
     leaves: Vec<u32>,
     covering: Vec<Reaching>,
     open: Vec<Reaching>,
+    /// Bodies that hold both sides of all of the region.
+    holding: Vec<usize>,
     region: Polygon,
     sections: Vec<Section>,
     live: usize,
@@ -67,6 +69,7 @@ impl<'a> FaceWorker<'a> {
             leaves: Vec::new(),
             covering: Vec::new(),
             open: Vec::new(),
+            holding: Vec::new(),
             region: Polygon::default(),
             sections: Vec::new(),
             live: 0,
@@ -106,10 +109,19 @@ impl<'a> FaceWorker<'a> {
         }
         let covering = self.live;
         for k in 0..self.open.len() {
+            if self.is_silenced(self.open[k].leaf) {
+                continue;
+            }
             match self.cover(this, self.open[k]) {
-                Clip::Whole => self.label.fix(scene.expression, &mut self.restriction, &self.open[k]),
+                Clip::Whole => self.hold(self.open[k]),
                 Clip::Part => self.live += 1,
                 Clip::Nothing => {}
+            }
+        }
+        for k in (covering..self.live).rev() {
+            if self.is_silenced(self.sections[k].of.leaf) {
+                self.live -= 1;
+                self.sections.swap(k, self.live);
             }
         }
         if self.live > covering {
@@ -126,6 +138,20 @@ impl<'a> FaceWorker<'a> {
             self.emit_own_edges(this, facing, out);
             self.emit_section_edges(this, facing, out);
         }
+    }
+
+    /// Takes a body as covering all of the region.
+    fn hold(&mut self, reaching: Reaching) {
+        self.label.fix(self.scene.expression, &mut self.restriction, &reaching);
+        if reaching.contact == Contact::Across {
+            self.holding.push(reaching.leaf);
+        }
+    }
+
+    /// Whether a body changes nothing within the region, as others hold all of it.
+    fn is_silenced(&self, leaf: usize) -> bool {
+        let silences = |other: &usize| self.restriction.silences(self.scene.expression, leaf, *other, true);
+        self.holding.iter().any(silences)
     }
 
     /// Which boundary the face is where nothing is covered that depends on several bodies.
@@ -157,6 +183,7 @@ impl<'a> FaceWorker<'a> {
         let scene = self.scene;
         self.covering.clear();
         self.open.clear();
+        self.holding.clear();
         for leaf in 0..self.bodies.len() {
             if leaf == own.leaf || !self.restriction.matters(leaf) {
                 continue;
@@ -170,7 +197,7 @@ impl<'a> FaceWorker<'a> {
                     if self.clipper.clip(scene, face, reaching.body, &mut self.region) == Clip::Nothing {
                         return false;
                     }
-                    self.label.fix(scene.expression, &mut self.restriction, &reaching);
+                    self.hold(reaching);
                 }
             }
         }
@@ -206,11 +233,14 @@ impl<'a> FaceWorker<'a> {
             let not_before = !is_before && facing.empty_of(by_other) == Some(false);
             is_coplanar && (by_its_turn || not_before)
         };
-        if Facing::BOTH.into_iter().all(|facing| is_impossible(facing, by_other) || is_preceded(facing)) {
+        let silences = |value: bool| self.restriction.silences(self.scene.expression, own.leaf, other.leaf, value);
+        if Facing::BOTH.into_iter().all(|facing| is_impossible(facing, by_other) || is_preceded(facing))
+            || !is_coplanar && silences(true)
+        {
             return Role::Covers;
         }
         let if_absent = [decides(other.leaf, false); 2];
-        if Facing::BOTH.into_iter().all(|facing| is_impossible(facing, if_absent)) {
+        if Facing::BOTH.into_iter().all(|facing| is_impossible(facing, if_absent)) || silences(false) {
             return Role::Required;
         }
         // Whether all is the same without it: the side on which it lies is decided, and it changes nothing at the own turn.
