@@ -65,22 +65,22 @@ impl Restriction {
         if branch.is_mute { None } else { branch.decides[usize::from(value)] }
     }
 
-    /// Whether a leaf cannot change the root while another one has a value, as that forces a node above both.
-    pub(crate) fn silences(&self, expression: &Expression, leaf: usize, other: usize, value: bool) -> bool {
-        let silent = &expression.nodes[self.branches[self.leaves[leaf] as usize].node as usize];
-        let (mut at, mut value) = (&self.branches[self.leaves[other] as usize], value);
+    /// The value that a leaf of some value forces upon the lowest node above it and another leaf, which then changes nothing.
+    pub(crate) fn forces(&self, expression: &Expression, leaf: usize, value: bool, other: usize) -> Option<bool> {
+        let other = &expression.nodes[self.branches[self.leaves[other] as usize].node as usize];
+        let (mut at, mut value) = (&self.branches[self.leaves[leaf] as usize], value);
         if at.is_mute {
-            return false;
+            return None;
         }
-        while let Some(above) = self.branches.get(at.parent as usize) {
+        loop {
+            let above = self.branches.get(at.parent as usize)?;
             let node = &expression.nodes[above.node as usize];
-            let Some(forced) = above.forced_by(node, at, value ^ at.is_negated) else { return false };
-            if node.first_leaf <= silent.first_leaf && silent.end_leaf <= node.end_leaf {
-                return true;
+            value = above.forced_by(node, at, value ^ at.is_negated)?;
+            if node.first_leaf <= other.first_leaf && other.end_leaf <= node.end_leaf {
+                return Some(value);
             }
-            (at, value) = (above, forced);
+            at = above;
         }
-        false
     }
 
     /// Sets a leaf in one channel.
@@ -292,17 +292,24 @@ mod tests {
             assert_eq!(restriction.root(0), expression.base(), "channels are apart");
             for (k, &leaf) in near.iter().enumerate() {
                 for (j, &other) in near.iter().enumerate().filter(|(j, _)| *j != k) {
-                    let on = random.below(2) == 1;
-                    if restriction.silences(&expression, k, j, on) {
+                    let with = |on: bool, other_on: bool| {
                         let mut all: Vec<bool> = all.clone();
-                        all[other as usize] = on;
-                        let before = value(&entries, &all);
-                        all[leaf as usize] = !all[leaf as usize];
+                        (all[leaf as usize], all[other as usize]) = (on, other_on);
+                        value(&entries, &all)
+                    };
+                    let forced = [false, true].map(|on| restriction.forces(&expression, k, on, j));
+                    for on in [false, true].into_iter().filter(|on| forced[usize::from(*on)].is_some()) {
                         assert_eq!(
-                            value(&entries, &all),
-                            before,
-                            "seed {seed}: {other} silences {leaf} in {entries:?}"
+                            with(on, false),
+                            with(on, true),
+                            "seed {seed}: {other} at {leaf} {on} in {entries:?}"
                         );
+                    }
+                    let (on, other_on) = (random.below(2) == 1, random.below(2) == 1);
+                    let by_other = restriction.forces(&expression, j, other_on, k);
+                    if by_other.is_some() && by_other == forced[usize::from(on)] {
+                        let message = || format!("seed {seed}: {leaf} {on} as {other} {other_on} in {entries:?}");
+                        assert_eq!(with(on, !other_on), with(!on, other_on), "{}", message());
                     }
                 }
             }

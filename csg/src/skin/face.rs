@@ -7,7 +7,7 @@ use super::sweep::{Label, Side, Sweep};
 use super::{BoundaryEdge, Scene};
 use crate::body::BodyFace;
 use crate::bounds::Bounds;
-use crate::expression::Restriction;
+use crate::expression::{Polarity, Restriction};
 use crate::plane_table::PlaneTable;
 
 /// A body that reaches the plane of the face.
@@ -150,7 +150,7 @@ impl<'a> FaceWorker<'a> {
 
     /// Whether a body changes nothing within the region, as others hold all of it.
     fn is_silenced(&self, leaf: usize) -> bool {
-        let silences = |other: &usize| self.restriction.silences(self.scene.expression, leaf, *other, true);
+        let silences = |other: &usize| self.restriction.forces(self.scene.expression, *other, true, leaf).is_some();
         self.holding.iter().any(silences)
     }
 
@@ -184,12 +184,11 @@ impl<'a> FaceWorker<'a> {
         self.covering.clear();
         self.open.clear();
         self.holding.clear();
-        for leaf in 0..self.bodies.len() {
-            if leaf == own.leaf || !self.restriction.matters(leaf) {
-                continue;
-            }
-            let reaching = self.reaching(leaf, face);
-            match self.role(own, &reaching) {
+        let others = (0..self.bodies.len()).filter(|leaf| *leaf != own.leaf && self.restriction.matters(*leaf));
+        let others: Vec<Reaching> = others.map(|leaf| self.reaching(leaf, face)).collect();
+        let coplanar = others.iter().filter(|other| other.contact != Contact::Across).count();
+        for reaching in others {
+            match self.role(own, &reaching, coplanar) {
                 Role::None => {}
                 Role::Covers => self.covering.push(reaching),
                 Role::Open => self.open.push(reaching),
@@ -215,8 +214,9 @@ impl<'a> FaceWorker<'a> {
         Reaching { body, leaf, contact, owner: self.scene.owner(body, other.unwrap_or(face)) }
     }
 
-    /// What a body does, as far as it can be told from it and the face's own body alone.
-    fn role(&self, own: &Reaching, other: &Reaching) -> Role {
+    /// What a body does, as far as it can be told from it and the face's own body alone; `coplanar` bodies have a face on the plane
+    /// besides the own one.
+    fn role(&self, own: &Reaching, other: &Reaching, coplanar: usize) -> Role {
         let decides = |leaf: usize, value: bool| self.restriction.decides(leaf, value);
         let by_own = [decides(own.leaf, true), decides(own.leaf, false)];
         // Whether the solid side is known to be empty, or the empty one solid.
@@ -233,21 +233,42 @@ impl<'a> FaceWorker<'a> {
             let not_before = !is_before && facing.empty_of(by_other) == Some(false);
             is_coplanar && (by_its_turn || not_before)
         };
-        let silences = |value: bool| self.restriction.silences(self.scene.expression, own.leaf, other.leaf, value);
-        if Facing::BOTH.into_iter().all(|facing| is_impossible(facing, by_other) || is_preceded(facing))
-            || !is_coplanar && silences(true)
-        {
+        let forces = |by: &Reaching, value: bool, upon: &Reaching| {
+            self.restriction.forces(self.scene.expression, by.leaf, value, upon.leaf)
+        };
+        // Whether the own face's turn changes nothing, as the other body forces a node above both.
+        let is_silent = |facing: Facing| {
+            let at_its_turn = if is_before { facing.solid_of(sides) } else { facing.empty_of(sides) };
+            forces(other, at_its_turn, own).is_some()
+        };
+        // Whether the tree can only become solid as the own body comes, or as it goes.
+        let is_against = |facing: Facing| match self.scene.polarity(own.body) {
+            Polarity::Adds => facing == Facing::In,
+            Polarity::Takes => facing == Facing::Out,
+            Polarity::Both => false,
+        };
+        let is_never = |facing: Facing| {
+            is_against(facing) || is_impossible(facing, by_other) || is_preceded(facing) || is_silent(facing)
+        };
+        // Whether a node above both is the same just inside and just outside. In between it may not be, and only where no
+        // third face lies on the plane it does not matter whose turn comes in between.
+        let is_same = || {
+            let at = |k: usize| forces(own, own.contact.sides()[k], other).or(forces(other, sides[k], own));
+            coplanar == 1 && is_coplanar && at(0).is_some() && at(0) == at(1)
+        };
+        if Facing::BOTH.into_iter().all(is_never) || is_same() {
             return Role::Covers;
         }
         let if_absent = [decides(other.leaf, false); 2];
-        if Facing::BOTH.into_iter().all(|facing| is_impossible(facing, if_absent)) || silences(false) {
+        let is_required = |facing: Facing| is_against(facing) || is_impossible(facing, if_absent);
+        if forces(other, false, own).is_some() || Facing::BOTH.into_iter().all(is_required) {
             return Role::Required;
         }
         // Whether all is the same without it: the side on which it lies is decided, and it changes nothing at the own turn.
         let is_idle = |facing: Facing| {
             let is_solid = facing.solid_of(by_own).is_some() && facing.solid_of(sides) && !is_before;
             let is_empty = facing.empty_of(by_own).is_some() && facing.empty_of(sides) && is_before;
-            is_impossible(facing, [None; 2]) || is_coplanar && (is_solid || is_empty)
+            is_against(facing) || is_impossible(facing, [None; 2]) || is_coplanar && (is_solid || is_empty)
         };
         let is_alone = by_own.iter().all(Option::is_some);
         if is_alone || Facing::BOTH.into_iter().all(is_idle) { Role::None } else { Role::Open }
