@@ -3,7 +3,7 @@
 use super::clip::Clipper;
 use super::contact::{Contact, Facing, Owner, misses};
 use super::section::{Clip, Cover, Line, Piece, Polygon};
-use super::sweep::{Label, Side, Sweep};
+use super::sweep::{Context, Label, Side, Sweep};
 use super::{BoundaryEdge, Scene};
 use crate::body::BodyFace;
 use crate::bounds::Bounds;
@@ -125,15 +125,8 @@ impl<'a> FaceWorker<'a> {
             }
         }
         if self.live > covering {
-            self.sweep.emit(
-                scene,
-                this,
-                &self.region,
-                &self.sections[..self.live],
-                &mut self.restriction,
-                &mut self.label,
-                out,
-            );
+            let context = Context { scene, face: this, sections: &self.sections[..self.live], covering };
+            self.sweep.emit(&context, &self.region, &mut self.restriction, &mut self.label, out);
         } else if let Some(facing) = self.label_of_region() {
             self.emit_own_edges(this, facing, out);
             self.emit_section_edges(this, facing, out);

@@ -121,56 +121,71 @@ struct Event {
 #[derive(Debug, Default)]
 pub(super) struct Sweep {
     pieces: Vec<Piece>,
+    /// The sections that may cover parts of the pieces.
+    beside: Vec<u32>,
     events: Vec<Event>,
     /// The sections that cover sides of the piece, until each is let go.
     covering: Vec<(u32, [bool; 2])>,
 }
 
 /// What stays the same during the sweep over one face.
-struct Context<'a> {
-    scene: &'a Scene<'a>,
-    face: &'a BodyFace,
-    sections: &'a [Section],
+pub(super) struct Context<'a> {
+    pub(super) scene: &'a Scene<'a>,
+    pub(super) face: &'a BodyFace,
+    pub(super) sections: &'a [Section],
+    /// As many sections at the front cover the face whatever the others do.
+    pub(super) covering: usize,
 }
 
 impl Sweep {
     /// Emits all boundary edges on a face; where nothing is covered, `restriction` and `label` hold what is known of it.
-    #[expect(clippy::too_many_arguments, reason = "the buffers of the face's worker, each borrowed for itself")]
     pub(super) fn emit(
         &mut self,
-        scene: &Scene<'_>,
-        face: &BodyFace,
+        context: &Context<'_>,
         region: &Polygon,
-        sections: &[Section],
         restriction: &mut Restriction,
         label: &mut Label,
         out: &mut Vec<BoundaryEdge>,
     ) {
-        let context = Context { scene, face, sections };
         for i in 0..region.edges.len() {
             self.pieces.clear();
             self.pieces.push(Piece::of_edge(&region.edges, &region.corners, i));
-            self.sweep_pieces(&context, region.edges[i], None, restriction, label, out);
+            self.drop_silent(context, region.edges[i], None);
+            self.sweep_pieces(context, region.edges[i], None, restriction, label, out);
         }
-        for (k, section) in sections.iter().enumerate() {
+        for (k, section) in context.sections.iter().enumerate() {
             let polygon = &section.polygon;
             for (i, &edge) in polygon.edges.iter().enumerate().filter(|(_, edge)| !region.edges.contains(edge)) {
                 self.pieces.clear();
                 self.pieces.push(Piece::of_edge(&polygon.edges, &polygon.corners, i));
-                self.drop_repeated(&context, edge, k);
-                self.sweep_pieces(&context, edge, Some(k), restriction, label, out);
+                self.drop_silent(context, edge, Some(k));
+                self.sweep_pieces(context, edge, Some(k), restriction, label, out);
             }
         }
     }
 
-    /// Takes out of the pieces what lies on edges of earlier sections: these emit it.
-    fn drop_repeated(&mut self, context: &Context<'_>, edge: PlaneId, own: usize) {
+    /// Takes out of the pieces of an edge of section `own`, or of the region, what is covered on both sides, and what lies on edges of
+    /// earlier sections: these emit it. Finds the sections that matter to the rest.
+    fn drop_silent(&mut self, context: &Context<'_>, edge: PlaneId, own: Option<usize>) {
         let line = Line { plane: context.face.plane, edge };
         let whole = self.pieces[0];
         let bounds = whole.bounds();
-        for other in context.sections[..own].iter().filter(|other| other.bounds.touches(&bounds)) {
-            if let Cover::Along(part, _) = line.cover(context.scene.table, &whole, &bounds, &other.polygon) {
-                line.subtract(context.scene.table, &mut self.pieces, &part);
+        self.beside.clear();
+        for (k, other) in context.sections.iter().enumerate() {
+            let covers = k < context.covering;
+            let is_earlier = own.is_some_and(|own| k < own);
+            if own == Some(k) || self.pieces.is_empty() || !other.bounds.touches(&bounds) {
+                continue;
+            }
+            if !covers && !is_earlier {
+                self.beside.push(k as u32);
+                continue;
+            }
+            match line.cover(context.scene.table, &whole, &bounds, &other.polygon) {
+                Cover::Along(part, _) if is_earlier => line.subtract(context.scene.table, &mut self.pieces, &part),
+                Cover::Across(part) if covers => line.subtract(context.scene.table, &mut self.pieces, &part),
+                Cover::Apart => {}
+                Cover::Along(..) | Cover::Across(_) => self.beside.push(k as u32),
             }
         }
     }
@@ -190,7 +205,7 @@ impl Sweep {
             let piece = self.pieces[k];
             self.covering.clear();
             self.covering.extend(own.map(|own| (own as u32, [true, false])));
-            self.find_events(context, line, &piece, own);
+            self.find_events(context, line, &piece);
             self.events.sort_by(|a, b| a.compare(b, context.scene.table, line));
             let expression = context.scene.expression;
             let mut walk =
@@ -228,12 +243,13 @@ impl Sweep {
     }
 
     /// Finds what covers the beginning of a piece, and where that changes.
-    fn find_events(&mut self, context: &Context<'_>, line: Line, piece: &Piece, own: Option<usize>) {
+    fn find_events(&mut self, context: &Context<'_>, line: Line, piece: &Piece) {
         let table = context.scene.table;
         let bounds = piece.bounds();
         self.events.clear();
-        for (k, other) in context.sections.iter().enumerate() {
-            if Some(k) == own || !other.bounds.touches(&bounds) {
+        for &section in &self.beside {
+            let other = &context.sections[section as usize];
+            if !other.bounds.touches(&bounds) {
                 continue;
             }
             let (part, sides) = match line.cover(table, piece, &bounds, &other.polygon) {
@@ -242,7 +258,6 @@ impl Sweep {
                 Cover::Along(part, edge) if line.is_same_side(table, edge) => (part, [true, false]),
                 Cover::Along(part, _) => (part, [false, true]),
             };
-            let section = k as u32;
             if part.start == piece.start {
                 self.covering.push((section, sides));
             } else {
