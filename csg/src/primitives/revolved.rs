@@ -4,6 +4,10 @@
 //! the angle between the half-planes, the points at the distance `x` along each of them have `u·p = x cos(α/2)`, so the side
 //! on the line `a x + b z = d` of the outline lies on the plane `(a / cos(α/2)) u·p + b z = d`.
 //!
+//! Planes of neighbouring steps differ by `u` alone, so where all are scaled to `a = ±1`, the difference of two of them is that of
+//! two vectors `u / cos(α/2)`. It is the half-plane between them: with these vectors rounded to a grid it has no error, and all
+//! edges of the one step on it are those of the other to the last bit.
+//!
 //! In a whole turn the planes of a line with `a > 0` bound one convex body, for a line with `a < 0` what they bound is to be
 //! left out. So a convex outline is one brush, less one for each side that faces the axis, and there are no half-planes. They
 //! all meet on the axis: where a body touches it, that is a corner of any number of planes, whose signs are all true zeros.
@@ -27,6 +31,11 @@ use crate::tree::Tree;
 /// A line of the outline `a x + b z = d`, the outline below it.
 type Line = (f64, f64, f64);
 
+/// Vectors of at most 2 are multiples of this: their differences have no error.
+const GRID: f64 = 1.0 / (1u64 << 51) as f64;
+/// Lines flatter than this by their slope are not scaled.
+const STEEPEST: f64 = (1u64 << 20) as f64;
+
 /// Up to this many sides that face the axis are left out one by one, where the outline touches the axis and where it does not;
 /// more of them overlap too much.
 const MAX_INNER: [usize; 2] = [4, 1];
@@ -49,13 +58,15 @@ pub fn torus(
     }
     let segments = accepted_segments("segments", segments)?;
     let tube_segments = accepted_segments("tube_segments", tube_segments)?;
+    let turn = Turn { angle: 360.0, steps: segments };
     let line = |k| {
         let outward = middle(k, tube_segments);
         let scale = outward.abs().max_element();
-        (outward.x / scale, outward.y / scale, radius * (outward.x / scale) + tube * (apothem(tube_segments) / scale))
+        let offset = radius * (outward.x / scale) + tube * (apothem(tube_segments) / scale);
+        scaled((outward.x / scale, outward.y / scale, offset))
     };
     let lines: Vec<Line> = (0..tube_segments).map(line).collect();
-    Ok(Tree::union_of(Turn::full(segments).steps_of(&lines, material)?))
+    Ok(Tree::union_of(turn.steps_of(&lines, material)?))
 }
 
 /// An outline revolved about z by `angle` degrees, counter-clockwise seen from above and beginning in the x–z plane: its x
@@ -107,8 +118,14 @@ fn line(side: &HalfSpace, [p, q]: [DVec2; 2]) -> Line {
     let tip = [p, q].into_iter().find(|end| end.x == 0.0).filter(|_| normal.y != 0.0);
     match tip {
         Some(tip) => (normal.x / normal.y.abs(), normal.y.signum(), tip.y * normal.y.signum()),
-        None => (normal.x, normal.y, offset),
+        None => scaled((normal.x, normal.y, offset)),
     }
+}
+
+/// The same line with `a = ±1`, where it is not too flat.
+fn scaled((a, b, d): Line) -> Line {
+    let size = a.abs();
+    if b.abs() < STEEPEST * size { (a.signum(), b / size, d / size) } else { (a, b, d) }
 }
 
 fn flipped((a, b, d): Line) -> Line {
@@ -123,10 +140,6 @@ struct Turn {
 }
 
 impl Turn {
-    fn full(steps: u32) -> Self {
-        Self { angle: 360.0, steps }
-    }
-
     fn is_full(&self) -> bool {
         self.angle == 360.0
     }
@@ -138,6 +151,11 @@ impl Turn {
         }
         let (sine, cosine) = sine_and_cosine(self.angle * f64::from(half_steps) / f64::from(2 * self.steps));
         DVec2::new(cosine, sine)
+    }
+
+    /// `u / cos(α/2)` in the middle of a step.
+    fn outward(&self, step: u32) -> DVec2 {
+        (self.direction(2 * step + 1) / self.direction(1).x / GRID).round() * GRID
     }
 
     /// The parts over a loop.
@@ -216,20 +234,18 @@ impl Turn {
 
     /// The plane of a line in one step.
     fn plane(&self, (a, b, d): &Line, step: u32) -> Result<HalfSpace, ShapeError> {
-        let outward = self.direction(2 * step + 1) / self.direction(1).x;
-        plane((outward * *a).extend(*b), *d)
+        plane((self.outward(step) * *a).extend(*b), *d)
     }
 
     /// The half-space before the half-plane where a step begins.
     fn wall(&self, step: u32) -> Result<HalfSpace, ShapeError> {
-        let along = self.direction(2 * (step % self.whole_turn()));
-        let along = along / along.abs().max_element();
-        plane(DVec3::new(0.0 - along.y, along.x, 0.0), 0.0)
-    }
-
-    /// After how many steps the first half-plane is met again.
-    fn whole_turn(&self) -> u32 {
-        if self.is_full() { self.steps } else { u32::MAX }
+        if !self.is_full() && (step == 0 || step == self.steps) {
+            let along = self.direction(2 * step);
+            let along = along / along.abs().max_element();
+            return plane(DVec3::new(0.0 - along.y, along.x, 0.0), 0.0);
+        }
+        let (before, after) = ((step + self.steps - 1) % self.steps, step % self.steps);
+        plane((self.outward(after) - self.outward(before)).extend(0.0), 0.0)
     }
 }
 

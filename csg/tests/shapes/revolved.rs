@@ -4,6 +4,7 @@
 use glam::{DMat2, DVec2, DVec3};
 use planecut_csg::primitives::{Extrusion, cone, extrude, revolve, revolve_in_steps, torus};
 use planecut_csg::{MaterialId, Outline, Transform, Tree};
+use planecut_kernel::HalfSpace;
 
 use crate::judge::{assert_near, contains, figures, sweep};
 use crate::polygon;
@@ -53,6 +54,37 @@ fn tori_are_rings_of_quads() {
         assert_eq!((found.faces, found.corners, found.genus), (count - flat, count, 1), "{n} × {m}");
     });
     assert_eq!(figures(&torus(2.0, 1.0, 4, 4, M).expect("a torus")).volume, 16.0, "all numbers are short");
+}
+
+/// Two planes meet a third in one line where it is a multiple of their difference.
+#[test]
+fn steps_of_a_torus_share_their_edges_to_the_last_bit() {
+    sweep(40, |rng| {
+        let (n, m) = (3 + rng.below(30) as u32, 3 + rng.below(20) as u32);
+        let radius = rng.real(1.0, 4.0);
+        let steps = torus(radius, radius * rng.real(0.1, 0.95), n, m, M).expect("a torus");
+        let steps: Vec<_> = steps.brushes().iter().map(|brush| &brush.faces).collect();
+        assert_eq!(steps.len(), n as usize);
+        for (k, faces) in steps.iter().enumerate() {
+            let next = steps[(k + 1) % steps.len()];
+            let walls: Vec<DVec3> = faces.iter().map(|face| face.half_space.normal()).filter(|n| n.z == 0.0).collect();
+            let mut shared = 0;
+            for face in faces
+                .iter()
+                .map(|face| &face.half_space)
+                .filter(|plane| plane.normal().truncate() != DVec2::ZERO && plane.normal().z != 0.0)
+            {
+                let same = |other: &&HalfSpace| (other.normal().z, other.offset()) == (face.normal().z, face.offset());
+                let planes = next.iter().map(|face| &face.half_space);
+                for other in planes.filter(same).filter(|other| other.normal().dot(face.normal()) > 0.0) {
+                    let difference = other.normal() - face.normal();
+                    assert!(walls.iter().any(|wall| *wall == difference || *wall == -difference), "{difference}");
+                    shared += 1;
+                }
+            }
+            assert!(shared > 0, "of {n} × {m}");
+        }
+    });
 }
 
 #[test]
