@@ -27,7 +27,7 @@ pub enum HalfSpaceError {
     #[error("the normal of a plane must not be zero")]
     ZeroNormal,
     /// A coefficient is outside the accepted range.
-    #[error("plane coefficients outside the accepted range: normal {normal}, offset {offset}")]
+    #[error("plane coefficients outside the accepted range: normal {:?}, offset {offset:?}", .normal.to_array())]
     OutOfRange {
         /// The normal that was given.
         normal: DVec3,

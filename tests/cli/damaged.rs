@@ -60,12 +60,21 @@ fn older_outputs_stay_when_the_input_is_damaged() {
     assert_eq!(everything_in(folder.path()), ["a.glb", "m.map"]);
 }
 
-/// What cuts, repeats and flips of bytes make of a good map is built or refused, but never a panic or a hang.
 #[test]
-fn random_damage_is_built_or_refused() {
-    let whole = std::fs::read(Path::new(ROOT).join("import/tests/damaged/whole.map")).expect("the undamaged map");
+fn maps_damaged_at_random_are_built_or_refused() {
+    damage_at_random("import/tests/damaged/whole.map", "m.map", b"{}()\"0-9.e \n");
+}
+
+#[test]
+fn trees_damaged_at_random_are_built_or_refused() {
+    damage_at_random("examples/csg/clamp.csg", "m.csg", b"{}()[],;=%#*!0-9.e \n");
+}
+
+/// What cuts, repeats and flips of bytes make of a good file is built or refused, but never a panic or a hang.
+fn damage_at_random(whole: &str, name: &str, bytes: &[u8]) {
+    let whole = std::fs::read(Path::new(ROOT).join(whole)).expect("the undamaged file");
     let folder = folder();
-    let input = folder.path().join("m.map");
+    let input = folder.path().join(name);
     let seed = 0x5eed_u64;
     println!("seed {seed}");
     let mut state = seed;
@@ -79,7 +88,7 @@ fn random_damage_is_built_or_refused() {
             let place = below(text.len());
             match below(3) {
                 0 => text.truncate(place.max(1)),
-                1 => text[place] = b"{}()\"0-9.e \n"[below(12)],
+                1 => text[place] = bytes[below(bytes.len())],
                 _ => text.extend_from_slice(&whole[place.min(whole.len() - 1)..]),
             }
         }
@@ -87,7 +96,7 @@ fn random_damage_is_built_or_refused() {
         let run = planecut(["info".as_ref(), input.as_os_str()]);
         match run.status {
             0 => assert!(serde_json::from_slice::<serde_json::Value>(&run.stdout).is_ok(), "round {round}"),
-            _ => run.expect_error(2, "m.map"),
+            _ => run.expect_error(2, name),
         }
     }
 }

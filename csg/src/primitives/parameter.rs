@@ -1,6 +1,6 @@
 //! Which parameters are accepted.
 
-use std::fmt::Display;
+use std::fmt::{self, Display, Formatter};
 
 use planecut_kernel::{DVec2, DVec3};
 
@@ -18,9 +18,22 @@ pub(crate) fn refuse(parameter: &'static str, found: &dyn Display, expected: &dy
     ShapeError::Parameter { parameter, found: found.to_string(), expected: expected.to_string() }
 }
 
+/// A number in few digits, however large.
+struct Shown(f64);
+
+impl Display for Shown {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        if (1e-5..1e16).contains(&self.0.abs()) || self.0 == 0.0 {
+            write!(f, "{}", self.0)
+        } else {
+            write!(f, "{:e}", self.0)
+        }
+    }
+}
+
 /// A length above 0.
 pub(crate) fn positive(parameter: &'static str, value: f64) -> Result<f64, ShapeError> {
-    if value > 0.0 { length(parameter, value) } else { Err(refuse(parameter, &value, &"a number above 0")) }
+    if value > 0.0 { length(parameter, value) } else { Err(refuse(parameter, &Shown(value), &"a number above 0")) }
 }
 
 /// A length of 0 or above.
@@ -28,12 +41,12 @@ pub(crate) fn not_negative(parameter: &'static str, value: f64) -> Result<f64, S
     if value == 0.0 {
         return Ok(0.0);
     }
-    if value > 0.0 { length(parameter, value) } else { Err(refuse(parameter, &value, &"a number not below 0")) }
+    if value > 0.0 { length(parameter, value) } else { Err(refuse(parameter, &Shown(value), &"a number not below 0")) }
 }
 
 fn length(parameter: &'static str, value: f64) -> Result<f64, ShapeError> {
     let is_accepted = (MAX_LENGTH.recip()..=MAX_LENGTH).contains(&value);
-    if is_accepted { Ok(value) } else { Err(refuse(parameter, &value, &"a number from 1e-25 to 1e25")) }
+    if is_accepted { Ok(value) } else { Err(refuse(parameter, &Shown(value), &"a number from 1e-25 to 1e25")) }
 }
 
 /// A coordinate, or a length of either sign.
@@ -42,7 +55,7 @@ pub(crate) fn coordinate(parameter: &'static str, value: f64) -> Result<f64, Sha
         return Err(refuse(parameter, &value, &"a finite number"));
     }
     if value.abs() > MAX_LENGTH {
-        return Err(refuse(parameter, &value, &"a number of a magnitude up to 1e25"));
+        return Err(refuse(parameter, &Shown(value), &"a number of a magnitude up to 1e25"));
     }
     Ok(if value.abs() < MAX_LENGTH.recip() { 0.0 } else { value })
 }
@@ -51,7 +64,7 @@ pub(crate) fn coordinate(parameter: &'static str, value: f64) -> Result<f64, Sha
 pub(crate) fn angle(parameter: &'static str, value: f64) -> Result<f64, ShapeError> {
     let limit = 360.0 * f64::from(MAX_SEGMENTS);
     let expected = format!("a number of a magnitude up to {limit}");
-    if value.abs() <= limit { Ok(value) } else { Err(refuse(parameter, &value, &expected)) }
+    if value.abs() <= limit { Ok(value) } else { Err(refuse(parameter, &Shown(value), &expected)) }
 }
 
 pub(crate) fn point(parameter: &'static str, point: DVec3) -> Result<DVec3, ShapeError> {
