@@ -47,6 +47,7 @@ pub(super) struct FaceWorker<'a> {
     restriction: Restriction,
     bodies: Vec<usize>,
     leaves: Vec<u32>,
+    others: Vec<Reaching>,
     covering: Vec<Reaching>,
     open: Vec<Reaching>,
     /// Bodies that hold both sides of all of the region.
@@ -67,6 +68,7 @@ impl<'a> FaceWorker<'a> {
             restriction: Restriction::default(),
             bodies: Vec::new(),
             leaves: Vec::new(),
+            others: Vec::new(),
             covering: Vec::new(),
             open: Vec::new(),
             holding: Vec::new(),
@@ -177,10 +179,15 @@ impl<'a> FaceWorker<'a> {
         self.covering.clear();
         self.open.clear();
         self.holding.clear();
-        let others = (0..self.bodies.len()).filter(|leaf| *leaf != own.leaf && self.restriction.matters(*leaf));
-        let others: Vec<Reaching> = others.map(|leaf| self.reaching(leaf, face)).collect();
-        let coplanar = others.iter().filter(|other| other.contact != Contact::Across).count();
-        for reaching in others {
+        self.others.clear();
+        for leaf in 0..self.bodies.len() {
+            if leaf != own.leaf && self.restriction.matters(leaf) {
+                self.others.push(self.reaching(leaf, face));
+            }
+        }
+        let coplanar = self.others.iter().filter(|other| other.contact != Contact::Across).count();
+        for k in 0..self.others.len() {
+            let reaching = self.others[k];
             match self.role(own, &reaching, coplanar) {
                 Role::None => {}
                 Role::Covers => self.covering.push(reaching),
