@@ -39,7 +39,7 @@ pub mod sign;
 pub use glam::{DMat3, DVec2, DVec3, DVec4};
 pub use half_space::{HalfSpace, HalfSpaceError, MAX_NORMAL, MAX_NORMAL_RATIO, MAX_OFFSET_RATIO, MIN_NORMAL};
 pub use hull::{HullError, MAX_COORDINATE, hull};
-pub use meet::{compare_exactly, line_coordinates, line_direction, meet, planar_turn};
+pub use meet::{compare_exactly, direction_across, line_coordinates, line_direction, meet, planar_turn};
 pub use polytope::{
     AddPlaneResult, BoundaryLine, BoundingBox, ClippedLine, ClosestFeature, ClosestPoint, DEFAULT_EPSILON, Edge,
     EdgeIdx, EdgeKind, Face, FacePolygon, IncrementalPolytope, InscribedBall, InteriorPoint, InvariantError, Location,

@@ -203,8 +203,26 @@ pub fn line_direction(a: &Row, b: &Row) -> DVec3 {
 /// The same, each component accurate to a few roundings of its own.
 #[must_use]
 pub(crate) fn direction(a: &Row, b: &Row) -> DVec3 {
-    let [a, b] = [a, b].map(|row| big_integers(*row.coefficients()));
-    let cross = big_cross(&a, &b);
+    rounded_direction(big_cross_of([a, b]))
+}
+
+/// The unit direction of `(nₐ × n_b) × (n_c × n_d)`, each component accurate to a few roundings of its own, for pairs `a, b` and `c, d`;
+/// zero where it is. It is perpendicular to both lines, however small the angle between them.
+#[must_use]
+pub fn direction_across([first, second]: [[&Row; 2]; 2]) -> DVec3 {
+    let vector = |pair| {
+        let [x, y, z] = big_cross_of(pair);
+        [x, y, z, IBig::ZERO]
+    };
+    rounded_direction(big_cross(&vector(first), &vector(second)))
+}
+
+fn big_cross_of(pair: [&Row; 2]) -> [IBig; 3] {
+    let [a, b] = pair.map(|row| big_integers(*row.coefficients()));
+    big_cross(&a, &b)
+}
+
+fn rounded_direction(cross: [IBig; 3]) -> DVec3 {
     // Keep the leading 100 bits of the longest component: what is lost lies far below its last place.
     let surplus = cross.iter().map(|v| v.bit_len()).max().unwrap_or(0).saturating_sub(100);
     let [x, y, z] = cross.map(|v| i128::try_from(v >> surplus).unwrap_or_default() as f64);

@@ -6,7 +6,7 @@
 //! decided by exact signs of the normals.
 
 use planecut_kernel::sign::{Row, Sign, orient3};
-use planecut_kernel::{DVec3, HalfSpace, line_direction};
+use planecut_kernel::{DVec3, HalfSpace, direction_across, line_direction};
 
 use super::convex::{Convex, Edge, is_union, parts_of_union, wide_faces};
 use crate::brush::{Brush, MaterialId};
@@ -113,9 +113,18 @@ fn crosses(first: &Arc, second: &Arc) -> bool {
     back == from.flip() && orient3(c, d, b) == from
 }
 
+/// Directions farther apart than this by their sine give an accurate normal of both.
+const WELL_APART: f64 = 0.125;
+
 /// The plane along both edges.
+///
+/// Where edges are parallel but for rounding, arcs may lie on each other and cross anywhere: the normal must be that of the arcs
+/// as they are, for a plane that is turned about such edges cuts into the sum.
 fn across(first: &Arc, second: &Arc) -> Result<Option<HalfSpace>, ShapeError> {
-    let normal = first.direction.cross(second.direction);
+    let mut normal = first.direction.cross(second.direction);
+    if normal.length_squared() < WELL_APART * WELL_APART {
+        normal = direction_across([first, second].map(|arc| arc.rows.each_ref()));
+    }
     if normal == DVec3::ZERO {
         return Ok(None);
     }

@@ -114,6 +114,32 @@ fn a_sphere_rounds_a_box() {
     assert_eq!((twice.faces, twice.corners), (once.faces, once.corners));
 }
 
+/// Edges that are parallel but for rounding: their Gaussian arcs lie on each other, and cross anywhere.
+#[test]
+fn balls_of_rings_with_parallel_edges() {
+    sweep(40, |rng| {
+        let ball = |rng: &mut Rng| {
+            let (segments, rings) = (3 + rng.below(20), 2 + rng.below(9));
+            let radius = rng.real(0.4, 2.0);
+            let angle = |k: usize, of: usize| (k as f64 + 0.5) / of as f64 * std::f64::consts::PI;
+            let point = |ring: usize, k: usize| {
+                let (height, turn) =
+                    (angle(ring, rings), 2.0 * angle(k, segments) - std::f64::consts::PI / segments as f64);
+                DVec3::new(height.sin() * turn.cos(), height.sin() * turn.sin(), height.cos()) * radius
+            };
+            let points = (0..rings).flat_map(|ring| (0..segments).map(move |k| point(ring, k)));
+            let points: Vec<DVec3> = points.collect();
+            (Tree::from(hull_of_points(&points, M).expect("a body")), points)
+        };
+        let ((a, first), (b, second)) = (ball(rng), ball(rng));
+        let sum = minkowski(&a, &b, M).expect("a sum");
+        let all: Vec<DVec3> = first.iter().flat_map(|p| second.iter().map(move |q| *p + *q)).collect();
+        let expected = figures(&hull_of_points(&all, M).expect("a hull").into());
+        assert_near(figures(&sum).volume, expected.volume, 1e-12, "volume");
+        check_reach(&a, &b, &sum, rng);
+    });
+}
+
 #[test]
 fn unions_and_cells_are_summed_part_by_part() {
     let l = block(DVec3::ZERO, DVec3::new(3.0, 1.0, 1.0)) | block(DVec3::ZERO, DVec3::new(1.0, 3.0, 1.0));

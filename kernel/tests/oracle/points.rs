@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use dashu_ratio::RBig;
 use planecut_kernel::sign::{Row, Sign};
-use planecut_kernel::{compare_exactly, line_coordinates, line_direction, planar_turn};
+use planecut_kernel::{compare_exactly, direction_across, line_coordinates, line_direction, planar_turn};
 use planecut_oracle::exact::{Coefficients, cross, dot, integer_row, normal};
 use planecut_oracle::kernel_calls::half_space;
 use planecut_oracle::random::Rng;
@@ -176,4 +176,37 @@ fn coordinates_of_lines_are_the_nearest_numbers() {
         }
     }
     assert!(lines > DRAWS, "{lines}");
+}
+
+#[test]
+fn directions_across_two_lines_are_accurate_however_near_these_are() {
+    let mut rng = Rng::new(first_seed());
+    let mut near = 0;
+    for k in 0..DRAWS {
+        let base = [(); 4].map(|()| [(); 4].map(|()| rng.float(-1.0, 1.0)));
+        // the second pair is any, or the first but for roundings
+        let mut wobbled = |plane: Coefficients| plane.map(|v| v * (1.0 + f64::EPSILON * rng.whole(-4, 4)));
+        let planes = if k % 2 == 0 { base } else { [base[0], base[1], wobbled(base[0]), wobbled(base[1])] };
+        let [a, b, c, d] = planes.map(|plane| Row::new(&half_space(plane)));
+        let exact = planes.map(integer_row);
+        let [first, second] = [[0, 1], [2, 3]].map(|pair| {
+            let [p, q] = pair.map(|k| normal(&exact[k]));
+            cross(&p, &q)
+        });
+        let truth = cross(&first, &second);
+        let found = direction_across([[&a, &b], [&c, &d]]).to_array();
+        if truth.iter().all(|v| *v == 0.into()) {
+            assert_eq!(found, [0.0; 3]);
+            continue;
+        }
+        near += usize::from(k % 2 == 1);
+        let axis = (0..3).max_by(|i, j| found[*i].abs().total_cmp(&found[*j].abs())).expect("three");
+        assert_eq!(found[axis] > 0.0, truth[axis] > 0.into(), "{planes:?}");
+        for other in 0..3 {
+            let expected = (RBig::from(truth[other].clone()) / RBig::from(truth[axis].clone())).to_f64().value();
+            let error = (found[other] / found[axis] - expected).abs();
+            assert!(error <= 4.0 * f64::EPSILON, "{planes:?}: {found:?}, coordinate {other} of {axis}: {expected}");
+        }
+    }
+    assert!(near > DRAWS / 4, "{near}");
 }
