@@ -3,19 +3,39 @@
 use planecut_kernel::DVec2;
 use robust::{Coord, orient2d};
 
-use super::Outline;
+use super::{Outline, largest_coordinate};
 
 impl Outline {
-    /// The convex hull of all operands together, its corners those of the operands, without any on a straight line; nothing
-    /// where there is none.
+    /// The convex hull of all operands together, its corners those of the operands, without any on a straight line but for rounding;
+    /// nothing where there is none.
     #[must_use]
     pub fn hull(operands: &[Self]) -> Self {
         let points: Vec<DVec2> = operands.iter().flat_map(Self::loops).flatten().copied().collect();
-        let corners: Vec<DVec2> = corners_of_hull(&points).into_iter().map(|k| points[k]).collect();
+        let mut corners: Vec<DVec2> = corners_of_hull(&points).into_iter().map(|k| points[k]).collect();
+        straighten(&mut corners);
         if corners.len() < 3 {
             return Self::empty();
         }
         Self { shapes: vec![vec![corners]] }
+    }
+}
+
+/// Corners nearer than this part of the size to the line of their neighbours are on it: crossings of operands' sides are rounded.
+const NOISE: f64 = 1e-13;
+
+/// Leaves out the corners of a convex polygon that are on a straight line but for rounding.
+fn straighten(corners: &mut Vec<DVec2>) {
+    let least = NOISE * largest_coordinate(&*corners);
+    let mut k = 0;
+    while k < corners.len() && corners.len() > 3 {
+        let n = corners.len();
+        let (before, at, after) = (corners[(k + n - 1) % n], corners[k], corners[(k + 1) % n]);
+        let chord = after - before;
+        if chord.perp_dot(at - before).abs() <= least * chord.length() {
+            corners.remove(k);
+        } else {
+            k += 1;
+        }
     }
 }
 

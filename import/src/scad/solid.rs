@@ -1,7 +1,7 @@
 //! Solids from solids.
 
 use planecut_csg::outline::Outline;
-use planecut_csg::{MaterialId, Model, Operation, ShapeError, Transform, Tree, evaluate, shaping};
+use planecut_csg::{MaterialId, Model, Operation, ShapeError, Solid, Transform, Tree, evaluate, shaping};
 use planecut_kernel::{DVec2, DVec3};
 
 use super::arguments::Arguments;
@@ -40,9 +40,17 @@ pub(super) fn combine(
     Ok(tree.into())
 }
 
+/// The sum of all operands that are not empty.
 fn minkowski(mut operands: impl Iterator<Item = Tree>, material: MaterialId) -> Result<Tree, ShapeError> {
     let first = operands.next().unwrap_or_default();
-    operands.try_fold(first, |sum, operand| shaping::minkowski(&sum, &operand, material))
+    operands.try_fold(first, |so_far, operand| {
+        let sum = shaping::minkowski(&so_far, &operand, material)?;
+        if !sum.brushes().is_empty() {
+            return Ok(sum);
+        }
+        let is_empty = |tree: &Tree| Solid::from_tree(tree).cells().next().is_none();
+        Ok(if is_empty(&operand) { so_far } else { operand })
+    })
 }
 
 pub(super) fn moved(body: Body, map: &Transform) -> Result<Body, Problem> {

@@ -128,6 +128,17 @@ fn offsets_hulls_and_sums_of_outlines() {
     assert_volume("linear_extrude(height = 1) minkowski() { square([4, 2]); square([1, 3]); }", 25.0);
 }
 
+/// A twist shows each corner on a straight line, even one that is there by rounding alone.
+#[test]
+fn hulls_of_cut_outlines_have_no_corners_by_rounding() {
+    let triangle = "polygon([[1.538, 0], [-1.873, 3.244], [-1.751, -3.033]]);";
+    let hexagon =
+        "polygon([[1.042, 0], [0.564, 0.977], [-1.066, 1.846], [-3.216, 0], [-0.892, -1.545], [0.978, -1.694]]);";
+    let twisted = |outline: &str| volume(&format!("linear_extrude(height = 5.069, twist = -90, slices = 4) {outline}"));
+    let tips = twisted(&format!("hull() {{ difference() {{ {triangle} {hexagon} }} }}"));
+    assert!((tips - twisted(triangle)).abs() < 1e-9 * tips, "{tips}");
+}
+
 #[test]
 fn hulls_sums_sections_and_shadows_of_solids() {
     assert_volume(
@@ -135,6 +146,9 @@ fn hulls_sums_sections_and_shadows_of_solids() {
         volume("hull() { cube([1, 1, 3]); cube([2, 2, 1]); }"),
     );
     assert_volume("minkowski() { cube([4, 2, 1]); cube([1, 3, 2]); }", 75.0);
+    let nothing = "intersection() { cube(1); multmatrix([[1,0,0,1],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) cube(1); }";
+    assert_volume(&format!("minkowski() {{ {nothing} cube([1, 3, 2]); }}"), 6.0);
+    assert_volume(&format!("minkowski() {{ cube([1, 3, 2]); {nothing} cube([1, 1, 1]); }}"), 2.0 * 4.0 * 3.0);
     assert_volume(
         "linear_extrude(height = 1) projection() multmatrix([[1,0,0,0],[0,1,0,0],[0,0,1,9],[0,0,0,1]]) cube([2, 3, 4]);",
         6.0,
