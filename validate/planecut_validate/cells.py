@@ -43,7 +43,8 @@ def examine(cells: list[Mesh]) -> CellReport:
     volumes = [c.volume() for c in cells]
     report.volume = float(sum(volumes))
     report.rounding = 2.0**-51 * np.abs(whole.vertices).max() * whole.area()
-    rounding = [2.0**-49 * np.abs(c.vertices).max() * c.area() for c in cells]
+    # by which rounded corners move it, and how far off the sum over triangles is; a needle has no area, but a length
+    rounding = [2.0**-49 * (np.abs(c.vertices).max() * c.area() + np.ptp(c.vertices, axis=0).max() ** 3) for c in cells]
     report.slivers = sum(abs(v) <= r for v, r in zip(volumes, rounding))
     report.faults += [f"cell {i}: volume {v!r}" for i, (v, r) in enumerate(zip(volumes, rounding)) if v < -r]
     planes = [_planes(cell, _FLAT * size) for cell in cells]
