@@ -1,6 +1,6 @@
 //! The convex hull of solids.
 
-use planecut_kernel::{DVec3, HalfSpace};
+use planecut_kernel::{DVec3, HalfSpace, HullError};
 
 use super::convex::{Convex, evaluated, is_union, parts_of_union, wide_faces};
 use crate::brush::{Brush, MaterialId};
@@ -18,8 +18,16 @@ use crate::tree::Tree;
 /// # Errors
 /// [`ShapeError::Unbounded`] where an operand is not bounded, [`ShapeError::Evaluate`] where one has no mesh.
 pub fn hull(operands: &[Tree], material: MaterialId) -> Result<Tree, ShapeError> {
+    hull_with_points(operands, &[], material)
+}
+
+/// The convex hull of operands and points together, as [`hull`]; empty where it has no interior.
+///
+/// # Errors
+/// As [`hull`], and [`ShapeError::Hull`] for a point whose coordinates are not accepted.
+pub fn hull_with_points(operands: &[Tree], points: &[DVec3], material: MaterialId) -> Result<Tree, ShapeError> {
     let mut bodies: Vec<(&Brush, Convex)> = Vec::new();
-    let mut corners: Vec<DVec3> = Vec::new();
+    let mut corners: Vec<DVec3> = points.to_vec();
     for operand in operands {
         if is_union(operand) {
             bodies.extend(parts_of_union(operand)?);
@@ -34,7 +42,10 @@ pub fn hull(operands: &[Tree], material: MaterialId) -> Result<Tree, ShapeError>
     if corners.is_empty() {
         return Ok(Tree::empty());
     }
-    let polytope = planecut_kernel::hull(&corners)?;
+    let polytope = match planecut_kernel::hull(&corners) {
+        Err(HullError::NoInterior { .. }) => return Ok(Tree::empty()),
+        other => other?,
+    };
     let given = Faces::of(operands);
     let faces = polytope.facets().into_iter().filter_map(|(plane, _)| polytope.plane(plane));
     let mut faces: Vec<HalfSpace> = faces.map(|face| given.same_or(face)).collect();

@@ -5,6 +5,6 @@ mod hull;
 mod minkowski;
 mod section;
 
-pub use hull::hull;
+pub use hull::{hull, hull_with_points};
 pub use minkowski::minkowski;
 pub use section::{project, slice};

@@ -226,11 +226,13 @@ impl<'s, 'a> Evaluator<'s, 'a> {
             self.warn(turn, "a matrix that is not finite: what it moves is left out");
             return Ok(None);
         }
+        let is_single = children.iter().flatten().count() == 1;
         let mut union = self.combine(turn, children, Combination::Union)?;
         match &mut union {
             Some(Geometry::Solid(body)) if matrix.flattens_solids() => {
                 self.warn(turn, "a matrix that flattens solids: what it moves is left out");
-                *body = Body::default();
+                let flattened = if is_single { std::mem::take(&mut body.flattened) } else { Vec::new() };
+                *body = Body { flattened, ..Body::default() };
             }
             Some(Geometry::Flat(outline)) if matrix.flattens_outlines() => {
                 self.warn(turn, "a matrix that flattens outlines: what it moves is left out");

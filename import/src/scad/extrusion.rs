@@ -33,7 +33,7 @@ pub(super) fn linear(turn: Turn<'_, '_>, outline: &Outline) -> Made {
     let tree = primitives::extrude(outline, &extrusion, turn.frame.material)?;
     let touches_itself =
         touches_in_plane(outline) || scale.min_element() == 0.0 && touches_on_top(outline, twist, scale);
-    Ok(Some(Geometry::Solid(Body { tree, touches_itself })))
+    Ok(Some(Geometry::Solid(Body { tree, touches_itself, ..Body::default() })))
 }
 
 /// Whether loops meet in a corner, so that an upright edge has four faces.
@@ -121,7 +121,7 @@ pub(super) fn rotational(evaluator: &mut Evaluator<'_, '_>, turn: Turn<'_, '_>, 
     let sense = if angle < 0.0 { -along } else { along };
     let map = Transform::scale(DVec3::new(along, sense, 1.0)).map_err(ShapeError::from)?;
     let touches_itself = touches_in_plane(&outline) || angle == 360.0 && touches_axis(&outline);
-    Ok(Some(Geometry::Solid(solid::moved(Body { tree, touches_itself }, &map)?)))
+    Ok(Some(Geometry::Solid(solid::moved(Body { tree, touches_itself, ..Body::default() }, &map)?)))
 }
 
 /// Whether a corner touches the axis between two that do not: turned around, there are two cones with one tip.

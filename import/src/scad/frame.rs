@@ -81,6 +81,11 @@ impl Frame {
         Transform::new(self.linear, self.translation).ok()
     }
 
+    /// Where a point is put, also where solids are flattened.
+    pub(super) fn flattened(&self, point: DVec3) -> DVec3 {
+        self.linear * point + self.translation
+    }
+
     /// Where outlines are put; `None` where they are flattened.
     pub(super) fn flat_map(&self) -> Option<FlatMap> {
         self.flat.is_invertible().then_some(self.flat)

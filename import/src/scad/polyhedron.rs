@@ -33,7 +33,7 @@ pub(super) fn body(node: &Node<'_>, material: MaterialId) -> Result<(Body, Optio
             let message =
                 solid.is_turned.then(|| "a polyhedron whose faces are all turned around is turned back".to_owned());
             let touches_itself = touches_itself(&points, &facets);
-            Ok((Body { tree: solid.into(), touches_itself }, message))
+            Ok((Body { tree: solid.into(), touches_itself, ..Body::default() }, message))
         }
         Err(PolyhedronError::NoVolume) => Ok((Body::default(), None)),
         Err(error) => Err(error.to_string()),

@@ -2,6 +2,7 @@
 
 use planecut_csg::outline::Outline;
 use planecut_csg::{ShapeError, Tree};
+use planecut_kernel::DVec3;
 
 use super::fragments::TooMany;
 
@@ -30,11 +31,13 @@ pub(super) struct Body {
     pub(super) tree: Tree,
     /// Whether its surface touches itself in an edge or a corner. OpenSCAD combines no such solid with others.
     pub(super) touches_itself: bool,
+    /// The corners of a single body that a matrix has flattened: a hull takes them.
+    pub(super) flattened: Vec<DVec3>,
 }
 
 impl From<Tree> for Body {
     fn from(tree: Tree) -> Self {
-        Self { tree, touches_itself: false }
+        Self { tree, ..Self::default() }
     }
 }
 

@@ -1,7 +1,7 @@
 //! Solids from solids.
 
 use planecut_csg::outline::Outline;
-use planecut_csg::{MaterialId, Model, Operation, ShapeError, Solid, Transform, Tree, evaluate, shaping};
+use planecut_csg::{Material, MaterialId, Model, Operation, ShapeError, Solid, Transform, Tree, evaluate, shaping};
 use planecut_kernel::{DVec2, DVec3};
 
 use super::arguments::Arguments;
@@ -20,6 +20,7 @@ pub(super) fn combine(
     if operands.len() == 1 && how != Combination::Hull {
         return Ok(operands.pop().flatten().unwrap_or_default());
     }
+    let flattened: Vec<DVec3> = operands.iter().flatten().flat_map(|body| body.flattened.iter().copied()).collect();
     let is_there = |body: &Option<Body>| body.as_ref().is_some_and(|body| !body.is_empty());
     match how {
         Combination::Intersection if !operands.iter().all(is_there) => return Ok(Body::default()),
@@ -34,7 +35,7 @@ pub(super) fn combine(
         Combination::Union => Tree::combine(Operation::Union, operands),
         Combination::Difference => Tree::combine(Operation::Difference, operands),
         Combination::Intersection => Tree::combine(Operation::Intersection, operands),
-        Combination::Hull => shaping::hull(&operands.collect::<Vec<_>>(), material)?,
+        Combination::Hull => shaping::hull_with_points(&operands.collect::<Vec<_>>(), &flattened, material)?,
         Combination::Minkowski => minkowski(operands, material)?,
     };
     Ok(tree.into())
@@ -51,6 +52,13 @@ fn minkowski(mut operands: impl Iterator<Item = Tree>, material: MaterialId) -> 
         let is_empty = |tree: &Tree| Solid::from_tree(tree).cells().next().is_none();
         Ok(if is_empty(&operand) { so_far } else { operand })
     })
+}
+
+/// The corners of a body.
+pub(super) fn corners(body: &Body) -> Result<Vec<DVec3>, Problem> {
+    let tree = body.tree.clone().with_material(MaterialId(0));
+    let model = Model { materials: vec![Material::default()], tree };
+    Ok(evaluate(&model).map_err(ShapeError::from)?.mesh.positions)
 }
 
 pub(super) fn moved(body: Body, map: &Transform) -> Result<Body, Problem> {
@@ -91,15 +99,12 @@ pub(super) fn resized(node: &Node<'_>, made: Option<Geometry>) -> Made {
     };
     match made {
         Some(Geometry::Flat(outline)) if !outline.is_empty() => {
-            let (min, max) = corners(outline.loops().flatten().map(|p| p.extend(0.0)));
+            let (min, max) = extent(outline.loops().flatten().map(|p| p.extend(0.0)));
             let factors = factors(max - min, wanted, follows).truncate();
             Ok(Some(Geometry::Flat(outline.transformed(glam::DMat2::from_diagonal(factors), DVec2::ZERO)?)))
         }
         Some(Geometry::Solid(body)) if !body.is_empty() => {
-            let any = vec![planecut_csg::Material::default()];
-            let model = Model { materials: any, tree: body.tree.clone().with_material(MaterialId(0)) };
-            let mesh = evaluate(&model).map_err(ShapeError::from)?.mesh;
-            let (min, max) = corners(mesh.positions.into_iter());
+            let (min, max) = extent(corners(&body)?.into_iter());
             let map = Transform::scale(factors(max - min, wanted, follows)).map_err(ShapeError::from)?;
             moved(body, &map).map(|body| Some(Geometry::Solid(body)))
         }
@@ -107,7 +112,7 @@ pub(super) fn resized(node: &Node<'_>, made: Option<Geometry>) -> Made {
     }
 }
 
-fn corners(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
+fn extent(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
     let nowhere = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     points.fold(nowhere, |(min, max), point| (min.min(point), max.max(point)))
 }

@@ -1,9 +1,10 @@
 //! A node whose turn it is, and where what it makes is put.
 
-use planecut_csg::{Outline, Tree};
+use planecut_csg::Outline;
+use planecut_kernel::MAX_COORDINATE;
 
 use super::frame::Frame;
-use super::problem::{Geometry, Made};
+use super::problem::{Body, Geometry, Made};
 use super::syntax::Node;
 use super::{flat, solid};
 
@@ -35,7 +36,13 @@ impl Turn<'_, '_> {
             },
             Some(Geometry::Solid(body)) => match self.frame.solid_map() {
                 Some(map) => solid::moved(body, &map).map(|body| Some(Geometry::Solid(body))),
-                None => Ok(Some(Tree::empty().into())),
+                None => {
+                    let corners = solid::corners(&body)?.into_iter().map(|corner| self.frame.flattened(corner));
+                    // of a map that is not finite either, there are none
+                    let flattened =
+                        corners.filter(|p| p.is_finite() && p.abs().max_element() < MAX_COORDINATE).collect();
+                    Ok(Some(Geometry::Solid(Body { flattened, ..Body::default() })))
+                }
             },
         }
     }

@@ -145,6 +145,15 @@ fn hulls_sums_sections_and_shadows_of_solids() {
         "hull() { cube([2, 2, 1]); cube([1, 1, 3]); }",
         volume("hull() { cube([1, 1, 3]); cube([2, 2, 1]); }"),
     );
+    // of a single body that is flattened a hull takes the corners
+    let flat = |what: &str| format!("multmatrix([[1,0,0,0],[0,1,0,0],[0,0,0,0],[0,0,0,1]]) {what}");
+    assert_volume(
+        &format!("hull() {{ {} cube([1, 1, 3]); }}", flat("cube([3, 3, 9]);")),
+        3.0 * (9.0 + 3.0 + 1.0) / 3.0,
+    );
+    assert_volume(&format!("hull() {{ {} cube([1, 1, 3]); }}", flat("union() { cube(3); cube(5); }")), 3.0);
+    assert_volume(&format!("union() {{ {} cube([1, 1, 3]); }}", flat("cube([3, 3, 9]);")), 3.0);
+    assert_volume(&format!("hull() {{ {} }}", flat("cube([3, 3, 9]);")), 0.0);
     assert_volume("minkowski() { cube([4, 2, 1]); cube([1, 3, 2]); }", 75.0);
     let nothing = "intersection() { cube(1); multmatrix([[1,0,0,1],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) cube(1); }";
     assert_volume(&format!("minkowski() {{ {nothing} cube([1, 3, 2]); }}"), 6.0);
