@@ -4,12 +4,13 @@
 //! end points: coplanar pieces merge, however they were cut. The maximal runs that survive are then cut at the ends of
 //! all runs on the line, so that faces meet without T-junctions.
 
-use planecut_kernel::sign::Sign;
+use planecut_kernel::sign::{Counts, Sign};
 
 use super::WeldError;
 use super::crossings::Passed;
 use super::lines::Line;
 use super::points::Points;
+use crate::parallel::map_chunks;
 use crate::plane_table::{PlaneId, PlaneTable};
 
 /// A directed piece of a line along which one region ends on one side: a boundary edge, or after cancelling a maximal run.
@@ -27,7 +28,7 @@ pub(super) struct Run {
 }
 
 /// What cancelling leaves.
-#[derive(Default)]
+#[derive(Debug, Default)]
 pub(super) struct Surviving {
     /// The runs that survive, ordered by line.
     pub(super) runs: Vec<Run>,
@@ -37,30 +38,116 @@ pub(super) struct Surviving {
     pub(super) passed: Vec<Passed>,
 }
 
-/// The surviving runs of all edges; `planes` are those of the regions.
-pub(super) fn surviving_runs(
+/// The elementary pieces of lines.
+#[derive(Debug, Default)]
+pub(super) struct Pieces {
+    /// Paired half-edges, ordered by line.
+    pub(super) pieces: Vec<HalfEdge>,
+    pub(super) slits: Vec<Run>,
+    pub(super) passed: Vec<Passed>,
+}
+
+/// What is asked along lines, and buffers for it.
+pub(super) struct LineWorker<'a> {
+    table: &'a PlaneTable,
+    points: &'a Points,
+    lines: &'a [Line],
+    /// The planes of the regions.
+    planes: &'a [PlaneId],
+    sweep: Sweep,
+    stops: Vec<u32>,
+    at_interval: Vec<(u32, u32)>,
+    around: Vec<u32>,
+}
+
+/// Cancels the edges on each line and cuts and pairs what is left; `edges` are listed by line in `by_line`.
+pub(super) fn pieces(
     table: &PlaneTable,
     points: &Points,
     lines: &[Line],
     planes: &[PlaneId],
-    edges: &mut [Run],
-) -> Result<Surviving, WeldError> {
-    edges.sort_unstable_by_key(|edge| (edge.line, edge.region, edge.from, edge.to));
-    let mut out = Surviving { runs: Vec::with_capacity(edges.len()), ..Surviving::default() };
-    let mut sweep = Sweep::default();
-    for of_line in edges.chunk_by(|a, b| a.line == b.line) {
-        let line = &lines[of_line[0].line as usize];
-        sweep.cancelled.clear();
-        for group in of_line.chunk_by(|a, b| a.region == b.region) {
+    edges: &[Run],
+    (starts, by_line): &(Vec<u32>, Vec<u32>),
+) -> Result<(Pieces, Counts), WeldError> {
+    let numbers: Vec<u32> = (0..lines.len() as u32).collect();
+    let (parts, counts) = map_chunks(&numbers, 256, |numbers| -> Result<Pieces, WeldError> {
+        let mut worker = LineWorker::new(table, points, lines, planes);
+        let (mut surviving, mut group) = (Surviving::default(), Vec::new());
+        let mut pieces = Vec::with_capacity(numbers.len() * 5);
+        for line in numbers {
+            let members = starts[*line as usize] as usize..starts[*line as usize + 1] as usize;
+            group.clear();
+            group.extend(by_line[members].iter().map(|k| edges[*k as usize]));
+            surviving.runs.clear();
+            worker.cancel(&mut group, &mut surviving)?;
+            worker.cut(&surviving.runs, &mut pieces)?;
+        }
+        Ok(Pieces { pieces, slits: surviving.slits, passed: surviving.passed })
+    });
+    let mut all = Pieces { pieces: Vec::with_capacity(edges.len() + edges.len() / 8), ..Pieces::default() };
+    for part in parts {
+        let Pieces { pieces, slits, passed } = part?;
+        let base = all.pieces.len() as u32;
+        all.pieces.extend(pieces.into_iter().map(|piece| HalfEdge { twin: piece.twin + base, ..piece }));
+        all.slits.extend(slits);
+        all.passed.extend(passed);
+    }
+    Ok((all, counts))
+}
+
+impl<'a> LineWorker<'a> {
+    pub(super) fn new(table: &'a PlaneTable, points: &'a Points, lines: &'a [Line], planes: &'a [PlaneId]) -> Self {
+        let (stops, at_interval, around) = (Vec::new(), Vec::new(), Vec::new());
+        Self { table, points, lines, planes, sweep: Sweep::default(), stops, at_interval, around }
+    }
+
+    /// Adds what survives of the edges of one line.
+    pub(super) fn cancel(&mut self, edges: &mut [Run], out: &mut Surviving) -> Result<(), WeldError> {
+        let Some(first) = edges.first() else { return Ok(()) };
+        let line = &self.lines[first.line as usize];
+        edges.sort_unstable_by_key(|edge| (edge.region, edge.from, edge.to));
+        self.sweep.cancelled.clear();
+        for group in edges.chunk_by(|a, b| a.region == b.region) {
             if let [edge] = group {
                 out.runs.push(*edge);
             } else {
-                sweep.run_group(table, points, line, group, &mut out)?;
+                self.sweep.run_group(self.table, self.points, line, group, out)?;
             }
         }
-        sweep.find_slits(table, points, line, planes, &mut out.slits);
+        self.sweep.find_slits(self.table, self.points, line, self.planes, &mut out.slits);
+        Ok(())
     }
-    Ok(out)
+
+    /// Cuts the runs of one line at the ends of all of them, and pairs opposite pieces.
+    ///
+    /// Where more than two pieces share an interval, faces are sorted around the line and those two are paired that bound
+    /// one wedge of solid.
+    pub(super) fn cut(&mut self, runs: &[Run], out: &mut Vec<HalfEdge>) -> Result<(), WeldError> {
+        let Some(first) = runs.first() else { return Ok(()) };
+        let base = out.len() as u32;
+        if let [a, b] = runs
+            && (a.from, a.to) == (b.to, b.from)
+        {
+            out.extend([HalfEdge::of(a, base + 1), HalfEdge::of(b, base)]);
+            return Ok(());
+        }
+        let line = &self.lines[first.line as usize];
+        self.stops.clear();
+        self.stops.extend(runs.iter().flat_map(|run| [run.from, run.to]));
+        sort_along(self.table, self.points, line, &mut self.stops);
+        self.at_interval.clear();
+        for run in runs {
+            let ends = [run.from, run.to].map(|point| place(self.table, self.points, line, &self.stops, point));
+            cut_run(run, ends, &self.stops, out, &mut self.at_interval);
+        }
+        self.at_interval.sort_unstable();
+        for interval in self.at_interval.chunk_by(|a, b| a.0 == b.0) {
+            self.around.clear();
+            self.around.extend(interval.iter().map(|(_, k)| *k));
+            pair_around(self.table, line, self.planes, &mut self.around, out)?;
+        }
+        Ok(())
+    }
 }
 
 /// Buffers of the sweep along one line.
@@ -184,42 +271,51 @@ pub(super) struct HalfEdge {
 /// No half-edge.
 pub(super) const UNPAIRED: u32 = u32::MAX;
 
-/// Cuts the runs of each line at the ends of all of them and at `pinches` (line, point), and pairs opposite pieces.
-///
-/// Where more than two pieces share an interval, faces are sorted around the line and those two are paired that bound one
-/// wedge of solid.
-pub(super) fn half_edges(
+impl HalfEdge {
+    fn of(run: &Run, twin: u32) -> Self {
+        let Run { line, region, edge, from, to, forward } = *run;
+        Self { region, line, edge, from, to, forward, twin }
+    }
+}
+
+/// Cuts half-edges, ordered by line, at further points of their lines, given by line. Pairs stay paired: what bounds one
+/// wedge of solid does so on either side of a cut.
+pub(super) fn cut_further(
     table: &PlaneTable,
     points: &Points,
     lines: &[Line],
-    planes: &[PlaneId],
-    runs: &[Run],
-    pinches: &[(u32, u32)],
-) -> Result<Vec<HalfEdge>, WeldError> {
-    let mut out: Vec<HalfEdge> = Vec::with_capacity(runs.len() * 2);
-    let mut pinches = pinches.iter().copied().peekable();
+    cuts: &[(u32, u32)],
+    pieces: &mut Vec<HalfEdge>,
+) {
     let mut stops: Vec<u32> = Vec::new();
-    let mut at_interval: Vec<(u32, u32)> = Vec::new();
-    for group in runs.chunk_by(|a, b| a.line == b.line) {
-        let number = group[0].line;
+    let by_line = pieces.len();
+    for group in cuts.chunk_by(|a, b| a.0 == b.0) {
+        let number = group[0].0;
         let line = &lines[number as usize];
         stops.clear();
-        stops.extend(group.iter().flat_map(|run| [run.from, run.to]));
-        while let Some((_, point)) = pinches.next_if(|(pinched, _)| *pinched <= number) {
-            stops.push(point);
-        }
+        stops.extend(group.iter().map(|(_, point)| *point));
         sort_along(table, points, line, &mut stops);
-        at_interval.clear();
-        for run in group {
-            let ends = [run.from, run.to].map(|point| place(table, points, line, &stops, point));
-            cut_run(run, ends, &stops, &mut out, &mut at_interval);
-        }
-        at_interval.sort_unstable();
-        for interval in at_interval.chunk_by(|a, b| a.0 == b.0) {
-            pair_around(table, line, planes, interval, &mut out)?;
+        let start = pieces[..by_line].partition_point(|piece| piece.line < number);
+        let end = start + pieces[start..by_line].partition_point(|piece| piece.line == number);
+        for mut k in start..end {
+            if !pieces[k].forward {
+                continue;
+            }
+            for &stop in &stops {
+                let piece = pieces[k];
+                let is_before = |p: u32, q: u32| line.compare(table, points, p, q).is_lt();
+                if !is_before(piece.from, stop) || !is_before(stop, piece.to) {
+                    continue;
+                }
+                let (twin, rest) = (pieces[piece.twin as usize], pieces.len() as u32);
+                pieces[k] = HalfEdge { to: stop, twin: rest + 1, ..piece };
+                pieces[piece.twin as usize] = HalfEdge { to: stop, twin: rest, ..twin };
+                pieces.push(HalfEdge { from: stop, ..piece });
+                pieces.push(HalfEdge { from: stop, twin: k as u32, ..twin });
+                k = rest as usize;
+            }
         }
     }
-    Ok(out)
 }
 
 /// Cuts one run at the stops within it; notes the interval of each piece.
@@ -228,15 +324,7 @@ fn cut_run(run: &Run, [a, b]: [usize; 2], stops: &[u32], out: &mut Vec<HalfEdge>
         let (low, high) = (stops[interval], stops[interval + 1]);
         let (from, to) = if run.forward { (low, high) } else { (high, low) };
         at_interval.push((interval as u32, out.len() as u32));
-        out.push(HalfEdge {
-            region: run.region,
-            line: run.line,
-            edge: run.edge,
-            from,
-            to,
-            forward: run.forward,
-            twin: UNPAIRED,
-        });
+        out.push(HalfEdge { from, to, ..HalfEdge::of(run, UNPAIRED) });
     }
 }
 
@@ -245,17 +333,16 @@ fn pair_around(
     table: &PlaneTable,
     line: &Line,
     planes: &[PlaneId],
-    interval: &[(u32, u32)],
+    around: &mut [u32],
     out: &mut [HalfEdge],
 ) -> Result<(), WeldError> {
-    let forward = interval.iter().filter(|(_, k)| out[*k as usize].forward).count();
-    if 2 * forward != interval.len() {
-        let piece = &out[interval[0].1 as usize];
+    let forward = around.iter().filter(|k| out[**k as usize].forward).count();
+    if 2 * forward != around.len() {
+        let piece = &out[around[0] as usize];
         return Err(WeldError::Open { from: piece.from, to: piece.to });
     }
-    let mut around: Vec<u32> = interval.iter().map(|(_, k)| *k).collect();
     if around.len() > 2 {
-        sort_around(table, line, planes, out, &mut around);
+        sort_around(table, line, planes, out, around);
     }
     // Seen along the line, solid lies counter-clockwise of a face whose edge points back, up to one that points along. Where
     // two that follow each other point the same way, a face between them lies on both sides of the line, uncut; what is on
@@ -263,7 +350,7 @@ fn pair_around(
     let points_along = |k: usize| out[around[k % around.len()] as usize].forward;
     let gap = (1..=around.len()).find(|k| points_along(k - 1) == points_along(*k));
     let start = gap.or_else(|| (0..around.len()).find(|k| !points_along(*k))).unwrap_or(0);
-    around.rotate_left(start % interval.len());
+    around.rotate_left(start % around.len());
     for pair in around.chunks(2) {
         let &[a, b] = pair else { continue };
         if out[a as usize].forward == out[b as usize].forward {

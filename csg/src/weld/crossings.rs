@@ -3,7 +3,10 @@
 
 use planecut_kernel::sign::Sign;
 
-use super::cancel::{Run, sort_along};
+use rustc_hash::FxHashMap;
+
+use super::WeldError;
+use super::cancel::{HalfEdge, LineWorker, Run, Surviving, sort_along};
 use super::lines::Line;
 use super::points::Points;
 use crate::plane_table::{PlaneId, PlaneTable};
@@ -11,17 +14,52 @@ use crate::plane_table::{PlaneId, PlaneTable};
 /// A point inside a run of a region, at which edges that make it up end: region, point, line.
 pub(super) type Passed = (u32, u32, u32);
 
+/// Whether runs of one region cross in a point that several of them pass.
+pub(super) fn any(passed: &[Passed]) -> bool {
+    let mut at_point: FxHashMap<(u32, u32), u32> = FxHashMap::default();
+    passed.iter().any(|(region, point, line)| *at_point.entry((*region, *point)).or_insert(*line) != *line)
+}
+
+/// The elementary pieces of all lines, where something crosses.
+pub(super) fn pieces(
+    table: &PlaneTable,
+    points: &mut Points,
+    lines: &[Line],
+    planes: &[PlaneId],
+    edges: &[Run],
+    (starts, by_line): &(Vec<u32>, Vec<u32>),
+) -> Result<Vec<HalfEdge>, WeldError> {
+    let mut surviving = Surviving::default();
+    let mut worker = LineWorker::new(table, points, lines, planes);
+    for ends in starts.windows(2) {
+        let members = &by_line[ends[0] as usize..ends[1] as usize];
+        let mut group: Vec<Run> = members.iter().map(|k| edges[*k as usize]).collect();
+        worker.cancel(&mut group, &mut surviving)?;
+    }
+    let Surviving { runs, slits, passed } = surviving;
+    let runs = cut_runs(table, points, lines, passed, runs);
+    let known = points.planes.len();
+    let mut runs = add_slits(table, points, planes, slits, runs);
+    if points.planes.len() > known {
+        // the order of the numbers is that of the places
+        let number = points.renumber(table);
+        for run in &mut runs {
+            (run.from, run.to) = (number[run.from as usize], number[run.to as usize]);
+        }
+    }
+    let mut worker = LineWorker::new(table, points, lines, planes);
+    let mut pieces = Vec::new();
+    for group in runs.chunk_by(|a, b| a.line == b.line) {
+        worker.cut(group, &mut pieces)?;
+    }
+    Ok(pieces)
+}
+
 /// Cuts runs of one region where they cross: at the points that several of them pass.
 ///
 /// Each edge was cut there by what else goes through the point; since the region lies on the same side of the run before and
 /// after, nothing else tells of it.
-pub(super) fn cut_runs(
-    table: &PlaneTable,
-    points: &Points,
-    lines: &[Line],
-    mut passed: Vec<Passed>,
-    runs: Vec<Run>,
-) -> Vec<Run> {
+fn cut_runs(table: &PlaneTable, points: &Points, lines: &[Line], mut passed: Vec<Passed>, runs: Vec<Run>) -> Vec<Run> {
     passed.sort_unstable();
     let at_one_point = passed.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1));
     let crossing = at_one_point.filter(|passing| passing.first().map(|p| p.2) != passing.last().map(|p| p.2));
@@ -53,7 +91,7 @@ pub(super) fn cut_runs(
 }
 
 /// Cuts slits of one region where they cross, and adds both directions of each to the runs, which stay ordered by line.
-pub(super) fn add_slits(
+fn add_slits(
     table: &PlaneTable,
     points: &mut Points,
     planes: &[PlaneId],

@@ -2,12 +2,14 @@
 
 use std::cmp::Ordering;
 
-use planecut_kernel::sign::{Row, Sign, orient3};
+use planecut_kernel::sign::{Counts, Row, Sign, orient3};
 use planecut_kernel::{DVec3, HalfSpace, line_coordinates};
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::points::Points;
+use crate::distinct::distinct;
+use crate::parallel::{counted, map_chunks};
 use crate::plane_table::{PlaneId, PlaneTable};
 
 /// A geometric line, directed so that the component of its first axis is positive.
@@ -25,50 +27,48 @@ pub(super) struct Line {
 type Key = (usize, [u64; 4]);
 
 /// Numbers the lines of plane pairs; gives the lines and the number of each pair, in order.
-pub(super) fn identify(table: &PlaneTable, pairs: &[[PlaneId; 2]]) -> (Vec<Line>, Vec<u32>) {
-    let mut seen: FxHashMap<[u32; 2], u32> = FxHashMap::default();
-    let mut distinct: Vec<[PlaneId; 2]> = Vec::new();
-    let of_pair: Vec<u32> = pairs
-        .iter()
-        .map(|[a, b]| {
-            let key = [a.index().min(b.index()), a.index().max(b.index())];
-            *seen.entry(key).or_insert_with(|| {
-                distinct.push([a.unsided(), b.unsided()]);
-                distinct.len() as u32 - 1
-            })
-        })
-        .collect();
-    let (lines, of_distinct) = number(table, &distinct);
-    (lines, of_pair.into_iter().map(|k| of_distinct[k as usize]).collect())
+pub(super) fn identify(table: &PlaneTable, pairs: &[[PlaneId; 2]]) -> (Vec<Line>, Vec<u32>, Counts) {
+    let key = |[a, b]: &[PlaneId; 2]| {
+        let (a, b) = (u64::from(a.index()), u64::from(b.index()));
+        a.min(b) << 32 | a.max(b)
+    };
+    let keys: Vec<u64> = pairs.par_iter().with_min_len(1024).map(key).collect();
+    let (different, of_pair) = distinct(&keys);
+    let (lines, of_different, counts) = number(table, &different);
+    (lines, of_pair.into_par_iter().with_min_len(1024).map(|k| of_different[k as usize]).collect(), counts)
 }
 
-/// Numbers the lines of different pairs.
-fn number(table: &PlaneTable, distinct: &[[PlaneId; 2]]) -> (Vec<Line>, Vec<u32>) {
-    let found: Vec<(Line, Mark)> =
-        distinct.par_iter().with_min_len(256).map(|pair| line_and_mark(table, *pair)).collect();
-    let mut order: Vec<u32> = (0..found.len() as u32).collect();
-    let mark = |k: &u32| &found[*k as usize].1;
-    order.sort_unstable_by(|p, q| mark(p).compare(mark(q)).then(p.cmp(q)));
+/// Numbers the lines of different pairs, each two plane indices.
+fn number(table: &PlaneTable, pairs: &[u64]) -> (Vec<Line>, Vec<u32>, Counts) {
+    let line =
+        |pair: &u64| line_and_mark(table, [pair >> 32, *pair & 0xFFFF_FFFF].map(|p| PlaneId::of_index(p as u32)));
+    let (found, mut counts) = map_chunks(pairs, 256, |pairs| pairs.iter().map(line).collect::<Vec<_>>());
+    let found: Vec<(Line, Mark)> = found.into_iter().flatten().collect();
+    let mut order: Vec<(Mark, u32)> = found.iter().zip(0..).map(|((_, mark), k)| (*mark, k)).collect();
+    order.par_sort_unstable_by(|p, q| p.0.compare(&q.0).then(p.1.cmp(&q.1)));
     // of lines that may be equal, the first in the order given; most are alone
     let mut first: Vec<u32> = (0..found.len() as u32).collect();
     let axes = AxisPlanes::new();
-    let mut start = 0;
-    while start < order.len() {
-        let (mut end, mut reach) = (start + 1, mark(&order[start]).high());
-        while end < order.len()
-            && mark(&order[end]).axis == mark(&order[start]).axis
-            && mark(&order[end]).low() <= reach
-        {
-            reach = reach.max(mark(&order[end]).high());
-            end += 1;
+    let ((), joining) = counted(|| {
+        let mut some = Vec::new();
+        let mut start = 0;
+        while start < order.len() {
+            let (mut end, mut reach) = (start + 1, order[start].0.high());
+            while end < order.len() && order[end].0.axis == order[start].0.axis && order[end].0.low() <= reach {
+                reach = reach.max(order[end].0.high());
+                end += 1;
+            }
+            if end - start > 1 {
+                some.clear();
+                some.extend(order[start..end].iter().map(|(_, k)| *k));
+                some.sort_unstable();
+                join_equal(table, &axes, &found, &some, &mut first);
+            }
+            start = end;
         }
-        if end - start > 1 {
-            order[start..end].sort_unstable();
-            join_equal(table, &axes, &found, &order[start..end], &mut first);
-        }
-        start = end;
-    }
-    let mut lines: Vec<Line> = Vec::new();
+    });
+    counts += joining;
+    let mut lines: Vec<Line> = Vec::with_capacity(found.len());
     let mut number = vec![0; found.len()];
     for k in 0..found.len() {
         if first[k] == k as u32 {
@@ -78,7 +78,7 @@ fn number(table: &PlaneTable, distinct: &[[PlaneId; 2]]) -> (Vec<Line>, Vec<u32>
             number[k] = number[first[k] as usize];
         }
     }
-    (lines, number)
+    (lines, number, counts)
 }
 
 /// Finds which of some lines, given in ascending order, are equal: by their exact keys, confirmed by signs.
@@ -119,6 +119,13 @@ impl Mark {
 impl Line {
     /// Whether `n_a × n_b` of two planes through this line points along it.
     pub(super) fn is_along(&self, table: &PlaneTable, a: PlaneId, b: PlaneId) -> bool {
+        let [p, q] = self.planes;
+        if (a.index(), b.index()) == (p.index(), q.index()) {
+            return (a == p) == (b == q);
+        }
+        if (a.index(), b.index()) == (q.index(), p.index()) {
+            return (a == q) != (b == p);
+        }
         table.cross_component(a, b, self.axis) == Sign::Positive
     }
 

@@ -9,28 +9,23 @@ use super::WeldError;
 use super::cancel::HalfEdge;
 use crate::plane_table::{PlaneId, PlaneTable};
 
-/// The half-edge that follows each half-edge around its region; half-edges must be ordered by region.
-pub(super) fn following(table: &PlaneTable, planes: &[PlaneId], pieces: &[HalfEdge]) -> Result<Vec<u32>, WeldError> {
-    let mut following = vec![0; pieces.len()];
-    let mut outgoing: Vec<(u32, u32)> = Vec::new();
-    let mut base = 0;
-    for region in pieces.chunk_by(|a, b| a.region == b.region) {
-        let plane = planes[region[0].region as usize];
-        outgoing.clear();
-        outgoing.extend(region.iter().enumerate().map(|(k, piece)| (piece.from, (base + k) as u32)));
-        outgoing.sort_unstable();
-        for (k, piece) in region.iter().enumerate() {
-            let start = outgoing.partition_point(|(from, _)| *from < piece.to);
-            let candidates = outgoing[start..].iter().take_while(|(from, _)| *from == piece.to).map(|(_, next)| *next);
-            let next = candidates.reduce(|best, other| {
-                let earlier = is_earlier(table, plane, piece, &pieces[other as usize], &pieces[best as usize]);
-                if earlier { other } else { best }
-            });
-            following[base + k] = next.ok_or(WeldError::Open { from: piece.from, to: piece.to })?;
-        }
-        base += region.len();
+/// The half-edge that follows each half-edge around one region, numbered from `base`; `region` is sorted by place.
+pub(super) fn follow(
+    table: &PlaneTable,
+    plane: PlaneId,
+    region: &[HalfEdge],
+    base: u32,
+    following: &mut Vec<u32>,
+) -> Result<(), WeldError> {
+    for piece in region {
+        let start = region.partition_point(|other| other.from < piece.to);
+        let candidates = (start..region.len()).take_while(|k| region[*k].from == piece.to);
+        let next = candidates.reduce(|best, other| {
+            if is_earlier(table, plane, piece, &region[other], &region[best]) { other } else { best }
+        });
+        following.push(base + next.ok_or(WeldError::Open { from: piece.from, to: piece.to })? as u32);
     }
-    Ok(following)
+    Ok(())
 }
 
 /// Whether outgoing edge `a` comes before `b`, turning clockwise from the reversed `incoming` edge.

@@ -3,26 +3,40 @@
 use planecut_kernel::DVec3;
 
 use super::cancel::HalfEdge;
-use super::nest::FaceLoops;
+use super::nest::Faces;
 use crate::evaluate::SolidMeasures;
 use crate::sum::CompensatedSum;
 
-/// Volume, area, centroid and box by the divergence theorem, relative to the middle of the box so that little cancels.
-pub(super) fn measures(positions: &[DVec3], pieces: &[HalfEdge], faces: &[FaceLoops]) -> SolidMeasures {
-    let used = || pieces.iter().map(|piece| positions[piece.from as usize]);
-    if pieces.is_empty() {
-        return SolidMeasures::default();
-    }
-    let min = used().fold(DVec3::INFINITY, DVec3::min);
-    let max = used().fold(DVec3::NEG_INFINITY, DVec3::max);
-    let middle = 0.5 * (min + max);
-    let (mut six_volume, mut area, mut moment) =
-        (CompensatedSum::default(), CompensatedSum::default(), [CompensatedSum::default(); 3]);
-    for face in faces {
-        let origin = positions[pieces[face.loops[0][0] as usize].from as usize] - middle;
+/// The part of one face in the measures of a solid.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct FaceMeasures {
+    six_volume: f64,
+    area: f64,
+    moment: DVec3,
+}
+
+/// The box around some half-edges.
+pub(super) fn extent(positions: &[DVec3], pieces: &[HalfEdge]) -> (DVec3, DVec3) {
+    let none = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    pieces.iter().map(|piece| positions[piece.from as usize]).fold(none, |(min, max), at| (min.min(at), max.max(at)))
+}
+
+/// The parts of faces by the divergence theorem, relative to a point near the middle so that little cancels.
+pub(super) fn of_faces(
+    positions: &[DVec3],
+    pieces: &[HalfEdge],
+    faces: &Faces,
+    middle: DVec3,
+    out: &mut Vec<FaceMeasures>,
+) {
+    for face in faces.iter() {
+        let mut origin = None;
         let mut twice_area = DVec3::ZERO;
-        for piece in face.loops.iter().flatten().map(|k| &pieces[*k as usize]) {
+        let mut six_volume = CompensatedSum::default();
+        let mut moment = [CompensatedSum::default(); 3];
+        for piece in face.loops().flatten().map(|k| &pieces[*k as usize]) {
             let (p, q) = (positions[piece.from as usize] - middle, positions[piece.to as usize] - middle);
+            let origin = *origin.get_or_insert(p);
             let normal = (p - origin).cross(q - origin);
             let weight = origin.dot(normal);
             twice_area += normal;
@@ -32,9 +46,24 @@ pub(super) fn measures(positions: &[DVec3], pieces: &[HalfEdge], faces: &[FaceLo
                 moment[axis].add(vector[axis]);
             }
         }
-        area.add(0.5 * twice_area.length());
+        let moment = DVec3::from_array(moment.map(CompensatedSum::value));
+        out.push(FaceMeasures { six_volume: six_volume.value(), area: 0.5 * twice_area.length(), moment });
+    }
+}
+
+/// Volume, area and centroid of a solid within a box.
+pub(super) fn sum<'a>(faces: impl Iterator<Item = &'a FaceMeasures>, (min, max): (DVec3, DVec3)) -> SolidMeasures {
+    let (mut six_volume, mut area, mut moment) =
+        (CompensatedSum::default(), CompensatedSum::default(), [CompensatedSum::default(); 3]);
+    for face in faces {
+        six_volume.add(face.six_volume);
+        area.add(face.area);
+        for axis in 0..3 {
+            moment[axis].add(face.moment[axis]);
+        }
     }
     let volume = six_volume.value() / 6.0;
-    let moment = DVec3::new(moment[0].value(), moment[1].value(), moment[2].value());
-    SolidMeasures { volume, area: area.value(), centroid: middle + moment / (24.0 * volume), min, max }
+    let moment = DVec3::from_array(moment.map(CompensatedSum::value));
+    let centroid = 0.5 * (min + max) + moment / (24.0 * volume);
+    SolidMeasures { volume, area: area.value(), centroid, min, max }
 }

@@ -36,15 +36,17 @@ use crate::brush::{Material, MaterialId};
 use crate::caps::flip_caps;
 use crate::collapse::collapse_thin;
 use crate::contract::contract_short_edges;
+use crate::distinct::by_group;
 use crate::evaluate::SolidMeasures;
 use crate::mesh::{Mesh, MeshFace};
+use crate::parallel::map_chunks;
 use crate::plane_table::{PlaneId, PlaneTable};
 use crate::skin::BoundaryEdge;
-use cancel::{HalfEdge, Run, Surviving};
+use cancel::{HalfEdge, Pieces, Run};
 use manifold::Labels;
-use nest::{FaceLoops, Projection};
+use nest::{Faces, Nester, Projection};
 use points::Points;
-use triangulate::{Corner, Triangles, Turns};
+use triangulate::{Triangles, Triangulator};
 
 /// The boundary does not close: a bug in this crate, never the user's mistake. Points are numbers of the weld.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
@@ -107,27 +109,19 @@ pub(crate) fn weld(
     rank: &[u32],
     materials: &[Material],
 ) -> Result<Welded, WeldError> {
-    let before = Counts::now();
-    let (regions, numbers) = Regions::number(edges, rank);
-    let (mut points, runs, lines) = runs_of(table, edges, &regions.planes, &numbers)?;
-    let runs = points.renumber(table, runs);
-    let pinches = pinches::find(table, &points, &runs, regions.planes.len());
-    let pieces = cancel::half_edges(table, &points, &lines, &regions.planes, &runs, &pinches)?;
-    let pieces = order_by_region(&pieces);
-    let following = loops::following(table, &regions.planes, &pieces)?;
-    let faces = nest::faces(table, &regions.planes, &points, &pieces, &following)?;
-    let solid = measure::measures(&points.positions, &pieces, &faces);
-    let (vertex, point) = manifold::vertices(&pieces, &following);
-    let signs = Counts::since(before);
+    let (regions, of_edge) = Regions::number(edges, rank);
+    let (points, pieces, mut signs) = half_edges(table, edges, &regions, &of_edge)?;
+    let (nested, counted) = nest(table, &regions, &points, &pieces)?;
+    signs += counted;
+    let (vertex, point) = manifold::vertices(&pieces, &nested.following);
 
     let begin = Instant::now();
-    let mut mesh = Mesh {
-        positions: point.iter().map(|p| points.positions[*p as usize]).collect(),
-        materials: materials.to_vec(),
-        ..Mesh::default()
-    };
-    let mut labels = triangulate_faces(table, &regions, &points, &pieces, &faces, &vertex, &mut mesh);
+    let positions = point.par_iter().with_min_len(4096).map(|p| points.positions[*p as usize]).collect();
+    let mut mesh = Mesh { positions, materials: materials.to_vec(), ..Mesh::default() };
+    let (mut labels, counted) = triangulate_faces(table, &regions, &points, &pieces, &nested.faces, &vertex, &mut mesh);
+    signs += counted;
     manifold::split_repeated_edges(&mut mesh, &mut labels, &pieces);
+    let solid = nested.solid;
     let noise = CONTRACTION * solid.min.abs().max(solid.max.abs()).max_element();
     contract_short_edges(&mut mesh, noise);
     collapse_thin(&mut mesh, noise);
@@ -139,65 +133,138 @@ impl Regions {
     /// The regions, and the number of the region of each edge.
     fn number(edges: &[BoundaryEdge], rank: &[u32]) -> (Self, Vec<u32>) {
         let key = |edge: &BoundaryEdge| (edge.face, rank[edge.material.0 as usize], edge.material);
-        let mut keys: Vec<(PlaneId, u32, MaterialId)> = edges.iter().map(key).collect();
-        keys.dedup();
+        // the edges of a face follow one another
+        let same_face = || edges.chunk_by(|a, b| (a.face, a.material) == (b.face, b.material));
+        let mut keys: Vec<(PlaneId, u32, MaterialId)> = same_face().map(|edges| key(&edges[0])).collect();
         keys.sort_unstable();
         keys.dedup();
-        let numbers = edges.iter().map(|edge| keys.binary_search(&key(edge)).unwrap_or_default() as u32).collect();
+        let mut numbers = Vec::with_capacity(edges.len());
+        for edges in same_face() {
+            let number = keys.binary_search(&key(&edges[0])).unwrap_or_default() as u32;
+            numbers.extend(std::iter::repeat_n(number, edges.len()));
+        }
         let regions =
             Self { planes: keys.iter().map(|k| k.0).collect(), materials: keys.iter().map(|k| k.2).collect() };
         (regions, numbers)
     }
 }
 
-/// Numbers points and lines and cancels what is opposite.
-fn runs_of(
+/// Numbers points and lines, cancels what is opposite, and cuts and pairs what is left; half-edges are sorted by region and
+/// place.
+fn half_edges(
     table: &PlaneTable,
     edges: &[BoundaryEdge],
-    planes: &[PlaneId],
-    regions: &[u32],
-) -> Result<(Points, Vec<Run>, Vec<lines::Line>), WeldError> {
+    regions: &Regions,
+    of_edge: &[u32],
+) -> Result<(Points, Vec<HalfEdge>, Counts), WeldError> {
     let triples: Vec<[PlaneId; 3]> =
         edges.iter().flat_map(|e| [[e.face, e.edge, e.start], [e.face, e.edge, e.end]]).collect();
     let pairs: Vec<[PlaneId; 2]> = edges.iter().map(|e| [e.face, e.edge]).collect();
-    let ((mut points, ends), (lines, of_pair)) =
-        rayon::join(|| Points::identify(table, &triples), || lines::identify(table, &pairs));
-    let mut numbered: Vec<Run> = edges
-        .iter()
-        .enumerate()
-        .map(|(k, edge)| Run {
-            line: of_pair[k],
-            region: regions[k],
-            edge: edge.edge,
-            from: ends[2 * k],
-            to: ends[2 * k + 1],
-            forward: lines[of_pair[k] as usize].is_along(table, edge.face, edge.edge),
-        })
-        .collect();
-    let Surviving { runs, slits, passed } = cancel::surviving_runs(table, &points, &lines, planes, &mut numbered)?;
-    let runs = crossings::cut_runs(table, &points, &lines, passed, runs);
-    let runs = crossings::add_slits(table, &mut points, planes, slits, runs);
-    Ok((points, runs, lines))
+    let (mut points, ends, mut signs) = Points::identify(table, &triples);
+    let (lines, of_pair, counted) = lines::identify(table, &pairs);
+    signs += counted;
+    let run = |(k, edge): (usize, &BoundaryEdge)| Run {
+        line: of_pair[k],
+        region: of_edge[k],
+        edge: edge.edge,
+        from: ends[2 * k],
+        to: ends[2 * k + 1],
+        forward: lines[of_pair[k] as usize].is_along(table, edge.face, edge.edge),
+    };
+    let runs: Vec<Run> = edges.par_iter().enumerate().with_min_len(1024).map(run).collect();
+    let by_line = by_group(lines.len(), of_pair.iter().copied());
+    let (Pieces { mut pieces, slits, passed }, counted) =
+        cancel::pieces(table, &points, &lines, &regions.planes, &runs, &by_line)?;
+    signs += counted;
+    if !slits.is_empty() || crossings::any(&passed) {
+        pieces = crossings::pieces(table, &mut points, &lines, &regions.planes, &runs, &by_line)?;
+    }
+    let mut sorted = order_by_region(&pieces, regions.planes.len());
+    let (pinches, counted) = pinches::find(table, &points, &sorted);
+    signs += counted;
+    if !pinches.is_empty() {
+        cancel::cut_further(table, &points, &lines, &pinches, &mut pieces);
+        sorted = order_by_region(&pieces, regions.planes.len());
+    }
+    Ok((points, sorted, signs))
 }
 
 /// Sorts half-edges by region and place, keeping the pairs.
-fn order_by_region(pieces: &[HalfEdge]) -> Vec<HalfEdge> {
-    let mut order: Vec<u32> = (0..pieces.len() as u32).collect();
-    order.sort_unstable_by_key(|k| {
-        let piece = &pieces[*k as usize];
-        (piece.region, piece.from, piece.to)
+fn order_by_region(pieces: &[HalfEdge], regions: usize) -> Vec<HalfEdge> {
+    let (_, mut order) = by_group(regions, pieces.iter().map(|piece| piece.region));
+    let region = |k: &u32| pieces[*k as usize].region;
+    order.par_chunk_by_mut(|a, b| region(a) == region(b)).for_each(|members| {
+        members.sort_unstable_by_key(|k| {
+            let piece = &pieces[*k as usize];
+            (piece.from, piece.to)
+        });
     });
     let mut place = vec![0; pieces.len()];
     for (new, old) in order.iter().enumerate() {
         place[*old as usize] = new as u32;
     }
-    order
-        .into_iter()
-        .map(|old| {
-            let piece = pieces[old as usize];
-            HalfEdge { twin: place[piece.twin as usize], ..piece }
-        })
-        .collect()
+    let piece = |old: u32| {
+        let piece = pieces[old as usize];
+        HalfEdge { twin: place[piece.twin as usize], ..piece }
+    };
+    order.into_par_iter().with_min_len(4096).map(piece).collect()
+}
+
+/// Half-edges chained to loops, these nested to faces.
+struct Nested {
+    /// What follows each half-edge in its loop.
+    following: Vec<u32>,
+    faces: Vec<Faces>,
+    solid: SolidMeasures,
+}
+
+fn nest(
+    table: &PlaneTable,
+    regions: &Regions,
+    points: &Points,
+    pieces: &[HalfEdge],
+) -> Result<(Nested, Counts), WeldError> {
+    let mut nested =
+        Nested { following: Vec::with_capacity(pieces.len()), faces: Vec::new(), solid: SolidMeasures::default() };
+    if pieces.is_empty() {
+        return Ok((nested, Counts::default()));
+    }
+    let extent = measure::extent(&points.positions, pieces);
+    let middle = 0.5 * (extent.0 + extent.1);
+    let by_region = regions_of(pieces);
+    let (parts, counts) = map_chunks(&by_region, 16, |chunk| -> Result<_, WeldError> {
+        let mut nester = Nester::new(table, points);
+        let (mut following, mut faces, mut measures) = (Vec::new(), Faces::default(), Vec::new());
+        for &(start, end) in chunk {
+            let region = &pieces[start as usize..end as usize];
+            let plane = regions.planes[region[0].region as usize];
+            let done = following.len();
+            loops::follow(table, plane, region, start, &mut following)?;
+            nester.add_faces(plane, region, start, &following[done..], &mut faces)?;
+        }
+        measure::of_faces(&points.positions, pieces, &faces, middle, &mut measures);
+        Ok((following, faces, measures))
+    });
+    let mut measures = Vec::new();
+    for part in parts {
+        let (following, faces, measured) = part?;
+        nested.following.extend(following);
+        nested.faces.push(faces);
+        measures.extend(measured);
+    }
+    nested.solid = measure::sum(measures.iter(), extent);
+    Ok((nested, counts))
+}
+
+/// Where the half-edges of each region begin and end.
+fn regions_of(pieces: &[HalfEdge]) -> Vec<(u32, u32)> {
+    let mut end = 0;
+    let region = |members: &[HalfEdge]| {
+        let start = end;
+        end += members.len() as u32;
+        (start, end)
+    };
+    pieces.chunk_by(|a, b| a.region == b.region).map(region).collect()
 }
 
 /// Fills the triangles and faces of a mesh, in parallel over faces; gives the half-edge behind each side.
@@ -206,49 +273,46 @@ fn triangulate_faces(
     regions: &Regions,
     points: &Points,
     pieces: &[HalfEdge],
-    faces: &[FaceLoops],
+    faces: &[Faces],
     vertex: &[u32],
     mesh: &mut Mesh,
-) -> Labels {
-    let corner = |at: &Projection, k: u32| {
-        let piece = &pieces[k as usize];
-        Corner {
-            at: at.of(points.positions[piece.from as usize]),
-            point: piece.from,
-            vertex: vertex[k as usize],
-            line: piece.line,
-            piece: k,
-        }
-    };
-    let parts: Vec<(Triangles, Vec<u32>)> = faces
-        .par_chunks(64)
-        .map(|chunk| {
+) -> (Labels, Counts) {
+    let (parts, counts) = map_chunks(faces, 1, |chunk| {
+        let mut triangulator = Triangulator::new(table, points);
+        let mut filled: Vec<(Triangles, Vec<(u32, u32)>)> = Vec::new();
+        for faces in chunk {
             let (mut triangles, mut ends) = (Triangles::default(), Vec::new());
-            for face in chunk {
+            for face in faces.iter() {
                 let normal = table.half_space(regions.planes[face.region as usize]).normal();
-                let at = Projection::new(normal);
-                let loops: Vec<Vec<Corner>> =
-                    face.loops.iter().map(|pieces| pieces.iter().map(|k| corner(&at, *k)).collect()).collect();
-                triangulate::triangulate(&loops, Turns { table, points, projection: at }, &mut triangles);
-                ends.push(triangles.vertices.len() as u32);
+                triangulator.begin(Projection::new(normal));
+                for pieces_of_loop in face.loops() {
+                    triangulator
+                        .add_loop(pieces_of_loop.iter().map(|k| (*k, &pieces[*k as usize], vertex[*k as usize])));
+                }
+                triangulator.triangulate(&mut triangles);
+                ends.push((face.region, triangles.vertices.len() as u32));
             }
-            (triangles, ends)
-        })
-        .collect();
-    let mut labels = Labels::new();
-    for (triangles, ends) in parts {
+            filled.push((triangles, ends));
+        }
+        filled
+    });
+    let parts = || parts.iter().flatten();
+    let count = parts().map(|(triangles, _)| triangles.vertices.len()).sum();
+    mesh.triangles.reserve_exact(count);
+    mesh.triangle_faces.reserve_exact(count);
+    let mut labels = Labels::with_capacity(count);
+    for (triangles, ends) in parts() {
         let mut start = 0;
-        for end in ends {
+        for &(region, end) in ends {
             let face = mesh.faces.len();
-            let region = faces[face].region as usize;
-            let normal: DVec3 = table.half_space(regions.planes[region]).normal();
+            let normal: DVec3 = table.half_space(regions.planes[region as usize]).normal();
             let scaled = normal / normal.abs().max_element();
-            mesh.faces.push(MeshFace { normal: scaled.normalize(), material: regions.materials[region] });
+            mesh.faces.push(MeshFace { normal: scaled.normalize(), material: regions.materials[region as usize] });
             mesh.triangle_faces.extend(std::iter::repeat_n(face as u32, (end - start) as usize));
             start = end;
         }
-        mesh.triangles.extend(triangles.vertices);
-        labels.extend(triangles.labels);
+        mesh.triangles.extend_from_slice(&triangles.vertices);
+        labels.extend_from_slice(&triangles.labels);
     }
-    labels
+    (labels, counts)
 }

@@ -10,12 +10,50 @@ use super::cancel::HalfEdge;
 use super::points::Points;
 use crate::plane_table::{PlaneId, PlaneTable};
 
-/// One connected region: an outer loop and its holes, each a list of half-edges.
-#[derive(Debug, Clone, Default)]
-pub(super) struct FaceLoops {
+/// Connected parts of regions, each an outer loop and its holes.
+#[derive(Debug, Default)]
+pub(super) struct Faces {
+    /// Half-edges, loop by loop.
+    pieces: Vec<u32>,
+    /// Where each loop ends among them.
+    loops: Vec<u32>,
+    /// The region of each face, and where its loops end.
+    faces: Vec<(u32, u32)>,
+}
+
+/// One of them.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Face<'a> {
     pub(super) region: u32,
+    faces: &'a Faces,
+    loops: (usize, usize),
+}
+
+impl Faces {
+    pub(super) fn iter(&self) -> impl Iterator<Item = Face<'_>> {
+        let starts = std::iter::once(0).chain(self.faces.iter().map(|(_, end)| *end as usize));
+        self.faces.iter().zip(starts).map(|((region, end), start)| Face {
+            region: *region,
+            faces: self,
+            loops: (start, *end as usize),
+        })
+    }
+
+    fn push_loop(&mut self, pieces: &[u32]) {
+        self.pieces.extend_from_slice(pieces);
+        self.loops.push(self.pieces.len() as u32);
+    }
+}
+
+impl<'a> Face<'a> {
     /// The outer loop first.
-    pub(super) loops: Vec<Vec<u32>>,
+    pub(super) fn loops(self) -> impl Iterator<Item = &'a [u32]> {
+        let Faces { pieces, loops, .. } = self.faces;
+        (self.loops.0..self.loops.1).map(|k| {
+            let start = if k == 0 { 0 } else { loops[k - 1] as usize };
+            &pieces[start..loops[k] as usize]
+        })
+    }
 }
 
 /// Drops the coordinate along which a normal is largest, so that counter-clockwise seen from outside stays so.
@@ -38,71 +76,97 @@ impl Projection {
 }
 
 /// A loop on its way to a face.
+#[derive(Debug, Clone, Copy)]
 struct Loop {
-    pieces: Vec<u32>,
+    /// Its half-edges among those of its region's loops.
+    start: usize,
+    end: usize,
     area: f64,
     min: DVec2,
     max: DVec2,
 }
 
-/// Groups the loops of all regions into faces.
-pub(super) fn faces(
-    table: &PlaneTable,
-    planes: &[PlaneId],
-    points: &Points,
-    pieces: &[HalfEdge],
-    following: &[u32],
-) -> Result<Vec<FaceLoops>, WeldError> {
-    let mut faces = Vec::new();
-    let mut seen = vec![false; pieces.len()];
-    let mut base = 0;
-    for members in pieces.chunk_by(|a, b| a.region == b.region) {
-        let region = members[0].region;
-        let plane = planes[region as usize];
-        let nester = Nester { table, plane, points, pieces, at: Projection::new(table.half_space(plane).normal()) };
-        let mut loops = Vec::new();
-        for start in base..base + members.len() {
-            if !seen[start] {
-                loops.push(nester.walk(start as u32, following, &mut seen));
+/// Groups loops into faces, reusing its buffers.
+pub(super) struct Nester<'a> {
+    table: &'a PlaneTable,
+    points: &'a Points,
+    /// The half-edges of the region, and the number of the first.
+    region: &'a [HalfEdge],
+    base: u32,
+    plane: PlaneId,
+    at: Projection,
+    seen: Vec<bool>,
+    /// Half-edges of the region, loop by loop.
+    pieces: Vec<u32>,
+    loops: Vec<Loop>,
+}
+
+impl<'a> Nester<'a> {
+    pub(super) fn new(table: &'a PlaneTable, points: &'a Points) -> Self {
+        Self {
+            table,
+            points,
+            region: &[],
+            base: 0,
+            plane: PlaneId::of_index(0),
+            at: Projection { u: 0, v: 1 },
+            seen: Vec::new(),
+            pieces: Vec::new(),
+            loops: Vec::new(),
+        }
+    }
+
+    /// Adds the faces of one region, given by its half-edges, numbered from `base`, and what follows each.
+    pub(super) fn add_faces(
+        &mut self,
+        plane: PlaneId,
+        region: &'a [HalfEdge],
+        base: u32,
+        following: &[u32],
+        faces: &mut Faces,
+    ) -> Result<(), WeldError> {
+        (self.plane, self.region, self.base) = (plane, region, base);
+        self.at = Projection::new(self.table.half_space(plane).normal());
+        self.seen.clear();
+        self.seen.resize(region.len(), false);
+        self.pieces.clear();
+        self.loops.clear();
+        for start in 0..region.len() {
+            if !self.seen[start] {
+                self.walk(start, following);
             }
         }
-        nester.group(region, loops, &mut faces)?;
-        base += members.len();
+        self.group(region[0].region, faces)
     }
-    Ok(faces)
-}
 
-struct Nester<'a> {
-    table: &'a PlaneTable,
-    plane: PlaneId,
-    points: &'a Points,
-    pieces: &'a [HalfEdge],
-    at: Projection,
-}
-
-impl Nester<'_> {
     fn position(&self, point: u32) -> DVec2 {
         self.at.of(self.points.positions[point as usize])
     }
 
-    fn walk(&self, start: u32, following: &[u32], seen: &mut [bool]) -> Loop {
-        let mut pieces = Vec::new();
-        let mut piece = start;
-        while !seen[piece as usize] {
-            seen[piece as usize] = true;
-            pieces.push(piece);
-            piece = following[piece as usize];
-        }
-        let corner = |piece: &u32| self.position(self.pieces[*piece as usize].from);
-        let origin = corner(&pieces[0]);
+    fn piece(&self, number: u32) -> &HalfEdge {
+        &self.region[(number - self.base) as usize]
+    }
+
+    fn pieces_of(&self, candidate: &Loop) -> &[u32] {
+        &self.pieces[candidate.start..candidate.end]
+    }
+
+    fn walk(&mut self, from: usize, following: &[u32]) {
+        let start = self.pieces.len();
+        let origin = self.position(self.region[from].from);
         let (mut area, mut min, mut max) = (0.0, origin, origin);
-        for (k, piece) in pieces.iter().enumerate() {
-            let (p, q) = (corner(piece), corner(&pieces[(k + 1) % pieces.len()]));
+        let (mut piece, mut p) = (from, origin);
+        while !self.seen[piece] {
+            self.seen[piece] = true;
+            self.pieces.push(self.base + piece as u32);
+            piece = (following[piece] - self.base) as usize;
+            let q = self.position(self.region[piece].from);
             area += 0.5 * (p - origin).perp_dot(q - origin);
             min = min.min(p);
             max = max.max(p);
+            p = q;
         }
-        Loop { pieces, area, min, max }
+        self.loops.push(Loop { start, end: self.pieces.len(), area, min, max });
     }
 
     /// Whether a loop runs counter-clockwise: exactly, by its turn at an extreme corner, where the area is not clear.
@@ -110,46 +174,64 @@ impl Nester<'_> {
         let extent = candidate.max - candidate.min;
         // Every corner may be off by a rounding error, which moves area along the whole loop.
         let reach = candidate.min.abs().max(candidate.max.abs()).max_element();
-        let noise = f64::EPSILON * reach * extent.element_sum() * candidate.pieces.len() as f64;
+        let noise = f64::EPSILON * reach * extent.element_sum() * (candidate.end - candidate.start) as f64;
         if candidate.area.abs() > noise.max(1e-6 * extent.x * extent.y) {
             return candidate.area > 0.0;
         }
-        let n = candidate.pieces.len();
+        let pieces = self.pieces_of(candidate);
+        let n = pieces.len();
         let turn = |k: usize| {
-            let (before, after) = (candidate.pieces[(k + n - 1) % n], candidate.pieces[k]);
-            let (e, f) = (self.pieces[before as usize].edge, self.pieces[after as usize].edge);
-            self.table.orient3(self.plane, e, f)
+            let (before, after) = (self.piece(pieces[(k + n - 1) % n]), self.piece(pieces[k]));
+            self.table.orient3(self.plane, before.edge, after.edge)
         };
-        let point = |k: usize| self.pieces[candidate.pieces[k] as usize].from;
+        let point = |k: usize| self.piece(pieces[k]).from;
         let bends = (0..n).filter(|k| turn(*k) != Sign::Zero);
         let extreme = bends.min_by(|a, b| self.compare_height(point(*a), point(*b)));
         extreme.is_some_and(|k| turn(k) == Sign::Positive)
     }
 
     /// Gives each hole to the smallest outer loop around it.
-    fn group(&self, region: u32, loops: Vec<Loop>, faces: &mut Vec<FaceLoops>) -> Result<(), WeldError> {
-        let (outers, holes): (Vec<Loop>, Vec<Loop>) = loops.into_iter().partition(|candidate| self.is_outer(candidate));
-        let base = faces.len();
-        faces.extend(outers.iter().map(|outer| FaceLoops { region, loops: vec![outer.pieces.clone()] }));
-        for hole in holes {
-            let around = outers.iter().enumerate().filter(|(_, outer)| {
-                outer.min.cmple(hole.min).all() && outer.max.cmpge(hole.max).all() && self.contains(outer, &hole)
-            });
-            let owner = around.min_by(|a, b| a.1.area.total_cmp(&b.1.area)).map(|(k, _)| k);
-            faces[base + owner.ok_or(WeldError::Hole { region })?].loops.push(hole.pieces);
+    fn group(&self, region: u32, faces: &mut Faces) -> Result<(), WeldError> {
+        if let [only] = self.loops[..]
+            && self.is_outer(&only)
+        {
+            faces.push_loop(self.pieces_of(&only));
+            faces.faces.push((region, faces.loops.len() as u32));
+            return Ok(());
+        }
+        let (outers, holes): (Vec<Loop>, Vec<Loop>) = self.loops.iter().partition(|candidate| self.is_outer(candidate));
+        let mut owned: Vec<(usize, usize)> = Vec::with_capacity(holes.len());
+        for (k, hole) in holes.iter().enumerate() {
+            owned.push((self.owner(&outers, hole).ok_or(WeldError::Hole { region })?, k));
+        }
+        owned.sort_unstable();
+        let mut owned = owned.into_iter().peekable();
+        for (number, outer) in outers.iter().enumerate() {
+            faces.push_loop(self.pieces_of(outer));
+            while let Some((_, hole)) = owned.next_if(|(owner, _)| *owner == number) {
+                faces.push_loop(self.pieces_of(&holes[hole]));
+            }
+            faces.faces.push((region, faces.loops.len() as u32));
         }
         Ok(())
+    }
+
+    fn owner(&self, outers: &[Loop], hole: &Loop) -> Option<usize> {
+        let around = outers.iter().enumerate().filter(|(_, outer)| {
+            outer.min.cmple(hole.min).all() && outer.max.cmpge(hole.max).all() && self.contains(outer, hole)
+        });
+        around.min_by(|a, b| a.1.area.total_cmp(&b.1.area)).map(|(k, _)| k)
     }
 
     /// Whether a hole lies inside an outer loop: by the parity of crossings to the right of one of its corners that is not
     /// a corner of the outer loop.
     fn contains(&self, outer: &Loop, hole: &Loop) -> bool {
-        let is_shared = |point: u32| outer.pieces.iter().any(|piece| self.pieces[*piece as usize].from == point);
-        let corner = hole.pieces.iter().map(|piece| self.pieces[*piece as usize].from).find(|point| !is_shared(*point));
+        let is_shared = |point: u32| self.pieces_of(outer).iter().any(|piece| self.piece(*piece).from == point);
+        let corner = self.pieces_of(hole).iter().map(|piece| self.piece(*piece).from).find(|point| !is_shared(*point));
         let Some(corner) = corner else { return self.contains_middle(outer, hole) };
         let mut inside = false;
-        for piece in &outer.pieces {
-            let piece = &self.pieces[*piece as usize];
+        for piece in self.pieces_of(outer) {
+            let piece = self.piece(*piece);
             let above = |point: u32| self.compare_height(point, corner) == Ordering::Greater;
             let (from, to) = (above(piece.from), above(piece.to));
             if from != to {
@@ -178,11 +260,11 @@ impl Nester<'_> {
 
     /// Every corner is shared: take the middle of an edge, in rounded coordinates.
     fn contains_middle(&self, outer: &Loop, hole: &Loop) -> bool {
-        let piece = &self.pieces[hole.pieces[0] as usize];
+        let piece = self.piece(self.pieces_of(hole)[0]);
         let at = 0.5 * (self.position(piece.from) + self.position(piece.to));
         let mut inside = false;
-        for piece in &outer.pieces {
-            let piece = &self.pieces[*piece as usize];
+        for piece in self.pieces_of(outer) {
+            let piece = self.piece(*piece);
             let (a, b) = (self.position(piece.from), self.position(piece.to));
             if (a.y > at.y) != (b.y > at.y) {
                 inside ^= at.x < a.x + (at.y - a.y) / (b.y - a.y) * (b.x - a.x);

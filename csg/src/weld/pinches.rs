@@ -1,63 +1,104 @@
 //! Corners of a region that touch the inside of one of its edges: there the edge is cut as well.
 
 use planecut_kernel::DVec3;
-use planecut_kernel::sign::Sign;
+use planecut_kernel::sign::{Counts, Sign};
 
-use super::cancel::Run;
+use super::cancel::HalfEdge;
 use super::points::Points;
+use super::regions_of;
+use crate::parallel::map_chunks;
 use crate::plane_table::PlaneTable;
 
-/// The (line, point) pairs at which an end of a run lies inside another run of the same region, by line.
-pub(super) fn find(table: &PlaneTable, points: &Points, runs: &[Run], regions: usize) -> Vec<(u32, u32)> {
-    let mut by_region: Vec<Vec<u32>> = vec![Vec::new(); regions];
-    for (k, run) in runs.iter().enumerate() {
-        by_region[run.region as usize].push(k as u32);
-    }
-    let mut pinches = Vec::new();
-    let mut corners: Vec<u32> = Vec::new();
-    for members in by_region.iter().filter(|members| members.len() > 4) {
-        corners.clear();
-        corners.extend(members.iter().flat_map(|k| [runs[*k as usize].from, runs[*k as usize].to]));
-        corners.sort_unstable();
-        corners.dedup();
-        let sorted: [Vec<u32>; 3] = std::array::from_fn(|axis| {
-            let mut sorted = corners.clone();
-            sorted.sort_unstable_by(|p, q| {
-                points.positions[*p as usize][axis].total_cmp(&points.positions[*q as usize][axis])
-            });
-            sorted
-        });
-        for &k in members {
-            let run = &runs[k as usize];
-            touching(table, points, run, &sorted, |point| pinches.push((run.line, point)));
+/// Regions of fewer corners are searched edge by edge.
+const MANY: usize = 24;
+
+/// The (line, point) pairs at which a corner of a region lies inside one of its edges, by line; half-edges are sorted by
+/// region.
+pub(super) fn find(table: &PlaneTable, points: &Points, pieces: &[HalfEdge]) -> (Vec<(u32, u32)>, Counts) {
+    let (parts, counts) = map_chunks(&regions_of(pieces), 16, |chunk| {
+        let mut finder = PinchFinder::new(table, points);
+        for &(start, end) in chunk {
+            finder.search(&pieces[start as usize..end as usize]);
         }
-    }
+        finder.found
+    });
+    let mut pinches = parts.concat();
     pinches.sort_unstable();
     pinches.dedup();
-    pinches
+    (pinches, counts)
 }
 
-/// Calls `found` for each corner strictly inside a run. Rounding is monotone, so the box of the rounded ends holds the
-/// rounded corner; signs decide.
-fn touching(table: &PlaneTable, points: &Points, run: &Run, sorted: &[Vec<u32>; 3], mut found: impl FnMut(u32)) {
-    let (from, to) = (points.positions[run.from as usize], points.positions[run.to as usize]);
-    let (min, max) = (from.min(to), from.max(to));
-    let range = |axis: usize| {
-        let value = |p: &u32| points.positions[*p as usize][axis];
-        let start = sorted[axis].partition_point(|p| value(p) < min[axis]);
-        let end = sorted[axis].partition_point(|p| value(p) <= max[axis]);
-        &sorted[axis][start..end]
-    };
-    let ranges: [&[u32]; 3] = std::array::from_fn(range);
-    let Some(fewest) = ranges.into_iter().min_by_key(|range| range.len()) else { return };
-    let inside = |at: DVec3| at.cmpge(min).all() && at.cmple(max).all();
-    for &point in fewest {
-        if point != run.from
-            && point != run.to
-            && inside(points.positions[point as usize])
-            && points.side(table, point, run.edge) == Sign::Zero
-        {
-            found(point);
+struct PinchFinder<'a> {
+    table: &'a PlaneTable,
+    points: &'a Points,
+    corners: Vec<u32>,
+    /// Corners by each of their coordinates.
+    sorted: [Vec<u32>; 3],
+    found: Vec<(u32, u32)>,
+}
+
+impl<'a> PinchFinder<'a> {
+    fn new(table: &'a PlaneTable, points: &'a Points) -> Self {
+        Self { table, points, corners: Vec::new(), sorted: Default::default(), found: Vec::new() }
+    }
+
+    /// Finds those of one region.
+    fn search(&mut self, region: &[HalfEdge]) {
+        // what touches itself has at least two triangles
+        if region.len() <= 4 {
+            return;
+        }
+        // each corner begins an edge
+        self.corners.clear();
+        self.corners.extend(region.iter().map(|piece| piece.from));
+        self.corners.dedup();
+        if self.corners.len() < MANY {
+            for piece in region {
+                let corners = std::mem::take(&mut self.corners);
+                self.touching(piece, &corners);
+                self.corners = corners;
+            }
+            return;
+        }
+        let mut sorted = std::mem::take(&mut self.sorted);
+        for (axis, sorted) in sorted.iter_mut().enumerate() {
+            let coordinate = |p: u32| self.points.positions[p as usize][axis];
+            sorted.clear();
+            sorted.extend_from_slice(&self.corners);
+            sorted.sort_unstable_by(|p, q| coordinate(*p).total_cmp(&coordinate(*q)));
+        }
+        for piece in region {
+            let (min, max) = self.extent(piece);
+            let range = |axis: usize| {
+                let value = |p: &u32| self.points.positions[*p as usize][axis];
+                let start = sorted[axis].partition_point(|p| value(p) < min[axis]);
+                let length = sorted[axis][start..].partition_point(|p| value(p) <= max[axis]);
+                &sorted[axis][start..start + length]
+            };
+            let fewest = (0..3).map(range).min_by_key(|range| range.len()).unwrap_or_default();
+            self.touching(piece, fewest);
+        }
+        self.sorted = sorted;
+    }
+
+    /// The box of the rounded ends of an edge. Rounding is monotone, so it holds the rounded corners on the edge.
+    fn extent(&self, piece: &HalfEdge) -> (DVec3, DVec3) {
+        let (from, to) = (self.points.positions[piece.from as usize], self.points.positions[piece.to as usize]);
+        (from.min(to), from.max(to))
+    }
+
+    /// Notes those of some corners that lie strictly inside an edge. Signs decide.
+    fn touching(&mut self, piece: &HalfEdge, corners: &[u32]) {
+        let (min, max) = self.extent(piece);
+        let is_inside = |at: DVec3| at.cmpge(min).all() && at.cmple(max).all();
+        for &point in corners {
+            if is_inside(self.points.positions[point as usize])
+                && point != piece.from
+                && point != piece.to
+                && self.points.side(self.table, point, piece.edge) == Sign::Zero
+            {
+                self.found.push((piece.line, point));
+            }
         }
     }
 }

@@ -2,14 +2,12 @@
 //!
 //! Coordinates are correctly rounded, so equal points have equal coordinates: the coordinates propose, signs decide.
 
-use std::cmp::Ordering;
-
-use planecut_kernel::sign::Sign;
+use planecut_kernel::sign::{Counts, Sign};
 use planecut_kernel::{DVec3, compare_exactly};
 use rayon::prelude::*;
-use rustc_hash::FxHashMap;
 
-use super::cancel::Run;
+use crate::distinct::distinct;
+use crate::parallel::{counted, map_chunks};
 use crate::plane_table::{PlaneId, PlaneTable};
 
 /// The points of a weld.
@@ -22,103 +20,93 @@ pub(super) struct Points {
     pub(super) exact: Vec<bool>,
 }
 
+/// A point that three planes name, before equal ones are joined.
+struct Named {
+    /// Numbers in the order of the coordinates.
+    order: [u64; 3],
+    planes: [PlaneId; 3],
+    position: DVec3,
+    is_exact: bool,
+}
+
 impl Points {
-    /// Numbers the meeting points of plane triples; gives the number of each, in order.
-    pub(super) fn identify(table: &PlaneTable, triples: &[[PlaneId; 3]]) -> (Self, Vec<u32>) {
-        let mut seen: FxHashMap<[u32; 3], u32> = FxHashMap::default();
-        let mut distinct: Vec<[PlaneId; 3]> = Vec::new();
-        let of_triple: Vec<u32> = triples
-            .iter()
-            .map(|triple| {
-                let mut key = triple.map(PlaneId::index);
-                key.sort_unstable();
-                *seen.entry(key).or_insert_with(|| {
-                    distinct.push(triple.map(PlaneId::unsided));
-                    distinct.len() as u32 - 1
-                })
-            })
-            .collect();
-        let positions: Vec<DVec3> = distinct
-            .par_iter()
-            .with_min_len(256)
-            .map(|triple| table.position(*triple).expect("the planes of a corner are independent"))
-            .collect();
+    /// Numbers the meeting points of plane triples by position; gives the number of each triple, in order.
+    pub(super) fn identify(table: &PlaneTable, triples: &[[PlaneId; 3]]) -> (Self, Vec<u32>, Counts) {
+        let keys: Vec<(u64, u32)> = triples.par_iter().with_min_len(1024).map(|triple| key(*triple)).collect();
+        let (different, of_triple) = distinct(&keys);
+        let (named, mut counts) = map_chunks(&different, 256, |keys| {
+            keys.iter().map(|key| Named::of(table, planes(*key))).collect::<Vec<_>>()
+        });
+        let named: Vec<Named> = named.into_iter().flatten().collect();
+        let mut sorted: Vec<([u64; 3], u32)> = (0..).zip(&named).map(|(k, point)| (point.order, k)).collect();
+        sorted.par_sort_unstable();
         let mut points = Self::default();
-        let mut by_position: FxHashMap<[u64; 3], Vec<u32>> = FxHashMap::default();
-        let of_distinct: Vec<u32> = distinct
-            .into_iter()
-            .zip(positions)
-            .map(|(triple, position)| {
-                let bucket = by_position.entry(position.to_array().map(f64::to_bits)).or_default();
-                let known = bucket.iter().copied().find(|point| points.is_at(table, *point, triple));
-                known.unwrap_or_else(|| {
-                    bucket.push(points.push(table, triple, position));
-                    points.planes.len() as u32 - 1
-                })
-            })
-            .collect();
-        (points, of_triple.into_iter().map(|k| of_distinct[k as usize]).collect())
+        let mut of_named = vec![0; named.len()];
+        let ((), joining) = counted(|| {
+            for alike in sorted.chunk_by(|a, b| a.0 == b.0) {
+                if let [(_, one)] = alike {
+                    of_named[*one as usize] = points.push(&named[*one as usize]);
+                } else {
+                    points.join(table, &named, alike, &mut of_named);
+                }
+            }
+        });
+        counts += joining;
+        (points, of_triple.into_par_iter().with_min_len(1024).map(|k| of_named[k as usize]).collect(), counts)
+    }
+
+    /// Numbers points that round alike, equal ones once, in their exact order.
+    fn join(&mut self, table: &PlaneTable, named: &[Named], alike: &[([u64; 3], u32)], of_named: &mut [u32]) {
+        let rows = |k: u32| named[k as usize].planes.map(|plane| table.row(plane));
+        // each with those that are equal to it; mostly all are
+        let mut groups: Vec<Vec<u32>> = Vec::new();
+        for (_, k) in alike {
+            let planes = named[*k as usize].planes;
+            match groups.iter_mut().find(|group| is_at(table, named[group[0] as usize].planes, planes)) {
+                Some(group) => group.push(*k),
+                None => groups.push(vec![*k]),
+            }
+        }
+        groups.sort_by(|p, q| compare_exactly(rows(p[0]), rows(q[0]), &[0, 1, 2]));
+        for group in groups {
+            let number = self.push(&named[group[0] as usize]);
+            for k in group {
+                of_named[k as usize] = number;
+            }
+        }
     }
 
     /// The number of the meeting point of three independent planes, a new one where it is not known yet. Looks at all points.
     pub(super) fn add(&mut self, table: &PlaneTable, triple: [PlaneId; 3]) -> u32 {
-        let triple = triple.map(PlaneId::unsided);
-        let position = table.position(triple).expect("the lines of two edges that cross");
-        let known = (0..self.planes.len() as u32)
-            .find(|point| self.positions[*point as usize] == position && self.is_at(table, *point, triple));
-        known.unwrap_or_else(|| self.push(table, triple, position))
+        let named = Named::of(table, triple.map(PlaneId::unsided));
+        let known = (0..self.planes.len() as u32).find(|point| {
+            let point = *point as usize;
+            self.positions[point] == named.position && is_at(table, self.planes[point], named.planes)
+        });
+        known.unwrap_or_else(|| self.push(&named))
     }
 
-    fn push(&mut self, table: &PlaneTable, [a, b, c]: [PlaneId; 3], position: DVec3) -> u32 {
-        let right_handed = table.orient3(a, b, c) == Sign::Positive;
-        self.planes.push(if right_handed { [a, b, c] } else { [a, c, b] });
-        self.positions.push(position);
-        self.exact.push([a, b, c].into_iter().all(|plane| holds_exactly(table, plane, position)));
+    fn push(&mut self, named: &Named) -> u32 {
+        self.planes.push(named.planes);
+        self.positions.push(named.position);
+        self.exact.push(named.is_exact);
         self.planes.len() as u32 - 1
     }
 
-    /// Whether three independent planes meet in a point.
-    fn is_at(&self, table: &PlaneTable, point: u32, triple: [PlaneId; 3]) -> bool {
-        triple.into_iter().all(|plane| self.side(table, point, plane) == Sign::Zero)
-    }
-
-    /// Keeps only the points at the ends of runs and numbers them by position, so that the numbering does not depend on the
-    /// order of the brushes.
-    pub(super) fn renumber(&mut self, table: &PlaneTable, mut runs: Vec<Run>) -> Vec<Run> {
-        let mut order: Vec<u32> = runs.iter().flat_map(|run| [run.from, run.to]).collect();
-        // each once: where coordinates tie, comparing is dear
-        order.sort_unstable();
-        order.dedup();
-        let key = |p: u32| self.positions[p as usize].to_array();
-        order.sort_unstable_by(|p, q| {
-            let (a, b) = (key(*p), key(*q));
-            a[0].total_cmp(&b[0])
-                .then(a[1].total_cmp(&b[1]))
-                .then(a[2].total_cmp(&b[2]))
-                .then_with(|| self.compare_exactly(table, *p, *q))
-        });
-        let mut number = vec![0; self.planes.len()];
+    /// Numbers all points by position; gives the new number of each.
+    pub(super) fn renumber(&mut self, table: &PlaneTable) -> Vec<u32> {
+        let mut order: Vec<u32> = (0..self.planes.len() as u32).collect();
+        let place = |p: u32| sortable(self.positions[p as usize]);
+        let rows = |p: u32| self.planes[p as usize].map(|plane| table.row(plane));
+        order.sort_by(|p, q| place(*p).cmp(&place(*q)).then_with(|| compare_exactly(rows(*p), rows(*q), &[0, 1, 2])));
+        let mut number = vec![0; order.len()];
         for (new, old) in order.iter().enumerate() {
             number[*old as usize] = new as u32;
-        }
-        for run in &mut runs {
-            run.from = number[run.from as usize];
-            run.to = number[run.to as usize];
         }
         self.planes = order.iter().map(|p| self.planes[*p as usize]).collect();
         self.positions = order.iter().map(|p| self.positions[*p as usize]).collect();
         self.exact = order.iter().map(|p| self.exact[*p as usize]).collect();
-        runs
-    }
-
-    /// The order of two points whose coordinates round alike.
-    #[cold]
-    fn compare_exactly(&self, table: &PlaneTable, p: u32, q: u32) -> Ordering {
-        if p == q {
-            return Ordering::Equal;
-        }
-        let rows = |point: u32| self.planes[point as usize].map(|plane| table.row(plane));
-        compare_exactly(rows(p), rows(q), &[0, 1, 2])
+        number
     }
 
     /// On which side of a plane a point lies; positive is outside.
@@ -126,6 +114,46 @@ impl Points {
         let planes = self.planes[point as usize];
         table.side(planes, &table.homogeneous(planes), plane)
     }
+}
+
+impl Named {
+    fn of(table: &PlaneTable, [a, b, c]: [PlaneId; 3]) -> Self {
+        let position = table.position([a, b, c]).expect("the planes of a corner are independent");
+        let right_handed = table.orient3(a, b, c) == Sign::Positive;
+        Self {
+            order: sortable(position),
+            planes: if right_handed { [a, b, c] } else { [a, c, b] },
+            position,
+            is_exact: [a, b, c].into_iter().all(|plane| holds_exactly(table, plane, position)),
+        }
+    }
+}
+
+/// The indices of three planes in ascending order, packed.
+fn key(triple: [PlaneId; 3]) -> (u64, u32) {
+    let mut indices = triple.map(PlaneId::index);
+    indices.sort_unstable();
+    let [a, b, c] = indices;
+    (u64::from(a) << 32 | u64::from(b), c)
+}
+
+/// The planes of a key, unsided.
+fn planes((ab, c): (u64, u32)) -> [PlaneId; 3] {
+    [(ab >> 32) as u32, ab as u32, c].map(PlaneId::of_index)
+}
+
+/// Numbers in the order of coordinates.
+fn sortable(position: DVec3) -> [u64; 3] {
+    position.to_array().map(|v| {
+        let bits = v.to_bits();
+        if bits >> 63 == 0 { bits | 1 << 63 } else { !bits }
+    })
+}
+
+/// Whether a point given by three planes, right-handed, lies on three others.
+fn is_at(table: &PlaneTable, planes: [PlaneId; 3], others: [PlaneId; 3]) -> bool {
+    let point = table.homogeneous(planes);
+    others.into_iter().all(|plane| table.side(planes, &point, plane) == Sign::Zero)
 }
 
 /// Whether a plane of short integers passes through a position of few bits: every product and sum is exact then.

@@ -34,16 +34,26 @@ impl Care {
 /// Depth of noise, relative to the largest coordinate.
 const NOISE: f64 = 1e-11;
 
-impl Boundary<'_> {
+/// Cuts boundaries into triangles, reusing its buffers.
+#[derive(Debug, Default)]
+pub(super) struct Ears {
+    ring: Vec<u32>,
+    grid: Grid,
+    triangles: Vec<[u32; 3]>,
+}
+
+impl Ears {
     /// Cuts the ring of `start` into triangles of nodes.
-    pub(super) fn cut_ears(&mut self, start: u32) -> Vec<[u32; 3]> {
-        let ring: Vec<u32> = self.ring(start).collect();
-        for &node in &ring {
-            self.classify(node);
+    pub(super) fn cut(&mut self, boundary: &mut Boundary<'_>, start: u32) -> &mut [[u32; 3]] {
+        let Self { ring, grid, triangles } = self;
+        ring.clear();
+        ring.extend(boundary.ring(start));
+        for &node in ring.iter() {
+            boundary.classify(node);
         }
-        let grid = Grid::new(self, &ring);
-        let noise = NOISE * ring.iter().map(|node| self.at(*node).abs().max_element()).fold(0.0, f64::max);
-        let mut triangles = Vec::with_capacity(ring.len() - 2);
+        grid.fill(boundary, ring);
+        let noise = NOISE * ring.iter().map(|node| boundary.at(*node).abs().max_element()).fold(0.0, f64::max);
+        triangles.clear();
         let mut left = ring.len();
         let mut node = start;
         let mut tried = 0;
@@ -53,24 +63,26 @@ impl Boundary<'_> {
                 care = care.looser();
                 tried = 0;
             }
-            let (before, after) = (self.previous(node), self.next(node));
-            if self.is_ear([before, node, after], care, noise, &grid) {
+            let (before, after) = (boundary.previous(node), boundary.next(node));
+            if boundary.is_ear([before, node, after], care, noise, grid) {
                 triangles.push([before, node, after]);
-                self.remove(node);
+                boundary.remove(node);
                 left -= 1;
                 tried = 0;
                 care = Care::Strict;
                 // going on two further spreads the ears instead of making fans
-                node = self.next(after);
+                node = boundary.next(after);
             } else {
                 node = after;
                 tried += 1;
             }
         }
-        triangles.push([self.previous(node), node, self.next(node)]);
+        triangles.push([boundary.previous(node), node, boundary.next(node)]);
         triangles
     }
+}
 
+impl Boundary<'_> {
     fn remove(&mut self, node: u32) {
         let (before, after) = (self.previous(node), self.next(node));
         self.nodes[node as usize].removed = true;

@@ -8,29 +8,108 @@ use rustc_hash::FxHashMap;
 /// of its longest side.
 const FLAT: f64 = 1e-9;
 
-/// Improves triangles of nodes, counter-clockwise, in place. Boundary edges and bridges between copies of one node stay.
-pub(super) fn improve(nodes: &[Node], triangles: &mut [[u32; 3]]) {
-    if triangles.len() < 2 {
-        return;
+/// Boundaries of at most this many nodes have a table of all pairs.
+const FEW: usize = 48;
+
+/// Improves triangulations, reusing its buffers.
+#[derive(Debug, Default)]
+pub(super) struct Flips {
+    small: PairTable,
+    large: FxHashMap<(u32, u32), u32>,
+    queue: Vec<(u32, u32)>,
+}
+
+/// The triangle at each directed edge.
+trait Across {
+    fn get(&self, edge: (u32, u32)) -> Option<u32>;
+    fn set(&mut self, edge: (u32, u32), triangle: u32);
+    fn remove(&mut self, edge: (u32, u32));
+}
+
+/// One for few nodes: an entry for every pair of them, the triangle plus 1.
+#[derive(Debug, Default)]
+struct PairTable {
+    nodes: usize,
+    triangles: Vec<u16>,
+}
+
+impl PairTable {
+    fn at(&self, (a, b): (u32, u32)) -> usize {
+        a as usize * self.nodes + b as usize
     }
-    let mut across: FxHashMap<(u32, u32), u32> = FxHashMap::default();
-    for (t, triangle) in triangles.iter().enumerate() {
-        for k in 0..3 {
-            across.insert((triangle[k], triangle[(k + 1) % 3]), t as u32);
+}
+
+impl Across for PairTable {
+    fn get(&self, edge: (u32, u32)) -> Option<u32> {
+        u32::from(self.triangles[self.at(edge)]).checked_sub(1)
+    }
+
+    fn set(&mut self, edge: (u32, u32), triangle: u32) {
+        let at = self.at(edge);
+        self.triangles[at] = triangle as u16 + 1;
+    }
+
+    fn remove(&mut self, edge: (u32, u32)) {
+        let at = self.at(edge);
+        self.triangles[at] = 0;
+    }
+}
+
+impl Across for FxHashMap<(u32, u32), u32> {
+    fn get(&self, edge: (u32, u32)) -> Option<u32> {
+        self.get(&edge).copied()
+    }
+
+    fn set(&mut self, edge: (u32, u32), triangle: u32) {
+        self.insert(edge, triangle);
+    }
+
+    fn remove(&mut self, edge: (u32, u32)) {
+        self.remove(&edge);
+    }
+}
+
+impl Flips {
+    /// Improves triangles of nodes, counter-clockwise, in place. Boundary edges and bridges between copies of one node stay.
+    pub(super) fn improve(&mut self, nodes: &[Node], triangles: &mut [[u32; 3]]) {
+        if triangles.len() < 2 {
+            return;
+        }
+        if nodes.len() <= FEW {
+            self.small.nodes = nodes.len();
+            self.small.triangles.clear();
+            self.small.triangles.resize(nodes.len() * nodes.len(), 0);
+            improve(nodes, triangles, &mut self.small, &mut self.queue);
+        } else {
+            self.large.clear();
+            improve(nodes, triangles, &mut self.large, &mut self.queue);
         }
     }
-    let mut queue: Vec<(u32, u32)> =
-        across.keys().filter(|(a, b)| a < b && across.contains_key(&(*b, *a))).copied().collect();
+}
+
+/// Improves triangles; `across` is empty.
+fn improve(nodes: &[Node], triangles: &mut [[u32; 3]], across: &mut impl Across, queue: &mut Vec<(u32, u32)>) {
+    queue.clear();
+    for (t, triangle) in (0..).zip(triangles.iter()) {
+        for k in 0..3 {
+            let (a, b) = (triangle[k], triangle[(k + 1) % 3]);
+            across.set((a, b), t);
+            // met for the second time
+            if across.get((b, a)).is_some() {
+                queue.push((a.min(b), a.max(b)));
+            }
+        }
+    }
     queue.sort_unstable();
     // Lawson's flips end; the cap guards against a cycle that rounding could make.
     let mut budget = 20 * triangles.len();
     while let Some((a, b)) = queue.pop() {
-        let (Some(&left), Some(&right)) = (across.get(&(a, b)), across.get(&(b, a))) else { continue };
+        let (Some(left), Some(right)) = (across.get((a, b)), across.get((b, a))) else { continue };
         let (Some(c), Some(d)) = (apex(&triangles[left as usize], a, b), apex(&triangles[right as usize], b, a)) else {
             continue;
         };
         let at = |node: u32| nodes[node as usize].corner.at;
-        if budget == 0 || across.contains_key(&(c, d)) || across.contains_key(&(d, c)) || c == d {
+        if budget == 0 || c == d || across.get((c, d)).is_some() || across.get((d, c)).is_some() {
             continue;
         }
         if !should_flip(at(a), at(b), at(c), at(d)) {
@@ -39,15 +118,15 @@ pub(super) fn improve(nodes: &[Node], triangles: &mut [[u32; 3]]) {
         budget -= 1;
         triangles[left as usize] = [a, d, c];
         triangles[right as usize] = [d, b, c];
-        across.remove(&(a, b));
-        across.remove(&(b, a));
+        across.remove((a, b));
+        across.remove((b, a));
         for (edge, t) in
             [((a, d), left), ((d, c), left), ((c, a), left), ((d, b), right), ((b, c), right), ((c, d), right)]
         {
-            across.insert(edge, t);
+            across.set(edge, t);
         }
         for (p, q) in [(a, d), (d, b), (b, c), (c, a)] {
-            if across.contains_key(&(q, p)) {
+            if across.get((q, p)).is_some() {
                 queue.push((p.min(q), p.max(q)));
             }
         }

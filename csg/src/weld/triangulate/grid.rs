@@ -7,8 +7,8 @@ use super::Boundary;
 /// Below this many reflex corners a list does.
 const SMALL: usize = 32;
 
-/// The reflex corners by cell. Cutting ears never makes a convex corner reflex, so the grid is built once.
-#[derive(Debug)]
+/// The reflex corners by cell. Cutting ears never makes a convex corner reflex, so the grid is filled once for each boundary.
+#[derive(Debug, Default)]
 pub(super) struct Grid {
     min: DVec2,
     scale: DVec2,
@@ -20,27 +20,31 @@ pub(super) struct Grid {
 }
 
 impl Grid {
-    pub(super) fn new(boundary: &Boundary<'_>, ring: &[u32]) -> Self {
-        let reflex: Vec<u32> = ring.iter().copied().filter(|node| boundary.nodes[*node as usize].reflex).collect();
-        let side = if reflex.len() <= SMALL { 1 } else { (reflex.len() as f64).sqrt() as usize };
+    /// Replaces what is there by the reflex corners of a ring.
+    pub(super) fn fill(&mut self, boundary: &Boundary<'_>, ring: &[u32]) {
+        self.starts.clear();
+        self.nodes.clear();
+        self.nodes.extend(ring.iter().copied().filter(|node| boundary.nodes[*node as usize].reflex));
+        let count = self.nodes.len();
+        let side = if count <= SMALL { 1 } else { (count as f64).sqrt() as usize };
+        (self.columns, self.rows) = (side, side);
+        if side == 1 {
+            self.starts.extend([0, count as u32]);
+            return;
+        }
         let (mut min, mut max) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-        for &node in &reflex {
+        for &node in &self.nodes {
             min = min.min(boundary.at(node));
             max = max.max(boundary.at(node));
         }
         let extent = (max - min).max(DVec2::splat(f64::MIN_POSITIVE));
-        let scale = DVec2::splat(side as f64) / extent;
-        let mut grid = Self { min, scale, columns: side, rows: side, starts: Vec::new(), nodes: Vec::new() };
-        if side == 1 {
-            grid.starts = vec![0, reflex.len() as u32];
-            grid.nodes = reflex;
-            return grid;
-        }
-        let mut keyed: Vec<(usize, u32)> = reflex.iter().map(|node| (grid.cell(boundary.at(*node)), *node)).collect();
+        (self.min, self.scale) = (min, DVec2::splat(side as f64) / extent);
+        let mut keyed: Vec<(usize, u32)> =
+            self.nodes.iter().map(|node| (self.cell(boundary.at(*node)), *node)).collect();
         keyed.sort_unstable();
-        grid.starts = (0..=side * side).map(|cell| keyed.partition_point(|(k, _)| *k < cell) as u32).collect();
-        grid.nodes = keyed.into_iter().map(|(_, node)| node).collect();
-        grid
+        self.starts.extend((0..=side * side).map(|cell| keyed.partition_point(|(k, _)| *k < cell) as u32));
+        self.nodes.clear();
+        self.nodes.extend(keyed.into_iter().map(|(_, node)| node));
     }
 
     fn place(&self, at: DVec2) -> (usize, usize) {

@@ -10,26 +10,30 @@ mod flip;
 mod grid;
 mod turn;
 
-pub(super) use turn::Turns;
-
 use planecut_kernel::DVec2;
 use planecut_kernel::sign::Sign;
 
-use super::cancel::UNPAIRED;
+use super::cancel::{HalfEdge, UNPAIRED};
 use super::manifold::Labels;
+use super::nest::Projection;
+use super::points::Points;
+use crate::plane_table::PlaneTable;
+use ears::Ears;
+use flip::Flips;
+use turn::Turns;
 
 /// A corner of a loop.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Corner {
-    pub(super) at: DVec2,
+struct Corner {
+    at: DVec2,
     /// The exact point.
-    pub(super) point: u32,
+    point: u32,
     /// The mesh vertex.
-    pub(super) vertex: u32,
+    vertex: u32,
     /// The line on which the edge to the next corner lies.
-    pub(super) line: u32,
+    line: u32,
     /// The half-edge to the next corner.
-    pub(super) piece: u32,
+    piece: u32,
 }
 
 /// The triangles of a face: mesh vertices, and for each side the half-edge it lies on.
@@ -56,57 +60,87 @@ struct Node {
 }
 
 /// The boundary of a face: one ring once the holes are joined to it.
-pub(super) struct Boundary<'a> {
+struct Boundary<'a> {
     nodes: Vec<Node>,
     turns: Turns<'a>,
 }
 
-/// Triangulates a face given by its loops, the outer one first, the inside to the left; triangles of mesh vertices.
-pub(super) fn triangulate(loops: &[Vec<Corner>], turns: Turns<'_>, out: &mut Triangles) {
-    let first = out.vertices.len();
-    let Some((outer, holes)) = loops.split_first() else { return };
-    if holes.is_empty() && outer.len() == 3 {
-        out.vertices.push([outer[0].vertex, outer[1].vertex, outer[2].vertex]);
-        out.labels.push([outer[0].piece, outer[1].piece, outer[2].piece]);
-        return;
-    }
-    let mut boundary = Boundary { nodes: Vec::with_capacity(outer.len()), turns };
-    let start = boundary.push_ring(outer);
-    let mut rings: Vec<u32> = holes.iter().map(|hole| boundary.push_ring(hole)).collect();
-    boundary.join_holes(start, &mut rings);
-    let ahead = boundary.boundary_edges();
-    let mut triangles = boundary.cut_ears(start);
-    flip::improve(&boundary.nodes, &mut triangles);
-    let corner = |node: u32| &boundary.nodes[node as usize].corner;
-    out.vertices.extend(triangles.iter().map(|t| t.map(|node| corner(node).vertex)));
-    let label = |from: u32, to: u32| if ahead[from as usize] == to { corner(from).piece } else { UNPAIRED };
-    out.labels.extend(triangles.iter().map(|[a, b, c]| [label(*a, *b), label(*b, *c), label(*c, *a)]));
-    debug_assert_eq!(out.vertices.len() - first, loops.iter().map(Vec::len).sum::<usize>() + 2 * holes.len() - 2);
+/// Triangulates faces, reusing its buffers.
+pub(super) struct Triangulator<'a> {
+    boundary: Boundary<'a>,
+    /// The first node of each loop, the outer one first.
+    rings: Vec<u32>,
+    ears: Ears,
+    ahead: Vec<u32>,
+    flips: Flips,
 }
 
-impl Boundary<'_> {
-    /// Links a loop into a ring of nodes; gives its first node.
-    fn push_ring(&mut self, corners: &[Corner]) -> u32 {
-        let first = self.nodes.len() as u32;
-        let n = corners.len() as u32;
-        for (k, corner) in corners.iter().enumerate() {
-            let before = corners[(k + corners.len() - 1) % corners.len()];
-            let k = k as u32;
-            self.nodes.push(Node {
-                corner: *corner,
-                lines: [before.line, corner.line],
-                previous: first + (k + n - 1) % n,
-                next: first + (k + 1) % n,
+impl<'a> Triangulator<'a> {
+    pub(super) fn new(table: &'a PlaneTable, points: &'a Points) -> Self {
+        let turns = Turns { table, points, projection: Projection { u: 0, v: 1 } };
+        Self {
+            boundary: Boundary { nodes: Vec::new(), turns },
+            rings: Vec::new(),
+            ears: Ears::default(),
+            ahead: Vec::new(),
+            flips: Flips::default(),
+        }
+    }
+
+    /// Begins a face.
+    pub(super) fn begin(&mut self, projection: Projection) {
+        self.boundary.turns.projection = projection;
+        self.boundary.nodes.clear();
+        self.rings.clear();
+    }
+
+    /// Adds a loop, the outer one first, the inside to the left: half-edges with their numbers and the vertices they begin at.
+    pub(super) fn add_loop<'b>(&mut self, pieces: impl ExactSizeIterator<Item = (u32, &'b HalfEdge, u32)>) {
+        let Turns { points, projection, .. } = self.boundary.turns;
+        let nodes = &mut self.boundary.nodes;
+        let (first, count) = (nodes.len() as u32, pieces.len() as u32);
+        self.rings.push(first);
+        for (k, (piece, half_edge, vertex)) in (0..).zip(pieces) {
+            let HalfEdge { from: point, line, .. } = *half_edge;
+            let at = projection.of(points.positions[point as usize]);
+            let before = nodes.last().filter(|_| k > 0).map_or(NO_LINE, |node| node.corner.line);
+            nodes.push(Node {
+                corner: Corner { at, point, vertex, line, piece },
+                lines: [before, line],
+                previous: first + (k + count - 1) % count,
+                next: first + (k + 1) % count,
                 reflex: false,
                 removed: false,
             });
         }
-        first
+        nodes[first as usize].lines[0] = nodes[nodes.len() - 1].corner.line;
     }
 
+    /// Adds the triangles of the face that was begun.
+    pub(super) fn triangulate(&mut self, out: &mut Triangles) {
+        let Self { boundary, rings, ears, ahead, flips } = self;
+        if let [a, b, c] = boundary.nodes[..] {
+            out.vertices.push([a, b, c].map(|node| node.corner.vertex));
+            out.labels.push([a, b, c].map(|node| node.corner.piece));
+            return;
+        }
+        let start = rings[0];
+        boundary.join_holes(start, &mut rings[1..]);
+        ahead.clear();
+        ahead.extend(boundary.boundary_edges());
+        let triangles = ears.cut(boundary, start);
+        flips.improve(&boundary.nodes, triangles);
+        let corner = |node: u32| &boundary.nodes[node as usize].corner;
+        out.vertices.extend(triangles.iter().map(|t| t.map(|node| corner(node).vertex)));
+        let label = |from: u32, to: u32| if ahead[from as usize] == to { corner(from).piece } else { UNPAIRED };
+        out.labels.extend(triangles.iter().map(|[a, b, c]| [label(*a, *b), label(*b, *c), label(*c, *a)]));
+    }
+}
+
+impl Boundary<'_> {
     /// For each node the one that ends the boundary edge beginning there; none for a bridge.
-    fn boundary_edges(&self) -> Vec<u32> {
-        self.nodes.iter().map(|node| if node.corner.line == NO_LINE { u32::MAX } else { node.next }).collect()
+    fn boundary_edges(&self) -> impl Iterator<Item = u32> {
+        self.nodes.iter().map(|node| if node.corner.line == NO_LINE { u32::MAX } else { node.next })
     }
 
     fn at(&self, node: u32) -> DVec2 {

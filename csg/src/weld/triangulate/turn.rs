@@ -14,10 +14,10 @@ const U: f64 = f64::EPSILON / 2.0;
 
 /// The turns of corners on one plane.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::weld) struct Turns<'a> {
-    pub(in crate::weld) table: &'a PlaneTable,
-    pub(in crate::weld) points: &'a Points,
-    pub(in crate::weld) projection: Projection,
+pub(super) struct Turns<'a> {
+    pub(super) table: &'a PlaneTable,
+    pub(super) points: &'a Points,
+    pub(super) projection: Projection,
 }
 
 impl Turns<'_> {
