@@ -58,8 +58,8 @@ pub(super) fn sum<'a>(faces: impl Iterator<Item = &'a FaceMeasures>, (min, max):
     for face in faces {
         six_volume.add(face.six_volume);
         area.add(face.area);
-        for axis in 0..3 {
-            moment[axis].add(face.moment[axis]);
+        for (sum, term) in moment.iter_mut().zip(face.moment.to_array()) {
+            sum.add(term);
         }
     }
     let volume = six_volume.value() / 6.0;
