@@ -3,13 +3,14 @@
 use std::hash::BuildHasher;
 
 use glam::DVec3;
-use planecut_kernel::sign::{Counts, Homogeneous};
+use planecut_kernel::sign::Counts;
 use planecut_kernel::{HalfSpace, IncrementalPolytope, PlaneIdx};
 use rayon::prelude::*;
 use rustc_hash::{FxBuildHasher, FxHashMap};
 
 use crate::bounds::Bounds;
 use crate::brush::{Brush, MaterialId};
+use crate::corner::Corner;
 use crate::plane_table::{PlaneId, PlaneTable};
 
 /// A face of a [`Body`].
@@ -17,19 +18,45 @@ use crate::plane_table::{PlaneId, PlaneTable};
 pub(crate) struct BodyFace {
     pub(crate) plane: PlaneId,
     pub(crate) material: MaterialId,
-    /// The planes of the edges, counter-clockwise seen from outside.
-    pub(crate) edges: Vec<PlaneId>,
-    /// Corner `i`, between the edges `i` and `i + 1`.
-    pub(crate) corners: Vec<Homogeneous>,
     pub(crate) bounds: Bounds,
+    /// Its edges and corners among those of the body.
+    start: u32,
+    end: u32,
 }
 
 /// A bounded convex body with interior.
 #[derive(Debug, Clone)]
 pub(crate) struct Body {
     pub(crate) faces: Vec<BodyFace>,
+    /// The planes of the edges, face by face.
+    edges: Vec<PlaneId>,
+    corners: Vec<Corner>,
+    /// Their numbers are below this.
+    pub(crate) different_corners: usize,
     pub(crate) bounds: Bounds,
     pub(crate) volume: f64,
+}
+
+impl Body {
+    /// The planes of the edges of a face, counter-clockwise seen from outside.
+    pub(crate) fn edges(&self, face: &BodyFace) -> &[PlaneId] {
+        &self.edges[face.start as usize..face.end as usize]
+    }
+
+    /// The corners of a face: corner `i` between the edges `i` and `i + 1`.
+    pub(crate) fn corners(&self, face: &BodyFace) -> &[Corner] {
+        &self.corners[face.start as usize..face.end as usize]
+    }
+
+    /// How many edges all faces have together.
+    pub(crate) fn edge_count(&self) -> usize {
+        self.edges.len()
+    }
+
+    /// The mean of the corners, each counted once for each face at it.
+    pub(crate) fn middle(&self) -> DVec3 {
+        self.corners.iter().map(|corner| corner.at).sum::<DVec3>() / self.corners.len() as f64
+    }
 }
 
 /// What a brush turned out to be.
@@ -156,49 +183,78 @@ pub(crate) fn body_of(
     polytope: &IncrementalPolytope,
     face_of: impl Fn(PlaneIdx) -> (PlaneId, MaterialId),
 ) -> Option<Body> {
-    let facets = polytope.facets();
-    let mut body = Body { faces: Vec::with_capacity(facets.len()), bounds: Bounds::EMPTY, volume: 0.0 };
-    let mut polygons = Vec::with_capacity(facets.len());
-    for (plane, edges) in &facets {
-        let edges = edges.iter().map(|idx| idx.map(|idx| face_of(idx).0)).collect::<Option<Vec<PlaneId>>>()?;
-        let (plane, material) = face_of(*plane);
-        let face = body_face(table, plane, material, edges);
-        let triple = |i: usize| [face.plane, face.edges[i], face.edges[(i + 1) % face.edges.len()]];
-        let position = |i: usize| rounded(&face.corners[i]).or_else(|| table.position(triple(i)));
-        let polygon: Vec<DVec3> = (0..face.edges.len()).filter_map(position).collect();
-        body.bounds = body.bounds.union(&face.bounds);
-        polygons.push(polygon);
-        body.faces.push(face);
-    }
-    body.volume = volume(&polygons);
-    Some(body)
-}
-
-fn body_face(table: &PlaneTable, plane: PlaneId, material: MaterialId, edges: Vec<PlaneId>) -> BodyFace {
-    let n = edges.len();
-    let corners: Vec<Homogeneous> = (0..n).map(|i| table.homogeneous([plane, edges[i], edges[(i + 1) % n]])).collect();
-    let bounds = corners.iter().fold(Bounds::EMPTY, |bounds, corner| bounds.with_point(corner));
-    BodyFace { plane, material, edges, corners, bounds }
-}
-
-/// A point rounded a few times, where it is well conditioned.
-fn rounded(point: &Homogeneous) -> Option<DVec3> {
-    const WELL: f64 = 64.0;
-    let [x, y, z, w] = point.value;
-    let [px, py, pz, pw] = point.permanent;
-    let is_well = pw <= WELL * w.abs() && px.max(py).max(pz) <= WELL * x.abs().max(y.abs()).max(z.abs());
-    is_well.then(|| DVec3::new(x, y, z) / w)
+    let mut body = Body {
+        faces: Vec::new(),
+        edges: Vec::new(),
+        corners: Vec::new(),
+        different_corners: 0,
+        bounds: Bounds::EMPTY,
+        volume: 0.0,
+    };
+    let mut volume = Volume::default();
+    let mut is_bounded = true;
+    // the corners that other faces have as well, by their numbers
+    let mut shared: Vec<Option<u32>> = vec![None; polytope.corner_bound()];
+    polytope.for_each_facet(|plane, edges| {
+        let (plane, material) = face_of(plane);
+        let start = body.edges.len();
+        for edge in edges {
+            let Some(edge) = edge.plane else {
+                is_bounded = false;
+                return;
+            };
+            body.edges.push(face_of(edge).0);
+        }
+        let mut bounds = Bounds::EMPTY;
+        volume.begin_face();
+        for (i, edge) in edges.iter().enumerate() {
+            let triple = [plane, body.edges[start + i], body.edges[start + (i + 1) % edges.len()]];
+            let known = edge.corner.and_then(|number| shared[number]);
+            let corner = match known {
+                Some(known) => body.corners[known as usize],
+                None => {
+                    body.different_corners += 1;
+                    let number = body.different_corners as u32 - 1;
+                    Corner { number, ..Corner::new(table.homogeneous(triple)) }
+                }
+            };
+            if let (Some(number), None) = (edge.corner, known) {
+                shared[number] = Some(body.corners.len() as u32);
+            }
+            bounds = bounds.with_corner(&corner);
+            volume.add(if corner.is_well_known() { Some(corner.at) } else { table.position(triple) });
+            body.corners.push(corner);
+        }
+        body.bounds = body.bounds.union(&bounds);
+        let (start, end) = (start as u32, body.edges.len() as u32);
+        body.faces.push(BodyFace { plane, material, bounds, start, end });
+    });
+    body.volume = volume.six / 6.0;
+    is_bounded.then_some(body)
 }
 
 /// The volume between the polygons of a convex boundary, as a sum of tetrahedra from one corner: nothing cancels.
-fn volume(polygons: &[Vec<DVec3>]) -> f64 {
-    let Some(&apex) = polygons.first().and_then(|polygon| polygon.first()) else { return 0.0 };
-    let mut six = 0.0;
-    for polygon in polygons {
-        let first = polygon[0] - apex;
-        for pair in polygon[1..].windows(2) {
-            six += first.cross(pair[0] - apex).dot(pair[1] - apex);
-        }
+#[derive(Default)]
+struct Volume {
+    six: f64,
+    apex: Option<DVec3>,
+    /// The first corner of the face and the last one so far, seen from the apex.
+    first: Option<DVec3>,
+    last: Option<DVec3>,
+}
+
+impl Volume {
+    fn begin_face(&mut self) {
+        (self.first, self.last) = (None, None);
     }
-    six / 6.0
+
+    fn add(&mut self, corner: Option<DVec3>) {
+        let Some(corner) = corner else { return };
+        let corner = corner - *self.apex.get_or_insert(corner);
+        let first = *self.first.get_or_insert(corner);
+        if let Some(last) = self.last {
+            self.six += first.cross(last).dot(corner);
+        }
+        self.last = Some(corner);
+    }
 }

@@ -3,6 +3,8 @@
 use glam::DVec3;
 use planecut_kernel::sign::Homogeneous;
 
+use crate::corner::Corner;
+
 /// A box; empty where a minimum exceeds its maximum.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Bounds {
@@ -19,16 +21,16 @@ impl Bounds {
 
     /// The box grown so that it surely holds a meeting point.
     pub(crate) fn with_point(self, point: &Homogeneous) -> Self {
-        let [x, y, z, w] = point.value;
-        let permanent = DVec3::new(point.permanent[0], point.permanent[1], point.permanent[2]);
-        // |x/w − X/W| ≤ ε (|X| perm + |x/w| Wperm) / |W|, with room in the factor
-        let position = DVec3::new(x, y, z) / w;
-        let error = (permanent + position.abs() * point.permanent[3]) * (16.0 * f64::EPSILON) / w.abs();
-        if !position.is_finite() || !error.is_finite() || point.permanent[3] * (16.0 * f64::EPSILON) > 0.5 * w.abs() {
+        self.with_corner(&Corner::new(*point))
+    }
+
+    /// The box grown so that it surely holds a corner.
+    pub(crate) fn with_corner(self, corner: &Corner) -> Self {
+        if corner.error.is_infinite() {
             return Self { min: DVec3::NEG_INFINITY, max: DVec3::INFINITY };
         }
-        let margin = 2.0 * error + position.abs() * WIDENING;
-        Self { min: self.min.min(position - margin), max: self.max.max(position + margin) }
+        let margin = corner.at.abs() * WIDENING + corner.error;
+        Self { min: self.min.min(corner.at - margin), max: self.max.max(corner.at + margin) }
     }
 
     pub(crate) fn union(self, other: &Self) -> Self {

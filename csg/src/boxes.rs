@@ -108,11 +108,6 @@ impl Boxes {
         ControlFlow::Continue(())
     }
 
-    /// The boxes under each node, in the order by which [`walk`](Self::walk) numbers them.
-    pub(crate) fn nodes(&self) -> impl Iterator<Item = &[u32]> {
-        self.nodes.iter().map(|node| self.of_node(node))
-    }
-
     fn of_node(&self, node: &Node) -> &[u32] {
         &self.order[node.start as usize..node.end as usize]
     }

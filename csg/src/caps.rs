@@ -4,6 +4,7 @@
 //! contracted. Programs that take such a triangle away one by one may tear the surface. Its long side is flipped instead:
 //! the neighbour across it takes the corner in between, and no point moves.
 
+use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use crate::mesh::Mesh;
@@ -11,8 +12,8 @@ use crate::mesh::Mesh;
 /// Flips away triangles of at most this height, in the mesh's units, where that makes no edge that is there already. Faces
 /// that lose all their triangles are dropped.
 pub(crate) fn flip_caps(mesh: &mut Mesh, height: f64) {
-    let mut caps: Vec<u32> =
-        (0..mesh.triangles.len() as u32).filter(|t| long_side(mesh, *t, height).is_some()).collect();
+    let all = (0..mesh.triangles.len() as u32).into_par_iter().with_min_len(2048);
+    let mut caps: Vec<u32> = all.filter(|t| is_flat(mesh, *t, height)).collect();
     if caps.is_empty() {
         return;
     }
@@ -35,13 +36,20 @@ pub(crate) fn flip_caps(mesh: &mut Mesh, height: f64) {
     mesh.drop_empty_faces();
 }
 
+/// Whether a triangle is at most so high.
+fn is_flat(mesh: &Mesh, triangle: u32, height: f64) -> bool {
+    let [a, b, c] = mesh.triangles[triangle as usize].map(|v| mesh.positions[v as usize]);
+    let (p, q) = (b - a, c - a);
+    let longest = p.length_squared().max(q.length_squared()).max((c - b).length_squared());
+    p.cross(q).length_squared() <= height * height * longest
+}
+
 /// The side that holds the third corner between its ends, where a triangle is a cap.
 fn long_side(mesh: &Mesh, triangle: u32, height: f64) -> Option<usize> {
     let at = mesh.triangles[triangle as usize].map(|v| mesh.positions[v as usize]);
     let length = |k: usize| at[k].distance(at[(k + 1) % 3]);
     let side = (0..3).max_by(|a, b| length(*a).total_cmp(&length(*b)))?;
-    let twice_area = (at[1] - at[0]).cross(at[2] - at[0]).length();
-    (twice_area <= height * length(side)).then_some(side)
+    is_flat(mesh, triangle, height).then_some(side)
 }
 
 /// Flips a side of a cap, whose two new triangles belong to the face of its neighbour.

@@ -8,6 +8,7 @@
 use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
 
+use crate::distinct::by_group;
 use crate::mesh::Mesh;
 
 /// Contracts edges of at most `length` (in the mesh's units) and gives how many went. Edges whose contraction would change
@@ -62,20 +63,40 @@ fn short_edges(mesh: &Mesh, is_short: impl Fn(DVec3, DVec3) -> bool) -> Vec<[u32
 struct Contraction {
     /// What a contracted vertex became.
     became: FxHashMap<u32, u32>,
-    /// The live triangles at a vertex.
-    triangles: Vec<Vec<u32>>,
+    /// Where the triangles at each vertex begin, and these, as they were.
+    starts: Vec<u32>,
+    triangles: Vec<u32>,
+    /// The live triangles at vertices where they have changed.
+    changed: FxHashMap<u32, Vec<u32>>,
     removed: FxHashSet<u32>,
 }
 
 impl Contraction {
     fn new(mesh: &Mesh) -> Self {
-        let mut triangles = vec![Vec::new(); mesh.positions.len()];
-        for (t, triangle) in mesh.triangles.iter().enumerate() {
-            for v in triangle {
-                triangles[*v as usize].push(t as u32);
-            }
+        let (starts, sides) = by_group(mesh.positions.len(), mesh.triangles.iter().flatten().copied());
+        let triangles = sides.into_iter().map(|side| side / 3).collect();
+        Self {
+            became: FxHashMap::default(),
+            starts,
+            triangles,
+            changed: FxHashMap::default(),
+            removed: FxHashSet::default(),
         }
-        Self { became: FxHashMap::default(), triangles, removed: FxHashSet::default() }
+    }
+
+    /// The live triangles at a vertex.
+    fn triangles_at(&self, vertex: u32) -> &[u32] {
+        self.changed.get(&vertex).map_or_else(|| self.triangles_before(vertex), Vec::as_slice)
+    }
+
+    fn triangles_before(&self, vertex: u32) -> &[u32] {
+        &self.triangles[self.starts[vertex as usize] as usize..self.starts[vertex as usize + 1] as usize]
+    }
+
+    /// The same, to be changed.
+    fn triangles_mut(&mut self, vertex: u32) -> &mut Vec<u32> {
+        let before = &self.triangles[self.starts[vertex as usize] as usize..self.starts[vertex as usize + 1] as usize];
+        self.changed.entry(vertex).or_insert_with(|| before.to_vec())
     }
 
     fn current(&self, mut vertex: u32) -> u32 {
@@ -92,17 +113,17 @@ impl Contraction {
         if a == b || !still_short || !self.keeps_topology(mesh, a, b) {
             return false;
         }
-        let at_b = std::mem::take(&mut self.triangles[b as usize]);
+        let at_b = std::mem::take(self.triangles_mut(b));
         for t in at_b {
             let triangle = &mut mesh.triangles[t as usize];
             if triangle.contains(&a) {
                 self.removed.insert(t);
                 for v in *triangle {
-                    self.triangles[v as usize].retain(|other| *other != t);
+                    self.triangles_mut(v).retain(|other| *other != t);
                 }
             } else {
                 *triangle = triangle.map(|v| if v == b { a } else { v });
-                self.triangles[a as usize].push(t);
+                self.triangles_mut(a).push(t);
             }
         }
         self.became.insert(b, a);
@@ -112,11 +133,11 @@ impl Contraction {
     /// The link condition: exactly two triangles share the edge, and their tips are all the neighbours that both ends have.
     fn keeps_topology(&self, mesh: &Mesh, a: u32, b: u32) -> bool {
         let around = |v: u32| -> FxHashSet<u32> {
-            let corners = self.triangles[v as usize].iter().flat_map(|t| mesh.triangles[*t as usize]);
+            let corners = self.triangles_at(v).iter().flat_map(|t| mesh.triangles[*t as usize]);
             corners.filter(|other| *other != v).collect()
         };
         let (at_a, at_b) = (around(a), around(b));
-        let shared = self.triangles[b as usize].iter().filter(|t| mesh.triangles[**t as usize].contains(&a)).count();
+        let shared = self.triangles_at(b).iter().filter(|t| mesh.triangles[**t as usize].contains(&a)).count();
         // a tetrahedron would fold flat
         shared == 2 && at_a.intersection(&at_b).count() == 2 && at_a.len() + at_b.len() > 6
     }

@@ -1,4 +1,4 @@
-//! Numbers for keys: equal keys get one number.
+//! Numbers for keys: equal keys get one number, and keys sort as integers.
 
 use std::hash::{BuildHasher, Hash};
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -94,6 +94,12 @@ pub(crate) fn by_group(count: usize, of_member: impl Iterator<Item = u32> + Clon
         next[group as usize] += 1;
     }
     (starts, sorted)
+}
+
+/// A number in the order of [`f64::total_cmp`].
+pub(crate) fn sortable(v: f64) -> u64 {
+    let bits = v.to_bits();
+    if bits >> 63 == 0 { bits | 1 << 63 } else { !bits }
 }
 
 #[cfg(test)]

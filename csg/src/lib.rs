@@ -28,6 +28,7 @@ mod caps;
 pub mod check;
 mod collapse;
 mod contract;
+mod corner;
 mod distinct;
 mod evaluate;
 mod expression;

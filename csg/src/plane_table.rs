@@ -4,7 +4,10 @@ use std::cmp::Ordering;
 
 use planecut_kernel::sign::{Homogeneous, Row, Sign, cross_component, orient3};
 use planecut_kernel::{DVec3, HalfSpace, meet};
+use rayon::prelude::*;
 use rustc_hash::FxHashMap;
+
+use crate::distinct::{distinct, sortable};
 
 /// Planes whose unit normals and relative offsets differ by at most this are taken to be one plane that went through
 /// rotations or decimal text, relative to the largest distance of a plane from the origin.
@@ -73,7 +76,7 @@ impl PlaneTable {
     /// The numbering depends on the planes alone, not on the order in which they were given.
     #[must_use]
     pub fn intern(half_spaces: &[HalfSpace]) -> (Self, Vec<PlaneId>) {
-        let rows: Vec<Row> = half_spaces.iter().map(Row::new).collect();
+        let rows: Vec<Row> = half_spaces.par_iter().with_min_len(1024).map(Row::new).collect();
         let (exact, class) = group_exactly(&rows);
         let mut table = Self::default();
         let ids = table.snap(&exact);
@@ -195,19 +198,22 @@ impl PlaneTable {
     /// Exact planes come first, then the others by their coefficients, so that the outcome does not depend on the order of
     /// the input.
     fn snap(&mut self, planes: &[Row]) -> Vec<PlaneId> {
-        let units: Vec<[f64; 4]> = planes.iter().map(unit).collect();
+        let units: Vec<[f64; 4]> = planes.par_iter().with_min_len(1024).map(unit).collect();
         self.reach = units.iter().map(|unit| unit[3].abs()).fold(0.0, f64::max);
-        let mut order: Vec<usize> = (0..planes.len()).collect();
-        order.sort_unstable_by(|a, b| {
-            let (p, q) = (&planes[*a], &planes[*b]);
-            is_exact(q).cmp(&is_exact(p)).then_with(|| compare_coefficients(p, q))
-        });
-        let any_noise = order.last().is_some_and(|last| !is_exact(&planes[*last]));
+        let place = |(k, row): (usize, &Row)| (!is_exact(row), row.coefficients().map(sortable), k as u32);
+        let mut order: Vec<(bool, [u64; 4], u32)> =
+            planes.par_iter().enumerate().with_min_len(1024).map(place).collect();
+        order.par_sort_unstable();
+        let any_noise = order.last().is_some_and(|last| last.0);
         let mut near = NearPlanes::new(self.reach);
+        near.cells.reserve(if any_noise { planes.len() } else { 0 });
+        self.rows.reserve_exact(2 * planes.len());
+        self.half_spaces.reserve_exact(2 * planes.len());
         let mut ids = vec![PlaneId(0); planes.len()];
-        for plane in order {
+        for (is_noisy, _, plane) in order {
+            let plane = plane as usize;
             let row = &planes[plane];
-            let found = if is_exact(row) { None } else { near.find(&units[plane], self.reach) };
+            let found = if is_noisy { near.find(&units[plane], self.reach) } else { None };
             ids[plane] = found.unwrap_or_else(|| {
                 let id = self.push(row);
                 if any_noise {
@@ -322,25 +328,29 @@ fn compare_coefficients(p: &Row, q: &Row) -> Ordering {
 /// Groups rows that describe the same plane: for each group its side with a positive first coefficient, and the group of
 /// each row. Of rows of different scale the least stands for the group, so that the order of the input does not matter.
 fn group_exactly(rows: &[Row]) -> (Vec<Row>, Vec<u32>) {
-    let mut buckets: FxHashMap<Key, Vec<u32>> = FxHashMap::default();
-    let mut exact: Vec<Row> = Vec::new();
-    let mut class = Vec::with_capacity(rows.len());
-    for row in rows {
-        let row = if is_reversed(row) { row.flipped() } else { *row };
-        let bucket = buckets.entry(key(&row)).or_default();
-        let known = bucket.iter().copied().find(|g| exact[*g as usize].is_same_plane(&row));
-        let group = known.unwrap_or_else(|| {
-            exact.push(row);
-            bucket.push(exact.len() as u32 - 1);
-            exact.len() as u32 - 1
-        });
-        let least = &mut exact[group as usize];
-        if compare_coefficients(&row, least).is_lt() {
-            *least = row;
+    let rows: Vec<Row> =
+        rows.par_iter().with_min_len(1024).map(|row| if is_reversed(row) { row.flipped() } else { *row }).collect();
+    let keys: Vec<Key> = rows.par_iter().with_min_len(1024).map(key).collect();
+    let (different, mut class) = distinct(&keys);
+    let mut groups: Vec<Option<Row>> = vec![None; different.len()];
+    // groups that share all numbers with one that was there before
+    let mut further: FxHashMap<u32, Vec<u32>> = FxHashMap::default();
+    for (row, class) in rows.iter().zip(&mut class) {
+        let same = |group: &u32| groups[*group as usize].is_none_or(|other| other.is_same_plane(row));
+        if !same(class) {
+            let others = further.entry(*class).or_default();
+            *class = others.iter().copied().find(same).unwrap_or_else(|| {
+                others.push(groups.len() as u32);
+                groups.push(None);
+                groups.len() as u32 - 1
+            });
         }
-        class.push(group);
+        let least = groups[*class as usize].get_or_insert(*row);
+        if compare_coefficients(row, least).is_lt() {
+            *least = *row;
+        }
     }
-    (exact, class)
+    (groups.into_iter().flatten().collect(), class)
 }
 
 /// Unit normal and distance from the origin.
@@ -353,14 +363,17 @@ fn unit(row: &Row) -> [f64; 4] {
 /// A hash of planes by their unit normal and relative offset.
 #[derive(Debug, Clone)]
 struct NearPlanes {
-    cells: FxHashMap<[i64; 4], Vec<([f64; 4], PlaneId)>>,
+    /// The last plane of each cell.
+    cells: FxHashMap<[i64; 4], u32>,
+    /// Each with the one before in its cell.
+    planes: Vec<([f64; 4], PlaneId, Option<u32>)>,
     /// Distances from the origin are hashed as shares of this.
     size: f64,
 }
 
 impl NearPlanes {
     fn new(size: f64) -> Self {
-        Self { cells: FxHashMap::default(), size: size.max(f64::MIN_POSITIVE) }
+        Self { cells: FxHashMap::default(), planes: Vec::new(), size: size.max(f64::MIN_POSITIVE) }
     }
 
     fn of(rows: &[Row], size: f64) -> Self {
@@ -372,13 +385,18 @@ impl NearPlanes {
     }
 
     fn insert(&mut self, unit: [f64; 4], id: PlaneId) {
-        self.cells.entry(self.shares(unit).map(cell)).or_default().push((unit, id));
+        let before = self.cells.insert(self.shares(unit).map(cell), self.planes.len() as u32);
+        self.planes.push((unit, id, before));
     }
 
     /// The side of a plane that is within the tolerance; `reach` is the largest distance from the origin.
     fn find(&self, unit: &[f64; 4], reach: f64) -> Option<PlaneId> {
-        let opposite = unit.map(|v| -v);
-        self.find_side(unit, reach).or_else(|| self.find_side(&opposite, reach).map(PlaneId::flipped))
+        let opposite = || {
+            // both have a first coefficient that is not negative
+            let may_be_near = unit[0] <= SNAP_TOLERANCE;
+            may_be_near.then(|| self.find_side(&unit.map(|v| -v), reach)).flatten().map(PlaneId::flipped)
+        };
+        self.find_side(unit, reach).or_else(opposite)
     }
 
     fn find_side(&self, unit: &[f64; 4], reach: f64) -> Option<PlaneId> {
@@ -386,12 +404,15 @@ impl NearPlanes {
         let near = |other: &[f64; 4]| (0..4).all(|k| (unit[k] - other[k]).abs() <= tolerances[k]);
         let low = self.shares(std::array::from_fn(|k| unit[k] - tolerances[k])).map(cell);
         let high = self.shares(std::array::from_fn(|k| unit[k] + tolerances[k])).map(cell);
+        let different = (0..4).filter(|k| low[*k] != high[*k]).fold(0, |bits, k| bits | 1 << k);
         (0..16usize)
+            .filter(|corner| corner & !different == 0)
             .map(|corner| std::array::from_fn(|k| if corner >> k & 1 == 0 { low[k] } else { high[k] }))
             .filter_map(|key: [i64; 4]| self.cells.get(&key))
-            .flatten()
-            .filter(|(other, _)| near(other))
-            .map(|(_, id)| *id)
+            .flat_map(|last| std::iter::successors(Some(*last), |k| self.planes[*k as usize].2))
+            .map(|k| &self.planes[k as usize])
+            .filter(|(other, ..)| near(other))
+            .map(|(_, id, _)| *id)
             .min()
     }
 

@@ -42,7 +42,7 @@ pub use hull::{HullError, MAX_COORDINATE, hull};
 pub use meet::{compare_exactly, direction_across, line_coordinates, line_direction, meet, planar_turn};
 pub use polytope::{
     AddPlaneResult, BoundaryLine, BoundingBox, ClippedLine, ClosestFeature, ClosestPoint, DEFAULT_EPSILON, Edge,
-    EdgeIdx, EdgeKind, Face, FacePolygon, IncrementalPolytope, InscribedBall, InteriorPoint, InvariantError, Location,
-    Measures, MovePlaneResult, PlaneIdx, RecessionCone, RemovePlaneResult, RemovePlanesResult, Support, TopologyError,
-    Validation, ValidationError, Vertex, VertexIdx,
+    EdgeIdx, EdgeKind, Face, FacePolygon, FacetEdge, IncrementalPolytope, InscribedBall, InteriorPoint, InvariantError,
+    Location, Measures, MovePlaneResult, PlaneIdx, RecessionCone, RemovePlaneResult, RemovePlanesResult, Support,
+    TopologyError, Validation, ValidationError, Vertex, VertexIdx,
 };

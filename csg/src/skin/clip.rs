@@ -1,30 +1,61 @@
 //! What a body covers of a polygon on a face of another.
 
+use planecut_kernel::sign::Sign;
+
 use super::Scene;
-use super::facets::{Facets, Place};
+use super::gauge::{Gauge, Place};
 use super::section::{Clip, Polygon};
 use crate::body::BodyFace;
-use crate::plane_table::PlaneId;
+use crate::corner::Corner;
+
+/// For more pairs of a corner and a body near nothing is kept.
+const MOST: usize = 1 << 20;
 
 /// Clips polygons by bodies, reusing its buffers.
 #[derive(Debug, Default)]
 pub(super) struct Clipper {
-    near: Vec<PlaneId>,
-    whole: Polygon,
     spare: Polygon,
+    near: Vec<u32>,
+    /// For each body near the one whose faces are clipped, the face at which the last point was found.
+    last: Vec<u32>,
+    /// How many corners the body has whose faces are clipped.
+    corners: usize,
+    /// Where each of these corners lies in each body near: a corner is seen from several faces.
+    known: Vec<Found>,
+}
+
+/// A body that clips polygons on a face of another.
+#[derive(Clone, Copy)]
+pub(super) struct Cutter<'a> {
+    pub(super) scene: &'a Scene<'a>,
+    pub(super) face: &'a BodyFace,
+    pub(super) body: usize,
+    /// Its place among the bodies near.
+    pub(super) place: usize,
 }
 
 impl Clipper {
-    /// Keeps what a body covers of a polygon within a face.
-    pub(super) fn clip(&mut self, scene: &Scene<'_>, face: &BodyFace, body: usize, polygon: &mut Polygon) -> Clip {
-        match &scene.facets[body] {
-            Some(facets) => self.clip_by_near(scene, face, body, facets, polygon),
-            None => self.clip_by_all(scene, face, body, polygon),
+    /// Begins with the faces of another body, of so many corners and with so many bodies near.
+    pub(super) fn begin(&mut self, corners: usize, near: usize) {
+        self.corners = if corners.saturating_mul(near) <= MOST { corners } else { 0 };
+        self.last.clear();
+        self.last.resize(near, 0);
+        self.known.clear();
+    }
+
+    /// What a body covers of a polygon within a face. `out` is that part where it is [`Clip::Part`], else of no meaning.
+    pub(super) fn clip(&mut self, cutter: Cutter<'_>, polygon: &Polygon, out: &mut Polygon) -> Clip {
+        match &cutter.scene.gauges[cutter.body] {
+            Some(gauge) => self.clip_by_gauge(cutter, gauge, polygon, out),
+            None => {
+                out.copy_from(polygon);
+                self.clip_by_all(cutter, out)
+            }
         }
     }
 
     /// By the planes of all faces.
-    fn clip_by_all(&mut self, scene: &Scene<'_>, face: &BodyFace, body: usize, polygon: &mut Polygon) -> Clip {
+    fn clip_by_all(&mut self, Cutter { scene, face, body, .. }: Cutter<'_>, polygon: &mut Polygon) -> Clip {
         let mut whole = true;
         let cuts = scene.bodies[body].faces.iter().map(|face| face.plane);
         for cut in cuts.filter(|cut| cut.index() != face.plane.index()) {
@@ -42,34 +73,107 @@ impl Clipper {
         if whole { Clip::Whole } else { Clip::Part }
     }
 
-    /// By the planes of the faces that meet the polygon.
-    fn clip_by_near(
-        &mut self,
-        scene: &Scene<'_>,
-        face: &BodyFace,
-        body: usize,
-        facets: &Facets,
-        polygon: &mut Polygon,
-    ) -> Clip {
-        let (table, other) = (scene.table, &scene.bodies[body]);
-        facets.near(table, other, face, &polygon.bounds(), &mut self.near);
-        self.whole.copy_from(&polygon.edges, &polygon.corners);
-        let mut whole = true;
-        for cut in &self.near {
-            match polygon.clip(table, face.plane, *cut, &mut self.spare) {
-                Clip::Nothing => return Clip::Nothing,
-                Clip::Part => whole = false,
-                Clip::Whole => {}
+    /// By planes beyond which corners lie, until there is none. Then all corners lie in the body, and so does the polygon.
+    fn clip_by_gauge(&mut self, cutter: Cutter<'_>, gauge: &Gauge, polygon: &Polygon, out: &mut Polygon) -> Clip {
+        let Cutter { scene, face, body, .. } = cutter;
+        // mostly all of it is inside, or all beyond one plane, and nothing need be copied
+        let mut first = None;
+        for i in 0..polygon.corners.len() {
+            match self.place(cutter, gauge, polygon, i) {
+                Found::Inside => {}
+                Found::Beyond(beyond) => {
+                    if polygon.corners.iter().all(|corner| gauge.is_beyond(corner, beyond)) {
+                        return Clip::Nothing;
+                    }
+                    first = Some((i, beyond));
+                    break;
+                }
+                Found::Unknown => {
+                    out.copy_from(polygon);
+                    return self.clip_by_all(cutter, out);
+                }
             }
         }
-        match facets.place(table, other, face, &self.near, polygon) {
-            Place::Inside if whole => Clip::Whole,
-            Place::Inside => Clip::Part,
-            Place::Outside => Clip::Nothing,
-            Place::Unknown => {
-                std::mem::swap(polygon, &mut self.whole);
-                self.clip_by_all(scene, face, body, polygon)
+        let Some((known, mut beyond)) = first else { return Clip::Whole };
+        out.copy_from(polygon);
+        let number = body as u32;
+        out.corners[..known].iter_mut().for_each(|corner| corner.within = number);
+        let mut i = known;
+        loop {
+            let cut = scene.bodies[body].faces[beyond as usize].plane;
+            match out.clip(scene.table, face.plane, cut, &mut self.spare) {
+                Clip::Nothing => return Clip::Nothing,
+                Clip::Part => {}
+                // signs decide
+                Clip::Whole => out.corners[i].within = number,
             }
+            let next = loop {
+                let Some(k) = out.corners.iter().position(|corner| corner.within != number) else { break None };
+                i = k;
+                match self.place(cutter, gauge, out, i) {
+                    Found::Inside => out.corners[i].within = number,
+                    Found::Beyond(other) => break Some(other),
+                    Found::Unknown => {
+                        return if self.clip_by_all(cutter, out) == Clip::Nothing { Clip::Nothing } else { Clip::Part };
+                    }
+                }
+            };
+            match next {
+                Some(other) => beyond = other,
+                None => break,
+            }
+        }
+        out.corners.iter_mut().for_each(|corner| corner.within = Corner::NOWHERE);
+        Clip::Part
+    }
+
+    /// Where a corner lies, exactly where numbers do not tell.
+    fn place(&mut self, cutter: Cutter<'_>, gauge: &Gauge, polygon: &Polygon, i: usize) -> Found {
+        let number = polygon.corners[i].number as usize;
+        if number >= self.corners {
+            return self.find(cutter, gauge, polygon, i);
+        }
+        if self.known.is_empty() {
+            self.known.resize(self.last.len() * self.corners, Found::Unknown);
+        }
+        let entry = cutter.place * self.corners + number;
+        if self.known[entry] == Found::Unknown {
+            self.known[entry] = self.find(cutter, gauge, polygon, i);
+        }
+        self.known[entry]
+    }
+
+    fn find(&mut self, cutter: Cutter<'_>, gauge: &Gauge, polygon: &Polygon, i: usize) -> Found {
+        let Cutter { scene, face, body, place } = cutter;
+        let corner = &polygon.corners[i];
+        match gauge.place(corner, self.last[place]) {
+            Place::Inside => Found::Inside,
+            Place::Outside(other) => {
+                self.last[place] = other;
+                Found::Beyond(other)
+            }
+            Place::Near(other) => {
+                self.last[place] = other;
+                let planes = polygon.corner(face.plane, i);
+                gauge.near(corner, other, &mut self.near);
+                let faces = &scene.bodies[body].faces;
+                let is_beyond = |other: &u32| {
+                    let plane = faces[*other as usize].plane;
+                    scene.table.side(planes, &corner.point, plane) == Sign::Positive
+                };
+                self.near.iter().copied().find(is_beyond).map_or(Found::Inside, Found::Beyond)
+            }
+            Place::Unknown => Found::Unknown,
         }
     }
+}
+
+/// Where a corner lies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Found {
+    /// Inside of all planes or on some.
+    Inside,
+    /// Outside of the plane of this face.
+    Beyond(u32),
+    Unknown,
 }

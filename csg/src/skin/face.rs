@@ -1,6 +1,6 @@
 //! One face of one body: which part of it is boundary, and where that part ends.
 
-use super::clip::Clipper;
+use super::clip::{Clipper, Cutter};
 use super::contact::{Contact, Facing, Owner, misses};
 use super::section::{Clip, Cover, Line, Piece, Polygon};
 use super::sweep::{Context, Label, Side, Sweep};
@@ -14,6 +14,8 @@ use crate::plane_table::PlaneTable;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Reaching {
     body: usize,
+    /// Its place among the bodies near.
+    place: usize,
     /// Its place among the leaves of the restriction.
     pub(super) leaf: usize,
     pub(super) contact: Contact,
@@ -46,6 +48,8 @@ pub(super) struct FaceWorker<'a> {
     scene: &'a Scene<'a>,
     restriction: Restriction,
     bodies: Vec<usize>,
+    /// The places of these among the bodies near.
+    places: Vec<usize>,
     leaves: Vec<u32>,
     others: Vec<Reaching>,
     covering: Vec<Reaching>,
@@ -53,6 +57,7 @@ pub(super) struct FaceWorker<'a> {
     /// Bodies that hold both sides of all of the region.
     holding: Vec<usize>,
     region: Polygon,
+    part: Polygon,
     sections: Vec<Section>,
     live: usize,
     clipper: Clipper,
@@ -67,12 +72,14 @@ impl<'a> FaceWorker<'a> {
             scene,
             restriction: Restriction::default(),
             bodies: Vec::new(),
+            places: Vec::new(),
             leaves: Vec::new(),
             others: Vec::new(),
             covering: Vec::new(),
             open: Vec::new(),
             holding: Vec::new(),
             region: Polygon::default(),
+            part: Polygon::default(),
             sections: Vec::new(),
             live: 0,
             clipper: Clipper::default(),
@@ -82,19 +89,25 @@ impl<'a> FaceWorker<'a> {
         }
     }
 
+    /// Begins with the faces of another body; so many bodies are near.
+    pub(super) fn begin(&mut self, body: usize, near: usize) {
+        self.clipper.begin(self.scene.bodies[body].different_corners, near);
+    }
+
     /// Emits the boundary of what face `face` of body `body` is of the boundary; `near` are the bodies whose boxes touch it,
-    /// by number.
+    /// by number, its own among them.
     pub(super) fn emit(&mut self, body: usize, face: usize, near: &[u32], out: &mut Vec<BoundaryEdge>) {
         let scene = self.scene;
-        let this = &scene.bodies[body].faces[face];
+        let solid = &scene.bodies[body];
+        let this = &solid.faces[face];
         let own = self.restrict(body, this, near);
         if !self.restriction.matters(own) {
             return;
         }
         let owner = scene.owner(body, this);
-        let own = Reaching { body, leaf: own, contact: Contact::SameWay, owner };
+        let own = Reaching { body, place: 0, leaf: own, contact: Contact::SameWay, owner };
         self.label.begin(scene.expression, &mut self.restriction, &own);
-        self.region.copy_from(&this.edges, &this.corners);
+        self.region.set(solid.edges(this), solid.corners(this));
         if !self.sort_out(&own, this) {
             return;
         }
@@ -164,9 +177,17 @@ impl<'a> FaceWorker<'a> {
             bounds.touches(&face.bounds) && !misses(bounds, normal, offset)
         };
         self.bodies.clear();
-        self.bodies.extend(near.iter().map(|other| *other as usize).filter(|other| reaches(*other)));
-        let own = self.bodies.partition_point(|other| *other < body);
-        self.bodies.insert(own, body);
+        self.places.clear();
+        let mut own = 0;
+        for (place, other) in near.iter().enumerate().map(|(place, other)| (place, *other as usize)) {
+            if other == body {
+                own = self.bodies.len();
+            }
+            if other == body || reaches(other) {
+                self.bodies.push(other);
+                self.places.push(place);
+            }
+        }
         self.leaves.clear();
         self.leaves.extend(self.bodies.iter().map(|body| scene.leaf_of_body[*body]));
         self.restriction.restrict(scene.expression, &self.leaves);
@@ -193,8 +214,11 @@ impl<'a> FaceWorker<'a> {
                 Role::Covers => self.covering.push(reaching),
                 Role::Open => self.open.push(reaching),
                 Role::Required => {
-                    if self.clipper.clip(scene, face, reaching.body, &mut self.region) == Clip::Nothing {
-                        return false;
+                    let cutter = Cutter { scene, face, body: reaching.body, place: reaching.place };
+                    match self.clipper.clip(cutter, &self.region, &mut self.part) {
+                        Clip::Nothing => return false,
+                        Clip::Part => std::mem::swap(&mut self.region, &mut self.part),
+                        Clip::Whole => {}
                     }
                     self.hold(reaching);
                 }
@@ -211,7 +235,7 @@ impl<'a> FaceWorker<'a> {
             Some(other) if other.plane == face.plane => Contact::SameWay,
             Some(_) => Contact::OtherWay,
         };
-        Reaching { body, leaf, contact, owner: self.scene.owner(body, other.unwrap_or(face)) }
+        Reaching { body, place: self.places[leaf], leaf, contact, owner: self.scene.owner(body, other.unwrap_or(face)) }
     }
 
     /// What a body does, as far as it can be told from it and the face's own body alone; `coplanar` bodies have a face on the plane
@@ -281,8 +305,8 @@ impl<'a> FaceWorker<'a> {
         }
         let section = &mut self.sections[self.live];
         section.of = of;
-        section.polygon.copy_from(&self.region.edges, &self.region.corners);
-        let clip = self.clipper.clip(self.scene, face, of.body, &mut section.polygon);
+        let cutter = Cutter { scene: self.scene, face, body: of.body, place: of.place };
+        let clip = self.clipper.clip(cutter, &self.region, &mut section.polygon);
         if clip == Clip::Part {
             section.bounds = section.polygon.bounds();
         }
@@ -295,11 +319,11 @@ impl<'a> FaceWorker<'a> {
         for (i, &edge) in self.region.edges.iter().enumerate() {
             let line = Line { plane: face.plane, edge };
             self.pieces.clear();
-            self.pieces.push(Piece::of_edge(&self.region.edges, &self.region.corners, i));
+            self.pieces.push(Piece::of_edge(&self.region, i));
             for section in &self.sections[..self.live] {
                 let polygon = &section.polygon;
                 if let Some(k) = polygon.edges.iter().position(|other| *other == edge) {
-                    let covered = Piece::of_edge(&polygon.edges, &polygon.corners, k);
+                    let covered = Piece::of_edge(polygon, k);
                     line.subtract(table, &mut self.pieces, &covered);
                 }
             }
@@ -317,8 +341,8 @@ impl<'a> FaceWorker<'a> {
                 }
                 let line = Line { plane: face.plane, edge };
                 self.pieces.clear();
-                self.pieces.push(Piece::of_edge(&section.polygon.edges, &section.polygon.corners, i));
-                subtract_others(self.scene.table, line, sections, k, &mut self.pieces);
+                self.pieces.push(Piece::of_edge(&section.polygon, i));
+                subtract_others(self.scene.table, line, sections, [k, i], &mut self.pieces);
                 let right = |piece: &Piece| BoundaryEdge::right(face, facing, edge, piece.start, piece.end);
                 out.extend(self.pieces.iter().map(right));
             }
@@ -326,12 +350,18 @@ impl<'a> FaceWorker<'a> {
     }
 }
 
-/// Takes out of `pieces`, which lie on an edge of section `own`, what other sections cover on the outer side.
+/// Takes out of `pieces`, which lie on edge `edge` of section `own`, what other sections cover on the outer side.
 ///
 /// Along a shared edge line a section on the outer side covers; of two on the same side the first keeps the edge.
-fn subtract_others(table: &PlaneTable, line: Line, sections: &[Section], own: usize, pieces: &mut Vec<Piece>) {
+fn subtract_others(
+    table: &PlaneTable,
+    line: Line,
+    sections: &[Section],
+    [own, edge]: [usize; 2],
+    pieces: &mut Vec<Piece>,
+) {
     let Some(whole) = pieces.first().copied() else { return };
-    let bounds = whole.bounds();
+    let bounds = sections[own].polygon.edge_bounds(edge);
     for (k, other) in sections.iter().enumerate() {
         if k == own || pieces.is_empty() || !other.bounds.touches(&bounds) {
             continue;

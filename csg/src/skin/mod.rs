@@ -10,7 +10,7 @@
 mod clip;
 mod contact;
 mod face;
-mod facets;
+mod gauge;
 mod section;
 mod sweep;
 
@@ -23,7 +23,7 @@ use crate::brush::MaterialId;
 use crate::expression::{Expression, Polarity};
 use crate::plane_table::{PlaneId, PlaneTable};
 use contact::{Facing, Owner};
-use facets::Facets;
+use gauge::Gauge;
 
 /// A piece of the boundary of the kept region of a plane: on the line of `face` and `edge`, directed along
 /// `n_face × n_edge`, so that the region lies to the left.
@@ -65,8 +65,8 @@ pub(crate) struct Scene<'a> {
     /// The leaf of each body, ascending.
     pub(crate) leaf_of_body: &'a [u32],
     pub(crate) expression: &'a Expression,
-    /// Where the faces of each body are, for bodies of many.
-    facets: Vec<Option<Facets>>,
+    /// Where points lie in each body, for bodies of many faces.
+    gauges: Vec<Option<Gauge>>,
     /// Orders materials: where coplanar faces overlap, the lower rank wins, so that the outcome does not depend on the
     /// order of the bodies.
     pub(crate) rank: &'a [u32],
@@ -80,15 +80,15 @@ impl<'a> Scene<'a> {
         expression: &'a Expression,
         rank: &'a [u32],
     ) -> Self {
-        let facets = bodies.par_iter().map(|body| Facets::of(table, body)).collect();
-        Self { table, bodies, leaf_of_body, expression, facets, rank }
+        let gauges = bodies.par_iter().with_min_len(16).map(|body| Gauge::of(table, body)).collect();
+        Self { table, bodies, leaf_of_body, expression, gauges, rank }
     }
 
     /// The face that a body has on a plane, whatever its side.
     fn face_on(&self, body: usize, plane: PlaneId) -> Option<&'a BodyFace> {
         let faces = &self.bodies[body].faces;
-        match &self.facets[body] {
-            Some(facets) => facets.on_plane(plane).map(|face| &faces[face as usize]),
+        match &self.gauges[body] {
+            Some(gauge) => gauge.on_plane(plane).map(|face| &faces[face as usize]),
             None => faces.iter().find(|face| face.plane.index() == plane.index()),
         }
     }
@@ -117,7 +117,7 @@ pub(crate) fn skin(scene: &Scene<'_>) -> (Vec<BoundaryEdge>, Counts) {
             let mut near = Vec::new();
             for &body in chunk {
                 boxes.touching(&bodies[body].bounds, &mut near);
-                near.retain(|other| *other as usize != body);
+                worker.begin(body, near.len());
                 for face in 0..bodies[body].faces.len() {
                     worker.emit(body, face, &near, &mut edges);
                 }

@@ -3,6 +3,7 @@
 use planecut_kernel::sign::{Homogeneous, Sign};
 
 use crate::bounds::Bounds;
+use crate::corner::Corner;
 use crate::plane_table::{PlaneId, PlaneTable};
 
 /// A convex polygon on `plane`: edge `i` lies on the line of `edges[i]`, whose normal points away from the polygon;
@@ -10,7 +11,7 @@ use crate::plane_table::{PlaneId, PlaneTable};
 #[derive(Debug, Clone, Default)]
 pub(super) struct Polygon {
     pub(super) edges: Vec<PlaneId>,
-    pub(super) corners: Vec<Homogeneous>,
+    pub(super) corners: Vec<Corner>,
 }
 
 /// What clipping left of a polygon.
@@ -25,7 +26,11 @@ pub(super) enum Clip {
 }
 
 impl Polygon {
-    pub(super) fn copy_from(&mut self, edges: &[PlaneId], corners: &[Homogeneous]) {
+    pub(super) fn copy_from(&mut self, other: &Self) {
+        self.set(&other.edges, &other.corners);
+    }
+
+    pub(super) fn set(&mut self, edges: &[PlaneId], corners: &[Corner]) {
         self.edges.clear();
         self.edges.extend_from_slice(edges);
         self.corners.clear();
@@ -44,7 +49,7 @@ impl Polygon {
         // Which corners are strictly inside; polygons of more than 128 corners take the slow way.
         let mut inside = Inside::new(n);
         for i in 0..n {
-            match table.side(self.corner(plane, i), &self.corners[i], cut) {
+            match table.side(self.corner(plane, i), &self.corners[i].point, cut) {
                 Sign::Negative => {
                     some_inside = true;
                     inside.set(i);
@@ -74,14 +79,20 @@ impl Polygon {
         let (leaving, entering) = (self.edges[(last + 1) % n], self.edges[first]);
         spare.edges.extend([self.edges[last], leaving, cut]);
         spare.corners.push(self.corners[last]);
-        spare.corners.push(table.homogeneous([plane, leaving, cut]));
-        spare.corners.push(table.homogeneous([plane, cut, entering]));
+        spare.corners.push(Corner::new(table.homogeneous([plane, leaving, cut])));
+        spare.corners.push(Corner::new(table.homogeneous([plane, cut, entering])));
         std::mem::swap(self, spare);
         Clip::Part
     }
 
     pub(super) fn bounds(&self) -> Bounds {
-        self.corners.iter().fold(Bounds::EMPTY, |bounds, corner| bounds.with_point(corner))
+        self.corners.iter().fold(Bounds::EMPTY, |bounds, corner| bounds.with_corner(corner))
+    }
+
+    /// A box around edge `i`.
+    pub(super) fn edge_bounds(&self, i: usize) -> Bounds {
+        let before = (i + self.corners.len() - 1) % self.corners.len();
+        Bounds::EMPTY.with_corner(&self.corners[before]).with_corner(&self.corners[i])
     }
 }
 
@@ -122,10 +133,15 @@ pub(super) struct Piece {
 
 impl Piece {
     /// The piece of edge `i` of a polygon.
-    pub(super) fn of_edge(edges: &[PlaneId], corners: &[Homogeneous], i: usize) -> Self {
+    pub(super) fn of_edge(Polygon { edges, corners }: &Polygon, i: usize) -> Self {
         let n = edges.len();
         let (before, after) = ((i + n - 1) % n, (i + 1) % n);
-        Self { start: edges[before], end: edges[after], start_point: corners[before], end_point: corners[i] }
+        Self {
+            start: edges[before],
+            end: edges[after],
+            start_point: corners[before].point,
+            end_point: corners[i].point,
+        }
     }
 
     fn start_side(&self, table: &PlaneTable, line: Line, plane: PlaneId) -> Sign {

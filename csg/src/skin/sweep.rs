@@ -149,7 +149,7 @@ impl Sweep {
     ) {
         for i in 0..region.edges.len() {
             self.pieces.clear();
-            self.pieces.push(Piece::of_edge(&region.edges, &region.corners, i));
+            self.pieces.push(Piece::of_edge(region, i));
             self.drop_silent(context, region.edges[i], None);
             self.sweep_pieces(context, region.edges[i], None, restriction, label, out);
         }
@@ -157,7 +157,7 @@ impl Sweep {
             let polygon = &section.polygon;
             for (i, &edge) in polygon.edges.iter().enumerate().filter(|(_, edge)| !region.edges.contains(edge)) {
                 self.pieces.clear();
-                self.pieces.push(Piece::of_edge(&polygon.edges, &polygon.corners, i));
+                self.pieces.push(Piece::of_edge(polygon, i));
                 self.drop_silent(context, edge, Some(k));
                 self.sweep_pieces(context, edge, Some(k), restriction, label, out);
             }

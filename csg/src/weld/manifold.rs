@@ -4,9 +4,11 @@
 //! with four faces by itself. Two different edges can still join the same two vertices, and a diagonal can coincide with
 //! an edge: the second copy then gets a midpoint.
 
+use rayon::prelude::*;
 use rustc_hash::FxHashSet;
 
 use super::cancel::{HalfEdge, UNPAIRED};
+use crate::distinct::by_group;
 use crate::mesh::Mesh;
 
 /// The vertex at the start of each half-edge; and for each vertex the point it lies on.
@@ -39,7 +41,7 @@ type Side = u32;
 pub(super) fn split_repeated_edges(mesh: &mut Mesh, labels: &mut Labels, pieces: &[HalfEdge]) -> usize {
     let mut split = 0;
     loop {
-        let repeated = repeated_edges(&mesh.triangles);
+        let repeated = repeated_edges(mesh.positions.len(), &mesh.triangles);
         let mut touched: FxHashSet<u32> = FxHashSet::default();
         let mut additions = Vec::new();
         for sides in &repeated {
@@ -91,26 +93,32 @@ fn insert_triangles(mesh: &mut Mesh, labels: &mut Labels, additions: &[Addition]
     mesh.triangle_faces.sort_unstable();
 }
 
-/// The sides along each edge whose directed form occurs more than once: those in one direction, and those back.
-fn repeated_edges(triangles: &[[u32; 3]]) -> Vec<[Vec<Side>; 2]> {
-    let mut directed: Vec<(u64, Side)> = Vec::with_capacity(3 * triangles.len());
-    for (t, triangle) in triangles.iter().enumerate() {
-        for k in 0..3 {
-            directed.push((key(triangle[k], triangle[(k + 1) % 3]), (3 * t + k) as Side));
-        }
-    }
-    directed.sort_unstable();
-    let sides = |wanted: u64| -> Vec<Side> {
-        let start = directed.partition_point(|(key, _)| *key < wanted);
-        directed[start..].iter().take_while(|(key, _)| *key == wanted).map(|(_, side)| *side).collect()
-    };
-    let ends = |key: u64| ((key >> 32) as u32, key as u32);
-    let repeated = directed.chunk_by(|a, b| a.0 == b.0).filter(|same| same.len() > 1).map(|same| ends(same[0].0));
-    repeated.filter(|(a, b)| a < b).map(|(a, b)| [sides(key(a, b)), sides(key(b, a))]).collect()
-}
+/// So many ends are compared with one another; more are sorted.
+const FEW: usize = 16;
 
-fn key(a: u32, b: u32) -> u64 {
-    u64::from(a) << 32 | u64::from(b)
+/// The sides along each edge whose directed form occurs more than once: those in one direction, and those back.
+fn repeated_edges(vertices: usize, triangles: &[[u32; 3]]) -> Vec<[Vec<Side>; 2]> {
+    // the sides by the vertex they begin at: each has few
+    let (starts, sides) = by_group(vertices, triangles.iter().flatten().copied());
+    let end = |side: Side| triangles[(side / 3) as usize][(side as usize % 3 + 1) % 3];
+    let of = |a: u32, b: u32| -> Vec<Side> {
+        let from_a = &sides[starts[a as usize] as usize..starts[a as usize + 1] as usize];
+        from_a.iter().copied().filter(|side| end(*side) == b).collect()
+    };
+    let repeated_at = |a: u32| {
+        let from_a = &sides[starts[a as usize] as usize..starts[a as usize + 1] as usize];
+        let is_repeated = |k: usize| from_a[..k].iter().any(|other| end(*other) == end(from_a[k]));
+        let mut ends = Vec::new();
+        if from_a.len() > FEW || (1..from_a.len()).any(is_repeated) {
+            ends.extend(from_a.iter().map(|side| end(*side)));
+            ends.sort_unstable();
+            ends = ends.chunk_by(|p, q| p == q).filter(|same| same.len() > 1).map(|same| same[0]).collect();
+        }
+        ends.into_iter().filter(move |b| a < *b).map(move |b| (a, b))
+    };
+    let repeated: Vec<(u32, u32)> =
+        (0..vertices as u32).into_par_iter().with_min_len(2048).flat_map_iter(repeated_at).collect();
+    repeated.into_iter().map(|(a, b)| [of(a, b), of(b, a)]).collect()
 }
 
 /// Pairs the sides of a repeated edge: of the boundary by its half-edges, first; diagonals within their face.

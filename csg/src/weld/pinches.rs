@@ -32,6 +32,8 @@ struct PinchFinder<'a> {
     table: &'a PlaneTable,
     points: &'a Points,
     corners: Vec<u32>,
+    /// Where they are.
+    places: Vec<DVec3>,
     /// Corners by each of their coordinates.
     sorted: [Vec<u32>; 3],
     found: Vec<(u32, u32)>,
@@ -39,7 +41,7 @@ struct PinchFinder<'a> {
 
 impl<'a> PinchFinder<'a> {
     fn new(table: &'a PlaneTable, points: &'a Points) -> Self {
-        Self { table, points, corners: Vec::new(), sorted: Default::default(), found: Vec::new() }
+        Self { table, points, corners: Vec::new(), places: Vec::new(), sorted: Default::default(), found: Vec::new() }
     }
 
     /// Finds those of one region.
@@ -53,10 +55,17 @@ impl<'a> PinchFinder<'a> {
         self.corners.extend(region.iter().map(|piece| piece.from));
         self.corners.dedup();
         if self.corners.len() < MANY {
+            self.places.clear();
+            self.places.extend(self.corners.iter().map(|corner| self.points.positions[*corner as usize]));
             for piece in region {
-                let corners = std::mem::take(&mut self.corners);
-                self.touching(piece, &corners);
-                self.corners = corners;
+                let (min, max) = self.extent(piece);
+                let is_inside = |at: &DVec3| at.cmpge(min).all() & at.cmple(max).all();
+                // both ends are
+                if self.places.iter().filter(|at| is_inside(at)).count() > 2 {
+                    let corners = std::mem::take(&mut self.corners);
+                    self.touching(piece, &corners);
+                    self.corners = corners;
+                }
             }
             return;
         }

@@ -6,7 +6,7 @@ use planecut_kernel::sign::{Counts, Sign};
 use planecut_kernel::{DVec3, compare_exactly};
 use rayon::prelude::*;
 
-use crate::distinct::distinct;
+use crate::distinct::{distinct, sortable};
 use crate::parallel::{counted, map_chunks};
 use crate::plane_table::{PlaneId, PlaneTable};
 
@@ -96,7 +96,7 @@ impl Points {
     /// Numbers all points by position; gives the new number of each.
     pub(super) fn renumber(&mut self, table: &PlaneTable) -> Vec<u32> {
         let mut order: Vec<u32> = (0..self.planes.len() as u32).collect();
-        let place = |p: u32| sortable(self.positions[p as usize]);
+        let place = |p: u32| self.positions[p as usize].to_array().map(sortable);
         let rows = |p: u32| self.planes[p as usize].map(|plane| table.row(plane));
         order.sort_by(|p, q| place(*p).cmp(&place(*q)).then_with(|| compare_exactly(rows(*p), rows(*q), &[0, 1, 2])));
         let mut number = vec![0; order.len()];
@@ -121,7 +121,7 @@ impl Named {
         let position = table.position([a, b, c]).expect("the planes of a corner are independent");
         let right_handed = table.orient3(a, b, c) == Sign::Positive;
         Self {
-            order: sortable(position),
+            order: position.to_array().map(sortable),
             planes: if right_handed { [a, b, c] } else { [a, c, b] },
             position,
             is_exact: [a, b, c].into_iter().all(|plane| holds_exactly(table, plane, position)),
@@ -140,14 +140,6 @@ fn key(triple: [PlaneId; 3]) -> (u64, u32) {
 /// The planes of a key, unsided.
 fn planes((ab, c): (u64, u32)) -> [PlaneId; 3] {
     [(ab >> 32) as u32, ab as u32, c].map(PlaneId::of_index)
-}
-
-/// Numbers in the order of coordinates.
-fn sortable(position: DVec3) -> [u64; 3] {
-    position.to_array().map(|v| {
-        let bits = v.to_bits();
-        if bits >> 63 == 0 { bits | 1 << 63 } else { !bits }
-    })
 }
 
 /// Whether a point given by three planes, right-handed, lies on three others.

@@ -49,7 +49,7 @@ pub use query::{
     Location, RecessionCone, Support,
 };
 pub use validate::{InvariantError, TopologyError, Validation, ValidationError};
-pub use view::{Edge, EdgeIdx, EdgeKind, Face, Vertex};
+pub use view::{Edge, EdgeIdx, EdgeKind, Face, FacetEdge, Vertex};
 
 use crate::half_space::HalfSpace;
 use crate::sign::Homogeneous;

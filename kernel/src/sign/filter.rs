@@ -308,6 +308,9 @@ fn side_exact([a, b, c]: [&Row; 3], h: &Row, column: OffsetColumn, value: f64, p
         counts::note_small_int();
         return sign;
     }
+    if column == OffsetColumn::Infinite && [a, b, c].into_iter().any(|row| is_parallel_and_finite(row, h)) {
+        return Sign::Zero;
+    }
     if column == OffsetColumn::Finite
         && let Some(sign) = certain_side([a, b, c], h, permanent)
     {
@@ -315,4 +318,12 @@ fn side_exact([a, b, c]: [&Row; 3], h: &Row, column: OffsetColumn, value: f64, p
     }
     counts::note_big();
     big::det4([a, b, c, h], column).flip()
+}
+
+/// Whether two rows are seen to be equal or opposite in the infinite column: opposite sides of a slab are.
+fn is_parallel_and_finite(a: &Row, b: &Row) -> bool {
+    let ([ax, ay, az, _], [bx, by, bz, _]) = (a.coefficients(), b.coefficients());
+    let is_equal = (ax, ay, az) == (bx, by, bz);
+    let is_opposite = (-ax, -ay, -az) == (*bx, *by, *bz);
+    (is_equal || is_opposite) && !a.is_at_infinity() && !b.is_at_infinity()
 }

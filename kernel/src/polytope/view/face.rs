@@ -20,6 +20,16 @@ pub struct Face {
     pub is_bounded: bool,
 }
 
+/// An edge of a facet and the corner at its end; see [`IncrementalPolytope::for_each_facet`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct FacetEdge {
+    /// The plane on the other side of the edge; `None` for an infinity plane.
+    pub plane: Option<PlaneIdx>,
+    /// A number that the facets at a corner share where exactly three planes make it, below
+    /// [`corner_bound`](IncrementalPolytope::corner_bound); `None` where an edge of no length was left out.
+    pub corner: Option<usize>,
+}
+
 impl IncrementalPolytope {
     /// The seen faces, unbounded ones included, by plane; corners index the vertices of [`to_mesh`](Self::to_mesh).
     #[must_use]
@@ -58,28 +68,59 @@ impl IncrementalPolytope {
     #[must_use]
     pub fn facets(&self) -> Vec<(PlaneIdx, Vec<Option<PlaneIdx>>)> {
         let mut facets = Vec::new();
-        for plane in self.planes.faces().filter(|plane| !self.is_empty() && !is_infinity(*plane)) {
-            let edges = self.edge_planes(plane);
-            if edges.len() >= 3 {
-                let seen = |edge: u32| (!is_infinity(edge)).then(|| external(edge));
-                facets.push((external(plane), edges.into_iter().map(seen).collect()));
-            }
-        }
+        self.for_each_facet(|plane, edges| facets.push((plane, edges.iter().map(|edge| edge.plane).collect())));
         facets
+    }
+
+    /// Calls `visit` for each of the [`facets`](Self::facets), without making a list of each.
+    pub fn for_each_facet(&self, mut visit: impl FnMut(PlaneIdx, &[FacetEdge])) {
+        let (mut edges, mut facet) = (Vec::new(), Vec::new());
+        for plane in self.planes.faces().filter(|plane| !self.is_empty() && !is_infinity(*plane)) {
+            self.exact_edges(plane, &mut edges);
+            if edges.len() < 3 {
+                continue;
+            }
+            facet.clear();
+            facet.extend((0..edges.len()).map(|k| {
+                let (edge, next) = (&edges[k], &edges[(k + 1) % edges.len()]);
+                let plane = (!is_infinity(edge.plane)).then(|| external(edge.plane));
+                FacetEdge { plane, corner: (edge.end == next.start).then_some(edge.end as usize) }
+            }));
+            visit(external(plane), &facet);
+        }
+    }
+
+    /// All numbers of corners are below this.
+    #[must_use]
+    pub fn corner_bound(&self) -> usize {
+        self.vertices.slot_count()
     }
 
     /// The planes of a face's edges in order, without those of exactly no length.
     pub(in crate::polytope) fn edge_planes(&self, plane: u32) -> Vec<u32> {
         let mut edges = Vec::new();
+        self.exact_edges(plane, &mut edges);
+        edges.into_iter().map(|edge| edge.plane).collect()
+    }
+
+    /// Replaces what is in a list by a face's edges in order, without those of exactly no length.
+    fn exact_edges(&self, plane: u32, edges: &mut Vec<FaceEdge>) {
+        edges.clear();
         for (vertex, k) in self.vertices.face_corners(plane, self.planes.face_vertex(plane)) {
             // the edge from this vertex (plane, p, q) to the next lies on q
             let planes = self.vertices.planes(vertex);
             let next = self.vertices.link(vertex, NEXT[k]);
             let across = self.vertices.planes(next.vertex())[next.index()];
             if !self.is_exactly_on(planes, across) {
-                edges.push(planes[BEFORE[k]]);
+                edges.push(FaceEdge { plane: planes[BEFORE[k]], start: vertex, end: next.vertex() });
             }
         }
-        edges
     }
+}
+
+/// An edge of a stored face, its ends as slots.
+struct FaceEdge {
+    plane: u32,
+    start: u32,
+    end: u32,
 }

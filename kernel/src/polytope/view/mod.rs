@@ -18,7 +18,7 @@ mod tolerance;
 mod vertex;
 
 pub use edge::{Edge, EdgeIdx, EdgeKind};
-pub use face::Face;
+pub use face::{Face, FacetEdge};
 pub use vertex::Vertex;
 
 use glam::DVec4;
