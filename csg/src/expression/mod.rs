@@ -60,6 +60,15 @@ impl Polarity {
     }
 }
 
+/// What a tree of one level does with its leaves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Flat {
+    /// It is their union.
+    Union,
+    /// All others are taken from the first.
+    Difference,
+}
+
 /// A tree of set operations over leaves that are numbered from left to right.
 #[derive(Debug, Clone)]
 pub(crate) struct Expression {
@@ -113,6 +122,20 @@ impl Expression {
     /// The value where all leaves are 0.
     pub(crate) fn base(&self) -> bool {
         self.nodes.last().is_some_and(|root| root.base)
+    }
+
+    /// The operation of a tree of one level, or of one that is the same.
+    pub(crate) fn flat(&self) -> Option<Flat> {
+        let (root, others) = self.nodes.split_last()?;
+        let is_union = |node: &Node| matches!(node.operation, None | Some(Operation::Union));
+        if !others.iter().all(is_union) {
+            return None;
+        }
+        match root.operation {
+            None | Some(Operation::Union) => Some(Flat::Union),
+            Some(Operation::Difference) if root.first_operand.0 == 1 => Some(Flat::Difference),
+            _ => None,
+        }
     }
 
     /// Whether a leaf adds to the solid or takes from it.

@@ -54,6 +54,13 @@ impl Clipper {
         }
     }
 
+    /// Whether a body of many faces is quickly seen to hold a polygon within a face. What it holds need not be clipped by
+    /// others.
+    pub(super) fn surely_holds(&mut self, cutter: Cutter<'_>, polygon: &Polygon) -> bool {
+        let Some(gauge) = &cutter.scene.gauges[cutter.body] else { return false };
+        (0..polygon.corners.len()).all(|i| matches!(self.place(cutter, gauge, polygon, i), Found::Inside(_)))
+    }
+
     /// By the planes of all faces.
     fn clip_by_all(&mut self, Cutter { scene, face, body, .. }: Cutter<'_>, polygon: &mut Polygon) -> Clip {
         let mut whole = true;
@@ -80,7 +87,7 @@ impl Clipper {
         let mut first = None;
         for i in 0..polygon.corners.len() {
             match self.place(cutter, gauge, polygon, i) {
-                Found::Inside => {}
+                Found::Inside(_) => {}
                 Found::Beyond(beyond) => {
                     if polygon.corners.iter().all(|corner| gauge.is_beyond(corner, beyond)) {
                         return Clip::Nothing;
@@ -111,7 +118,7 @@ impl Clipper {
                 let Some(k) = out.corners.iter().position(|corner| corner.within != number) else { break None };
                 i = k;
                 match self.place(cutter, gauge, out, i) {
-                    Found::Inside => out.corners[i].within = number,
+                    Found::Inside(_) => out.corners[i].within = number,
                     Found::Beyond(other) => break Some(other),
                     Found::Unknown => {
                         return if self.clip_by_all(cutter, out) == Clip::Nothing { Clip::Nothing } else { Clip::Part };
@@ -130,30 +137,31 @@ impl Clipper {
     /// Where a corner lies, exactly where numbers do not tell.
     fn place(&mut self, cutter: Cutter<'_>, gauge: &Gauge, polygon: &Polygon, i: usize) -> Found {
         let number = polygon.corners[i].number as usize;
-        if number >= self.corners {
-            return self.find(cutter, gauge, polygon, i);
+        let found = if number >= self.corners {
+            self.find(cutter, gauge, polygon, i)
+        } else {
+            if self.known.is_empty() {
+                self.known.resize(self.last.len() * self.corners, Found::Unknown);
+            }
+            let entry = cutter.place * self.corners + number;
+            if self.known[entry] == Found::Unknown {
+                self.known[entry] = self.find(cutter, gauge, polygon, i);
+            }
+            self.known[entry]
+        };
+        if let Found::Inside(nearest) | Found::Beyond(nearest) = found {
+            self.last[cutter.place] = nearest;
         }
-        if self.known.is_empty() {
-            self.known.resize(self.last.len() * self.corners, Found::Unknown);
-        }
-        let entry = cutter.place * self.corners + number;
-        if self.known[entry] == Found::Unknown {
-            self.known[entry] = self.find(cutter, gauge, polygon, i);
-        }
-        self.known[entry]
+        found
     }
 
     fn find(&mut self, cutter: Cutter<'_>, gauge: &Gauge, polygon: &Polygon, i: usize) -> Found {
         let Cutter { scene, face, body, place } = cutter;
         let corner = &polygon.corners[i];
         match gauge.place(corner, self.last[place]) {
-            Place::Inside => Found::Inside,
-            Place::Outside(other) => {
-                self.last[place] = other;
-                Found::Beyond(other)
-            }
+            Place::Inside(nearest) => Found::Inside(nearest),
+            Place::Outside(other) => Found::Beyond(other),
             Place::Near(other) => {
-                self.last[place] = other;
                 let planes = polygon.corner(face.plane, i);
                 gauge.near(corner, other, &mut self.near);
                 let faces = &scene.bodies[body].faces;
@@ -161,7 +169,7 @@ impl Clipper {
                     let plane = faces[*other as usize].plane;
                     scene.table.side(planes, &corner.point, plane) == Sign::Positive
                 };
-                self.near.iter().copied().find(is_beyond).map_or(Found::Inside, Found::Beyond)
+                self.near.iter().copied().find(is_beyond).map_or(Found::Inside(other), Found::Beyond)
             }
             Place::Unknown => Found::Unknown,
         }
@@ -171,8 +179,8 @@ impl Clipper {
 /// Where a corner lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Found {
-    /// Inside of all planes or on some.
-    Inside,
+    /// Inside of all planes or on some; this face is the nearest.
+    Inside(u32),
     /// Outside of the plane of this face.
     Beyond(u32),
     Unknown,

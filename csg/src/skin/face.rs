@@ -7,7 +7,7 @@ use super::sweep::{Context, Label, Side, Sweep};
 use super::{BoundaryEdge, Scene};
 use crate::body::BodyFace;
 use crate::bounds::Bounds;
-use crate::expression::{Polarity, Restriction};
+use crate::expression::{Flat, Polarity, Restriction};
 use crate::plane_table::PlaneTable;
 
 /// A body that reaches the plane of the face.
@@ -100,27 +100,34 @@ impl<'a> FaceWorker<'a> {
         let scene = self.scene;
         let solid = &scene.bodies[body];
         let this = &solid.faces[face];
-        let own = self.restrict(body, this, near);
+        let own = self.gather(body, this, near);
+        self.region.set(solid.edges(this), solid.corners(this));
+        if let Some(flat) = scene.flat
+            && !scene.is_plane_shared(this)
+        {
+            if let Some(facing) = self.sort_out_flat(own, this, flat)
+                && self.cover_region(this)
+            {
+                self.emit_own_edges(this, facing, out);
+                self.emit_section_edges(this, facing, out);
+            }
+            return;
+        }
+        self.restriction.restrict(scene.expression, &self.leaves);
         if !self.restriction.matters(own) {
             return;
         }
         let owner = scene.owner(body, this);
         let own = Reaching { body, place: 0, leaf: own, contact: Contact::SameWay, owner };
         self.label.begin(scene.expression, &mut self.restriction, &own);
-        self.region.set(solid.edges(this), solid.corners(this));
         if !self.sort_out(&own, this) {
             return;
         }
         if self.open.is_empty() && self.label_of_region().is_none() {
             return;
         }
-        self.live = 0;
-        for k in 0..self.covering.len() {
-            match self.cover(this, self.covering[k]) {
-                Clip::Whole => return,
-                Clip::Part => self.live += 1,
-                Clip::Nothing => {}
-            }
+        if !self.cover_region(this) {
+            return;
         }
         let covering = self.live;
         for k in 0..self.open.len() {
@@ -148,6 +155,60 @@ impl<'a> FaceWorker<'a> {
         }
     }
 
+    /// Finds what covering bodies leave of the region; false where that is nothing.
+    fn cover_region(&mut self, face: &'a BodyFace) -> bool {
+        self.live = 0;
+        for k in 0..self.covering.len() {
+            let cutter = self.cutter(face, &self.covering[k]);
+            if self.clipper.surely_holds(cutter, &self.region) {
+                return false;
+            }
+        }
+        for k in 0..self.covering.len() {
+            match self.cover(face, self.covering[k]) {
+                Clip::Whole => return false,
+                Clip::Part => self.live += 1,
+                Clip::Nothing => {}
+            }
+        }
+        true
+    }
+
+    /// What [`sort_out`](Self::sort_out) finds where the tree has one level and no other face lies on the plane; and which
+    /// boundary the face is, where it is any.
+    fn sort_out_flat(&mut self, own: usize, face: &'a BodyFace, flat: Flat) -> Option<Facing> {
+        self.covering.clear();
+        let is_tool = flat == Flat::Difference && self.leaves[own] != 0;
+        let mut is_in_first = !is_tool;
+        for leaf in 0..self.bodies.len() {
+            if leaf == own {
+                continue;
+            }
+            let (body, place) = (self.bodies[leaf], self.places[leaf]);
+            let across = Reaching { body, place, leaf, contact: Contact::Across, owner: self.scene.owner(body, face) };
+            if is_tool && self.leaves[leaf] == 0 {
+                if !self.require(face, &across) {
+                    return None;
+                }
+                is_in_first = true;
+            } else {
+                self.covering.push(across);
+            }
+        }
+        is_in_first.then_some(if is_tool { Facing::In } else { Facing::Out })
+    }
+
+    /// Cuts the region down to what lies in a body; false where that is nothing.
+    fn require(&mut self, face: &'a BodyFace, by: &Reaching) -> bool {
+        let cutter = self.cutter(face, by);
+        match self.clipper.clip(cutter, &self.region, &mut self.part) {
+            Clip::Nothing => return false,
+            Clip::Part => std::mem::swap(&mut self.region, &mut self.part),
+            Clip::Whole => {}
+        }
+        true
+    }
+
     /// Takes a body as covering all of the region.
     fn hold(&mut self, reaching: Reaching) {
         self.label.fix(self.scene.expression, &mut self.restriction, &reaching);
@@ -167,8 +228,8 @@ impl<'a> FaceWorker<'a> {
         self.label.of(self.scene.expression, &mut self.restriction, Side::Left)
     }
 
-    /// Restricts the tree to the bodies that may reach the face; gives the place of its own body.
-    fn restrict(&mut self, body: usize, face: &BodyFace, near: &[u32]) -> usize {
+    /// Finds the bodies that may reach the face, and their leaves; gives the place of its own body.
+    fn gather(&mut self, body: usize, face: &BodyFace, near: &[u32]) -> usize {
         let scene = self.scene;
         let half_space = scene.table.half_space(face.plane);
         let (normal, offset) = (half_space.normal(), half_space.offset());
@@ -190,13 +251,11 @@ impl<'a> FaceWorker<'a> {
         }
         self.leaves.clear();
         self.leaves.extend(self.bodies.iter().map(|body| scene.leaf_of_body[*body]));
-        self.restriction.restrict(scene.expression, &self.leaves);
         own
     }
 
     /// Finds what each body does to the face and cuts the face down to what is required; false where nothing is left.
-    fn sort_out(&mut self, own: &Reaching, face: &BodyFace) -> bool {
-        let scene = self.scene;
+    fn sort_out(&mut self, own: &Reaching, face: &'a BodyFace) -> bool {
         self.covering.clear();
         self.open.clear();
         self.holding.clear();
@@ -214,11 +273,8 @@ impl<'a> FaceWorker<'a> {
                 Role::Covers => self.covering.push(reaching),
                 Role::Open => self.open.push(reaching),
                 Role::Required => {
-                    let cutter = Cutter { scene, face, body: reaching.body, place: reaching.place };
-                    match self.clipper.clip(cutter, &self.region, &mut self.part) {
-                        Clip::Nothing => return false,
-                        Clip::Part => std::mem::swap(&mut self.region, &mut self.part),
-                        Clip::Whole => {}
+                    if !self.require(face, &reaching) {
+                        return false;
                     }
                     self.hold(reaching);
                 }
@@ -229,7 +285,8 @@ impl<'a> FaceWorker<'a> {
 
     fn reaching(&self, leaf: usize, face: &BodyFace) -> Reaching {
         let body = self.bodies[leaf];
-        let other = self.scene.face_on(body, face.plane);
+        let is_shared = self.scene.is_plane_shared(face);
+        let other = if is_shared { self.scene.face_on(body, face.plane) } else { None };
         let contact = match other {
             None => Contact::Across,
             Some(other) if other.plane == face.plane => Contact::SameWay,
@@ -298,14 +355,18 @@ impl<'a> FaceWorker<'a> {
         if is_alone || Facing::BOTH.into_iter().all(is_idle) { Role::None } else { Role::Open }
     }
 
+    fn cutter(&self, face: &'a BodyFace, by: &Reaching) -> Cutter<'a> {
+        Cutter { scene: self.scene, face, body: by.body, place: by.place }
+    }
+
     /// Clips the region by a body into the next free section.
-    fn cover(&mut self, face: &BodyFace, of: Reaching) -> Clip {
+    fn cover(&mut self, face: &'a BodyFace, of: Reaching) -> Clip {
         if self.sections.len() == self.live {
             self.sections.push(Section { polygon: Polygon::default(), bounds: Bounds::EMPTY, of });
         }
+        let cutter = self.cutter(face, &of);
         let section = &mut self.sections[self.live];
         section.of = of;
-        let cutter = Cutter { scene: self.scene, face, body: of.body, place: of.place };
         let clip = self.clipper.clip(cutter, &self.region, &mut section.polygon);
         if clip == Clip::Part {
             section.bounds = section.polygon.bounds();

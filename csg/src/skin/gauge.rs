@@ -36,8 +36,8 @@ pub(super) struct Gauge {
 /// Where a point lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Place {
-    /// Strictly inside of all planes.
-    Inside,
+    /// Strictly inside of all planes; this face is the nearest.
+    Inside(u32),
     /// Strictly outside of the plane of this face.
     Outside(u32),
     /// On the surface or close to it; this face is the nearest, or one of them.
@@ -100,7 +100,7 @@ impl Gauge {
         } else if value > 1.0 + room {
             Place::Outside(face)
         } else if value < 1.0 - room {
-            Place::Inside
+            Place::Inside(face)
         } else {
             Place::Near(face)
         }

@@ -20,7 +20,7 @@ use rayon::prelude::*;
 use crate::body::{Body, BodyFace};
 use crate::boxes::Boxes;
 use crate::brush::MaterialId;
-use crate::expression::{Expression, Polarity};
+use crate::expression::{Expression, Flat, Polarity};
 use crate::plane_table::{PlaneId, PlaneTable};
 use contact::{Facing, Owner};
 use gauge::Gauge;
@@ -65,8 +65,12 @@ pub(crate) struct Scene<'a> {
     /// The leaf of each body, ascending.
     pub(crate) leaf_of_body: &'a [u32],
     pub(crate) expression: &'a Expression,
+    /// Where the expression is of one level, what it does.
+    flat: Option<Flat>,
     /// Where points lie in each body, for bodies of many faces.
     gauges: Vec<Option<Gauge>>,
+    /// How many bodies have a face on each plane; 255 stands for more as well.
+    bodies_on_plane: Vec<u8>,
     /// Orders materials: where coplanar faces overlap, the lower rank wins, so that the outcome does not depend on the
     /// order of the bodies.
     pub(crate) rank: &'a [u32],
@@ -81,7 +85,17 @@ impl<'a> Scene<'a> {
         rank: &'a [u32],
     ) -> Self {
         let gauges = bodies.par_iter().with_min_len(16).map(|body| Gauge::of(table, body)).collect();
-        Self { table, bodies, leaf_of_body, expression, gauges, rank }
+        let mut bodies_on_plane = vec![0_u8; table.len()];
+        for face in bodies.iter().flat_map(|body| &body.faces) {
+            let count = &mut bodies_on_plane[face.plane.index() as usize];
+            *count = count.saturating_add(1);
+        }
+        Self { table, bodies, leaf_of_body, expression, flat: expression.flat(), gauges, bodies_on_plane, rank }
+    }
+
+    /// Whether bodies other than the face's own may have a face on its plane.
+    fn is_plane_shared(&self, face: &BodyFace) -> bool {
+        self.bodies_on_plane[face.plane.index() as usize] > 1
     }
 
     /// The face that a body has on a plane, whatever its side.
