@@ -13,7 +13,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from importlib.metadata import version
 from pathlib import Path
 
@@ -28,7 +28,10 @@ _HEAD = ("tree", "planecut", "wall", "manifold", "making", "boolean", "ratio", "
 
 @dataclass
 class Times:
-    """Milliseconds of one tree, each the best of all rounds; nothing where a side has no answer."""
+    """Milliseconds of one tree, each the best of all rounds; nothing where a side has no answer.
+
+    For programs that ask for more, all rounds of both, and their volumes.
+    """
 
     name: str
     planecut: float | None = None
@@ -38,6 +41,10 @@ class Times:
     openscad: float | None = None
     stages: str = ""
     note: str = ""
+    planecut_rounds: list[float] = field(default_factory=list)
+    manifold_rounds: list[float] = field(default_factory=list)
+    planecut_volume: float | None = None
+    manifold_volume: float | None = None
 
     @property
     def manifold(self) -> float | None:
@@ -62,9 +69,10 @@ def main() -> int:
     for path in paths:
         every.append(_bench(path, str(arguments.planecut), arguments.rounds))
         print(_row(every[-1]), flush=True)
+        # after each tree, so that a run that is ended has something to show
+        if arguments.json:
+            arguments.json.write_text(json.dumps([vars(t) for t in every], indent=1) + "\n", encoding="utf-8")
     _print_totals(every)
-    if arguments.json:
-        arguments.json.write_text(json.dumps([vars(t) for t in every], indent=1) + "\n", encoding="utf-8")
     return 0
 
 
@@ -102,6 +110,8 @@ def _evaluate(times: Times, top: list, path: Path) -> None:
     if held is not None:
         held.solid.num_tri()
     end = time.perf_counter()
+    times.manifold_rounds.append(1e3 * (end - begin))
+    times.manifold_volume = 0.0 if held is None else held.solid.volume()
     if times.manifold is None or end - begin < 1e-3 * times.manifold:
         times.making, times.boolean = 1e3 * (made - begin), 1e3 * (end - made)
 
@@ -119,8 +129,11 @@ def _run_planecut(times: Times, path: Path, binary: str, folder: Path) -> bool:
     if done.returncode != 0:
         times.note = f"planecut: {(done.stderr.strip().splitlines() or ['no message'])[-1][-120:]}"
         return False
-    spent = json.loads(report.read_text(encoding="utf-8"))["time_ms"]
+    told = json.loads(report.read_text(encoding="utf-8"))
+    spent = told["time_ms"]
     own = sum(spent.get(stage, 0.0) for stage in _STAGES)
+    times.planecut_rounds.append(own)
+    times.planecut_volume = told["solid"]["volume"]
     if times.planecut is None or own < times.planecut:
         times.planecut = own
         times.stages = ", ".join(f"{stage} {spent.get(stage, 0.0):.1f}" for stage in _STAGES)

@@ -1,0 +1,91 @@
+"""manifold3d's side of `bench/csg`: reads a scene, says so, and answers each line of standard input with one run.
+
+What the clock sees are the Booleans and what forces their evaluation; the bodies are manifolds before it starts.
+"""
+
+import json
+import os
+import sys
+import time
+
+# Before the import: the thread pool is made for the cores that the process may use then.
+if "RAYON_NUM_THREADS" in os.environ:
+    os.sched_setaffinity(0, sorted(os.sched_getaffinity(0))[: int(os.environ["RAYON_NUM_THREADS"])])
+
+import manifold3d
+import numpy as np
+from manifold3d import Manifold, Mesh64, OpType
+
+_OPERATIONS = {"union": OpType.Add, "difference": OpType.Subtract, "intersection": OpType.Intersect}
+
+
+def main() -> None:
+    try:
+        bodies, plan = _read(sys.argv[1])
+    except (RuntimeError, ValueError) as error:
+        print(json.dumps({"Err": str(error)}), flush=True)
+        return
+    print('"Ready"', flush=True)
+    for _ in sys.stdin:
+        try:
+            answer = {"Ok": _run(bodies, plan)}
+        except (RuntimeError, ValueError, IndexError) as error:
+            answer = {"Err": str(error)}
+        print(json.dumps(answer), flush=True)
+
+
+def _read(path: str) -> tuple[list[Manifold], dict]:
+    with open(path, "rb") as file:
+        header = json.loads(file.readline())
+        sizes = np.array(header["bodies"]).reshape(-1, 3)
+        np.fromfile(file, "<f8", 4 * int(sizes[:, 0].sum()))
+        positions = np.fromfile(file, "<f8", 3 * int(sizes[:, 1].sum())).reshape(-1, 3)
+        triangles = np.fromfile(file, "<u4", 3 * int(sizes[:, 2].sum())).reshape(-1, 3)
+    bodies = []
+    at, first = 0, 0
+    for _, corners, count in sizes:
+        mesh = Mesh64(positions[at : at + corners], triangles[first : first + count].astype(np.uint64))
+        body = Manifold(mesh)
+        if body.status() != manifold3d.Error.NoError:
+            raise RuntimeError(f"a body is refused: {body.status()}")
+        body.num_tri()
+        bodies.append(body)
+        at, first = at + corners, first + count
+    return bodies, header["plan"]
+
+
+def _run(bodies: list[Manifold], plan: dict) -> dict:
+    begin = time.perf_counter()
+    result = _tree(bodies, plan["tree"]) if "tree" in plan else _steps(bodies, plan["steps"])
+    triangles = result.num_tri()
+    seconds = time.perf_counter() - begin
+    if result.status() != manifold3d.Error.NoError:
+        raise RuntimeError(str(result.status()))
+    return {"seconds": seconds, "volume": result.volume(), "area": result.surface_area(), "triangles": triangles}
+
+
+def _steps(bodies: list[Manifold], steps: list) -> Manifold:
+    result = Manifold()
+    for action, body in steps:
+        result = result + bodies[body] if action == "add" else result - bodies[body]
+        # forces the evaluation
+        result.num_tri()
+    return result
+
+
+def _tree(bodies: list[Manifold], entries: list) -> Manifold:
+    leaves = iter(bodies)
+    stack: list[Manifold] = []
+    for entry in entries:
+        if entry == "leaf":
+            stack.append(next(leaves))
+            continue
+        ((operation, count),) = entry.items()
+        operands = stack[len(stack) - count :]
+        del stack[len(stack) - count :]
+        stack.append(Manifold.batch_boolean(operands, _OPERATIONS[operation]))
+    return stack.pop()
+
+
+if __name__ == "__main__":
+    main()

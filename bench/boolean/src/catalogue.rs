@@ -1,0 +1,173 @@
+//! The workloads by name. A new one is a line here and a function in [`workloads`].
+
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+
+use crate::workloads::{self, Contact, Menger, Task};
+
+/// Series, whose growth is told.
+const BOXES: &str = "random boxes";
+const CARVE: &str = "carve";
+const CARVE_ONE_BY_ONE: &str = "carve, one by one";
+const DOME: &str = "dome carve";
+const GRID: &str = "grid, one by one";
+const SPHERES: &str = "dense spheres";
+
+/// Maps of fewer brushes are nothing to be timed.
+const FEWEST_BRUSHES: u64 = 100;
+
+type Make = Box<dyn Fn() -> Result<Task, String>>;
+
+/// A workload that is not made yet.
+pub(crate) struct Workload {
+    /// The key in the JSON file.
+    pub(crate) name: String,
+    /// What it is one of several sizes of, and its size.
+    pub(crate) series: Option<(&'static str, usize)>,
+    pub(crate) is_quick: bool,
+    make: Make,
+}
+
+impl Workload {
+    fn new(name: impl Into<String>, make: impl Fn() -> Task + 'static) -> Self {
+        Self::read(name, move || Ok(make()))
+    }
+
+    fn read(name: impl Into<String>, make: impl Fn() -> Result<Task, String> + 'static) -> Self {
+        Self { name: name.into(), series: None, is_quick: false, make: Box::new(make) }
+    }
+
+    fn of(self, series: &'static str, size: usize) -> Self {
+        Self { series: Some((series, size)), ..self }
+    }
+
+    fn quick(self, is_quick: bool) -> Self {
+        Self { is_quick, ..self }
+    }
+
+    /// Its bodies, and what is done with them.
+    pub(crate) fn make(&self) -> Result<Task, String> {
+        (self.make)()
+    }
+}
+
+/// All workloads; the sizes of a series ascend.
+pub(crate) fn all() -> Vec<Workload> {
+    let mut all = Vec::new();
+    let rotated = |count: usize| {
+        Workload::new(format!("union_{count}_rotated"), move || workloads::box_union(count, true)).of(BOXES, count)
+    };
+    all.push(rotated(1000).quick(true));
+    all.push(Workload::new("union_1000_aligned", || workloads::box_union(1000, false)).quick(true));
+    for count in [100, 250, 1000] {
+        let name = format!("carve_{count}_capsules");
+        all.push(Workload::new(name, move || workloads::carve(count)).of(CARVE, count).quick(count > 100));
+    }
+    for count in [100, 250, 1000] {
+        let name = format!("carve_{count}_one_by_one");
+        all.push(Workload::new(name, move || workloads::carve_one_by_one(count)).of(CARVE_ONE_BY_ONE, count));
+    }
+    for side in [4_u32, 6, 8, 10, 14] {
+        let (name, count) = (plain("grid_iterated", side as usize, 10), side.pow(3) as usize);
+        all.push(Workload::new(name, move || workloads::grid_iterated(side)).of(GRID, count).quick(side == 10));
+    }
+    all.push(Workload::new("menger_3", || workloads::menger(3, Menger::Batch)).quick(true));
+    all.push(Workload::new("menger_3_one_by_one", || workloads::menger(3, Menger::OneByOne)));
+    all.push(Workload::new("menger_3_combs", || workloads::menger(3, Menger::Combs)).quick(true));
+    all.push(Workload::new("touching_by_face", || workloads::touching_cubes(10, Contact::Face)));
+    all.push(Workload::new("touching_by_edge", || workloads::touching_cubes(10, Contact::Edge)));
+    all.push(Workload::new("touching_by_vertex", || workloads::touching_cubes(10, Contact::Vertex)));
+    all.extend(maps());
+    for count in [100, 250, 500, 1000, 2000, 5000] {
+        all.push(Workload::new(format!("dome_carve_{count}"), move || workloads::dome_carve(count)).of(DOME, count));
+    }
+    for triangles in [1000, 5000, 32_768, 200_000, 1_000_000] {
+        let name = plain("dense_spheres", triangles, 32_768);
+        let made = Workload::new(name, move || workloads::dense_spheres(triangles));
+        all.push(made.of(SPHERES, triangles).quick(triangles == 32_768));
+    }
+    all.extend([3000, 10_000, 30_000, 100_000].map(rotated));
+    all
+}
+
+/// A name with its size, but for the size that is best known.
+fn plain(name: &str, size: usize, usual: usize) -> String {
+    if size == usual { name.to_owned() } else { format!("{name}_{size}") }
+}
+
+/// The maps that are there, with the volumes of their unions; e1m1 first, and one by one too.
+fn maps() -> Vec<Workload> {
+    let folder = data().join("map");
+    let mut maps: Vec<(String, PathBuf, f64)> = Vec::new();
+    for (file, entry) in reference(&folder).as_object().into_iter().flatten() {
+        let (file, stem) = (folder.join(file), Path::new(file).file_stem().unwrap_or_default().to_string_lossy());
+        let is_sizeable = entry["brushes"].as_u64().is_some_and(|count| count >= FEWEST_BRUSHES);
+        if let (true, Some(volume)) = (is_sizeable, entry["union_volume"].as_f64()) {
+            maps.push((stem.into_owned(), file, volume));
+        }
+    }
+    maps.sort_by_key(|(name, _, _)| name != "e1m1");
+    let mut all = Vec::new();
+    for (name, file, volume) in maps {
+        let (is_first, one_by_one) = (name == "e1m1", format!("{name}_one_by_one"));
+        all.push(Workload::read(name, {
+            let file = file.clone();
+            move || workloads::map(&file, volume)
+        }));
+        if is_first {
+            all.push(Workload::read(one_by_one, move || workloads::map_one_by_one(&file, volume)));
+            all.iter_mut().for_each(|workload| workload.is_quick = true);
+        }
+    }
+    all
+}
+
+/// OpenSCAD's trees, those first that it takes longest for, with its seconds.
+pub(crate) fn slowest_trees(count: usize) -> Vec<(PathBuf, f64)> {
+    let folder = data().join("csg");
+    let reference = reference(&folder);
+    let tree = |entry: &Value| Some((folder.join(entry["file"].as_str()?), entry["openscad_seconds"].as_f64()?));
+    let mut trees: Vec<(PathBuf, f64)> = reference.as_array().into_iter().flatten().filter_map(tree).collect();
+    trees.sort_by(|a, b| b.1.total_cmp(&a.1));
+    trees.truncate(count);
+    trees
+}
+
+/// What is known about the files of a folder; nothing where it is not there.
+fn reference(folder: &Path) -> Value {
+    let text = std::fs::read(folder.join("reference.json")).unwrap_or_default();
+    serde_json::from_slice(&text).unwrap_or_default()
+}
+
+/// Maps and trees that are no part of the project, beside its folder.
+fn data() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data")
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashSet;
+
+    use super::all;
+
+    #[test]
+    fn names_are_different_and_series_ascend() {
+        let all = all();
+        let names: HashSet<&str> = all.iter().map(|workload| workload.name.as_str()).collect();
+        assert_eq!(names.len(), all.len());
+        for (k, workload) in all.iter().enumerate() {
+            let Some((series, size)) = workload.series else { continue };
+            let before = all[..k].iter().filter_map(|other| other.series).filter(|other| other.0 == series);
+            assert!(before.map(|other| other.1).max() < Some(size), "{}", workload.name);
+        }
+    }
+
+    #[test]
+    fn small_workloads_can_be_made() {
+        for workload in all().iter().filter(|workload| workload.series.is_some_and(|(_, size)| size <= 250)) {
+            let task = workload.make().unwrap();
+            assert!(task.scene.bodies.iter().all(|body| body.triangles.len() >= 12), "{}", workload.name);
+        }
+    }
+}

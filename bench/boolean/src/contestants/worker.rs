@@ -1,0 +1,65 @@
+//! The process of one contestant: reads a scene, says that it is ready, and answers each line of standard input with
+//! one run.
+
+use std::io::{BufRead, Write};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use super::{Outcome, prepare};
+use crate::scene::Scene;
+
+/// A line of standard output, as JSON.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(crate) enum Answer {
+    /// The scene is read.
+    Ready,
+    /// What a run gave.
+    Ok(Outcome),
+    /// Why there is nothing.
+    Err(String),
+}
+
+/// Serves until standard input ends.
+pub(crate) fn serve(name: &str, scene: &Path) -> Result<(), String> {
+    // recursive kernels need it: a plane for each level
+    let thread = std::thread::Builder::new().stack_size(1 << 30);
+    let served = thread.spawn({
+        let (name, scene) = (name.to_owned(), scene.to_owned());
+        move || answer(&name, &scene)
+    });
+    served.map_err(|error| error.to_string())?.join().map_err(|_| "it panicked".to_owned())
+}
+
+fn answer(name: &str, file: &Path) {
+    let prepared = caught(|| {
+        let scene = Scene::read(file).map_err(|error| error.to_string())?;
+        prepare(name, scene, file)
+    });
+    let mut contestant = match prepared {
+        Ok(contestant) => contestant,
+        Err(error) => return say(&Answer::Err(error)),
+    };
+    say(&Answer::Ready);
+    for _ in std::io::stdin().lock().lines().map_while(Result::ok) {
+        say(&match caught(|| contestant.run()) {
+            Ok(outcome) => Answer::Ok(outcome),
+            Err(error) => Answer::Err(error),
+        });
+    }
+}
+
+/// A panic as an error. What it leaves behind is not used again: the first error ends a contestant.
+fn caught<T>(run: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
+    catch_unwind(AssertUnwindSafe(run)).unwrap_or_else(|payload| {
+        let text = payload.downcast_ref::<String>().map(String::as_str);
+        Err(format!("panicked: {}", text.or(payload.downcast_ref::<&str>().copied()).unwrap_or_default()))
+    })
+}
+
+fn say(answer: &Answer) {
+    let mut out = std::io::stdout().lock();
+    // a conductor that has gone away ends this process by its closed standard input
+    let _ = serde_json::to_string(answer).map(|line| writeln!(out, "{line}").and_then(|()| out.flush()));
+}

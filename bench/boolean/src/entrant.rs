@@ -1,0 +1,71 @@
+//! Who takes part, on how many cores, and for how long.
+
+use std::time::Duration;
+
+use crate::machine;
+
+pub(crate) const PLANECUT: &str = "planecut";
+pub(crate) const MANIFOLD3D: &str = "manifold3d";
+pub(crate) const OPENSCAD: &str = "openscad";
+
+/// How many cores the comparison is about.
+pub(crate) const CORES: usize = 2;
+
+/// A kernel on some cores.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Entrant {
+    pub(crate) name: &'static str,
+    pub(crate) cores: usize,
+}
+
+/// When an entrant has had enough.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Limits {
+    /// No further run begins that would probably end after so much time in runs.
+    pub(crate) total: Duration,
+    /// A run that takes longer is ended, and its process with it.
+    pub(crate) single: Duration,
+}
+
+impl Entrant {
+    /// All that are here. A quick run leaves out those that are far behind.
+    pub(crate) fn all(is_quick: bool) -> Vec<Self> {
+        let both = |name| Self { name, cores: CORES };
+        let one = |name| Self { name, cores: 1 };
+        let mut all = vec![both(PLANECUT), one(PLANECUT), both(MANIFOLD3D)];
+        if is_quick {
+            all.push(both("manifold-rust"));
+            return all;
+        }
+        all.extend([one(MANIFOLD3D), both("manifold-rust"), both("boolmesh"), both("csgrs")]);
+        if machine::has(OPENSCAD) {
+            all.push(both(OPENSCAD));
+        }
+        all
+    }
+
+    /// The key in the JSON file.
+    pub(crate) fn key(self) -> String {
+        format!("{} ({} core{})", self.name, self.cores, if self.cores == 1 { "" } else { "s" })
+    }
+
+    /// The two that the comparison is about have the most time; the others show no more than where they stand.
+    pub(crate) fn limits(self, is_quick: bool) -> Limits {
+        let (total, single) = match (self.name, self.cores, is_quick) {
+            (PLANECUT | MANIFOLD3D, CORES, false) => (4.0, 120.0),
+            (PLANECUT | MANIFOLD3D, _, false) => (2.0, 25.0),
+            ("manifold-rust", _, false) => (2.0, 15.0),
+            (OPENSCAD, _, false) => (2.0, 40.0),
+            (_, _, false) => (1.5, 5.0),
+            (PLANECUT | MANIFOLD3D, CORES, true) => (2.0, 12.0),
+            (PLANECUT | MANIFOLD3D, _, true) => (0.8, 12.0),
+            (_, _, true) => (0.8, 1.6),
+        };
+        Limits { total: Duration::from_secs_f64(total), single: Duration::from_secs_f64(single) }
+    }
+
+    /// How far a volume may be off, relative. OpenSCAD writes six digits of each coordinate.
+    pub(crate) fn tolerance(self) -> f64 {
+        if self.name == OPENSCAD { 1e-4 } else { 1e-9 }
+    }
+}

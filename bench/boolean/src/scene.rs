@@ -1,0 +1,246 @@
+//! What is timed: convex bodies, and what is done with them. One file holds both, so that every contestant, whatever
+//! its language, has the same bodies.
+//!
+//! The file is one line of JSON (a [`Header`]), then the planes of all bodies as `[nx, ny, nz, d]` and the positions
+//! of all bodies (`f64`), then all triangles (`u32`), little-endian.
+
+use std::fs::File;
+use std::io::{BufRead, BufReader, BufWriter, Read, Write};
+use std::path::Path;
+
+use planecut_csg::{Brush, MaterialId, Operation, Tree};
+use planecut_kernel::{DVec3, HalfSpace, IncrementalPolytope};
+use serde::{Deserialize, Serialize};
+
+/// A convex body, as half-spaces and as a closed triangle mesh.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct Convex {
+    pub(crate) planes: Vec<[f64; 4]>,
+    pub(crate) positions: Vec<[f64; 3]>,
+    pub(crate) triangles: Vec<[u32; 3]>,
+}
+
+/// What a step does with a body.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Action {
+    Add,
+    Subtract,
+}
+
+/// One entry of a tree in postfix order: the next body, or an operation on so many results before it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Entry {
+    Leaf,
+    Union(u32),
+    Difference(u32),
+    Intersection(u32),
+}
+
+/// What is done with the bodies.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Plan {
+    /// One tree, evaluated at once.
+    Tree(Vec<Entry>),
+    /// One body after another, by number; the result of each step is materialised.
+    Steps(Vec<(Action, u32)>),
+}
+
+/// Bodies and what is done with them.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Scene {
+    pub(crate) bodies: Vec<Convex>,
+    pub(crate) plan: Plan,
+}
+
+#[derive(Serialize, Deserialize)]
+struct Header {
+    /// Planes, positions and triangles of each body.
+    bodies: Vec<[usize; 3]>,
+    plan: Plan,
+}
+
+impl Convex {
+    /// A bounded brush with its mesh; nothing for one that is empty or unbounded.
+    pub(crate) fn of(brush: &Brush) -> Option<Self> {
+        // its tolerance merges corners that are one but for the rounding of plane coefficients
+        let mut polytope = IncrementalPolytope::new();
+        for face in &brush.faces {
+            polytope.add_plane(face.half_space);
+        }
+        if polytope.is_empty() || !polytope.is_bounded() {
+            return None;
+        }
+        let (positions, polygons) = polytope.to_mesh();
+        let fan = |polygon: &Vec<usize>| {
+            let corners: Vec<u32> = polygon.iter().map(|corner| *corner as u32).collect();
+            (2..corners.len()).map(|k| [corners[0], corners[k - 1], corners[k]]).collect::<Vec<[u32; 3]>>()
+        };
+        Some(Self {
+            planes: brush.faces.iter().map(|face| coefficients(&face.half_space)).collect(),
+            positions: positions.iter().map(DVec3::to_array).collect(),
+            triangles: polygons.iter().flat_map(fan).collect(),
+        })
+    }
+
+    /// The half-spaces as a brush.
+    pub(crate) fn brush(&self) -> Brush {
+        let half_space =
+            |[x, y, z, d]: &[f64; 4]| HalfSpace::new(DVec3::new(*x, *y, *z), *d).expect("it came from one");
+        Brush::from_half_spaces(self.planes.iter().map(half_space), MaterialId(0))
+    }
+}
+
+fn coefficients(half_space: &HalfSpace) -> [f64; 4] {
+    half_space.normal().extend(half_space.offset()).to_array()
+}
+
+impl Scene {
+    /// An operation on all bodies at once.
+    pub(crate) fn batch(bodies: Vec<Convex>, operation: fn(u32) -> Entry) -> Self {
+        let mut entries = vec![Entry::Leaf; bodies.len()];
+        entries.push(operation(bodies.len() as u32));
+        Self { bodies, plan: Plan::Tree(entries) }
+    }
+
+    /// The first body, then one action with each of the others.
+    pub(crate) fn one_by_one(bodies: Vec<Convex>, action: Action) -> Self {
+        let others = (1..bodies.len() as u32).map(|k| (action, k));
+        let steps = std::iter::once((Action::Add, 0)).chain(others).collect();
+        Self { bodies, plan: Plan::Steps(steps) }
+    }
+
+    /// All that the plan says as one tree over brushes.
+    pub(crate) fn at_once(&self) -> Tree {
+        match &self.plan {
+            Plan::Tree(entries) => self.tree(entries),
+            Plan::Steps(steps) => steps.chunk_by(|a, b| a.0 == b.0).fold(Tree::empty(), |solid, alike| {
+                let bodies = alike.iter().map(|(_, body)| Tree::from(self.bodies[*body as usize].brush()));
+                let operands = std::iter::once(solid).chain(bodies);
+                match alike[0].0 {
+                    Action::Add => Tree::union(operands),
+                    Action::Subtract => Tree::difference(operands),
+                }
+            }),
+        }
+    }
+
+    /// A tree over brushes.
+    pub(crate) fn tree(&self, entries: &[Entry]) -> Tree {
+        let mut stack: Vec<Tree> = Vec::new();
+        let mut bodies = self.bodies.iter();
+        for entry in entries {
+            let (operation, count) = match entry {
+                Entry::Leaf => {
+                    stack.extend(bodies.next().map(|body| Tree::from(body.brush())));
+                    continue;
+                }
+                Entry::Union(count) => (Operation::Union, count),
+                Entry::Difference(count) => (Operation::Difference, count),
+                Entry::Intersection(count) => (Operation::Intersection, count),
+            };
+            let operands = stack.split_off(stack.len() - *count as usize);
+            stack.push(Tree::combine(operation, operands));
+        }
+        stack.pop().unwrap_or_default()
+    }
+
+    /// Triangles of all bodies.
+    pub(crate) fn triangles(&self) -> usize {
+        self.bodies.iter().map(|body| body.triangles.len()).sum()
+    }
+
+    /// Writes the file.
+    pub(crate) fn write(&self, path: &Path) -> std::io::Result<()> {
+        let mut out = BufWriter::new(File::create(path)?);
+        let sizes = self.bodies.iter().map(|body| [body.planes.len(), body.positions.len(), body.triangles.len()]);
+        serde_json::to_writer(&mut out, &Header { bodies: sizes.collect(), plan: self.plan.clone() })?;
+        out.write_all(b"\n")?;
+        let planes = self.bodies.iter().flat_map(|body| body.planes.iter().flatten());
+        let positions = self.bodies.iter().flat_map(|body| body.positions.iter().flatten());
+        for number in planes.chain(positions) {
+            out.write_all(&number.to_le_bytes())?;
+        }
+        for corner in self.bodies.iter().flat_map(|body| body.triangles.iter().flatten()) {
+            out.write_all(&corner.to_le_bytes())?;
+        }
+        out.flush()
+    }
+
+    /// Reads the file again.
+    pub(crate) fn read(path: &Path) -> std::io::Result<Self> {
+        let mut file = BufReader::new(File::open(path)?);
+        let mut line = String::new();
+        file.read_line(&mut line)?;
+        let Header { bodies: sizes, plan } = serde_json::from_str(&line)?;
+        let mut bodies = vec![Convex::default(); sizes.len()];
+        for (body, [count, _, _]) in bodies.iter_mut().zip(&sizes) {
+            body.planes = (0..*count).map(|_| read_numbers(&mut file)).collect::<Result<_, _>>()?;
+        }
+        for (body, [_, count, _]) in bodies.iter_mut().zip(&sizes) {
+            body.positions = (0..*count).map(|_| read_numbers(&mut file)).collect::<Result<_, _>>()?;
+        }
+        for (body, [_, _, count]) in bodies.iter_mut().zip(&sizes) {
+            body.triangles = (0..*count).map(|_| read_corners(&mut file)).collect::<Result<_, _>>()?;
+        }
+        Ok(Self { bodies, plan })
+    }
+}
+
+fn read_numbers<const N: usize>(file: &mut impl Read) -> std::io::Result<[f64; N]> {
+    let mut numbers = [0.0; N];
+    for number in &mut numbers {
+        let mut bytes = [0; 8];
+        file.read_exact(&mut bytes)?;
+        *number = f64::from_le_bytes(bytes);
+    }
+    Ok(numbers)
+}
+
+fn read_corners(file: &mut impl Read) -> std::io::Result<[u32; 3]> {
+    let mut corners = [0; 3];
+    for corner in &mut corners {
+        let mut bytes = [0; 4];
+        file.read_exact(&mut bytes)?;
+        *corner = u32::from_le_bytes(bytes);
+    }
+    Ok(corners)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Action, Convex, Entry, Plan, Scene};
+    use crate::workloads::{Menger, boxes, menger};
+
+    #[test]
+    fn a_file_holds_all_of_a_scene() {
+        let mut scene = menger(1, Menger::Combs).scene;
+        let file = std::env::temp_dir().join(format!("planecut-bench-test-{}.scene", std::process::id()));
+        for plan in [scene.plan.clone(), Plan::Steps(vec![(Action::Add, 1), (Action::Subtract, 0)])] {
+            scene.plan = plan;
+            scene.write(&file).unwrap();
+            assert_eq!(Scene::read(&file).unwrap(), scene);
+        }
+        std::fs::remove_file(file).unwrap();
+    }
+
+    #[test]
+    fn a_body_is_the_same_as_brush_and_as_mesh() {
+        for body in boxes(5, true) {
+            assert_eq!([body.planes.len(), body.positions.len(), body.triangles.len()], [6, 8, 12]);
+            assert_eq!(Convex::of(&body.brush()), Some(body));
+        }
+    }
+
+    #[test]
+    fn steps_become_a_tree() {
+        let bodies = boxes(3, false);
+        let steps = [(Action::Add, 0), (Action::Add, 1), (Action::Subtract, 2), (Action::Add, 2)];
+        let scene = Scene { bodies, plan: Plan::Steps(steps.to_vec()) };
+        assert_eq!(scene.at_once().brushes().len(), 4);
+        let batch = Scene::batch(scene.bodies.clone(), Entry::Union);
+        assert_eq!(batch.at_once().brushes().len(), 3);
+    }
+}

@@ -1,0 +1,264 @@
+//! The scenes that are timed, each made of plain numbers and a seed, so that every run has the same.
+
+use std::f64::consts::PI;
+use std::path::Path;
+
+use planecut_csg::primitives::capsule;
+use planecut_csg::{Brush, MaterialId, Transform};
+use planecut_import::map::{MapOptions, read_map};
+use planecut_kernel::{DMat3, DVec3, HalfSpace};
+use rand::rngs::StdRng;
+use rand::{Rng, SeedableRng};
+
+use crate::scene::{Action, Convex, Entry, Plan, Scene};
+
+const ONE: MaterialId = MaterialId(0);
+
+/// A scene and what must come of it.
+pub(crate) struct Task {
+    pub(crate) scene: Scene,
+    /// The volume that every result must have, where it is known beforehand.
+    pub(crate) volume: Option<f64>,
+}
+
+impl Task {
+    fn new(scene: Scene) -> Self {
+        Self { scene, volume: None }
+    }
+
+    fn of_volume(scene: Scene, volume: f64) -> Self {
+        Self { scene, volume: Some(volume) }
+    }
+}
+
+/// The union of boxes with sides of 0.5 to 1.5, as many in a cube as give each about seven neighbours.
+pub(crate) fn box_union(count: usize, is_rotated: bool) -> Task {
+    Task::new(Scene::batch(boxes(count, is_rotated), Entry::Union))
+}
+
+/// Boxes of random sizes at constant density; rotated, or on a grid of 1/1024.
+pub(crate) fn boxes(count: usize, is_rotated: bool) -> Vec<Convex> {
+    let mut rng = StdRng::seed_from_u64(count as u64 + u64::from(is_rotated));
+    let side = 1.5 * (count as f64).cbrt();
+    let make = |_| {
+        let grid = |v: f64| (v * 1024.0).round() / 1024.0;
+        let half = DVec3::from_array([0; 3].map(|_| grid(rng.random_range(0.25..0.75))));
+        let middle = DVec3::from_array([0; 3].map(|_| grid(rng.random_range(0.0..side))));
+        if !is_rotated {
+            return convex(&Brush::cuboid(middle - half, middle + half, ONE));
+        }
+        let turn = rotation(&mut rng);
+        let planes = (0..3).flat_map(|axis| {
+            let normal = turn.col(axis);
+            let at = normal.dot(middle);
+            [half_space(normal, at + half[axis]), half_space(-normal, half[axis] - at)]
+        });
+        convex(&Brush::from_half_spaces(planes, ONE))
+    };
+    (0..count).map(make).collect()
+}
+
+/// The unit block, and capsules of about 100 planes in it.
+pub(crate) fn capsules_in_block(count: usize) -> Vec<Convex> {
+    let mut rng = StdRng::seed_from_u64(count as u64);
+    let mut bodies = vec![convex(&Brush::cuboid(DVec3::ZERO, DVec3::ONE, ONE))];
+    for _ in 0..count {
+        let (height, radius) = (rng.random_range(0.1..0.3), rng.random_range(0.02..0.06));
+        let brush = capsule(height, radius, 14, ONE).expect("sizes within the limits");
+        let at = DVec3::from_array([0; 3].map(|_| rng.random_range(0.0..1.0)));
+        let moved = Transform::new(rotation(&mut rng), at).expect("a rotation");
+        bodies.push(convex(&transformed(brush, &moved)));
+    }
+    bodies
+}
+
+/// The unit block minus capsules.
+pub(crate) fn carve(count: usize) -> Task {
+    Task::new(Scene::batch(capsules_in_block(count), Entry::Difference))
+}
+
+/// The same, one by one.
+pub(crate) fn carve_one_by_one(count: usize) -> Task {
+    Task::new(Scene::one_by_one(capsules_in_block(count), Action::Subtract))
+}
+
+/// A block minus a chain of capsules along a spiral from the top of a dome to its rim, as a ball-nosed tool would cut
+/// it: each overlaps those before and after it and those of the next turns, however many there are.
+pub(crate) fn dome_carve(count: usize) -> Task {
+    // the turns are as far apart as the capsules are long, and all of them cover the unit hemisphere of area 2π
+    let spacing = (2.0 * PI / count as f64).sqrt();
+    let point = |k: usize| {
+        let z = 1.0 - k as f64 / count as f64;
+        let (sin, cos) = (2.0 * PI * z.acos() / spacing).sin_cos();
+        let radius = (1.0 - z * z).sqrt();
+        DVec3::new(radius * cos, radius * sin, z)
+    };
+    let mut bodies = vec![convex(&Brush::cuboid(DVec3::new(-2.0, -2.0, 0.0), DVec3::splat(2.0), ONE))];
+    for k in 0..count {
+        let (from, to) = (point(k), point(k + 1));
+        let along = (to - from).normalize();
+        let side = along.cross(from + to).normalize();
+        let turn = DMat3::from_cols(side, along.cross(side), along);
+        let brush = capsule((to - from).length(), 0.7 * spacing, 14, ONE).expect("sizes within the limits");
+        bodies.push(convex(&transformed(brush, &Transform::new(turn, from).expect("a rotation"))));
+    }
+    Task::new(Scene::batch(bodies, Entry::Difference))
+}
+
+/// A grid of touching unit cubes, united one by one and then subtracted one by one; nothing must be left.
+pub(crate) fn grid_iterated(side: u32) -> Task {
+    let bodies = cubes(side, |_| true);
+    let count = bodies.len() as u32;
+    let steps = [Action::Add, Action::Subtract].into_iter().flat_map(|action| (0..count).map(move |k| (action, k)));
+    let plan = Plan::Steps(steps.collect());
+    Task::of_volume(Scene { bodies, plan }, 0.0)
+}
+
+/// What the cubes of [`touching_cubes`] have in common with their neighbours.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Contact {
+    Face,
+    Edge,
+    Vertex,
+}
+
+/// The union of unit cubes in a grid: of all, of every other as on a chessboard, or of those in the middle of others.
+pub(crate) fn touching_cubes(side: u32, contact: Contact) -> Task {
+    let bodies = cubes(side, |[x, y, z]| match contact {
+        Contact::Face => true,
+        Contact::Edge => (x + y + z) % 2 == 0,
+        Contact::Vertex => x % 2 == y % 2 && y % 2 == z % 2,
+    });
+    let volume = bodies.len() as f64;
+    Task::of_volume(Scene::batch(bodies, Entry::Union), volume)
+}
+
+/// Unit cubes of a grid.
+fn cubes(side: u32, is_there: impl Fn([u32; 3]) -> bool) -> Vec<Convex> {
+    let places = (0..side * side * side).map(|k| [k % side, k / side % side, k / side / side]);
+    let corners = places.filter(|place| is_there(*place)).map(|place| DVec3::from_array(place.map(f64::from)));
+    corners.map(|corner| convex(&Brush::cuboid(corner, corner + DVec3::ONE, ONE))).collect()
+}
+
+/// How the bars of a Menger sponge are taken away.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Menger {
+    Batch,
+    OneByOne,
+    Combs,
+}
+
+/// The unit cube minus the bars of a Menger sponge, in each direction `1 + 8 + 64 + …`.
+pub(crate) fn menger(depth: u32, form: Menger) -> Task {
+    let mut bodies = vec![convex(&Brush::cuboid(DVec3::ZERO, DVec3::ONE, ONE))];
+    let mut bars = 0;
+    for axis in 0..3 {
+        let holes = sponge_holes(depth);
+        bars = holes.len() as u32;
+        for [u, v, size] in holes {
+            let (mut min, mut max) = (DVec3::splat(-1.0), DVec3::splat(2.0));
+            (min[(axis + 1) % 3], max[(axis + 1) % 3]) = (u, u + size);
+            (min[(axis + 2) % 3], max[(axis + 2) % 3]) = (v, v + size);
+            bodies.push(convex(&Brush::cuboid(min, max, ONE)));
+        }
+    }
+    let scene = match form {
+        Menger::Batch => Scene::batch(bodies, Entry::Difference),
+        Menger::OneByOne => Scene::one_by_one(bodies, Action::Subtract),
+        Menger::Combs => {
+            let mut entries = vec![Entry::Leaf];
+            for _ in 0..3 {
+                entries.extend((0..bars).map(|_| Entry::Leaf));
+                entries.push(Entry::Union(bars));
+            }
+            entries.push(Entry::Difference(4));
+            Scene { bodies, plan: Plan::Tree(entries) }
+        }
+    };
+    Task::of_volume(scene, (20.0_f64 / 27.0).powi(depth as i32))
+}
+
+/// The holes of a Sierpiński carpet, as corner and size.
+fn sponge_holes(depth: u32) -> Vec<[f64; 3]> {
+    let mut holes = Vec::new();
+    let mut squares = vec![[0.0, 0.0]];
+    for level in 1..=depth {
+        let size = 3.0_f64.powi(-(level as i32));
+        let mut next = Vec::new();
+        for [u, v] in squares {
+            for k in 0..9 {
+                let (i, j) = (k % 3, k / 3);
+                let at = [u + f64::from(i) * size, v + f64::from(j) * size];
+                if (i, j) == (1, 1) {
+                    holes.push([at[0], at[1], size]);
+                } else {
+                    next.push(at);
+                }
+            }
+        }
+        squares = next;
+    }
+    holes
+}
+
+/// Two equal spheres of tangent planes, each of so many triangles, that overlap by more than a radius.
+pub(crate) fn dense_spheres(triangles: usize) -> Task {
+    // each vertex has three planes, so f planes make 4f − 12 triangles
+    let planes = (triangles + 12) / 4;
+    let golden_angle = PI * (3.0 - 5f64.sqrt());
+    let sphere = |middle: DVec3| {
+        let tangents = (0..planes).map(|i| {
+            let z = 1.0 - (2.0 * i as f64 + 1.0) / planes as f64;
+            let radius = (1.0 - z * z).sqrt();
+            let (sin, cos) = (golden_angle * i as f64).sin_cos();
+            let normal = DVec3::new(radius * cos, radius * sin, z);
+            half_space(normal, 1.0 + normal.dot(middle))
+        });
+        convex(&Brush::from_half_spaces(tangents, ONE))
+    };
+    let bodies = vec![sphere(DVec3::ZERO), sphere(DVec3::new(0.7, 0.2, 0.1))];
+    Task::new(Scene::batch(bodies, Entry::Union))
+}
+
+/// The brushes of a Quake map, whose union has a known volume.
+pub(crate) fn map(file: &Path, volume: f64) -> Result<Task, String> {
+    Ok(Task::of_volume(Scene::batch(map_bodies(file)?, Entry::Union), volume))
+}
+
+/// The same, one by one.
+pub(crate) fn map_one_by_one(file: &Path, volume: f64) -> Result<Task, String> {
+    Ok(Task::of_volume(Scene::one_by_one(map_bodies(file)?, Action::Add), volume))
+}
+
+fn map_bodies(file: &Path) -> Result<Vec<Convex>, String> {
+    let text = std::fs::read(file).map_err(|error| error.to_string())?;
+    let import = read_map(&text, &file.to_string_lossy(), &MapOptions::default()).map_err(|error| error.to_string())?;
+    Ok(import.model.tree.brushes().iter().filter_map(Convex::of).collect())
+}
+
+fn convex(brush: &Brush) -> Convex {
+    Convex::of(brush).expect("a bounded body")
+}
+
+fn half_space(normal: DVec3, offset: f64) -> HalfSpace {
+    HalfSpace::new(normal, offset).expect("a plane within the limits")
+}
+
+fn transformed(mut brush: Brush, transform: &Transform) -> Brush {
+    for face in &mut brush.faces {
+        face.half_space = transform.half_space(&face.half_space).expect("a plane within the limits");
+    }
+    brush
+}
+
+/// A random rotation, by a quaternion of normal deviates (near enough).
+fn rotation(rng: &mut StdRng) -> DMat3 {
+    let mut deviate = || (0..12).map(|_| rng.random_range(0.0..1.0)).sum::<f64>() - 6.0;
+    let [w, x, y, z] = [(); 4].map(|()| deviate());
+    let s = 2.0 / (w * w + x * x + y * y + z * z);
+    DMat3::from_cols(
+        DVec3::new(1.0 - s * (y * y + z * z), s * (x * y + z * w), s * (x * z - y * w)),
+        DVec3::new(s * (x * y - z * w), 1.0 - s * (x * x + z * z), s * (y * z + x * w)),
+        DVec3::new(s * (x * z + y * w), s * (y * z - x * w), 1.0 - s * (x * x + y * y)),
+    )
+}
