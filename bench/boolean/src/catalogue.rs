@@ -64,6 +64,7 @@ pub(crate) fn all() -> Vec<Workload> {
         let name = format!("carve_{count}_capsules");
         all.push(Workload::new(name, move || workloads::carve(count)).of(CARVE, count).quick(count > 100));
     }
+    all.push(Workload::new("carve_1000_turned", || workloads::carve_turned(1000)));
     for count in [100, 250, 1000] {
         let name = format!("carve_{count}_one_by_one");
         all.push(Workload::new(name, move || workloads::carve_one_by_one(count)).of(CARVE_ONE_BY_ONE, count));

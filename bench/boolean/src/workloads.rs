@@ -58,28 +58,49 @@ pub(crate) fn boxes(count: usize, is_rotated: bool) -> Vec<Convex> {
     (0..count).map(make).collect()
 }
 
-/// The unit block, and capsules of about 100 planes in it.
-pub(crate) fn capsules_in_block(count: usize) -> Vec<Convex> {
+/// The unit block, and capsules in it: two spheres of radius 0.02 to 0.06 at 0.1 to 0.3 from each other, and what lies
+/// between.
+fn capsules_in_block(count: usize, make: impl Fn(f64, f64, DMat3, DVec3) -> Brush) -> Vec<Convex> {
     let mut rng = StdRng::seed_from_u64(count as u64);
     let mut bodies = vec![convex(&Brush::cuboid(DVec3::ZERO, DVec3::ONE, ONE))];
     for _ in 0..count {
         let (height, radius) = (rng.random_range(0.1..0.3), rng.random_range(0.02..0.06));
-        let brush = capsule(height, radius, 14, ONE).expect("sizes within the limits");
         let at = DVec3::from_array([0; 3].map(|_| rng.random_range(0.0..1.0)));
-        let moved = Transform::new(rotation(&mut rng), at).expect("a rotation");
-        bodies.push(convex(&transformed(brush, &moved)));
+        bodies.push(convex(&make(height, radius, rotation(&mut rng), at)));
     }
     bodies
 }
 
+/// One of 100 tangent planes, spread over all directions.
+fn tangent_capsule(height: f64, radius: f64, turn: DMat3, at: DVec3) -> Brush {
+    let ends = [at, at + height * turn.col(2)];
+    let tangent = |normal: DVec3| {
+        let reach = ends.map(|end| normal.dot(end));
+        half_space(normal, radius + reach[0].max(reach[1]))
+    };
+    Brush::from_half_spaces(directions(100).map(tangent), ONE)
+}
+
+/// planecut's own of 14 segments, 100 planes as well. Turned, the four planes at each of its corners no longer meet in a
+/// point, but for rounding.
+fn turned_capsule(height: f64, radius: f64, turn: DMat3, at: DVec3) -> Brush {
+    let brush = capsule(height, radius, 14, ONE).expect("sizes within the limits");
+    transformed(brush, &Transform::new(turn, at).expect("a rotation"))
+}
+
 /// The unit block minus capsules.
 pub(crate) fn carve(count: usize) -> Task {
-    Task::new(Scene::batch(capsules_in_block(count), Entry::Difference))
+    Task::new(Scene::batch(capsules_in_block(count, tangent_capsule), Entry::Difference))
+}
+
+/// The unit block minus capsules with more than three planes at a corner.
+pub(crate) fn carve_turned(count: usize) -> Task {
+    Task::new(Scene::batch(capsules_in_block(count, turned_capsule), Entry::Difference))
 }
 
 /// The same, one by one.
 pub(crate) fn carve_one_by_one(count: usize) -> Task {
-    Task::new(Scene::one_by_one(capsules_in_block(count), Action::Subtract))
+    Task::new(Scene::one_by_one(capsules_in_block(count, tangent_capsule), Action::Subtract))
 }
 
 /// A block minus a chain of capsules along a spiral from the top of a dome to its rim, as a ball-nosed tool would cut
@@ -205,19 +226,23 @@ fn sponge_holes(depth: u32) -> Vec<[f64; 3]> {
 pub(crate) fn dense_spheres(triangles: usize) -> Task {
     // each vertex has three planes, so f planes make 4f − 12 triangles
     let planes = (triangles + 12) / 4;
-    let golden_angle = PI * (3.0 - 5f64.sqrt());
     let sphere = |middle: DVec3| {
-        let tangents = (0..planes).map(|i| {
-            let z = 1.0 - (2.0 * i as f64 + 1.0) / planes as f64;
-            let radius = (1.0 - z * z).sqrt();
-            let (sin, cos) = (golden_angle * i as f64).sin_cos();
-            let normal = DVec3::new(radius * cos, radius * sin, z);
-            half_space(normal, 1.0 + normal.dot(middle))
-        });
+        let tangents = directions(planes).map(|normal| half_space(normal, 1.0 + normal.dot(middle)));
         convex(&Brush::from_half_spaces(tangents, ONE))
     };
     let bodies = vec![sphere(DVec3::ZERO), sphere(DVec3::new(0.7, 0.2, 0.1))];
     Task::new(Scene::batch(bodies, Entry::Union))
+}
+
+/// Unit vectors spread over all directions by the golden angle.
+fn directions(count: usize) -> impl Iterator<Item = DVec3> {
+    let golden_angle = PI * (3.0 - 5f64.sqrt());
+    (0..count).map(move |i| {
+        let z = 1.0 - (2.0 * i as f64 + 1.0) / count as f64;
+        let radius = (1.0 - z * z).sqrt();
+        let (sin, cos) = (golden_angle * i as f64).sin_cos();
+        DVec3::new(radius * cos, radius * sin, z)
+    })
 }
 
 /// The brushes of a Quake map, whose union has a known volume.
