@@ -113,6 +113,9 @@ pub(crate) fn kinds(bodies: &[BrushBody]) -> Vec<u32> {
     (0..bodies.len() as u32).map(kind).collect()
 }
 
+/// Bodies that are built in a row have at least about so many planes.
+const PLANES_OF_CHUNK: usize = 100;
+
 /// Interns the planes of brushes and builds the body of each, in parallel.
 pub(crate) fn build_bodies(brushes: &[Brush]) -> BrushBodies {
     let half_spaces: Vec<HalfSpace> =
@@ -127,7 +130,9 @@ pub(crate) fn build_bodies(brushes: &[Brush]) -> BrushBodies {
             own.to_vec()
         })
         .collect();
-    let chunk = (brushes.len() / (4 * rayon::current_num_threads()).max(1)).max(16);
+    // each chunk has a polytope of its own, which is worth the while from some planes on
+    let least = PLANES_OF_CHUNK * brushes.len() / half_spaces.len().max(1);
+    let chunk = (brushes.len() / (4 * rayon::current_num_threads())).max(least).max(1);
     let parts: Vec<(Vec<BrushBody>, Counts)> = brushes
         .par_chunks(chunk)
         .zip(planes.par_chunks(chunk))

@@ -45,20 +45,29 @@ pub(crate) fn distinct<K: Copy + Eq + Hash + Send + Sync>(keys: &[K]) -> (Vec<K>
 struct Shard<K> {
     keys: Vec<K>,
     number: FxHashMap<K, u32>,
+    /// The last key and its number: the same key often comes twice in a row.
+    last: Option<(K, u32)>,
 }
 
 impl<K> Default for Shard<K> {
     fn default() -> Self {
-        Self { keys: Vec::new(), number: FxHashMap::default() }
+        Self { keys: Vec::new(), number: FxHashMap::default(), last: None }
     }
 }
 
 impl<K: Copy + Eq + Hash> Shard<K> {
     fn number(&mut self, key: K) -> u32 {
-        *self.number.entry(key).or_insert_with(|| {
+        if let Some((last, number)) = self.last
+            && last == key
+        {
+            return number;
+        }
+        let number = *self.number.entry(key).or_insert_with(|| {
             self.keys.push(key);
             self.keys.len() as u32 - 1
-        })
+        });
+        self.last = Some((key, number));
+        number
     }
 }
 

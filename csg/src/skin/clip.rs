@@ -66,11 +66,6 @@ impl Clipper {
         let mut whole = true;
         let cuts = scene.bodies[body].faces.iter().map(|face| face.plane);
         for cut in cuts.filter(|cut| cut.index() != face.plane.index()) {
-            let half_space = scene.table.half_space(cut);
-            let (_, high) = face.bounds.extent_along(half_space.normal(), half_space.offset());
-            if high < 0.0 {
-                continue;
-            }
             match polygon.clip(scene.table, face.plane, cut, &mut self.spare) {
                 Clip::Nothing => return Clip::Nothing,
                 Clip::Part => whole = false,

@@ -11,6 +11,7 @@ use super::points::Points;
 use crate::distinct::distinct;
 use crate::parallel::{counted, map_chunks};
 use crate::plane_table::{PlaneId, PlaneTable};
+use crate::skin::BoundaryEdge;
 
 /// A geometric line, directed so that the component of its first axis is positive.
 #[derive(Debug, Clone, Copy)]
@@ -26,13 +27,13 @@ pub(super) struct Line {
 /// What equal lines share, correctly rounded: the axis, the slopes against it, and where the line meets its plane.
 type Key = (usize, [u64; 4]);
 
-/// Numbers the lines of plane pairs; gives the lines and the number of each pair, in order.
-pub(super) fn identify(table: &PlaneTable, pairs: &[[PlaneId; 2]]) -> (Vec<Line>, Vec<u32>, Counts) {
-    let key = |[a, b]: &[PlaneId; 2]| {
-        let (a, b) = (u64::from(a.index()), u64::from(b.index()));
+/// Numbers the lines of edges; gives the lines and the number of the line of each edge, in order.
+pub(super) fn identify(table: &PlaneTable, edges: &[BoundaryEdge]) -> (Vec<Line>, Vec<u32>, Counts) {
+    let key = |edge: &BoundaryEdge| {
+        let (a, b) = (u64::from(edge.face.index()), u64::from(edge.edge.index()));
         a.min(b) << 32 | a.max(b)
     };
-    let keys: Vec<u64> = pairs.par_iter().with_min_len(1024).map(key).collect();
+    let keys: Vec<u64> = edges.par_iter().with_min_len(1024).map(key).collect();
     let (different, of_pair) = distinct(&keys);
     let (lines, of_different, counts) = number(table, &different);
     (lines, of_pair.into_par_iter().with_min_len(1024).map(|k| of_different[k as usize]).collect(), counts)

@@ -157,18 +157,15 @@ fn half_edges(
     regions: &Regions,
     of_edge: &[u32],
 ) -> Result<(Points, Vec<HalfEdge>, Counts), WeldError> {
-    let triples: Vec<[PlaneId; 3]> =
-        edges.iter().flat_map(|e| [[e.face, e.edge, e.start], [e.face, e.edge, e.end]]).collect();
-    let pairs: Vec<[PlaneId; 2]> = edges.iter().map(|e| [e.face, e.edge]).collect();
-    let (mut points, ends, mut signs) = Points::identify(table, &triples);
-    let (lines, of_pair, counted) = lines::identify(table, &pairs);
+    let (mut points, ends, mut signs) = Points::identify(table, edges);
+    let (lines, of_pair, counted) = lines::identify(table, edges);
     signs += counted;
     let run = |(k, edge): (usize, &BoundaryEdge)| Run {
         line: of_pair[k],
         region: of_edge[k],
         edge: edge.edge,
-        from: ends[2 * k],
-        to: ends[2 * k + 1],
+        from: ends[k][0],
+        to: ends[k][1],
         forward: lines[of_pair[k] as usize].is_along(table, edge.face, edge.edge),
     };
     let runs: Vec<Run> = edges.par_iter().enumerate().with_min_len(1024).map(run).collect();

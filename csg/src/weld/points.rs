@@ -9,6 +9,7 @@ use rayon::prelude::*;
 use crate::distinct::{distinct, sortable};
 use crate::parallel::{counted, map_chunks};
 use crate::plane_table::{PlaneId, PlaneTable};
+use crate::skin::BoundaryEdge;
 
 /// The points of a weld.
 #[derive(Debug, Default)]
@@ -30,10 +31,11 @@ struct Named {
 }
 
 impl Points {
-    /// Numbers the meeting points of plane triples by position; gives the number of each triple, in order.
-    pub(super) fn identify(table: &PlaneTable, triples: &[[PlaneId; 3]]) -> (Self, Vec<u32>, Counts) {
-        let keys: Vec<(u64, u32)> = triples.par_iter().with_min_len(1024).map(|triple| key(*triple)).collect();
-        let (different, of_triple) = distinct(&keys);
+    /// Numbers the ends of edges by position; gives the numbers of both ends of each edge, in order.
+    pub(super) fn identify(table: &PlaneTable, edges: &[BoundaryEdge]) -> (Self, Vec<[u32; 2]>, Counts) {
+        let ends = |edge: &BoundaryEdge| [edge.start, edge.end].map(|end| key([edge.face, edge.edge, end]));
+        let keys: Vec<[(u64, u32); 2]> = edges.par_iter().with_min_len(1024).map(ends).collect();
+        let (different, of_triple) = distinct(keys.as_flattened());
         let (named, mut counts) = map_chunks(&different, 256, |keys| {
             keys.iter().map(|key| Named::of(table, planes(*key))).collect::<Vec<_>>()
         });
@@ -52,7 +54,8 @@ impl Points {
             }
         });
         counts += joining;
-        (points, of_triple.into_par_iter().with_min_len(1024).map(|k| of_named[k as usize]).collect(), counts)
+        let number = |ends: &[u32]| [ends[0], ends[1]].map(|k| of_named[k as usize]);
+        (points, of_triple.par_chunks_exact(2).with_min_len(1024).map(number).collect(), counts)
     }
 
     /// Numbers points that round alike, equal ones once, in their exact order.
