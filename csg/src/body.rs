@@ -11,6 +11,7 @@ use rustc_hash::{FxBuildHasher, FxHashMap};
 use crate::bounds::Bounds;
 use crate::brush::{Brush, MaterialId};
 use crate::corner::Corner;
+use crate::locality::renumber_planes;
 use crate::plane_table::{PlaneId, PlaneTable};
 
 /// A face of a [`Body`].
@@ -46,6 +47,12 @@ impl Body {
     /// The corners of a face: corner `i` between the edges `i` and `i + 1`.
     pub(crate) fn corners(&self, face: &BodyFace) -> &[Corner] {
         &self.corners[face.start as usize..face.end as usize]
+    }
+
+    /// Puts other planes in the place of its own.
+    pub(crate) fn renumber_planes(&mut self, renumbered: impl Fn(PlaneId) -> PlaneId) {
+        self.faces.iter_mut().for_each(|face| face.plane = renumbered(face.plane));
+        self.edges.iter_mut().for_each(|edge| *edge = renumbered(*edge));
     }
 
     /// How many edges all faces have together.
@@ -153,6 +160,8 @@ pub(crate) fn build_bodies(brushes: &[Brush]) -> BrushBodies {
         bodies.extend(part);
         signs += counted;
     }
+    let (mut table, mut planes) = (table, planes);
+    renumber_planes(&mut table, &mut planes, &mut bodies);
     BrushBodies { table, planes, bodies, signs }
 }
 

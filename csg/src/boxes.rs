@@ -67,6 +67,11 @@ impl Boxes {
         }
     }
 
+    /// All boxes that are not empty, those that are near each other in a row.
+    pub(crate) fn in_order(&self) -> impl Iterator<Item = u32> + '_ {
+        self.order.iter().chain(&self.infinite).copied()
+    }
+
     pub(crate) fn get(&self, number: u32) -> &Bounds {
         &self.boxes[number as usize]
     }

@@ -1,61 +1,69 @@
 //! Numbers for keys: equal keys get one number, and keys sort as integers.
 
-use std::hash::{BuildHasher, Hash};
+use std::hash::Hash;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use rayon::prelude::*;
-use rustc_hash::{FxBuildHasher, FxHashMap};
+use rustc_hash::FxHashMap;
 
-/// Fewer keys than this are numbered on one thread.
-const MANY: usize = 1 << 13;
-/// Keys are shared out by their hash. A constant, so that the numbers do not depend on the number of threads.
-const SHARDS: usize = 8;
+/// So many keys are numbered in a row, about: their map stays at hand.
+const BUCKET: usize = 1 << 13;
 
 /// The different keys, and for each key given the place of its like among them.
-pub(crate) fn distinct<K: Copy + Eq + Hash + Send + Sync>(keys: &[K]) -> (Vec<K>, Vec<u32>) {
-    if keys.len() < MANY {
-        let mut shard = Shard::default();
-        let numbers = keys.iter().map(|key| shard.number(*key)).collect();
-        return (shard.keys, numbers);
+///
+/// Keys are numbered bucket by bucket. `near` tells which keys go together: equal ones have the same number below `bound`,
+/// and those of near numbers are best found near each other.
+pub(crate) fn distinct<K: Copy + Eq + Hash + Send + Sync>(
+    keys: &[K],
+    bound: usize,
+    near: impl Fn(&K) -> usize + Sync,
+) -> (Vec<K>, Vec<u32>) {
+    // a function of the keys alone, so that the numbers do not depend on the number of threads
+    let count = keys.len().div_ceil(BUCKET);
+    if count < 2 {
+        let mut bucket = Bucket::default();
+        let numbers = keys.iter().map(|key| bucket.number(*key)).collect();
+        return (bucket.keys, numbers);
     }
-    let numbers: Vec<AtomicU32> = keys.par_iter().with_min_len(MANY).map(|_| AtomicU32::new(0)).collect();
-    // where the keys of each shard are, chunk by chunk
-    let places: Vec<[Vec<u32>; SHARDS]> =
-        keys.par_chunks(MANY).enumerate().map(|(chunk, keys)| share_out(keys, chunk * MANY)).collect();
-    let shards: Vec<Vec<K>> = (0..SHARDS)
-        .into_par_iter()
-        .map(|s| {
-            let mut shard = Shard::default();
-            for place in places.iter().flat_map(|chunk| &chunk[s]) {
-                numbers[*place as usize].store(shard.number(keys[*place as usize]), Ordering::Relaxed);
+    let width = bound.div_ceil(count).max(1);
+    let bucket_of = |key: &K| (near(key) / width).min(count - 1) as u32;
+    let of_key: Vec<u32> = keys.par_iter().with_min_len(BUCKET).map(bucket_of).collect();
+    let (starts, members) = by_group(count, of_key.iter().copied());
+    let numbers: Vec<AtomicU32> = keys.par_iter().with_min_len(BUCKET).map(|_| AtomicU32::new(0)).collect();
+    let buckets: Vec<Vec<K>> = starts
+        .par_windows(2)
+        .map(|ends| {
+            let mut bucket = Bucket::default();
+            for &place in &members[ends[0] as usize..ends[1] as usize] {
+                numbers[place as usize].store(bucket.number(keys[place as usize]), Ordering::Relaxed);
             }
-            shard.keys
+            bucket.keys
         })
         .collect();
-    let mut first = [0; SHARDS];
-    for s in 1..SHARDS {
-        first[s] = first[s - 1] + shards[s - 1].len() as u32;
+    let mut first = vec![0; count];
+    for k in 1..count {
+        first[k] = first[k - 1] + buckets[k - 1].len() as u32;
     }
-    let number = |(number, key): (AtomicU32, &K)| number.into_inner() + first[shard_of(key)];
-    let numbers = numbers.into_par_iter().with_min_len(MANY).zip(keys).map(number).collect();
-    (shards.concat(), numbers)
+    let number = |(number, bucket): (AtomicU32, u32)| number.into_inner() + first[bucket as usize];
+    let numbers = numbers.into_par_iter().with_min_len(BUCKET).zip(of_key).map(number).collect();
+    (buckets.concat(), numbers)
 }
 
-/// The keys that one thread numbers.
-struct Shard<K> {
+/// Keys that are numbered in a row.
+struct Bucket<K> {
     keys: Vec<K>,
     number: FxHashMap<K, u32>,
     /// The last key and its number: the same key often comes twice in a row.
     last: Option<(K, u32)>,
 }
 
-impl<K> Default for Shard<K> {
+impl<K> Default for Bucket<K> {
     fn default() -> Self {
         Self { keys: Vec::new(), number: FxHashMap::default(), last: None }
     }
 }
 
-impl<K: Copy + Eq + Hash> Shard<K> {
+impl<K: Copy + Eq + Hash> Bucket<K> {
     fn number(&mut self, key: K) -> u32 {
         if let Some((last, number)) = self.last
             && last == key
@@ -69,19 +77,6 @@ impl<K: Copy + Eq + Hash> Shard<K> {
         self.last = Some((key, number));
         number
     }
-}
-
-fn share_out<K: Hash>(keys: &[K], first: usize) -> [Vec<u32>; SHARDS] {
-    let mut places: [Vec<u32>; SHARDS] = std::array::from_fn(|_| Vec::with_capacity(keys.len() / (SHARDS - 1)));
-    for (k, key) in keys.iter().enumerate() {
-        places[shard_of(key)].push((first + k) as u32);
-    }
-    places
-}
-
-fn shard_of<K: Hash>(key: &K) -> usize {
-    // bits that the maps do not use to place a key
-    (FxBuildHasher.hash_one(key) >> 40) as usize % SHARDS
 }
 
 /// Sorts the places of groups: for groups numbered from 0 to `count`, where each begins in a list of all members by group, and
@@ -117,9 +112,9 @@ mod tests {
 
     #[test]
     fn equal_keys_share_a_number_however_many_there_are() {
-        for count in [0, 1, 100, MANY as u64 - 1, MANY as u64, 5 * MANY as u64 + 3] {
+        for count in [0, 1, 100, BUCKET as u64 - 1, BUCKET as u64 + 1, 5 * BUCKET as u64 + 3] {
             let keys: Vec<u64> = (0..count).map(|k| k.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 50).collect();
-            let (found, numbers) = distinct(&keys);
+            let (found, numbers) = distinct(&keys, 1 << 14, |key| *key as usize);
             assert!(keys.iter().zip(&numbers).all(|(key, number)| found[*number as usize] == *key));
             let mut sorted = found.clone();
             sorted.sort_unstable();

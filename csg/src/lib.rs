@@ -32,6 +32,7 @@ mod corner;
 mod distinct;
 mod evaluate;
 mod expression;
+mod locality;
 mod mesh;
 mod outer;
 pub mod outline;

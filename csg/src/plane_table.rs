@@ -34,6 +34,11 @@ impl PlaneId {
         Self::new(index as usize, false)
     }
 
+    /// The same side of a plane of another index.
+    pub(crate) fn with_index(self, index: u32) -> Self {
+        Self(index << 1 | self.0 & 1)
+    }
+
     /// The same plane, its normal reversed.
     #[must_use]
     pub fn flipped(self) -> Self {
@@ -127,6 +132,21 @@ impl PlaneTable {
         self.find_or_add(half_space, |table, (row, id)| table.row(*id).is_same_plane(row), Self::add)
     }
 
+    /// Gives all planes new indices, each once.
+    pub(crate) fn renumber(&mut self, new_of_old: &[u32]) {
+        let mut old_of_new = vec![0; new_of_old.len()];
+        for (old, new) in new_of_old.iter().enumerate() {
+            old_of_new[*new as usize] = old;
+        }
+        let sides = |old: &usize| [2 * old, 2 * old + 1];
+        self.rows = old_of_new.iter().flat_map(sides).map(|k| self.rows[k]).collect();
+        self.half_spaces = old_of_new.iter().flat_map(sides).map(|k| self.half_spaces[k]).collect();
+        for (_, id) in &mut self.replaced {
+            *id = id.with_index(new_of_old[id.index() as usize]);
+        }
+        self.index = None;
+    }
+
     /// How many planes there are, both sides counting once.
     #[must_use]
     pub fn len(&self) -> usize {
@@ -154,6 +174,13 @@ impl PlaneTable {
     #[must_use]
     pub fn row(&self, plane: PlaneId) -> &Row {
         &self.rows[plane.0 as usize]
+    }
+
+    /// Numbers that order the sides of planes, whatever their scale and whichever other planes are in the table.
+    pub(crate) fn order(&self, plane: PlaneId) -> (bool, usize, [u64; 3]) {
+        let row = self.row(plane);
+        let (first, ratios) = row.ratios();
+        (is_reversed(row), first, ratios.map(sortable))
     }
 
     /// The half-space of a plane.
@@ -206,17 +233,17 @@ impl PlaneTable {
         order.par_sort_unstable();
         let any_noise = order.last().is_some_and(|last| last.0);
         let mut near = NearPlanes::new(self.reach);
-        near.cells.reserve(if any_noise { planes.len() } else { 0 });
+        let may_be_near = if any_noise { near.may_be_near(&units) } else { vec![false; planes.len()] };
         self.rows.reserve_exact(2 * planes.len());
         self.half_spaces.reserve_exact(2 * planes.len());
         let mut ids = vec![PlaneId(0); planes.len()];
         for (is_noisy, _, plane) in order {
             let plane = plane as usize;
             let row = &planes[plane];
-            let found = if is_noisy { near.find(&units[plane], self.reach) } else { None };
+            let found = if is_noisy && may_be_near[plane] { near.find(&units[plane], self.reach) } else { None };
             ids[plane] = found.unwrap_or_else(|| {
                 let id = self.push(row);
-                if any_noise {
+                if may_be_near[plane] {
                     near.insert(units[plane], id);
                 }
                 id
@@ -331,7 +358,9 @@ fn group_exactly(rows: &[Row]) -> (Vec<Row>, Vec<u32>) {
     let rows: Vec<Row> =
         rows.par_iter().with_min_len(1024).map(|row| if is_reversed(row) { row.flipped() } else { *row }).collect();
     let keys: Vec<Key> = rows.par_iter().with_min_len(1024).map(key).collect();
-    let (different, mut class) = distinct(&keys);
+    // spread by the low bits of a ratio
+    let spread = |key: &Key| (key.1[0] ^ key.1[1] >> 7 ^ key.1[2] >> 13) as usize & 0xFFFF;
+    let (different, mut class) = distinct(&keys, 1 << 16, spread);
     let mut groups: Vec<Option<Row>> = vec![None; different.len()];
     // groups that share all numbers with one that was there before
     let mut further: FxHashMap<u32, Vec<u32>> = FxHashMap::default();
@@ -382,6 +411,31 @@ impl NearPlanes {
             near.insert(unit(row), PlaneId::new(k, false));
         }
         near
+    }
+
+    /// Which of some planes may be within the tolerance of another: most are told apart by one number each.
+    fn may_be_near(&self, units: &[[f64; 4]]) -> Vec<bool> {
+        // none is a short sum of the others
+        const WEIGHTS: [f64; 4] = [0.731_592_653_589, 0.467_182_818_284, 0.618_033_988_749, 0.914_213_562_373];
+        // the sum of the weights times the tolerance, and room for rounding
+        const APART: f64 = 3.0 * SNAP_TOLERANCE;
+        let number = |unit: &[f64; 4]| self.shares(*unit).iter().zip(WEIGHTS).map(|(share, w)| share * w).sum::<f64>();
+        let mut sorted: Vec<(u64, u32)> = units
+            .par_iter()
+            .enumerate()
+            .with_min_len(1024)
+            .map(|(k, unit)| (sortable(number(unit)), k as u32))
+            .collect();
+        sorted.par_sort_unstable();
+        // the side of a plane whose first coefficient is noise is noise, too
+        let mut may_be_near: Vec<bool> = units.iter().map(|unit| unit[0] <= SNAP_TOLERANCE).collect();
+        for pair in sorted.windows(2) {
+            let [p, q] = [0, 1].map(|k| pair[k].1 as usize);
+            if number(&units[q]) - number(&units[p]) <= APART {
+                (may_be_near[p], may_be_near[q]) = (true, true);
+            }
+        }
+        may_be_near
     }
 
     fn insert(&mut self, unit: [f64; 4], id: PlaneId) {

@@ -121,7 +121,10 @@ pub(crate) fn skin(scene: &Scene<'_>) -> (Vec<BoundaryEdge>, Counts) {
     let bodies = scene.bodies;
     let boxes = Boxes::new(bodies.iter().map(|body| body.bounds).collect());
     let chunk = (bodies.len() / (8 * rayon::current_num_threads()).max(1)).clamp(1, 256);
-    let parts: Vec<(Vec<BoundaryEdge>, Counts)> = (0..bodies.len())
+    // in the order of space, so that what is near is at hand
+    let parts: Vec<(Vec<BoundaryEdge>, Counts)> = boxes
+        .in_order()
+        .map(|body| body as usize)
         .collect::<Vec<usize>>()
         .par_chunks(chunk)
         .map(|chunk| {

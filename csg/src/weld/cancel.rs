@@ -373,6 +373,8 @@ fn sort_around(table: &PlaneTable, line: &Line, planes: &[PlaneId], out: &[HalfE
         let plane = planes[piece.region as usize];
         if piece.forward { plane } else { plane.flipped() }
     };
+    // whatever the order of the half-edges
+    around.sort_by_key(|k| table.order(signed(*k)));
     let first = signed(around[0]);
     let half = |plane: PlaneId| {
         if plane.index() == first.index() {

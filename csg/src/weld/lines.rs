@@ -34,7 +34,7 @@ pub(super) fn identify(table: &PlaneTable, edges: &[BoundaryEdge]) -> (Vec<Line>
         a.min(b) << 32 | a.max(b)
     };
     let keys: Vec<u64> = edges.par_iter().with_min_len(1024).map(key).collect();
-    let (different, of_pair) = distinct(&keys);
+    let (different, of_pair) = distinct(&keys, table.len(), |key| (key >> 32) as usize);
     let (lines, of_different, counts) = number(table, &different);
     (lines, of_pair.into_par_iter().with_min_len(1024).map(|k| of_different[k as usize]).collect(), counts)
 }

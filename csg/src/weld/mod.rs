@@ -96,10 +96,12 @@ pub(crate) struct Welded {
     pub(crate) triangulation: Duration,
 }
 
-/// The regions of the boundary: oriented planes with a material, in an order that does not depend on the brushes'.
+/// The regions of the boundary: oriented planes with a material.
 struct Regions {
     planes: Vec<PlaneId>,
     materials: Vec<MaterialId>,
+    /// The places of the materials by name.
+    ranks: Vec<u32>,
 }
 
 /// Welds boundary edges into a mesh; `rank` orders materials by name.
@@ -109,8 +111,8 @@ pub(crate) fn weld(
     rank: &[u32],
     materials: &[Material],
 ) -> Result<Welded, WeldError> {
-    let (regions, of_edge) = Regions::number(edges, rank);
-    let (points, pieces, mut signs) = half_edges(table, edges, &regions, &of_edge)?;
+    let (mut regions, of_edge) = Regions::number(edges, rank);
+    let (points, pieces, mut signs) = half_edges(table, edges, &mut regions, &of_edge)?;
     let (nested, counted) = nest(table, &regions, &points, &pieces)?;
     signs += counted;
     let (vertex, point) = manifold::vertices(&pieces, &nested.following);
@@ -143,9 +145,33 @@ impl Regions {
             let number = keys.binary_search(&key(&edges[0])).unwrap_or_default() as u32;
             numbers.extend(std::iter::repeat_n(number, edges.len()));
         }
-        let regions =
-            Self { planes: keys.iter().map(|k| k.0).collect(), materials: keys.iter().map(|k| k.2).collect() };
+        let regions = Self {
+            planes: keys.iter().map(|k| k.0).collect(),
+            materials: keys.iter().map(|k| k.2).collect(),
+            ranks: keys.iter().map(|k| k.1).collect(),
+        };
         (regions, numbers)
+    }
+
+    /// Puts regions in an order that depends on the boundary alone, not on the bodies that it came from: by the first of
+    /// their points, their planes and materials.
+    fn sort(&mut self, table: &PlaneTable, pieces: &mut [HalfEdge]) {
+        let mut first = vec![u32::MAX; self.planes.len()];
+        for piece in pieces.iter() {
+            let first = &mut first[piece.region as usize];
+            *first = piece.from.min(*first);
+        }
+        let mut order: Vec<(u32, u32)> = first.into_iter().zip(0..).collect();
+        let further = |region: u32| (table.order(self.planes[region as usize]), self.ranks[region as usize]);
+        order.par_sort_unstable_by(|p, q| p.0.cmp(&q.0).then_with(|| further(p.1).cmp(&further(q.1))));
+        let mut number = vec![0; order.len()];
+        for (new, (_, old)) in (0..).zip(&order) {
+            number[*old as usize] = new;
+        }
+        self.planes = order.iter().map(|(_, old)| self.planes[*old as usize]).collect();
+        self.materials = order.iter().map(|(_, old)| self.materials[*old as usize]).collect();
+        self.ranks = order.iter().map(|(_, old)| self.ranks[*old as usize]).collect();
+        pieces.iter_mut().for_each(|piece| piece.region = number[piece.region as usize]);
     }
 }
 
@@ -154,7 +180,7 @@ impl Regions {
 fn half_edges(
     table: &PlaneTable,
     edges: &[BoundaryEdge],
-    regions: &Regions,
+    regions: &mut Regions,
     of_edge: &[u32],
 ) -> Result<(Points, Vec<HalfEdge>, Counts), WeldError> {
     let (mut points, ends, mut signs) = Points::identify(table, edges);
@@ -176,6 +202,7 @@ fn half_edges(
     if !slits.is_empty() || crossings::any(&passed) {
         pieces = crossings::pieces(table, &mut points, &lines, &regions.planes, &runs, &by_line)?;
     }
+    regions.sort(table, &mut pieces);
     let mut sorted = order_by_region(&pieces, regions.planes.len());
     let (pinches, counted) = pinches::find(table, &points, &sorted);
     signs += counted;

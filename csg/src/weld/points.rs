@@ -6,7 +6,9 @@ use planecut_kernel::sign::{Counts, Sign};
 use planecut_kernel::{DVec3, compare_exactly};
 use rayon::prelude::*;
 
+use crate::bounds::Bounds;
 use crate::distinct::{distinct, sortable};
+use crate::locality::Curve;
 use crate::parallel::{counted, map_chunks};
 use crate::plane_table::{PlaneId, PlaneTable};
 use crate::skin::BoundaryEdge;
@@ -21,10 +23,11 @@ pub(super) struct Points {
     pub(super) exact: Vec<bool>,
 }
 
+/// The order of positions: along a curve through space, then by coordinates.
+type Place = (u64, [u64; 3]);
+
 /// A point that three planes name, before equal ones are joined.
 struct Named {
-    /// Numbers in the order of the coordinates.
-    order: [u64; 3],
     planes: [PlaneId; 3],
     position: DVec3,
     is_exact: bool,
@@ -35,12 +38,14 @@ impl Points {
     pub(super) fn identify(table: &PlaneTable, edges: &[BoundaryEdge]) -> (Self, Vec<[u32; 2]>, Counts) {
         let ends = |edge: &BoundaryEdge| [edge.start, edge.end].map(|end| key([edge.face, edge.edge, end]));
         let keys: Vec<[(u64, u32); 2]> = edges.par_iter().with_min_len(1024).map(ends).collect();
-        let (different, of_triple) = distinct(keys.as_flattened());
+        let (different, of_triple) = distinct(keys.as_flattened(), table.len(), |key| (key.0 >> 32) as usize);
         let (named, mut counts) = map_chunks(&different, 256, |keys| {
             keys.iter().map(|key| Named::of(table, planes(*key))).collect::<Vec<_>>()
         });
         let named: Vec<Named> = named.into_iter().flatten().collect();
-        let mut sorted: Vec<([u64; 3], u32)> = (0..).zip(&named).map(|(k, point)| (point.order, k)).collect();
+        let curve = curve_through(named.iter().map(|point| point.position));
+        let place = |(k, point): (usize, &Named)| (place(&curve, point.position), k as u32);
+        let mut sorted: Vec<(Place, u32)> = named.par_iter().enumerate().with_min_len(1024).map(place).collect();
         sorted.par_sort_unstable();
         let mut points = Self::default();
         let mut of_named = vec![0; named.len()];
@@ -59,7 +64,7 @@ impl Points {
     }
 
     /// Numbers points that round alike, equal ones once, in their exact order.
-    fn join(&mut self, table: &PlaneTable, named: &[Named], alike: &[([u64; 3], u32)], of_named: &mut [u32]) {
+    fn join(&mut self, table: &PlaneTable, named: &[Named], alike: &[(Place, u32)], of_named: &mut [u32]) {
         let rows = |k: u32| named[k as usize].planes.map(|plane| table.row(plane));
         // each with those that are equal to it; mostly all are
         let mut groups: Vec<Vec<u32>> = Vec::new();
@@ -99,7 +104,8 @@ impl Points {
     /// Numbers all points by position; gives the new number of each.
     pub(super) fn renumber(&mut self, table: &PlaneTable) -> Vec<u32> {
         let mut order: Vec<u32> = (0..self.planes.len() as u32).collect();
-        let place = |p: u32| self.positions[p as usize].to_array().map(sortable);
+        let curve = curve_through(self.positions.iter().copied());
+        let place = |p: u32| place(&curve, self.positions[p as usize]);
         let rows = |p: u32| self.planes[p as usize].map(|plane| table.row(plane));
         order.sort_by(|p, q| place(*p).cmp(&place(*q)).then_with(|| compare_exactly(rows(*p), rows(*q), &[0, 1, 2])));
         let mut number = vec![0; order.len()];
@@ -124,12 +130,21 @@ impl Named {
         let position = table.position([a, b, c]).expect("the planes of a corner are independent");
         let right_handed = table.orient3(a, b, c) == Sign::Positive;
         Self {
-            order: position.to_array().map(sortable),
             planes: if right_handed { [a, b, c] } else { [a, c, b] },
             position,
             is_exact: [a, b, c].into_iter().all(|plane| holds_exactly(table, plane, position)),
         }
     }
+}
+
+fn curve_through(positions: impl Iterator<Item = DVec3>) -> Curve {
+    let bounds =
+        positions.fold(Bounds::EMPTY, |bounds, at| Bounds { min: bounds.min.min(at), max: bounds.max.max(at) });
+    Curve::new(&bounds)
+}
+
+fn place(curve: &Curve, position: DVec3) -> Place {
+    (curve.number(position), position.to_array().map(sortable))
 }
 
 /// The indices of three planes in ascending order, packed.

@@ -1,0 +1,97 @@
+//! Numbers that are close for what is close in space, so that what is used together lies together in memory.
+//!
+//! The order is that of cells along a curve through space (Morton 1966), and depends on where things are alone, not on the
+//! order in which they were given.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::body::{Body, BrushBody};
+use crate::bounds::Bounds;
+use crate::plane_table::{PlaneId, PlaneTable};
+
+/// Cells along each axis, as a power of two.
+const BITS: u32 = 16;
+
+/// Numbers the places within a box by cell.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Curve {
+    min: DVec3,
+    scale: DVec3,
+}
+
+impl Curve {
+    /// A curve through a box; where that has no extent, all places have the number of one cell.
+    pub(crate) fn new(bounds: &Bounds) -> Self {
+        let extent = bounds.max - bounds.min;
+        let per_axis =
+            |extent: f64| if extent > 0.0 && extent.is_finite() { f64::from(1 << BITS) / extent } else { 0.0 };
+        Self { min: bounds.min, scale: DVec3::from_array(extent.to_array().map(per_axis)) }
+    }
+
+    /// The number of the cell at a place.
+    pub(crate) fn number(&self, place: DVec3) -> u64 {
+        let cells = (place - self.min) * self.scale;
+        // `as` saturates, and takes what is no number for 0
+        let cell = |v: f64| spread((v as u64).min((1 << BITS) - 1));
+        cell(cells.x) | cell(cells.y) << 1 | cell(cells.z) << 2
+    }
+}
+
+/// The bits of a number, two zeros after each.
+fn spread(v: u64) -> u64 {
+    let mut v = v & 0xFFFF;
+    v = (v | v << 32) & 0x00FF_0000_0000_FFFF;
+    v = (v | v << 16) & 0x00FF_0000_FF00_00FF;
+    v = (v | v << 8) & 0xF00F_00F0_0F00_F00F;
+    v = (v | v << 4) & 0x30C3_0C30_C30C_30C3;
+    (v | v << 2) & 0x9249_2492_4924_9249
+}
+
+/// Numbers the planes of a table anew by where the bodies are whose faces lie on them; other planes come last.
+pub(crate) fn renumber_planes(table: &mut PlaneTable, planes: &mut [Vec<PlaneId>], bodies: &mut [BrushBody]) {
+    let bounded = |body: &BrushBody| match body {
+        BrushBody::Bounded(body, _) => Some(body.bounds),
+        BrushBody::Empty | BrushBody::Unbounded => None,
+    };
+    let bounds: Vec<Option<Bounds>> = bodies.iter().map(bounded).collect();
+    let all = bounds.iter().flatten().fold(Bounds::EMPTY, |all, bounds| all.union(bounds));
+    let curve = Curve::new(&all);
+    let mut order: Vec<(u64, u32)> = (0..)
+        .zip(&bounds)
+        .filter_map(|(number, bounds): (u32, _)| bounds.map(|bounds| (curve.number(bounds.center()), number)))
+        .collect();
+    order.par_sort_unstable();
+    let sorted_planes = |number: u32| {
+        let mut sorted = planes[number as usize].clone();
+        sorted.sort_unstable();
+        sorted
+    };
+    for cell in order.chunk_by_mut(|a, b| a.0 == b.0).filter(|cell| cell.len() > 1) {
+        cell.sort_by_cached_key(|(_, number)| sorted_planes(*number));
+    }
+    let mut new_of_old: Vec<u32> = vec![u32::MAX; table.len()];
+    let mut count = 0;
+    let mut number = |old: usize| {
+        if new_of_old[old] == u32::MAX {
+            new_of_old[old] = count;
+            count += 1;
+        }
+    };
+    let mut of_body: Vec<u32> = Vec::new();
+    for (_, body) in order {
+        of_body.clear();
+        of_body.extend(planes[body as usize].iter().map(|plane| plane.index()));
+        of_body.sort_unstable();
+        of_body.iter().for_each(|old| number(*old as usize));
+    }
+    (0..table.len()).for_each(number);
+    table.renumber(&new_of_old);
+    let renumbered = |plane: PlaneId| plane.with_index(new_of_old[plane.index() as usize]);
+    planes.par_iter_mut().with_min_len(256).flatten_iter().for_each(|plane| *plane = renumbered(*plane));
+    bodies.par_iter_mut().with_min_len(64).for_each(|body| {
+        if let BrushBody::Bounded(body, _) = body {
+            Body::renumber_planes(body, renumbered);
+        }
+    });
+}
