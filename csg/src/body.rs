@@ -5,13 +5,13 @@ use std::hash::BuildHasher;
 use glam::DVec3;
 use planecut_kernel::sign::Counts;
 use planecut_kernel::{HalfSpace, IncrementalPolytope, PlaneIdx};
-use rayon::prelude::*;
 use rustc_hash::{FxBuildHasher, FxHashMap};
 
 use crate::bounds::Bounds;
 use crate::brush::{Brush, MaterialId};
 use crate::corner::Corner;
 use crate::locality::renumber_planes;
+use crate::parallel::map_chunks;
 use crate::plane_table::{PlaneId, PlaneTable};
 
 /// A face of a [`Body`].
@@ -127,9 +127,9 @@ const PLANES_OF_CHUNK: usize = 100;
 pub(crate) fn build_bodies(brushes: &[Brush]) -> BrushBodies {
     let half_spaces: Vec<HalfSpace> =
         brushes.iter().flat_map(|brush| brush.faces.iter().map(|face| face.half_space)).collect();
-    let (table, ids) = PlaneTable::intern(&half_spaces);
+    let (mut table, ids) = PlaneTable::intern(&half_spaces);
     let mut rest = ids.as_slice();
-    let planes: Vec<Vec<PlaneId>> = brushes
+    let mut planes: Vec<Vec<PlaneId>> = brushes
         .iter()
         .map(|brush| {
             let (own, others) = rest.split_at(brush.faces.len());
@@ -139,28 +139,16 @@ pub(crate) fn build_bodies(brushes: &[Brush]) -> BrushBodies {
         .collect();
     // each chunk has a polytope of its own, which is worth the while from some planes on
     let least = PLANES_OF_CHUNK * brushes.len() / half_spaces.len().max(1);
-    let chunk = (brushes.len() / (4 * rayon::current_num_threads())).max(least).max(1);
-    let parts: Vec<(Vec<BrushBody>, Counts)> = brushes
-        .par_chunks(chunk)
-        .zip(planes.par_chunks(chunk))
-        .map(|(brushes, planes)| {
-            let before = Counts::now();
-            let mut polytope = IncrementalPolytope::with_epsilon(0.0);
-            let bodies = brushes.iter().zip(planes).map(|(brush, planes)| {
-                let materials: Vec<MaterialId> = brush.faces.iter().map(|face| face.material).collect();
-                build(&table, planes, &materials, &mut polytope)
-            });
-            let bodies = bodies.collect();
-            (bodies, Counts::since(before))
-        })
-        .collect();
-    let mut signs = Counts::default();
-    let mut bodies = Vec::with_capacity(brushes.len());
-    for (part, counted) in parts {
-        bodies.extend(part);
-        signs += counted;
-    }
-    let (mut table, mut planes) = (table, planes);
+    let with_planes: Vec<(&Brush, &Vec<PlaneId>)> = brushes.iter().zip(&planes).collect();
+    let (parts, signs) = map_chunks(&with_planes, least, |chunk| {
+        let mut polytope = IncrementalPolytope::with_epsilon(0.0);
+        let body = |(brush, planes): &(&Brush, &Vec<PlaneId>)| {
+            let materials: Vec<MaterialId> = brush.faces.iter().map(|face| face.material).collect();
+            build(&table, planes, &materials, &mut polytope)
+        };
+        chunk.iter().map(body).collect::<Vec<BrushBody>>()
+    });
+    let mut bodies: Vec<BrushBody> = parts.into_iter().flatten().collect();
     renumber_planes(&mut table, &mut planes, &mut bodies);
     BrushBodies { table, planes, bodies, signs }
 }

@@ -1,8 +1,5 @@
 //! Which of many boxes touch a box.
 
-use std::convert::Infallible;
-use std::ops::ControlFlow;
-
 use crate::bounds::Bounds;
 
 /// Leaves hold at most this many boxes.
@@ -76,50 +73,29 @@ impl Boxes {
         &self.boxes[number as usize]
     }
 
-    /// The boxes that fulfil a condition which holds for a box wherever it holds for one within, ascending.
-    pub(crate) fn find(&self, condition: impl Fn(&Bounds) -> bool, found: &mut Vec<u32>) {
-        found.clear();
-        let _: ControlFlow<Infallible> = self.walk(
-            |node| condition(&self.nodes[node].bounds),
-            |number| {
-                if condition(self.get(number)) {
-                    found.push(number);
-                }
-                ControlFlow::Continue(())
-            },
-        );
-        found.sort_unstable();
-    }
-
-    /// Visits the boxes of all nodes that are to be entered, and infinite boxes always, until a visit ends it.
-    pub(crate) fn walk<B>(
-        &self,
-        enter: impl Fn(usize) -> bool,
-        mut visit: impl FnMut(u32) -> ControlFlow<B>,
-    ) -> ControlFlow<B> {
-        self.infinite.iter().try_for_each(|number| visit(*number))?;
-        let mut waiting: Vec<u32> = if self.nodes.is_empty() { Vec::new() } else { vec![0] };
-        while let Some(number) = waiting.pop() {
-            if !enter(number as usize) {
-                continue;
-            }
-            let node = &self.nodes[number as usize];
-            if node.second != 0 {
-                waiting.extend([number + 1, node.second]);
-            } else {
-                self.of_node(node).iter().try_for_each(|number| visit(*number))?;
-            }
-        }
-        ControlFlow::Continue(())
-    }
-
-    fn of_node(&self, node: &Node) -> &[u32] {
-        &self.order[node.start as usize..node.end as usize]
-    }
-
     /// The boxes that touch a box, ascending.
     pub(crate) fn touching(&self, bounds: &Bounds, found: &mut Vec<u32>) {
         self.find(|other| other.touches(bounds), found);
+    }
+
+    /// The boxes that fulfil a condition which holds for a box wherever it holds for one within, ascending.
+    pub(crate) fn find(&self, condition: impl Fn(&Bounds) -> bool, found: &mut Vec<u32>) {
+        let fulfils = |number: &u32| condition(self.get(*number));
+        found.clear();
+        found.extend(self.infinite.iter().copied().filter(fulfils));
+        let mut waiting: Vec<u32> = if self.nodes.is_empty() { Vec::new() } else { vec![0] };
+        while let Some(number) = waiting.pop() {
+            let node = &self.nodes[number as usize];
+            if !condition(&node.bounds) {
+                continue;
+            }
+            if node.second != 0 {
+                waiting.extend([number + 1, node.second]);
+            } else {
+                found.extend(self.order[node.start as usize..node.end as usize].iter().copied().filter(fulfils));
+            }
+        }
+        found.sort_unstable();
     }
 }
 

@@ -9,6 +9,9 @@ use rustc_hash::FxHashMap;
 /// So many keys are numbered in a row, about: their map stays at hand.
 const BUCKET: usize = 1 << 13;
 
+/// By which four numbers are multiplied and summed up to one that tells most of them apart: none is a short sum of the others.
+pub(crate) const WEIGHTS: [f64; 4] = [0.731_592_653_589, 0.467_182_818_284, 0.618_033_988_749, 0.914_213_562_373];
+
 /// The different keys, and for each key given the place of its like among them.
 ///
 /// Keys are numbered bucket by bucket. `near` tells which keys go together: equal ones have the same number below `bound`,

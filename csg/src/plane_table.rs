@@ -7,7 +7,7 @@ use planecut_kernel::{DVec3, HalfSpace, meet};
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
-use crate::distinct::{distinct, sortable};
+use crate::distinct::{WEIGHTS, distinct, sortable};
 
 /// Planes whose unit normals and relative offsets differ by at most this are taken to be one plane that went through
 /// rotations or decimal text, relative to the largest distance of a plane from the origin.
@@ -415,8 +415,6 @@ impl NearPlanes {
 
     /// Which of some planes may be within the tolerance of another: most are told apart by one number each.
     fn may_be_near(&self, units: &[[f64; 4]]) -> Vec<bool> {
-        // none is a short sum of the others
-        const WEIGHTS: [f64; 4] = [0.731_592_653_589, 0.467_182_818_284, 0.618_033_988_749, 0.914_213_562_373];
         // the sum of the weights times the tolerance, and room for rounding
         const APART: f64 = 3.0 * SNAP_TOLERANCE;
         let number = |unit: &[f64; 4]| self.shares(*unit).iter().zip(WEIGHTS).map(|(share, w)| share * w).sum::<f64>();

@@ -21,6 +21,7 @@ use crate::body::{Body, BodyFace};
 use crate::boxes::Boxes;
 use crate::brush::MaterialId;
 use crate::expression::{Expression, Flat, Polarity};
+use crate::parallel::map_chunks;
 use crate::plane_table::{PlaneId, PlaneTable};
 use contact::{Facing, Owner};
 use gauge::Gauge;
@@ -120,34 +121,22 @@ impl<'a> Scene<'a> {
 pub(crate) fn skin(scene: &Scene<'_>) -> (Vec<BoundaryEdge>, Counts) {
     let bodies = scene.bodies;
     let boxes = Boxes::new(bodies.iter().map(|body| body.bounds).collect());
-    let chunk = (bodies.len() / (8 * rayon::current_num_threads()).max(1)).clamp(1, 256);
     // in the order of space, so that what is near is at hand
-    let parts: Vec<(Vec<BoundaryEdge>, Counts)> = boxes
-        .in_order()
-        .map(|body| body as usize)
-        .collect::<Vec<usize>>()
-        .par_chunks(chunk)
-        .map(|chunk| {
-            let before = Counts::now();
-            let mut edges = Vec::new();
-            let mut worker = face::FaceWorker::new(scene);
-            let mut near = Vec::new();
-            for &body in chunk {
-                boxes.touching(&bodies[body].bounds, &mut near);
-                worker.begin(body, near.len());
-                for face in 0..bodies[body].faces.len() {
-                    worker.emit(body, face, &near, &mut edges);
-                }
+    let in_order: Vec<u32> = boxes.in_order().collect();
+    let (parts, counts) = map_chunks(&in_order, 1, |chunk| {
+        let mut edges = Vec::new();
+        let mut worker = face::FaceWorker::new(scene);
+        let mut near = Vec::new();
+        for body in chunk.iter().map(|body| *body as usize) {
+            boxes.touching(&bodies[body].bounds, &mut near);
+            worker.begin(body, near.len());
+            for face in 0..bodies[body].faces.len() {
+                worker.emit(body, face, &near, &mut edges);
             }
-            (edges, Counts::since(before))
-        })
-        .collect();
-    let mut counts = Counts::default();
-    let mut edges = Vec::with_capacity(parts.iter().map(|(part, _)| part.len()).sum());
-    for (part, counted) in parts {
-        edges.extend(part);
-        counts += counted;
-    }
+        }
+        edges
+    });
+    let edges = parts.concat();
     (edges, counts)
 }
 

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::points::Points;
-use crate::distinct::distinct;
+use crate::distinct::{WEIGHTS, distinct};
 use crate::parallel::{counted, map_chunks};
 use crate::plane_table::{PlaneId, PlaneTable};
 use crate::skin::BoundaryEdge;
@@ -197,9 +197,6 @@ fn line_and_mark(table: &PlaneTable, [a, b]: [PlaneId; 2]) -> (Line, Mark) {
     let (value, error) = rounded_mark(table, &line).unwrap_or_else(|| exact_mark(table, &line));
     (line, Mark { axis, value, error })
 }
-
-/// By which the numbers of a key are multiplied and summed up to a [`Mark`]: none is a short sum of the others.
-const WEIGHTS: [f64; 4] = [0.731_592_653_589, 0.467_182_818_284, 0.618_033_988_749, 0.914_213_562_373];
 
 /// From the determinants of the planes' columns in plain numbers, where these are well conditioned: each is off by less than
 /// three roundings of its permanent, the quotient by those of both and its own.
