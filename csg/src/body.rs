@@ -1,6 +1,7 @@
 //! The exact boundary of each brush, as plane ids: what the skin works on.
 
 use std::hash::BuildHasher;
+use std::sync::OnceLock;
 
 use glam::DVec3;
 use planecut_kernel::sign::Counts;
@@ -10,6 +11,7 @@ use rustc_hash::{FxBuildHasher, FxHashMap};
 use crate::bounds::Bounds;
 use crate::brush::{Brush, MaterialId};
 use crate::corner::Corner;
+use crate::gauge::Gauge;
 use crate::locality::renumber_planes;
 use crate::parallel::map_chunks;
 use crate::plane_table::{PlaneId, PlaneTable};
@@ -36,9 +38,16 @@ pub(crate) struct Body {
     pub(crate) different_corners: usize,
     pub(crate) bounds: Bounds,
     pub(crate) volume: f64,
+    /// Made when first asked for.
+    gauge: OnceLock<Option<Box<Gauge>>>,
 }
 
 impl Body {
+    /// Where points lie in it, for a body of many faces.
+    pub(crate) fn gauge(&self, table: &PlaneTable) -> Option<&Gauge> {
+        self.gauge.get_or_init(|| Gauge::of(table, self).map(Box::new)).as_deref()
+    }
+
     /// The planes of the edges of a face, counter-clockwise seen from outside.
     pub(crate) fn edges(&self, face: &BodyFace) -> &[PlaneId] {
         &self.edges[face.start as usize..face.end as usize]
@@ -49,8 +58,20 @@ impl Body {
         &self.corners[face.start as usize..face.end as usize]
     }
 
+    /// Cuts what corners are known to lie in down to what its planes leave of it.
+    fn tighten_bounds(&mut self, table: &PlaneTable) {
+        for face in &self.faces {
+            self.bounds = self.bounds.within(table.half_space(face.plane));
+        }
+        for face in &mut self.faces {
+            let on_plane = face.bounds.within(table.half_space(face.plane.flipped()));
+            face.bounds = on_plane.intersection(&self.bounds);
+        }
+    }
+
     /// Puts other planes in the place of its own.
     pub(crate) fn renumber_planes(&mut self, renumbered: impl Fn(PlaneId) -> PlaneId) {
+        self.gauge = OnceLock::new();
         self.faces.iter_mut().for_each(|face| face.plane = renumbered(face.plane));
         self.edges.iter_mut().for_each(|edge| *edge = renumbered(*edge));
     }
@@ -192,6 +213,7 @@ pub(crate) fn body_of(
         different_corners: 0,
         bounds: Bounds::EMPTY,
         volume: 0.0,
+        gauge: OnceLock::new(),
     };
     let mut volume = Volume::default();
     let mut is_bounded = true;
@@ -231,6 +253,7 @@ pub(crate) fn body_of(
         let (start, end) = (start as u32, body.edges.len() as u32);
         body.faces.push(BodyFace { plane, material, bounds, start, end });
     });
+    body.tighten_bounds(table);
     body.volume = volume.six / 6.0;
     is_bounded.then_some(body)
 }

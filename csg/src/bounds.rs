@@ -1,6 +1,7 @@
 //! Axis-aligned boxes that are sure to hold what they bound.
 
 use glam::DVec3;
+use planecut_kernel::HalfSpace;
 use planecut_kernel::sign::Homogeneous;
 
 use crate::corner::Corner;
@@ -11,10 +12,6 @@ pub(crate) struct Bounds {
     pub(crate) min: DVec3,
     pub(crate) max: DVec3,
 }
-
-/// Relative widening of each coordinate: far above the error of a well-conditioned quotient. An ill-conditioned point is
-/// bounded by its permanents instead.
-const WIDENING: f64 = 1e-9;
 
 impl Bounds {
     pub(crate) const EMPTY: Self = Self { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY };
@@ -29,7 +26,7 @@ impl Bounds {
         if corner.error.is_infinite() {
             return Self { min: DVec3::NEG_INFINITY, max: DVec3::INFINITY };
         }
-        let margin = corner.at.abs() * WIDENING + corner.error;
+        let margin = DVec3::splat(corner.error);
         Self { min: self.min.min(corner.at - margin), max: self.max.max(corner.at + margin) }
     }
 
@@ -37,8 +34,39 @@ impl Bounds {
         Self { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
+    pub(crate) fn intersection(self, other: &Self) -> Self {
+        Self { min: self.min.max(other.min), max: self.max.min(other.max) }
+    }
+
     pub(crate) fn touches(&self, other: &Self) -> bool {
         self.min.cmple(other.max).all() && other.min.cmple(self.max).all()
+    }
+
+    /// Whether what lies in both boxes may have an area: boxes that touch in an edge or a corner alone have none in common.
+    pub(crate) fn may_share_area(&self, other: &Self) -> bool {
+        let (low, high) = (self.min.max(other.min), self.max.min(other.max));
+        low.cmple(high).all() && low.cmplt(high).bitmask().count_ones() > 1
+    }
+
+    /// The part of the box within a half-space whose plane is perpendicular to an axis; all of it for other half-spaces.
+    pub(crate) fn within(mut self, half_space: &HalfSpace) -> Self {
+        let normal = half_space.normal();
+        let axis = normal.abs().max_position();
+        if normal.abs().element_sum() > normal[axis].abs() {
+            return self;
+        }
+        let at = half_space.offset() / normal[axis];
+        // division by a power of two is exact, but for what underflows
+        let is_power_of_two = normal[axis].to_bits().trailing_zeros() >= f64::MANTISSA_DIGITS - 1;
+        let is_rounded = !is_power_of_two || at * normal[axis] != half_space.offset();
+        if normal[axis] > 0.0 {
+            let at = if is_rounded { at.next_up() } else { at };
+            self.max[axis] = self.max[axis].min(at);
+        } else {
+            let at = if is_rounded { at.next_down() } else { at };
+            self.min[axis] = self.min[axis].max(at);
+        }
+        self
     }
 
     /// Bounds of `normal·x − offset` over the box, with room for rounding.

@@ -32,6 +32,8 @@ mod corner;
 mod distinct;
 mod evaluate;
 mod expression;
+mod gauge;
+mod live;
 mod locality;
 mod mesh;
 mod outer;
@@ -55,6 +57,7 @@ pub use evaluate::{
     EvaluateError, Evaluation, ModelSummary, SolidMeasures, StageTimes, UnboundedBrushes, evaluate, evaluate_with,
     summarize,
 };
+pub use live::{BrushId, Change, EditError, FaceId, LiveFace, LiveModel, Role};
 pub use mesh::{Mesh, MeshFace};
 pub use outline::Outline;
 pub use plane_table::{PlaneId, PlaneTable, SNAP_TOLERANCE};

@@ -8,44 +8,27 @@ use rayon::prelude::*;
 
 use crate::body::{Body, BrushBody};
 use crate::bounds::Bounds;
+use crate::distinct::sortable;
 use crate::plane_table::{PlaneId, PlaneTable};
 
-/// Cells along each axis, as a power of two.
-const BITS: u32 = 16;
-
-/// Numbers the places within a box by cell.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Curve {
-    min: DVec3,
-    scale: DVec3,
+/// A number that is close for places close to each other, and depends on the place alone: the highest bits of its coordinates,
+/// interleaved.
+pub(crate) fn curve_number(place: DVec3) -> u64 {
+    let [x, y, z] = place.to_array().map(|v| spread(sortable(v) >> (64 - BITS)));
+    x | y << 1 | z << 2
 }
 
-impl Curve {
-    /// A curve through a box; where that has no extent, all places have the number of one cell.
-    pub(crate) fn new(bounds: &Bounds) -> Self {
-        let extent = bounds.max - bounds.min;
-        let per_axis =
-            |extent: f64| if extent > 0.0 && extent.is_finite() { f64::from(1 << BITS) / extent } else { 0.0 };
-        Self { min: bounds.min, scale: DVec3::from_array(extent.to_array().map(per_axis)) }
-    }
+/// So many bits of each coordinate: its sign, its exponent and the first nine of its mantissa.
+const BITS: u32 = 21;
 
-    /// The number of the cell at a place.
-    pub(crate) fn number(&self, place: DVec3) -> u64 {
-        let cells = (place - self.min) * self.scale;
-        // `as` saturates, and takes what is no number for 0
-        let cell = |v: f64| spread((v as u64).min((1 << BITS) - 1));
-        cell(cells.x) | cell(cells.y) << 1 | cell(cells.z) << 2
-    }
-}
-
-/// The bits of a number, two zeros after each.
+/// The last [`BITS`] bits of a number, two zeros after each.
 fn spread(v: u64) -> u64 {
-    let mut v = v & 0xFFFF;
-    v = (v | v << 32) & 0x00FF_0000_0000_FFFF;
-    v = (v | v << 16) & 0x00FF_0000_FF00_00FF;
-    v = (v | v << 8) & 0xF00F_00F0_0F00_F00F;
-    v = (v | v << 4) & 0x30C3_0C30_C30C_30C3;
-    (v | v << 2) & 0x9249_2492_4924_9249
+    let mut v = v & 0x1F_FFFF;
+    v = (v | v << 32) & 0x001F_0000_0000_FFFF;
+    v = (v | v << 16) & 0x001F_0000_FF00_00FF;
+    v = (v | v << 8) & 0x100F_00F0_0F00_F00F;
+    v = (v | v << 4) & 0x10C3_0C30_C30C_30C3;
+    (v | v << 2) & 0x1249_2492_4924_9249
 }
 
 /// Numbers the planes of a table anew by where the bodies are whose faces lie on them; other planes come last.
@@ -55,11 +38,9 @@ pub(crate) fn renumber_planes(table: &mut PlaneTable, planes: &mut [Vec<PlaneId>
         BrushBody::Empty | BrushBody::Unbounded => None,
     };
     let bounds: Vec<Option<Bounds>> = bodies.iter().map(bounded).collect();
-    let all = bounds.iter().flatten().fold(Bounds::EMPTY, |all, bounds| all.union(bounds));
-    let curve = Curve::new(&all);
     let mut order: Vec<(u64, u32)> = (0..)
         .zip(&bounds)
-        .filter_map(|(number, bounds): (u32, _)| bounds.map(|bounds| (curve.number(bounds.center()), number)))
+        .filter_map(|(number, bounds): (u32, _)| bounds.map(|bounds| (curve_number(bounds.center()), number)))
         .collect();
     order.par_sort_unstable();
     let sorted_planes = |number: u32| {

@@ -3,10 +3,10 @@
 use planecut_kernel::sign::Sign;
 
 use super::Scene;
-use super::gauge::{Gauge, Place};
 use super::section::{Clip, Polygon};
 use crate::body::BodyFace;
 use crate::corner::Corner;
+use crate::gauge::{Gauge, Place};
 
 /// For more pairs of a corner and a body near nothing is kept.
 const MOST: usize = 1 << 20;
@@ -45,7 +45,7 @@ impl Clipper {
 
     /// What a body covers of a polygon within a face. `out` is that part where it is [`Clip::Part`], else of no meaning.
     pub(super) fn clip(&mut self, cutter: Cutter<'_>, polygon: &Polygon, out: &mut Polygon) -> Clip {
-        match &cutter.scene.gauges[cutter.body] {
+        match cutter.scene.gauge(cutter.body) {
             Some(gauge) => self.clip_by_gauge(cutter, gauge, polygon, out),
             None => {
                 out.copy_from(polygon);
@@ -57,7 +57,7 @@ impl Clipper {
     /// Whether a body of many faces is quickly seen to hold a polygon within a face. What it holds need not be clipped by
     /// others.
     pub(super) fn surely_holds(&mut self, cutter: Cutter<'_>, polygon: &Polygon) -> bool {
-        let Some(gauge) = &cutter.scene.gauges[cutter.body] else { return false };
+        let Some(gauge) = cutter.scene.gauge(cutter.body) else { return false };
         (0..polygon.corners.len()).all(|i| matches!(self.place(cutter, gauge, polygon, i), Found::Inside(_)))
     }
 

@@ -72,7 +72,7 @@ impl Facing {
 pub(super) type Owner = (Polarity, u32, usize);
 
 /// Whether a box surely has no point on the plane's outer side and none on the plane, or none on its inner side.
-pub(super) fn misses(bounds: &Bounds, normal: DVec3, offset: f64) -> bool {
+pub(crate) fn misses(bounds: &Bounds, normal: DVec3, offset: f64) -> bool {
     let (low, high) = bounds.extent_along(normal, offset);
     high < 0.0 || low > 0.0
 }

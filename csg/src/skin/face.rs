@@ -44,7 +44,7 @@ enum Role {
 }
 
 /// Emits the boundary edges of faces, reusing its buffers.
-pub(super) struct FaceWorker<'a> {
+pub(crate) struct FaceWorker<'a> {
     scene: &'a Scene<'a>,
     restriction: Restriction,
     bodies: Vec<usize>,
@@ -67,7 +67,7 @@ pub(super) struct FaceWorker<'a> {
 }
 
 impl<'a> FaceWorker<'a> {
-    pub(super) fn new(scene: &'a Scene<'a>) -> Self {
+    pub(crate) fn new(scene: &'a Scene<'a>) -> Self {
         Self {
             scene,
             restriction: Restriction::default(),
@@ -90,15 +90,15 @@ impl<'a> FaceWorker<'a> {
     }
 
     /// Begins with the faces of another body; so many bodies are near.
-    pub(super) fn begin(&mut self, body: usize, near: usize) {
+    pub(crate) fn begin(&mut self, body: usize, near: usize) {
         self.clipper.begin(self.scene.bodies[body].different_corners, near);
     }
 
     /// Emits the boundary of what face `face` of body `body` is of the boundary; `near` are the bodies whose boxes touch it,
     /// by number, its own among them.
-    pub(super) fn emit(&mut self, body: usize, face: usize, near: &[u32], out: &mut Vec<BoundaryEdge>) {
+    pub(crate) fn emit(&mut self, body: usize, face: usize, near: &[u32], out: &mut Vec<BoundaryEdge>) {
         let scene = self.scene;
-        let solid = &scene.bodies[body];
+        let solid = scene.bodies[body];
         let this = &solid.faces[face];
         let own = self.gather(body, this, near);
         self.region.set(solid.edges(this), solid.corners(this));
@@ -235,7 +235,7 @@ impl<'a> FaceWorker<'a> {
         let (normal, offset) = (half_space.normal(), half_space.offset());
         let reaches = |other: usize| {
             let bounds = &scene.bodies[other].bounds;
-            bounds.touches(&face.bounds) && !misses(bounds, normal, offset)
+            bounds.may_share_area(&face.bounds) && !misses(bounds, normal, offset)
         };
         self.bodies.clear();
         self.places.clear();

@@ -10,25 +10,27 @@
 mod clip;
 mod contact;
 mod face;
-mod gauge;
 mod section;
 mod sweep;
 
+use std::borrow::Cow;
+
 use planecut_kernel::sign::Counts;
-use rayon::prelude::*;
 
 use crate::body::{Body, BodyFace};
 use crate::boxes::Boxes;
 use crate::brush::MaterialId;
 use crate::expression::{Expression, Flat, Polarity};
+use crate::gauge::Gauge;
 use crate::parallel::map_chunks;
 use crate::plane_table::{PlaneId, PlaneTable};
+pub(crate) use contact::misses;
 use contact::{Facing, Owner};
-use gauge::Gauge;
+pub(crate) use face::FaceWorker;
 
 /// A piece of the boundary of the kept region of a plane: on the line of `face` and `edge`, directed along
 /// `n_face × n_edge`, so that the region lies to the left.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct BoundaryEdge {
     /// The plane of the region, outward.
     pub(crate) face: PlaneId,
@@ -62,16 +64,14 @@ impl BoundaryEdge {
 /// Bodies, and the tree over them.
 pub(crate) struct Scene<'a> {
     pub(crate) table: &'a PlaneTable,
-    pub(crate) bodies: &'a [Body],
+    pub(crate) bodies: Vec<&'a Body>,
     /// The leaf of each body, ascending.
     pub(crate) leaf_of_body: &'a [u32],
     pub(crate) expression: &'a Expression,
     /// Where the expression is of one level, what it does.
     flat: Option<Flat>,
-    /// Where points lie in each body, for bodies of many faces.
-    gauges: Vec<Option<Gauge>>,
     /// How many bodies have a face on each plane; 255 stands for more as well.
-    bodies_on_plane: Vec<u8>,
+    bodies_on_plane: Cow<'a, [u8]>,
     /// Orders materials: where coplanar faces overlap, the lower rank wins, so that the outcome does not depend on the
     /// order of the bodies.
     pub(crate) rank: &'a [u32],
@@ -85,13 +85,38 @@ impl<'a> Scene<'a> {
         expression: &'a Expression,
         rank: &'a [u32],
     ) -> Self {
-        let gauges = bodies.par_iter().with_min_len(16).map(|body| Gauge::of(table, body)).collect();
         let mut bodies_on_plane = vec![0_u8; table.len()];
         for face in bodies.iter().flat_map(|body| &body.faces) {
             let count = &mut bodies_on_plane[face.plane.index() as usize];
             *count = count.saturating_add(1);
         }
-        Self { table, bodies, leaf_of_body, expression, flat: expression.flat(), gauges, bodies_on_plane, rank }
+        let bodies_on_plane = bodies_on_plane.into();
+        Self {
+            table,
+            bodies: bodies.iter().collect(),
+            leaf_of_body,
+            expression,
+            flat: expression.flat(),
+            bodies_on_plane,
+            rank,
+        }
+    }
+
+    /// Some of many bodies; how many of all have a face on each plane is known.
+    pub(crate) fn of_some(
+        table: &'a PlaneTable,
+        bodies: Vec<&'a Body>,
+        leaf_of_body: &'a [u32],
+        expression: &'a Expression,
+        bodies_on_plane: &'a [u8],
+        rank: &'a [u32],
+    ) -> Self {
+        let flat = expression.flat();
+        Self { table, bodies, leaf_of_body, expression, flat, bodies_on_plane: bodies_on_plane.into(), rank }
+    }
+
+    fn gauge(&self, body: usize) -> Option<&'a Gauge> {
+        self.bodies[body].gauge(self.table)
     }
 
     /// Whether bodies other than the face's own may have a face on its plane.
@@ -102,7 +127,7 @@ impl<'a> Scene<'a> {
     /// The face that a body has on a plane, whatever its side.
     fn face_on(&self, body: usize, plane: PlaneId) -> Option<&'a BodyFace> {
         let faces = &self.bodies[body].faces;
-        match &self.gauges[body] {
+        match self.gauge(body) {
             Some(gauge) => gauge.on_plane(plane).map(|face| &faces[face as usize]),
             None => faces.iter().find(|face| face.plane.index() == plane.index()),
         }
@@ -119,16 +144,16 @@ impl<'a> Scene<'a> {
 
 /// The boundary edges of a tree of bodies.
 pub(crate) fn skin(scene: &Scene<'_>) -> (Vec<BoundaryEdge>, Counts) {
-    let bodies = scene.bodies;
+    let bodies = &scene.bodies;
     let boxes = Boxes::new(bodies.iter().map(|body| body.bounds).collect());
     // in the order of space, so that what is near is at hand
     let in_order: Vec<u32> = boxes.in_order().collect();
     let (parts, counts) = map_chunks(&in_order, 1, |chunk| {
         let mut edges = Vec::new();
-        let mut worker = face::FaceWorker::new(scene);
+        let mut worker = FaceWorker::new(scene);
         let mut near = Vec::new();
         for body in chunk.iter().map(|body| *body as usize) {
-            boxes.touching(&bodies[body].bounds, &mut near);
+            boxes.find(|other| other.may_share_area(&bodies[body].bounds), &mut near);
             worker.begin(body, near.len());
             for face in 0..bodies[body].faces.len() {
                 worker.emit(body, face, &near, &mut edges);

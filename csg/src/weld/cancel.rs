@@ -80,7 +80,7 @@ pub(super) fn pieces(
             group.extend(by_line[members].iter().map(|k| edges[*k as usize]));
             surviving.runs.clear();
             worker.cancel(&mut group, &mut surviving)?;
-            worker.cut(&surviving.runs, &mut pieces)?;
+            worker.cut(&surviving.runs, &[], &mut pieces)?;
         }
         Ok(Pieces { pieces, slits: surviving.slits, passed: surviving.passed })
     });
@@ -118,22 +118,23 @@ impl<'a> LineWorker<'a> {
         Ok(())
     }
 
-    /// Cuts the runs of one line at the ends of all of them, and pairs opposite pieces.
+    /// Cuts the runs of one line at the ends of all of them and at some further points of the line, and pairs opposite pieces.
     ///
     /// Where more than two pieces share an interval, faces are sorted around the line and those two are paired that bound
     /// one wedge of solid.
-    pub(super) fn cut(&mut self, runs: &[Run], out: &mut Vec<HalfEdge>) -> Result<(), WeldError> {
+    pub(super) fn cut(&mut self, runs: &[Run], further: &[u32], out: &mut Vec<HalfEdge>) -> Result<(), WeldError> {
         let Some(first) = runs.first() else { return Ok(()) };
         let base = out.len() as u32;
         if let [a, b] = runs
             && (a.from, a.to) == (b.to, b.from)
+            && further.is_empty()
         {
             out.extend([HalfEdge::of(a, base + 1), HalfEdge::of(b, base)]);
             return Ok(());
         }
         let line = &self.lines[first.line as usize];
         self.stops.clear();
-        self.stops.extend(runs.iter().flat_map(|run| [run.from, run.to]));
+        self.stops.extend(runs.iter().flat_map(|run| [run.from, run.to]).chain(further.iter().copied()));
         sort_along(self.table, self.points, line, &mut self.stops);
         self.at_interval.clear();
         for run in runs {

@@ -50,7 +50,7 @@ pub(super) fn pieces(
     let mut worker = LineWorker::new(table, points, lines, planes);
     let mut pieces = Vec::new();
     for group in runs.chunk_by(|a, b| a.line == b.line) {
-        worker.cut(group, &mut pieces)?;
+        worker.cut(group, &[], &mut pieces)?;
     }
     Ok(pieces)
 }

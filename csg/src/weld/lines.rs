@@ -25,31 +25,35 @@ pub(super) struct Line {
 }
 
 /// What equal lines share, correctly rounded: the axis, the slopes against it, and where the line meets its plane.
-type Key = (usize, [u64; 4]);
+pub(super) type Key = (usize, [u64; 4]);
 
 /// Numbers the lines of edges; gives the lines and the number of the line of each edge, in order.
 pub(super) fn identify(table: &PlaneTable, edges: &[BoundaryEdge]) -> (Vec<Line>, Vec<u32>, Counts) {
-    let key = |edge: &BoundaryEdge| {
-        let (a, b) = (u64::from(edge.face.index()), u64::from(edge.edge.index()));
-        a.min(b) << 32 | a.max(b)
-    };
-    let keys: Vec<u64> = edges.par_iter().with_min_len(1024).map(key).collect();
+    let keys: Vec<u64> = edges.par_iter().with_min_len(1024).map(pair).collect();
     let (different, of_pair) = distinct(&keys, table.len(), |key| (key >> 32) as usize);
     let (lines, of_different, counts) = number(table, &different);
     (lines, of_pair.into_par_iter().with_min_len(1024).map(|k| of_different[k as usize]).collect(), counts)
 }
 
+/// What names the line of an edge: the indices of its two planes.
+pub(super) fn pair(edge: &BoundaryEdge) -> u64 {
+    let (a, b) = (u64::from(edge.face.index()), u64::from(edge.edge.index()));
+    a.min(b) << 32 | a.max(b)
+}
+
 /// Numbers the lines of different pairs, each two plane indices.
 fn number(table: &PlaneTable, pairs: &[u64]) -> (Vec<Line>, Vec<u32>, Counts) {
-    let line =
-        |pair: &u64| line_and_mark(table, [pair >> 32, *pair & 0xFFFF_FFFF].map(|p| PlaneId::of_index(p as u32)));
+    let line = |pair: &u64| {
+        let line = Line::of(table, *pair);
+        (line, mark(table, &line))
+    };
     let (found, mut counts) = map_chunks(pairs, 256, |pairs| pairs.iter().map(line).collect::<Vec<_>>());
     let found: Vec<(Line, Mark)> = found.into_iter().flatten().collect();
     let mut order: Vec<(Mark, u32)> = found.iter().zip(0..).map(|((_, mark), k)| (*mark, k)).collect();
     order.par_sort_unstable_by(|p, q| p.0.compare(&q.0).then(p.1.cmp(&q.1)));
     // of lines that may be equal, the first in the order given; most are alone
     let mut first: Vec<u32> = (0..found.len() as u32).collect();
-    let axes = AxisPlanes::new();
+    let axes = AxisPlanes::default();
     let ((), joining) = counted(|| {
         let mut some = Vec::new();
         let mut start = 0;
@@ -118,6 +122,19 @@ impl Mark {
 }
 
 impl Line {
+    /// That of a [`pair`] of planes.
+    pub(super) fn of(table: &PlaneTable, pair: u64) -> Self {
+        let [a, b] = [pair >> 32, pair & 0xFFFF_FFFF].map(|p| PlaneId::of_index(p as u32));
+        let direction: [Sign; 3] = std::array::from_fn(|axis| table.cross_component(a, b, axis));
+        let axis =
+            direction.iter().position(|sign| *sign != Sign::Zero).expect("the planes of an edge are not parallel");
+        if direction[axis] == Sign::Positive {
+            Self { planes: [a, b], axis, direction }
+        } else {
+            Self { planes: [b, a], axis, direction: direction.map(Sign::flip) }
+        }
+    }
+
     /// Whether `n_a × n_b` of two planes through this line points along it.
     pub(super) fn is_along(&self, table: &PlaneTable, a: PlaneId, b: PlaneId) -> bool {
         let [p, q] = self.planes;
@@ -163,18 +180,20 @@ impl Line {
 }
 
 /// The coordinate planes through the origin.
-struct AxisPlanes {
+pub(super) struct AxisPlanes {
     at_zero: [Row; 3],
 }
 
-impl AxisPlanes {
-    fn new() -> Self {
+impl Default for AxisPlanes {
+    fn default() -> Self {
         let row = |axis: DVec3| Row::new(&HalfSpace::new(axis, 0.0).expect("an axis is a valid normal"));
         Self { at_zero: DVec3::AXES.map(row) }
     }
+}
 
+impl AxisPlanes {
     /// Exactly: both planes of `other` hold the direction and one point of `line`.
-    fn is_same(&self, table: &PlaneTable, line: &Line, other: &Line) -> bool {
+    pub(super) fn is_same(&self, table: &PlaneTable, line: &Line, other: &Line) -> bool {
         let [a, b] = line.planes.map(|p| table.row(p));
         let cut = &self.at_zero[line.axis];
         let point = planecut_kernel::sign::Homogeneous::meet(a, b, cut);
@@ -186,16 +205,9 @@ impl AxisPlanes {
     }
 }
 
-fn line_and_mark(table: &PlaneTable, [a, b]: [PlaneId; 2]) -> (Line, Mark) {
-    let direction: [Sign; 3] = std::array::from_fn(|axis| table.cross_component(a, b, axis));
-    let axis = direction.iter().position(|sign| *sign != Sign::Zero).expect("the planes of an edge are not parallel");
-    let line = if direction[axis] == Sign::Positive {
-        Line { planes: [a, b], axis, direction }
-    } else {
-        Line { planes: [b, a], axis, direction: direction.map(Sign::flip) }
-    };
-    let (value, error) = rounded_mark(table, &line).unwrap_or_else(|| exact_mark(table, &line));
-    (line, Mark { axis, value, error })
+fn mark(table: &PlaneTable, line: &Line) -> Mark {
+    let (value, error) = rounded_mark(table, line).unwrap_or_else(|| exact_mark(table, line));
+    Mark { axis: line.axis, value, error }
 }
 
 /// From the determinants of the planes' columns in plain numbers, where these are well conditioned: each is off by less than
@@ -234,6 +246,7 @@ fn exact_numbers(table: &PlaneTable, line: &Line) -> [f64; 4] {
     line_coordinates(a, b, line.axis).expect("the line crosses the planes of its axis")
 }
 
-fn key(table: &PlaneTable, line: &Line) -> Key {
+/// What equal lines share.
+pub(super) fn key(table: &PlaneTable, line: &Line) -> Key {
     (line.axis, exact_numbers(table, line).map(f64::to_bits))
 }

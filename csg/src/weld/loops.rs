@@ -9,16 +9,18 @@ use super::WeldError;
 use super::cancel::HalfEdge;
 use crate::plane_table::{PlaneId, PlaneTable};
 
-/// The half-edge that follows each half-edge around one region, numbered from `base`; `region` is sorted by place.
+/// The half-edge that follows each half-edge around one region, numbered from `base`; those that begin at one point follow one
+/// another in `region`, and `first` gives the place of the first of them, or that of any other where there is none.
 pub(super) fn follow(
     table: &PlaneTable,
     plane: PlaneId,
     region: &[HalfEdge],
     base: u32,
+    first: impl Fn(u32) -> usize,
     following: &mut Vec<u32>,
 ) -> Result<(), WeldError> {
     for piece in region {
-        let start = region.partition_point(|other| other.from < piece.to);
+        let start = first(piece.to);
         let candidates = (start..region.len()).take_while(|k| region[*k].from == piece.to);
         let next = candidates.reduce(|best, other| {
             if is_earlier(table, plane, piece, &region[other], &region[best]) { other } else { best }

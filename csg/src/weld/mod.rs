@@ -17,6 +17,7 @@
 mod cancel;
 mod crossings;
 mod lines;
+mod live;
 mod loops;
 mod manifold;
 mod measure;
@@ -43,6 +44,8 @@ use crate::parallel::map_chunks;
 use crate::plane_table::{PlaneId, PlaneTable};
 use crate::skin::BoundaryEdge;
 use cancel::{HalfEdge, Pieces, Run};
+pub(crate) use live::{EdgeId, LiveWeld};
+pub use live::{FaceId, LiveFace};
 use manifold::Labels;
 use nest::{Faces, Nester, Projection};
 use points::Points;
@@ -263,7 +266,8 @@ fn nest(
             let region = &pieces[start as usize..end as usize];
             let plane = regions.planes[region[0].region as usize];
             let done = following.len();
-            loops::follow(table, plane, region, start, &mut following)?;
+            let first = |point: u32| region.partition_point(|piece| piece.from < point);
+            loops::follow(table, plane, region, start, first, &mut following)?;
             nester.add_faces(plane, region, start, &following[done..], &mut faces)?;
         }
         measure::of_faces(&points.positions, pieces, &faces, middle, &mut measures);

@@ -28,7 +28,8 @@ pub(super) fn find(table: &PlaneTable, points: &Points, pieces: &[HalfEdge]) -> 
     (pinches, counts)
 }
 
-struct PinchFinder<'a> {
+/// Finds corners that touch the inside of edges, reusing its buffers.
+pub(super) struct PinchFinder<'a> {
     table: &'a PlaneTable,
     points: &'a Points,
     corners: Vec<u32>,
@@ -36,16 +37,17 @@ struct PinchFinder<'a> {
     places: Vec<DVec3>,
     /// Corners by each of their coordinates.
     sorted: [Vec<u32>; 3],
-    found: Vec<(u32, u32)>,
+    /// The (line, point) pairs found.
+    pub(super) found: Vec<(u32, u32)>,
 }
 
 impl<'a> PinchFinder<'a> {
-    fn new(table: &'a PlaneTable, points: &'a Points) -> Self {
+    pub(super) fn new(table: &'a PlaneTable, points: &'a Points) -> Self {
         Self { table, points, corners: Vec::new(), places: Vec::new(), sorted: Default::default(), found: Vec::new() }
     }
 
     /// Finds those of one region.
-    fn search(&mut self, region: &[HalfEdge]) {
+    pub(super) fn search(&mut self, region: &[HalfEdge]) {
         // what touches itself has at least two triangles
         if region.len() <= 4 {
             return;

@@ -6,9 +6,8 @@ use planecut_kernel::sign::{Counts, Sign};
 use planecut_kernel::{DVec3, compare_exactly};
 use rayon::prelude::*;
 
-use crate::bounds::Bounds;
 use crate::distinct::{distinct, sortable};
-use crate::locality::Curve;
+use crate::locality::curve_number;
 use crate::parallel::{counted, map_chunks};
 use crate::plane_table::{PlaneId, PlaneTable};
 use crate::skin::BoundaryEdge;
@@ -26,10 +25,13 @@ pub(super) struct Points {
 /// The order of positions: along a curve through space, then by coordinates.
 type Place = (u64, [u64; 3]);
 
+/// The indices of three planes in ascending order, packed.
+pub(super) type Triple = (u64, u32);
+
 /// A point that three planes name, before equal ones are joined.
-struct Named {
-    planes: [PlaneId; 3],
-    position: DVec3,
+pub(super) struct Named {
+    pub(super) planes: [PlaneId; 3],
+    pub(super) position: DVec3,
     is_exact: bool,
 }
 
@@ -37,14 +39,13 @@ impl Points {
     /// Numbers the ends of edges by position; gives the numbers of both ends of each edge, in order.
     pub(super) fn identify(table: &PlaneTable, edges: &[BoundaryEdge]) -> (Self, Vec<[u32; 2]>, Counts) {
         let ends = |edge: &BoundaryEdge| [edge.start, edge.end].map(|end| key([edge.face, edge.edge, end]));
-        let keys: Vec<[(u64, u32); 2]> = edges.par_iter().with_min_len(1024).map(ends).collect();
+        let keys: Vec<[Triple; 2]> = edges.par_iter().with_min_len(1024).map(ends).collect();
         let (different, of_triple) = distinct(keys.as_flattened(), table.len(), |key| (key.0 >> 32) as usize);
         let (named, mut counts) = map_chunks(&different, 256, |keys| {
             keys.iter().map(|key| Named::of(table, planes(*key))).collect::<Vec<_>>()
         });
         let named: Vec<Named> = named.into_iter().flatten().collect();
-        let curve = curve_through(named.iter().map(|point| point.position));
-        let place = |(k, point): (usize, &Named)| (place(&curve, point.position), k as u32);
+        let place = |(k, point): (usize, &Named)| (place(point.position), k as u32);
         let mut sorted: Vec<(Place, u32)> = named.par_iter().enumerate().with_min_len(1024).map(place).collect();
         sorted.par_sort_unstable();
         let mut points = Self::default();
@@ -94,18 +95,23 @@ impl Points {
         known.unwrap_or_else(|| self.push(&named))
     }
 
-    fn push(&mut self, named: &Named) -> u32 {
+    pub(super) fn push(&mut self, named: &Named) -> u32 {
         self.planes.push(named.planes);
         self.positions.push(named.position);
         self.exact.push(named.is_exact);
         self.planes.len() as u32 - 1
     }
 
+    /// Puts a point in the place of another.
+    pub(super) fn put(&mut self, number: usize, named: &Named) {
+        (self.planes[number], self.positions[number], self.exact[number]) =
+            (named.planes, named.position, named.is_exact);
+    }
+
     /// Numbers all points by position; gives the new number of each.
     pub(super) fn renumber(&mut self, table: &PlaneTable) -> Vec<u32> {
         let mut order: Vec<u32> = (0..self.planes.len() as u32).collect();
-        let curve = curve_through(self.positions.iter().copied());
-        let place = |p: u32| place(&curve, self.positions[p as usize]);
+        let place = |p: u32| place(self.positions[p as usize]);
         let rows = |p: u32| self.planes[p as usize].map(|plane| table.row(plane));
         order.sort_by(|p, q| place(*p).cmp(&place(*q)).then_with(|| compare_exactly(rows(*p), rows(*q), &[0, 1, 2])));
         let mut number = vec![0; order.len()];
@@ -126,7 +132,7 @@ impl Points {
 }
 
 impl Named {
-    fn of(table: &PlaneTable, [a, b, c]: [PlaneId; 3]) -> Self {
+    pub(super) fn of(table: &PlaneTable, [a, b, c]: [PlaneId; 3]) -> Self {
         let position = table.position([a, b, c]).expect("the planes of a corner are independent");
         let right_handed = table.orient3(a, b, c) == Sign::Positive;
         Self {
@@ -137,18 +143,13 @@ impl Named {
     }
 }
 
-fn curve_through(positions: impl Iterator<Item = DVec3>) -> Curve {
-    let bounds =
-        positions.fold(Bounds::EMPTY, |bounds, at| Bounds { min: bounds.min.min(at), max: bounds.max.max(at) });
-    Curve::new(&bounds)
+/// The order of points whose coordinates, rounded, differ.
+fn place(position: DVec3) -> Place {
+    (curve_number(position), position.to_array().map(sortable))
 }
 
-fn place(curve: &Curve, position: DVec3) -> Place {
-    (curve.number(position), position.to_array().map(sortable))
-}
-
-/// The indices of three planes in ascending order, packed.
-fn key(triple: [PlaneId; 3]) -> (u64, u32) {
+/// What names the meeting point of three planes, whatever their order and sides.
+pub(super) fn key(triple: [PlaneId; 3]) -> Triple {
     let mut indices = triple.map(PlaneId::index);
     indices.sort_unstable();
     let [a, b, c] = indices;
@@ -156,12 +157,12 @@ fn key(triple: [PlaneId; 3]) -> (u64, u32) {
 }
 
 /// The planes of a key, unsided.
-fn planes((ab, c): (u64, u32)) -> [PlaneId; 3] {
+pub(super) fn planes((ab, c): Triple) -> [PlaneId; 3] {
     [(ab >> 32) as u32, ab as u32, c].map(PlaneId::of_index)
 }
 
 /// Whether a point given by three planes, right-handed, lies on three others.
-fn is_at(table: &PlaneTable, planes: [PlaneId; 3], others: [PlaneId; 3]) -> bool {
+pub(super) fn is_at(table: &PlaneTable, planes: [PlaneId; 3], others: [PlaneId; 3]) -> bool {
     let point = table.homogeneous(planes);
     others.into_iter().all(|plane| table.side(planes, &point, plane) == Sign::Zero)
 }

@@ -20,7 +20,7 @@ const U: f64 = f64::EPSILON / 2.0;
 
 /// The faces of a body, as the vertices of its polar dual.
 #[derive(Debug, Clone)]
-pub(super) struct Gauge {
+pub(crate) struct Gauge {
     center: DVec3,
     /// `nᵢ / (dᵢ − nᵢ·c)` for each face.
     duals: Vec<DVec3>,
@@ -35,7 +35,7 @@ pub(super) struct Gauge {
 
 /// Where a point lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Place {
+pub(crate) enum Place {
     /// Strictly inside of all planes; this face is the nearest.
     Inside(u32),
     /// Strictly outside of the plane of this face.
@@ -48,7 +48,7 @@ pub(super) enum Place {
 
 impl Gauge {
     /// That of a body of many faces which is not too thin for its numbers.
-    pub(super) fn of(table: &PlaneTable, body: &Body) -> Option<Self> {
+    pub(crate) fn of(table: &PlaneTable, body: &Body) -> Option<Self> {
         if body.faces.len() < MANY {
             return None;
         }
@@ -85,13 +85,13 @@ impl Gauge {
     }
 
     /// The face on a plane, whatever its side.
-    pub(super) fn on_plane(&self, plane: PlaneId) -> Option<u32> {
+    pub(crate) fn on_plane(&self, plane: PlaneId) -> Option<u32> {
         let at = self.by_plane.binary_search_by_key(&plane.index(), |entry| entry.0).ok()?;
         Some(self.by_plane[at].1)
     }
 
     /// Where a point lies, climbing from a face.
-    pub(super) fn place(&self, point: &Corner, from: u32) -> Place {
+    pub(crate) fn place(&self, point: &Corner, from: u32) -> Place {
         let (at, room) = self.relative(point);
         let (face, value) = self.climb(at, from, room);
         let room = room * value.max(1.0);
@@ -107,14 +107,14 @@ impl Gauge {
     }
 
     /// Whether a point surely lies strictly outside of the plane of a face.
-    pub(super) fn is_beyond(&self, point: &Corner, face: u32) -> bool {
+    pub(crate) fn is_beyond(&self, point: &Corner, face: u32) -> bool {
         let (at, room) = self.relative(point);
         let value = self.value(face, at);
         value > 1.0 + room * value.max(1.0)
     }
 
     /// The faces on or beyond whose planes a point may lie, `face` being the one where its value is largest.
-    pub(super) fn near(&self, point: &Corner, face: u32, found: &mut Vec<u32>) {
+    pub(crate) fn near(&self, point: &Corner, face: u32, found: &mut Vec<u32>) {
         let (at, room) = self.relative(point);
         let level = 1.0 - 4.0 * room;
         self.above(at, face, level, found);

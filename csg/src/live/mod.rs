@@ -1,0 +1,422 @@
+//! A model that takes edits, each for what it touches.
+//!
+//! Kept are the body of each brush, for each of its faces the boundary edges on it, and all that the weld makes of them. An
+//! edit of a brush changes the boundary only within the old and the new extent of the brush: the faces that reach into these
+//! are worked out again among the bodies near them, and of their edges those that are new or gone are handed to the weld.
+
+mod operand;
+
+use planecut_kernel::IncrementalPolytope;
+use thiserror::Error;
+
+use crate::body::{Body, BodyFace, BrushBody, build};
+use crate::bounds::Bounds;
+use crate::brush::{Brush, Material, MaterialId};
+use crate::evaluate::{EvaluateError, check_materials, material_ranks};
+use crate::expression::Expression;
+use crate::mesh::Mesh;
+use crate::plane_table::{PlaneId, PlaneTable};
+use crate::skin::{BoundaryEdge, FaceWorker, Scene, misses};
+use crate::tree::{Operation, TreeNode};
+use crate::weld::{EdgeId, LiveWeld, WeldError, weld};
+pub use crate::weld::{FaceId, LiveFace};
+pub use operand::Role;
+use operand::{Operand, Places};
+
+/// A brush of a [`LiveModel`]; never that of another brush, before or after.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct BrushId {
+    order: u64,
+    number: u32,
+}
+
+/// What an edit has changed: faces are planar, connected regions of one material.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Change {
+    /// The faces that are no more.
+    pub removed: Vec<FaceId>,
+    /// Those that are new; their numbers may be those of faces that were removed.
+    pub added: Vec<FaceId>,
+}
+
+/// Why an edit was refused; the model is as it was, but after [`EditError::Weld`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum EditError {
+    /// There is no such brush, or no longer.
+    #[error("found a brush that is not part of the model")]
+    UnknownBrush,
+    /// The planes of a brush do not bound a body.
+    #[error("found a brush that reaches infinity, expected one that is bounded")]
+    Unbounded,
+    /// A face names a material that is not in the list.
+    #[error("found a face of material number {}, expected a number below {count}", .material.0)]
+    UnknownMaterial {
+        /// The material.
+        material: MaterialId,
+        /// How many there are.
+        count: usize,
+    },
+    /// The boundary does not close: a bug in this crate.
+    #[error(transparent)]
+    Weld(#[from] WeldError),
+}
+
+/// Brushes in order, each with a [`Role`], and the boundary of the solid that they make.
+///
+/// The solid is what is left when one brush after another is added to it, taken from it or intersected with it.
+///
+/// ```
+/// use planecut_csg::{Brush, LiveModel, Material, MaterialId, Role};
+/// use planecut_kernel::DVec3;
+///
+/// # fn main() -> Result<(), planecut_csg::EditError> {
+/// let cube = |min: f64, max: f64| Brush::cuboid(DVec3::splat(min), DVec3::splat(max), MaterialId(0));
+/// let mut model = LiveModel::new(vec![Material::named("stone")]);
+/// let (block, _) = model.add_brush(cube(0.0, 3.0), Role::Add)?;
+/// let (hole, change) = model.add_brush(cube(1.0, 2.0), Role::Subtract)?;
+/// assert_eq!((change.removed.len(), change.added.len()), (0, 6));
+/// model.remove_brush(hole)?;
+/// assert_eq!(model.triangle_count(), 12);
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Default)]
+pub struct LiveModel {
+    materials: Vec<Material>,
+    /// Orders materials by name.
+    rank: Vec<u32>,
+    table: PlaneTable,
+    operands: Vec<Option<Operand>>,
+    free: Vec<u32>,
+    next_order: u64,
+    places: Places,
+    /// How many bodies have a face on each plane; 255 stands for more as well, and for ever.
+    bodies_on_plane: Vec<u8>,
+    /// The brushes that intersect, in order.
+    intersecting: Vec<(u64, u32)>,
+    welded: LiveWeld,
+    buffers: Buffers,
+}
+
+#[derive(Default)]
+struct Buffers {
+    polytope: IncrementalPolytope,
+    /// The faces to be worked out again: the number of the brush and of the face of its body.
+    faces: Vec<(u32, u32)>,
+    /// The place of each brush among those near.
+    place: Vec<u32>,
+}
+
+impl LiveModel {
+    /// A model without brushes, of faces of some materials.
+    #[must_use]
+    pub fn new(materials: Vec<Material>) -> Self {
+        let rank = material_ranks(&materials);
+        Self { materials, rank, ..Self::default() }
+    }
+
+    /// Adds a brush after all others.
+    ///
+    /// # Errors
+    /// [`EditError::Unbounded`], [`EditError::UnknownMaterial`].
+    pub fn add_brush(&mut self, brush: Brush, role: Role) -> Result<(BrushId, Change), EditError> {
+        let body = self.build(&brush)?;
+        let order = self.next_order;
+        self.next_order += 1;
+        let operand = Operand { brush, role, order, body: None, edges: Vec::new() };
+        let number = self.free.pop().unwrap_or_else(|| {
+            self.operands.push(None);
+            self.operands.len() as u32 - 1
+        });
+        self.operands[number as usize] = Some(operand);
+        if role == Role::Intersect {
+            self.intersecting.push((order, number));
+        }
+        let change = self.change_body(number, body, role == Role::Intersect)?;
+        Ok((BrushId { order, number }, change))
+    }
+
+    /// Takes a brush out.
+    ///
+    /// # Errors
+    /// [`EditError::UnknownBrush`].
+    pub fn remove_brush(&mut self, id: BrushId) -> Result<Change, EditError> {
+        let role = self.operand(id)?.role;
+        self.intersecting.retain(|entry| entry.0 != id.order);
+        let change = self.change_body(id.number, None, role == Role::Intersect)?;
+        self.operands[id.number as usize] = None;
+        self.free.push(id.number);
+        Ok(change)
+    }
+
+    /// Puts another brush in the place of one.
+    ///
+    /// # Errors
+    /// [`EditError::UnknownBrush`], [`EditError::Unbounded`], [`EditError::UnknownMaterial`].
+    pub fn replace_brush(&mut self, id: BrushId, brush: Brush) -> Result<Change, EditError> {
+        let role = self.operand(id)?.role;
+        let body = self.build(&brush)?;
+        let change = self.change_body(id.number, body, role == Role::Intersect)?;
+        if let Some(operand) = &mut self.operands[id.number as usize] {
+            operand.brush = brush;
+        }
+        Ok(change)
+    }
+
+    /// Gives a brush another role.
+    ///
+    /// # Errors
+    /// [`EditError::UnknownBrush`].
+    pub fn set_role(&mut self, id: BrushId, role: Role) -> Result<Change, EditError> {
+        let brush = self.operand(id)?.brush.clone();
+        let body = self.build(&brush)?;
+        let was = std::mem::replace(&mut self.operand_mut(id)?.role, role);
+        self.intersecting.retain(|entry| entry.0 != id.order);
+        if role == Role::Intersect {
+            self.intersecting.push((id.order, id.number));
+            self.intersecting.sort_unstable();
+        }
+        self.change_body(id.number, body, role == Role::Intersect || was == Role::Intersect)
+    }
+
+    /// A brush.
+    ///
+    /// # Errors
+    /// [`EditError::UnknownBrush`].
+    pub fn brush(&self, id: BrushId) -> Result<(&Brush, Role), EditError> {
+        self.operand(id).map(|operand| (&operand.brush, operand.role))
+    }
+
+    /// How many triangles the faces have.
+    #[must_use]
+    pub fn triangle_count(&self) -> usize {
+        self.welded.triangle_count()
+    }
+
+    /// A face, where there is one of this number.
+    #[must_use]
+    pub fn face(&self, id: FaceId) -> Option<LiveFace<'_>> {
+        self.welded.face(id)
+    }
+
+    /// All faces.
+    pub fn faces(&self) -> impl Iterator<Item = (FaceId, LiveFace<'_>)> {
+        self.welded.faces()
+    }
+
+    /// Whether the faces are those of the mesh. They are not where solids alternate around a line or a point, so that
+    /// faces cross there.
+    #[must_use]
+    pub fn has_faces(&self) -> bool {
+        !self.welded.has_crossings()
+    }
+
+    /// The mesh of the solid, equal to that of the same model built anew.
+    ///
+    /// # Errors
+    /// [`EvaluateError::Weld`]: a bug in this crate.
+    pub fn mesh(&self) -> Result<Mesh, EvaluateError> {
+        let operands = self.operands.iter().flatten();
+        let edges: Vec<BoundaryEdge> =
+            operands.flat_map(|operand| &operand.edges).flatten().map(|edge| edge.0).collect();
+        Ok(weld(&self.table, &edges, &self.rank, &self.materials)?.mesh)
+    }
+
+    fn operand(&self, id: BrushId) -> Result<&Operand, EditError> {
+        let operand = self.operands.get(id.number as usize).and_then(Option::as_ref);
+        operand.filter(|operand| operand.order == id.order).ok_or(EditError::UnknownBrush)
+    }
+
+    fn operand_mut(&mut self, id: BrushId) -> Result<&mut Operand, EditError> {
+        let operand = self.operands.get_mut(id.number as usize).and_then(Option::as_mut);
+        operand.filter(|operand| operand.order == id.order).ok_or(EditError::UnknownBrush)
+    }
+
+    fn build(&mut self, brush: &Brush) -> Result<Option<Body>, EditError> {
+        let materials: Vec<MaterialId> = brush.faces.iter().map(|face| face.material).collect();
+        if let Err(EvaluateError::UnknownMaterial { material, count }) =
+            check_materials(materials.iter().copied(), self.materials.len())
+        {
+            return Err(EditError::UnknownMaterial { material, count });
+        }
+        let planes: Vec<PlaneId> = brush.faces.iter().map(|face| self.table.insert(&face.half_space)).collect();
+        match build(&self.table, &planes, &materials, &mut self.buffers.polytope) {
+            BrushBody::Bounded(body, _) => Ok(Some(body)),
+            BrushBody::Empty => Ok(None),
+            BrushBody::Unbounded => Err(EditError::Unbounded),
+        }
+    }
+
+    /// Gives a brush another body, or none, and works out what that changes; that of an intersecting one tells everywhere.
+    fn change_body(&mut self, number: u32, new: Option<Body>, is_intersecting: bool) -> Result<Change, EditError> {
+        self.buffers.faces.clear();
+        let operand = self.operands[number as usize].as_mut().expect("the brush is there");
+        let old = operand.body.take();
+        for (_, edge) in operand.edges.drain(..).flatten() {
+            self.welded.remove(edge);
+        }
+        if let Some(old) = old {
+            self.places.remove(&old.bounds, number);
+            for face in &old.faces {
+                let count = &mut self.bodies_on_plane[face.plane.index() as usize];
+                *count -= u8::from(*count < u8::MAX);
+            }
+            self.touch(&old.bounds);
+        }
+        if let Some(new) = new {
+            self.touch(&new.bounds);
+            self.places.insert(&new.bounds, number);
+            self.bodies_on_plane.resize(self.table.len(), 0);
+            for face in &new.faces {
+                let count = &mut self.bodies_on_plane[face.plane.index() as usize];
+                *count = count.saturating_add(1);
+            }
+            self.buffers.faces.extend((0..new.faces.len() as u32).map(|face| (number, face)));
+            let operand = self.operands[number as usize].as_mut().expect("the brush is there");
+            operand.edges.resize_with(new.faces.len(), Vec::new);
+            operand.body = Some(new);
+        }
+        if is_intersecting {
+            self.touch_all();
+        }
+        let mut faces = std::mem::take(&mut self.buffers.faces);
+        faces.sort_unstable();
+        faces.dedup();
+        self.skin(&faces);
+        self.buffers.faces = faces;
+        self.welded.update(&self.table)?;
+        let (removed, added) = self.welded.changes();
+        Ok(Change { removed: removed.to_vec(), added: added.to_vec() })
+    }
+
+    /// Notes the faces that reach into a box.
+    fn touch(&mut self, bounds: &Bounds) {
+        for other in self.places.near(bounds) {
+            let Some(body) = body_of(&self.operands, other) else { continue };
+            let reaches = |face: &(u32, &BodyFace)| {
+                let half_space = self.table.half_space(face.1.plane);
+                face.1.bounds.may_share_area(bounds) && !misses(bounds, half_space.normal(), half_space.offset())
+            };
+            self.buffers.faces.extend((0..).zip(&body.faces).filter(reaches).map(|(face, _)| (other, face)));
+        }
+    }
+
+    /// Notes all faces.
+    fn touch_all(&mut self) {
+        for number in 0..self.operands.len() as u32 {
+            let faces = body_of(&self.operands, number).map_or(0, |body| body.faces.len()) as u32;
+            self.buffers.faces.extend((0..faces).map(|face| (number, face)));
+        }
+    }
+
+    /// Works out the boundary on some faces, sorted.
+    fn skin(&mut self, faces: &[(u32, u32)]) {
+        // what is near the faces of each body
+        let mut near: Vec<u32> = Vec::new();
+        let mut ends: Vec<usize> = Vec::new();
+        for of_body in faces.chunk_by(|a, b| a.0 == b.0) {
+            let Some(body) = body_of(&self.operands, of_body[0].0) else { continue };
+            let bounds =
+                of_body.iter().fold(Bounds::EMPTY, |all, (_, face)| all.union(&body.faces[*face as usize].bounds));
+            near.extend(self.places.near(&bounds));
+            ends.push(near.len());
+        }
+        let order = |number: u32| self.operands[number as usize].as_ref().map_or(0, |operand| operand.order);
+        let mut members: Vec<(u64, u32)> = near.iter().map(|number| (order(*number), *number)).collect();
+        members.sort_unstable();
+        members.dedup();
+        // nothing is left of what lies before an intersecting brush that does not come near
+        let far = self.intersecting.iter().rev().find(|entry| members.binary_search(entry).is_err());
+        if let Some((order, _)) = far {
+            members.retain(|member| member.0 > *order);
+        }
+        let place = &mut self.buffers.place;
+        place.resize(self.operands.len(), u32::MAX);
+        for (k, (_, number)) in (0..).zip(&members) {
+            place[*number as usize] = k;
+        }
+        let operand = |number: u32| self.operands[number as usize].as_ref().expect("what is near is there");
+        let expression = sequence(members.iter().map(|(_, number)| operand(*number).role));
+        let bodies: Vec<&Body> = members.iter().filter_map(|(_, number)| operand(*number).body.as_ref()).collect();
+        let leaves: Vec<u32> = (0..members.len() as u32).collect();
+        let scene = Scene::of_some(&self.table, bodies, &leaves, &expression, &self.bodies_on_plane, &self.rank);
+        let mut worker = FaceWorker::new(&scene);
+        let (mut found, mut found_ends) = (Vec::new(), Vec::with_capacity(faces.len()));
+        let mut start = 0;
+        let mut near_here = Vec::new();
+        for (of_body, end) in faces.chunk_by(|a, b| a.0 == b.0).zip(ends) {
+            let own = place[of_body[0].0 as usize];
+            near_here.clear();
+            near_here.extend(near[start..end].iter().map(|number| place[*number as usize]).filter(|k| *k != u32::MAX));
+            near_here.sort_unstable();
+            start = end;
+            if own != u32::MAX {
+                worker.begin(own as usize, near_here.len());
+            }
+            for (_, face) in of_body {
+                if own != u32::MAX {
+                    worker.emit(own as usize, *face as usize, &near_here, &mut found);
+                }
+                found_ends.push(found.len());
+            }
+        }
+        for (_, number) in &members {
+            place[*number as usize] = u32::MAX;
+        }
+        let mut start = 0;
+        for ((number, face), end) in faces.iter().zip(found_ends) {
+            let operand = self.operands[*number as usize].as_mut().expect("the brush is there");
+            let known = &mut operand.edges[*face as usize];
+            exchange(&mut self.welded, &self.table, known, &mut found[start..end]);
+            start = end;
+        }
+    }
+}
+
+fn body_of(operands: &[Option<Operand>], number: u32) -> Option<&Body> {
+    operands[number as usize].as_ref()?.body.as_ref()
+}
+
+/// Brushes added, subtracted and intersected one after another.
+fn sequence(roles: impl Iterator<Item = Role>) -> Expression {
+    let mut nodes: Vec<TreeNode> = Vec::new();
+    // what is not yet noted: the union of no brushes at first
+    let (mut operation, mut operands) = (Operation::Union, 0);
+    for role in roles {
+        let next = match role {
+            Role::Add => Operation::Union,
+            Role::Subtract => Operation::Difference,
+            Role::Intersect => Operation::Intersection,
+        };
+        if next != operation {
+            nodes.push(TreeNode::Operation { operation, operands });
+            (operation, operands) = (next, 1);
+        }
+        nodes.push(TreeNode::Leaf);
+        operands += 1;
+    }
+    nodes.push(TreeNode::Operation { operation, operands });
+    Expression::new(&nodes)
+}
+
+/// Puts the edges that were found on a face in the place of those known, sorted; what stays the same is not touched.
+fn exchange(
+    welded: &mut LiveWeld,
+    table: &PlaneTable,
+    known: &mut Vec<(BoundaryEdge, EdgeId)>,
+    found: &mut [BoundaryEdge],
+) {
+    found.sort_unstable();
+    if known.iter().map(|edge| &edge.0).eq(found.iter()) {
+        return;
+    }
+    let mut before = std::mem::take(known).into_iter().peekable();
+    for edge in found {
+        while let Some((_, gone)) = before.next_if(|other| other.0 < *edge) {
+            welded.remove(gone);
+        }
+        known.push(before.next_if(|other| other.0 == *edge).unwrap_or_else(|| (*edge, welded.insert(table, edge))));
+    }
+    before.for_each(|(_, gone)| welded.remove(gone));
+}

@@ -1,0 +1,82 @@
+//! The brushes of a live model: their bodies, where these are, and which edges of the boundary their faces make.
+
+use planecut_kernel::DVec3;
+use rstar::RTree;
+use rstar::primitives::{GeomWithData, Rectangle};
+
+use crate::body::Body;
+use crate::bounds::Bounds;
+use crate::brush::Brush;
+use crate::skin::BoundaryEdge;
+use crate::weld::EdgeId;
+
+/// What a brush of a live model does to what the brushes before it have made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
+pub enum Role {
+    /// It is added.
+    #[default]
+    Add,
+    /// It is taken away.
+    Subtract,
+    /// What lies outside of it is taken away.
+    Intersect,
+}
+
+/// A brush of a live model.
+#[derive(Debug)]
+pub(super) struct Operand {
+    pub(super) brush: Brush,
+    pub(super) role: Role,
+    /// Its place in the order of the brushes.
+    pub(super) order: u64,
+    /// Nothing where the brush is empty.
+    pub(super) body: Option<Body>,
+    /// For each face of the body the edges of the boundary on it, sorted.
+    pub(super) edges: Vec<Vec<(BoundaryEdge, EdgeId)>>,
+}
+
+type Entry = GeomWithData<Rectangle<[f64; 3]>, u32>;
+
+/// Where the bodies are, by number.
+#[derive(Debug, Default)]
+pub(super) struct Places {
+    tree: RTree<Entry>,
+    /// Boxes that are not finite, beside the tree.
+    infinite: Vec<(Bounds, u32)>,
+}
+
+impl Places {
+    pub(super) fn insert(&mut self, bounds: &Bounds, number: u32) {
+        match entry(bounds, number) {
+            Some(entry) => self.tree.insert(entry),
+            None => self.infinite.push((*bounds, number)),
+        }
+    }
+
+    pub(super) fn remove(&mut self, bounds: &Bounds, number: u32) {
+        match entry(bounds, number) {
+            Some(entry) => {
+                self.tree.remove(&entry);
+            }
+            None => self.infinite.retain(|(_, other)| *other != number),
+        }
+    }
+
+    /// The bodies whose boxes may share an area with a box.
+    pub(super) fn near(&self, bounds: &Bounds) -> impl Iterator<Item = u32> {
+        let envelope = rstar::AABB::from_corners(bounds.min.to_array(), bounds.max.to_array());
+        let shares = |entry: &&Entry| {
+            let box_of = entry.geom();
+            let other = Bounds { min: DVec3::from(box_of.lower()), max: DVec3::from(box_of.upper()) };
+            other.may_share_area(bounds)
+        };
+        let finite = self.tree.locate_in_envelope_intersecting(envelope).filter(shares).map(|entry| entry.data);
+        let infinite = self.infinite.iter().filter(|(other, _)| other.may_share_area(bounds));
+        finite.chain(infinite.map(|(_, number)| *number))
+    }
+}
+
+fn entry(bounds: &Bounds, number: u32) -> Option<Entry> {
+    let is_finite = bounds.min.is_finite() && bounds.max.is_finite();
+    is_finite.then(|| GeomWithData::new(Rectangle::from_corners(bounds.min.to_array(), bounds.max.to_array()), number))
+}

@@ -1,0 +1,366 @@
+//! The weld of a boundary that changes: an edit costs what it touches.
+//!
+//! What the weld finds depends on little: what survives on a line on the edges of that line, the loops and faces of a region
+//! on the pieces of that region, its triangles on the face. So all of it is kept, and after edges went and came, their lines
+//! are cancelled and cut again ([`lines`](self)), the regions whose pieces changed are chained and nested again, and the
+//! faces that are new are triangulated ([`faces`]). Points, lines and regions are numbered as long as an edge names them
+//! ([`numbers`]); nothing depends on these numbers but the numbers of others.
+
+mod faces;
+mod names;
+mod numbers;
+mod vertices;
+
+use rustc_hash::FxHashMap;
+
+use super::WeldError;
+use super::cancel::{HalfEdge, LineWorker, Run, Surviving, UNPAIRED};
+use super::pinches::PinchFinder;
+use crate::plane_table::PlaneTable;
+use crate::skin::BoundaryEdge;
+pub use faces::{FaceId, LiveFace};
+use faces::{Faces, Regions};
+use names::place;
+use numbers::{NumberedEdge, Numbers};
+use vertices::Vertices;
+
+/// The number of a boundary edge.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct EdgeId(u32);
+
+/// A boundary, welded.
+#[derive(Default)]
+pub(crate) struct LiveWeld {
+    numbers: Numbers,
+    edges: Vec<Edge>,
+    free_edges: Vec<u32>,
+    /// Taken out, but for their numbers.
+    removed: Vec<NumberedEdge>,
+    state: State,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Edge {
+    numbered: NumberedEdge,
+    /// Its place among the edges of its line.
+    place: u32,
+}
+
+/// What is worked out from the edges.
+#[derive(Default)]
+struct State {
+    lines: Vec<OnLine>,
+    dirty_lines: Vec<u32>,
+    pieces: Pieces,
+    regions: Regions,
+    faces: Faces,
+    vertices: Vertices,
+    crossings: Crossings,
+}
+
+/// What lies on a line.
+#[derive(Default)]
+struct OnLine {
+    edges: Vec<u32>,
+    /// The pieces that are left of them, cut and paired.
+    pieces: Vec<u32>,
+    /// Where pinches cut them: the region of each pinch and the point.
+    cuts: Vec<(u32, u32)>,
+    is_dirty: bool,
+    /// Where edges end inside runs: region and point.
+    passed: Vec<(u32, u32)>,
+    has_slits: bool,
+}
+
+/// Half-edges by number, and what is known of each.
+#[derive(Default)]
+struct Pieces {
+    half_edges: Vec<HalfEdge>,
+    /// What follows each in its loop.
+    following: Vec<u32>,
+    /// The face that each bounds.
+    face: Vec<u32>,
+    /// Where [`HalfEdge::region`] is not it any more.
+    is_gone: Vec<bool>,
+    free: Vec<u32>,
+    /// Gone since the last update; their numbers are not used again before it ends.
+    gone: Vec<u32>,
+    /// Those whose way around their first corner may have changed.
+    turned: Vec<u32>,
+}
+
+/// Where faces cross in lines or edges in points; what the weld makes of that is not worked out here.
+#[derive(Default)]
+struct Crossings {
+    /// For each region and point how many lines pass it.
+    passing: FxHashMap<(u32, u32), u32>,
+    points: usize,
+    lines: usize,
+}
+
+impl LiveWeld {
+    /// Adds a boundary edge.
+    pub(crate) fn insert(&mut self, table: &PlaneTable, edge: &BoundaryEdge) -> EdgeId {
+        let numbered = self.numbers.take(table, edge);
+        let line = numbered.run.line as usize;
+        self.state.make_room(line);
+        let on_line = &mut self.state.lines[line];
+        let at = on_line.edges.len() as u32;
+        let number = place(&mut self.edges, &mut self.free_edges, Edge { numbered, place: at });
+        self.state.lines[line].edges.push(number);
+        self.state.mark_line(line as u32);
+        EdgeId(number)
+    }
+
+    /// Takes a boundary edge out.
+    pub(crate) fn remove(&mut self, EdgeId(number): EdgeId) {
+        let Edge { numbered, place } = self.edges[number as usize];
+        let on_line = &mut self.state.lines[numbered.run.line as usize];
+        on_line.edges.swap_remove(place as usize);
+        if let Some(moved) = on_line.edges.get(place as usize) {
+            self.edges[*moved as usize].place = place;
+        }
+        self.state.mark_line(numbered.run.line);
+        self.free_edges.push(number);
+        self.removed.push(numbered);
+    }
+
+    /// Welds what has changed; the numbers of the faces that are gone and of those that are new are in [`LiveWeld::changes`].
+    ///
+    /// # Errors
+    /// Where the boundary does not close: a bug in this crate.
+    pub(crate) fn update(&mut self, table: &PlaneTable) -> Result<(), WeldError> {
+        let (numbers, state) = (&self.numbers, &mut self.state);
+        state.faces.begin_changes();
+        let mut cutter = Cutter::new(table, numbers, &self.edges);
+        state.cut_dirty_lines(&mut cutter, true)?;
+        if state.find_pinches(table, numbers) {
+            state.cut_dirty_lines(&mut cutter, false)?;
+        }
+        let State { pieces, regions, faces, vertices, .. } = state;
+        faces.update(table, numbers, regions, pieces)?;
+        vertices.update(pieces);
+        pieces.free.append(&mut pieces.gone);
+        for edge in self.removed.drain(..) {
+            self.numbers.release(&edge);
+        }
+        Ok(())
+    }
+
+    /// A face, where there is one of this number.
+    pub(crate) fn face(&self, id: FaceId) -> Option<LiveFace<'_>> {
+        LiveFace::new(&self.numbers, &self.state, id)
+    }
+
+    /// All faces.
+    pub(crate) fn faces(&self) -> impl Iterator<Item = (FaceId, LiveFace<'_>)> {
+        self.state.faces.ids().filter_map(|id| Some((id, self.face(id)?)))
+    }
+
+    /// How many triangles there are.
+    pub(crate) fn triangle_count(&self) -> usize {
+        self.state.faces.triangle_count()
+    }
+
+    /// The faces that the last update took away, and those that it made.
+    pub(crate) fn changes(&self) -> (&[FaceId], &[FaceId]) {
+        self.state.faces.changes()
+    }
+
+    /// Whether faces cross in a line or edges in a point. Then the faces here are not those of the weld.
+    pub(crate) fn has_crossings(&self) -> bool {
+        self.state.crossings.points + self.state.crossings.lines > 0
+    }
+}
+
+/// What it takes to cancel and cut lines, and buffers.
+struct Cutter<'a> {
+    edges: &'a [Edge],
+    worker: LineWorker<'a>,
+    group: Vec<Run>,
+    surviving: Surviving,
+    further: Vec<u32>,
+    cut: Vec<HalfEdge>,
+    old: Vec<((u32, u32, u32), u32)>,
+    numbers: Vec<u32>,
+    passed: Vec<(u32, u32)>,
+}
+
+impl<'a> Cutter<'a> {
+    fn new(table: &'a PlaneTable, numbers: &'a Numbers, edges: &'a [Edge]) -> Self {
+        Self {
+            edges,
+            worker: LineWorker::new(table, &numbers.points, &numbers.lines, &numbers.planes),
+            group: Vec::new(),
+            surviving: Surviving::default(),
+            further: Vec::new(),
+            cut: Vec::new(),
+            old: Vec::new(),
+            numbers: Vec::new(),
+            passed: Vec::new(),
+        }
+    }
+
+    /// Leaves in `cut` the paired pieces of a line.
+    fn cut(&mut self, line: &OnLine) -> Result<(), WeldError> {
+        self.group.clear();
+        self.group.extend(line.edges.iter().map(|edge| self.edges[*edge as usize].numbered.run));
+        self.surviving.runs.clear();
+        self.surviving.slits.clear();
+        self.surviving.passed.clear();
+        self.worker.cancel(&mut self.group, &mut self.surviving)?;
+        self.further.clear();
+        self.further.extend(line.cuts.iter().map(|(_, point)| *point));
+        self.cut.clear();
+        self.worker.cut(&self.surviving.runs, &self.further, &mut self.cut)
+    }
+}
+
+impl State {
+    fn make_room(&mut self, line: usize) {
+        if line >= self.lines.len() {
+            self.lines.resize_with(line + 1, OnLine::default);
+        }
+    }
+
+    fn mark_line(&mut self, line: u32) {
+        let on_line = &mut self.lines[line as usize];
+        if !on_line.is_dirty {
+            on_line.is_dirty = true;
+            self.dirty_lines.push(line);
+        }
+    }
+
+    /// Cuts all lines again on which something has changed. Regions that change lose their pinches, where `drops_pinches`.
+    fn cut_dirty_lines(&mut self, cutter: &mut Cutter<'_>, drops_pinches: bool) -> Result<(), WeldError> {
+        loop {
+            while let Some(line) = self.dirty_lines.pop() {
+                self.lines[line as usize].is_dirty = false;
+                self.cut_line(cutter, line)?;
+            }
+            if !drops_pinches {
+                return Ok(());
+            }
+            while let Some((region, (line, point))) = self.regions.next_pinch_of_changed() {
+                let cuts = &mut self.lines[line as usize].cuts;
+                cuts.retain(|cut| *cut != (region, point));
+                self.mark_line(line);
+            }
+            if self.dirty_lines.is_empty() {
+                return Ok(());
+            }
+        }
+    }
+
+    fn cut_line(&mut self, cutter: &mut Cutter<'_>, number: u32) -> Result<(), WeldError> {
+        let Self { lines, pieces, regions, crossings, .. } = self;
+        let line = &mut lines[number as usize];
+        cutter.cut(line)?;
+        crossings.note(line, cutter);
+        let Cutter { cut, old, numbers, .. } = cutter;
+        let key = |piece: &HalfEdge| (piece.region, piece.from, piece.to);
+        old.clear();
+        old.extend(line.pieces.iter().map(|number| (key(&pieces.half_edges[*number as usize]), *number)));
+        old.sort_unstable();
+        numbers.clear();
+        for piece in cut.iter() {
+            let known = old.binary_search_by_key(&key(piece), |entry| entry.0);
+            numbers.push(match known {
+                Ok(at) => std::mem::replace(&mut old[at].1, UNPAIRED),
+                Err(_) => {
+                    let number = pieces.add(*piece);
+                    regions.add_piece(piece.region, number);
+                    number
+                }
+            });
+        }
+        for (_, gone) in old.iter().filter(|(_, number)| *number != UNPAIRED) {
+            regions.change(pieces.half_edges[*gone as usize].region);
+            pieces.remove(*gone);
+        }
+        for (piece, number) in cut.iter().zip(numbers.iter()) {
+            let known = &mut pieces.half_edges[*number as usize];
+            let twin = numbers[piece.twin as usize];
+            if known.twin != twin {
+                pieces.turned.push(*number);
+            }
+            *known = HalfEdge { twin, ..*piece };
+        }
+        line.pieces.clear();
+        line.pieces.extend_from_slice(numbers);
+        Ok(())
+    }
+
+    /// Finds the pinches of regions that have changed and marks their lines; whether there are any.
+    fn find_pinches(&mut self, table: &PlaneTable, numbers: &Numbers) -> bool {
+        let mut finder = PinchFinder::new(table, &numbers.points);
+        let mut region_pieces = Vec::new();
+        let mut any = false;
+        for k in 0..self.regions.changed().len() {
+            let region = self.regions.changed()[k];
+            let alive = self.regions.pieces(region).iter().filter(|number| !self.pieces.is_gone[**number as usize]);
+            region_pieces.clear();
+            region_pieces.extend(alive.map(|number| self.pieces.half_edges[*number as usize]));
+            finder.search(&region_pieces);
+            finder.found.sort_unstable();
+            finder.found.dedup();
+            for (line, point) in finder.found.drain(..) {
+                any = true;
+                self.lines[line as usize].cuts.push((region, point));
+                self.regions.add_pinch(region, (line, point));
+                self.mark_line(line);
+            }
+        }
+        any
+    }
+}
+
+impl Pieces {
+    fn add(&mut self, piece: HalfEdge) -> u32 {
+        let number = place(&mut self.half_edges, &mut self.free, HalfEdge { twin: UNPAIRED, ..piece });
+        if number as usize == self.is_gone.len() {
+            self.following.push(UNPAIRED);
+            self.face.push(UNPAIRED);
+            self.is_gone.push(false);
+        }
+        let at = number as usize;
+        (self.following[at], self.face[at], self.is_gone[at]) = (UNPAIRED, UNPAIRED, false);
+        number
+    }
+
+    fn remove(&mut self, number: u32) {
+        self.is_gone[number as usize] = true;
+        self.gone.push(number);
+    }
+}
+
+impl Crossings {
+    /// Notes what crosses on a line that was cut again.
+    fn note(&mut self, line: &mut OnLine, cutter: &mut Cutter<'_>) {
+        let has_slits = !cutter.surviving.slits.is_empty();
+        self.lines += usize::from(has_slits);
+        self.lines -= usize::from(std::mem::replace(&mut line.has_slits, has_slits));
+        cutter.passed.clear();
+        cutter.passed.extend(cutter.surviving.passed.iter().map(|(region, point, _)| (*region, *point)));
+        cutter.passed.sort_unstable();
+        cutter.passed.dedup();
+        if cutter.passed == line.passed {
+            return;
+        }
+        for at in &line.passed {
+            let lines = self.passing.get_mut(at).expect("it was noted");
+            *lines -= 1;
+            if *lines == 0 {
+                self.passing.remove(at);
+            } else if *lines == 1 {
+                self.points -= 1;
+            }
+        }
+        for at in &cutter.passed {
+            let lines = self.passing.entry(*at).or_default();
+            *lines += 1;
+            self.points += usize::from(*lines == 2);
+        }
+        std::mem::swap(&mut line.passed, &mut cutter.passed);
+    }
+}

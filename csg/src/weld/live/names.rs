@@ -1,0 +1,161 @@
+//! Things that several names stand for, numbered as long as one of the names is in use.
+
+use std::hash::Hash;
+
+use rustc_hash::FxHashMap;
+
+/// No other.
+const NONE: u32 = u32::MAX;
+
+/// The numbers of things by name. Equal things have equal marks; different ones hardly ever do.
+#[derive(Debug)]
+pub(super) struct Names<N, M> {
+    by_name: FxHashMap<N, u32>,
+    names: Vec<Name<N>>,
+    free_names: Vec<u32>,
+    /// The last thing of each mark.
+    by_mark: FxHashMap<M, u32>,
+    things: Vec<Thing<M>>,
+    free_things: Vec<u32>,
+}
+
+#[derive(Debug)]
+struct Name<N> {
+    name: N,
+    thing: u32,
+    uses: u32,
+}
+
+#[derive(Debug)]
+struct Thing<M> {
+    mark: M,
+    /// The one before of the same mark.
+    before: u32,
+    names: u32,
+}
+
+/// A name in use.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct NameId(u32);
+
+impl<N, M> Default for Names<N, M> {
+    fn default() -> Self {
+        Self {
+            by_name: FxHashMap::default(),
+            names: Vec::new(),
+            free_names: Vec::new(),
+            by_mark: FxHashMap::default(),
+            things: Vec::new(),
+            free_things: Vec::new(),
+        }
+    }
+}
+
+impl<N: Copy + Eq + Hash, M: Copy + Eq + Hash> Names<N, M> {
+    /// Uses a name, where it is known.
+    pub(super) fn find(&mut self, name: &N) -> Option<NameId> {
+        let number = *self.by_name.get(name)?;
+        self.names[number as usize].uses += 1;
+        Some(NameId(number))
+    }
+
+    /// Uses a name that is not known, for the thing of a mark that `is_same`, or for a new one; whether it is new.
+    pub(super) fn add(&mut self, name: N, mark: M, is_same: impl Fn(u32) -> bool) -> (NameId, bool) {
+        let last = self.by_mark.get(&mark).copied().unwrap_or(NONE);
+        let mut alike = last;
+        while alike != NONE && !is_same(alike) {
+            alike = self.things[alike as usize].before;
+        }
+        let is_new = alike == NONE;
+        if is_new {
+            alike = place(&mut self.things, &mut self.free_things, Thing { mark, before: last, names: 0 });
+            self.by_mark.insert(mark, alike);
+        }
+        self.things[alike as usize].names += 1;
+        let number = place(&mut self.names, &mut self.free_names, Name { name, thing: alike, uses: 1 });
+        self.by_name.insert(name, number);
+        (NameId(number), is_new)
+    }
+
+    /// The number of the thing that a name stands for.
+    pub(super) fn thing(&self, name: NameId) -> u32 {
+        self.names[name.0 as usize].thing
+    }
+
+    /// Uses a name once less; gives the number of its thing where that has no name left, and is free for another.
+    pub(super) fn release(&mut self, NameId(number): NameId) -> Option<u32> {
+        let name = &mut self.names[number as usize];
+        name.uses -= 1;
+        if name.uses > 0 {
+            return None;
+        }
+        let thing = name.thing;
+        self.by_name.remove(&name.name);
+        self.free_names.push(number);
+        let Thing { mark, before, names } = &mut self.things[thing as usize];
+        *names -= 1;
+        if *names > 0 {
+            return None;
+        }
+        let (mark, before) = (*mark, *before);
+        let last = self.by_mark.get_mut(&mark).expect("the mark of a thing is known");
+        if *last != thing {
+            let mut later = *last;
+            while self.things[later as usize].before != thing {
+                later = self.things[later as usize].before;
+            }
+            self.things[later as usize].before = before;
+        } else if before != NONE {
+            *last = before;
+        } else {
+            self.by_mark.remove(&mark);
+        }
+        self.free_things.push(thing);
+        Some(thing)
+    }
+}
+
+/// Puts an entry into a free place, or at the end; gives the place.
+pub(super) fn place<T>(entries: &mut Vec<T>, free: &mut Vec<u32>, entry: T) -> u32 {
+    match free.pop() {
+        Some(place) => {
+            entries[place as usize] = entry;
+            place
+        }
+        None => {
+            entries.push(entry);
+            entries.len() as u32 - 1
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn things_live_as_long_as_a_name_is_in_use() {
+        let mut names: Names<u32, u32> = Names::default();
+        // names below 10 stand for 1, others for 2; all have one mark
+        let meaning = |name: u32| if name < 10 { 1 } else { 2 };
+        let mut meanings = [0; 4];
+        let mut take = |names: &mut Names<u32, u32>, name: u32| {
+            let (id, is_new) = match names.find(&name) {
+                Some(id) => (id, false),
+                None => names.add(name, 7, |thing| meanings[thing as usize] == meaning(name)),
+            };
+            if is_new {
+                meanings[names.thing(id) as usize] = meaning(name);
+            }
+            id
+        };
+        let [a, b, c, again] = [1, 11, 2, 1].map(|name| take(&mut names, name));
+        assert_eq!((names.thing(a), a), (names.thing(c), again));
+        assert_ne!(names.thing(a), names.thing(b));
+        let (one, two) = (names.thing(a), names.thing(b));
+        assert_eq!([a, c].map(|name| names.release(name)), [None, None]);
+        assert_eq!(names.release(a), Some(one));
+        assert_eq!(names.thing(take(&mut names, 12)), two);
+        assert_eq!(names.thing(take(&mut names, 3)), one);
+    }
+}

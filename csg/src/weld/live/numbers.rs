@@ -1,0 +1,151 @@
+//! Points, lines and regions of a boundary that changes: numbered as long as an edge names them.
+
+use std::cmp::Ordering;
+
+use planecut_kernel::{DVec3, compare_exactly};
+use rustc_hash::FxHashMap;
+
+use super::names::{NameId, Names, place};
+use crate::brush::MaterialId;
+use crate::distinct::sortable;
+use crate::locality::curve_number;
+use crate::plane_table::{PlaneId, PlaneTable};
+use crate::skin::BoundaryEdge;
+use crate::weld::cancel::Run;
+use crate::weld::lines::{self, AxisPlanes, Line};
+use crate::weld::points::{self, Named, Points};
+
+/// An edge, and the names under which its points and its line are known.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct NumberedEdge {
+    pub(super) run: Run,
+    ends: [NameId; 2],
+    line: NameId,
+}
+
+/// All numbers in use. Those of entries that are free stay until they are used again.
+#[derive(Default)]
+pub(super) struct Numbers {
+    point_names: Names<points::Triple, [u64; 3]>,
+    line_names: Names<u64, lines::Key>,
+    pub(super) points: Points,
+    /// For each point its place on the curve by which points are ordered.
+    places: Vec<u64>,
+    pub(super) lines: Vec<Line>,
+    region_numbers: FxHashMap<(PlaneId, MaterialId), u32>,
+    /// The planes, the materials of regions, and by how many edges each is used.
+    pub(super) planes: Vec<PlaneId>,
+    materials: Vec<MaterialId>,
+    region_uses: Vec<u32>,
+    free_regions: Vec<u32>,
+    axes: AxisPlanes,
+}
+
+impl Numbers {
+    /// Numbers an edge.
+    pub(super) fn take(&mut self, table: &PlaneTable, edge: &BoundaryEdge) -> NumberedEdge {
+        let [from, to] = [edge.start, edge.end].map(|end| self.take_point(table, [edge.face, edge.edge, end]));
+        let line = self.take_line(table, edge);
+        let line_number = self.line_names.thing(line);
+        let run = Run {
+            line: line_number,
+            region: self.take_region(edge.face, edge.material),
+            edge: edge.edge,
+            from: self.point_names.thing(from),
+            to: self.point_names.thing(to),
+            forward: self.lines[line_number as usize].is_along(table, edge.face, edge.edge),
+        };
+        NumberedEdge { run, ends: [from, to], line }
+    }
+
+    /// Takes an edge out.
+    pub(super) fn release(&mut self, edge: &NumberedEdge) {
+        for end in edge.ends {
+            self.point_names.release(end);
+        }
+        self.line_names.release(edge.line);
+        let region = edge.run.region as usize;
+        self.region_uses[region] -= 1;
+        if self.region_uses[region] == 0 {
+            self.region_numbers.remove(&(self.planes[region], self.materials[region]));
+            self.free_regions.push(region as u32);
+        }
+    }
+
+    /// The order of points in space, whatever their numbers.
+    pub(super) fn compare(&self, table: &PlaneTable, p: u32, q: u32) -> Ordering {
+        if p == q {
+            return Ordering::Equal;
+        }
+        let by_curve = self.places[p as usize].cmp(&self.places[q as usize]);
+        if by_curve.is_ne() {
+            return by_curve;
+        }
+        let coordinates = |point: u32| self.points.positions[point as usize].to_array().map(sortable);
+        let rows = |point: u32| self.points.planes[point as usize].map(|plane| table.row(plane));
+        coordinates(p).cmp(&coordinates(q)).then_with(|| compare_exactly(rows(p), rows(q), &[0, 1, 2]))
+    }
+
+    pub(super) fn material(&self, region: u32) -> MaterialId {
+        self.materials[region as usize]
+    }
+
+    fn take_point(&mut self, table: &PlaneTable, triple: [PlaneId; 3]) -> NameId {
+        let name = points::key(triple);
+        if let Some(known) = self.point_names.find(&name) {
+            return known;
+        }
+        let named = Named::of(table, points::planes(name));
+        let mark = named.position.to_array().map(sortable);
+        let is_same = |point: u32| points::is_at(table, self.points.planes[point as usize], named.planes);
+        let (id, is_new) = self.point_names.add(name, mark, is_same);
+        if is_new {
+            let number = self.point_names.thing(id) as usize;
+            if number == self.places.len() {
+                self.points.push(&named);
+                self.places.push(0);
+            } else {
+                self.points.put(number, &named);
+            }
+            self.places[number] = curve_number(named.position);
+        }
+        id
+    }
+
+    fn take_line(&mut self, table: &PlaneTable, edge: &BoundaryEdge) -> NameId {
+        let name = lines::pair(edge);
+        if let Some(known) = self.line_names.find(&name) {
+            return known;
+        }
+        let line = Line::of(table, name);
+        let is_same = |other: u32| self.axes.is_same(table, &self.lines[other as usize], &line);
+        let (id, is_new) = self.line_names.add(name, lines::key(table, &line), is_same);
+        if is_new {
+            let number = self.line_names.thing(id) as usize;
+            if number == self.lines.len() {
+                self.lines.push(line);
+            } else {
+                self.lines[number] = line;
+            }
+        }
+        id
+    }
+
+    fn take_region(&mut self, plane: PlaneId, material: MaterialId) -> u32 {
+        let number = *self.region_numbers.entry((plane, material)).or_insert_with(|| {
+            let number = place(&mut self.planes, &mut self.free_regions, plane);
+            if number as usize == self.materials.len() {
+                self.materials.push(material);
+                self.region_uses.push(0);
+            }
+            self.materials[number as usize] = material;
+            number
+        });
+        self.region_uses[number as usize] += 1;
+        number
+    }
+
+    pub(super) fn position(&self, point: u32) -> DVec3 {
+        self.points.positions[point as usize]
+    }
+}

@@ -1,0 +1,3 @@
+//! Live models against models built anew.
+
+mod random;
