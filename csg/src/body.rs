@@ -4,14 +4,14 @@ use std::hash::BuildHasher;
 use std::sync::OnceLock;
 
 use glam::DVec3;
-use planecut_kernel::sign::Counts;
+use planecut_kernel::sign::{Counts, Sign};
 use planecut_kernel::{HalfSpace, IncrementalPolytope, PlaneIdx};
 use rustc_hash::{FxBuildHasher, FxHashMap};
 
 use crate::bounds::Bounds;
 use crate::brush::{Brush, MaterialId};
-use crate::corner::Corner;
-use crate::gauge::Gauge;
+use crate::corner::{Corner, Sieve};
+use crate::gauge::{Gauge, Place};
 use crate::locality::renumber_planes;
 use crate::parallel::map_chunks;
 use crate::plane_table::{PlaneId, PlaneTable};
@@ -56,6 +56,19 @@ impl Body {
     /// The corners of a face: corner `i` between the edges `i` and `i + 1`.
     pub(crate) fn corners(&self, face: &BodyFace) -> &[Corner] {
         &self.corners[face.start as usize..face.end as usize]
+    }
+
+    /// Whether all of some corners surely lie beyond one of its planes.
+    pub(crate) fn is_surely_apart_from(&self, table: &PlaneTable, corners: &[Corner]) -> bool {
+        let Some(first) = corners.first() else { return true };
+        if let Some(gauge) = self.gauge(table) {
+            let Place::Outside(face) = gauge.place(first, 0) else { return false };
+            return corners.iter().all(|corner| gauge.is_beyond(corner, face));
+        }
+        self.faces.iter().any(|face| {
+            let sieve = Sieve::new(table.half_space(face.plane));
+            corners.iter().all(|corner| sieve.side(corner) == Sign::Positive)
+        })
     }
 
     /// Cuts what corners are known to lie in down to what its planes leave of it.

@@ -262,10 +262,10 @@ impl LiveModel {
                 let count = &mut self.bodies_on_plane[face.plane.index() as usize];
                 *count -= u8::from(*count < u8::MAX);
             }
-            self.touch(&old.bounds);
+            self.touch(&old);
         }
         if let Some(new) = new {
-            self.touch(&new.bounds);
+            self.touch(&new);
             self.places.insert(&new.bounds, number);
             self.bodies_on_plane.resize(self.table.len(), 0);
             for face in &new.faces {
@@ -290,13 +290,16 @@ impl LiveModel {
         Ok(Change { removed: removed.to_vec(), added: added.to_vec() })
     }
 
-    /// Notes the faces that reach into a box.
-    fn touch(&mut self, bounds: &Bounds) {
+    /// Notes the faces of other bodies that may reach into a body.
+    fn touch(&mut self, by: &Body) {
+        let bounds = &by.bounds;
         for other in self.places.near(bounds) {
             let Some(body) = body_of(&self.operands, other) else { continue };
             let reaches = |face: &(u32, &BodyFace)| {
                 let half_space = self.table.half_space(face.1.plane);
-                face.1.bounds.may_share_area(bounds) && !misses(bounds, half_space.normal(), half_space.offset())
+                face.1.bounds.may_share_area(bounds)
+                    && !misses(bounds, half_space.normal(), half_space.offset())
+                    && !by.is_surely_apart_from(&self.table, body.corners(face.1))
             };
             self.buffers.faces.extend((0..).zip(&body.faces).filter(reaches).map(|(face, _)| (other, face)));
         }

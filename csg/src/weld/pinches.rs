@@ -92,6 +92,24 @@ impl<'a> PinchFinder<'a> {
         self.sorted = sorted;
     }
 
+    /// Leaves in `found` those of new edges of a region at the corners of all, and those of old edges at the corners of new ones.
+    pub(super) fn search_new(&mut self, old: &[HalfEdge], new: &[HalfEdge]) {
+        self.found.clear();
+        let mut corners = std::mem::take(&mut self.corners);
+        corners.clear();
+        corners.extend(new.iter().map(|piece| piece.from));
+        for piece in old {
+            self.touching(piece, &corners);
+        }
+        corners.extend(old.iter().map(|piece| piece.from));
+        for piece in new {
+            self.touching(piece, &corners);
+        }
+        self.corners = corners;
+        self.found.sort_unstable();
+        self.found.dedup();
+    }
+
     /// The box of the rounded ends of an edge. Rounding is monotone, so it holds the rounded corners on the edge.
     fn extent(&self, piece: &HalfEdge) -> (DVec3, DVec3) {
         let (from, to) = (self.points.positions[piece.from as usize], self.points.positions[piece.to as usize]);

@@ -53,59 +53,69 @@ impl<'a> LiveFace<'a> {
 pub(super) struct Regions {
     regions: Vec<Region>,
     changed: Vec<u32>,
-    /// Of the regions that have changed, these have no pinches left.
-    without_pinches: usize,
 }
 
 #[derive(Default)]
 struct Region {
-    /// Its half-edges: once worked out, in the order of where they begin and end.
+    /// Its half-edges: first those of the last update, in the order of where they begin and end, then new ones.
     pieces: Vec<u32>,
+    settled: usize,
+    /// What came or went since the last update.
+    changes: Vec<HalfEdge>,
     faces: Vec<u32>,
     /// Where corners touch the inside of edges: line and point.
     pinches: Vec<(u32, u32)>,
-    is_changed: bool,
 }
 
 impl Regions {
-    pub(super) fn add_piece(&mut self, region: u32, piece: u32) {
-        self.change(region);
-        self.regions[region as usize].pieces.push(piece);
+    pub(super) fn add_piece(&mut self, number: u32, piece: &HalfEdge) {
+        self.change(piece);
+        self.regions[piece.region as usize].pieces.push(number);
     }
 
-    /// Notes that something of a region has changed.
-    pub(super) fn change(&mut self, region: u32) {
+    /// Notes that a half-edge came or went.
+    pub(super) fn change(&mut self, piece: &HalfEdge) {
+        let region = piece.region;
         if region as usize >= self.regions.len() {
             self.regions.resize_with(region as usize + 1, Region::default);
         }
         let entry = &mut self.regions[region as usize];
-        if !entry.is_changed {
-            entry.is_changed = true;
+        if entry.changes.is_empty() {
             self.changed.push(region);
         }
+        entry.changes.push(*piece);
     }
 
     pub(super) fn changed(&self) -> &[u32] {
         &self.changed
     }
 
-    pub(super) fn pieces(&self, region: u32) -> &[u32] {
-        &self.regions[region as usize].pieces
+    /// The half-edges that were there at the last update, some of them gone by now, and the new ones.
+    pub(super) fn pieces(&self, region: u32) -> (&[u32], &[u32]) {
+        let region = &self.regions[region as usize];
+        region.pieces.split_at(region.settled)
     }
 
     pub(super) fn add_pinch(&mut self, region: u32, pinch: (u32, u32)) {
         self.regions[region as usize].pinches.push(pinch);
     }
 
-    /// Takes a pinch away from a region that has changed.
-    pub(super) fn next_pinch_of_changed(&mut self) -> Option<(u32, (u32, u32))> {
-        while let Some(region) = self.changed.get(self.without_pinches) {
-            if let Some(pinch) = self.regions[*region as usize].pinches.pop() {
-                return Some((*region, pinch));
-            }
-            self.without_pinches += 1;
+    /// Takes the pinches away that may be none any more, as something changed on their line or at their point: region, line
+    /// and point of each.
+    pub(super) fn take_doubtful_pinches(&mut self) -> Vec<(u32, u32, u32)> {
+        let mut doubtful = Vec::new();
+        for &region in &self.changed {
+            let Region { pinches, changes, .. } = &mut self.regions[region as usize];
+            pinches.retain(|&(line, point)| {
+                let concerns = |piece: &HalfEdge| piece.line == line || piece.from == point || piece.to == point;
+                let is_doubtful = changes.iter().any(concerns);
+                if is_doubtful {
+                    doubtful.push((region, line, point));
+                }
+                !is_doubtful
+            });
         }
-        None
+        doubtful
     }
 }
 
@@ -193,7 +203,8 @@ impl Faces {
         }
         for region in std::mem::take(&mut regions.changed) {
             let region = &mut regions.regions[region as usize];
-            region.is_changed = false;
+            region.changes.clear();
+            region.settled = region.pieces.len();
             for face in std::mem::take(&mut region.faces) {
                 if std::mem::take(&mut self.faces[face as usize].is_met) {
                     region.faces.push(face);
@@ -202,7 +213,6 @@ impl Faces {
                 }
             }
         }
-        regions.without_pinches = 0;
         for FaceId(face) in &self.added {
             regions.regions[self.faces[*face as usize].region as usize].faces.push(*face);
         }

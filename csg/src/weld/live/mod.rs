@@ -16,6 +16,7 @@ use rustc_hash::FxHashMap;
 use super::WeldError;
 use super::cancel::{HalfEdge, LineWorker, Run, Surviving, UNPAIRED};
 use super::pinches::PinchFinder;
+use crate::bounds::Bounds;
 use crate::plane_table::PlaneTable;
 use crate::skin::BoundaryEdge;
 pub use faces::{FaceId, LiveFace};
@@ -231,7 +232,8 @@ impl State {
         }
     }
 
-    /// Cuts all lines again on which something has changed. Regions that change lose their pinches, where `drops_pinches`.
+    /// Cuts all lines again on which something has changed, and those with pinches that may be none any more, where these are
+    /// to be dropped.
     fn cut_dirty_lines(&mut self, cutter: &mut Cutter<'_>, drops_pinches: bool) -> Result<(), WeldError> {
         loop {
             while let Some(line) = self.dirty_lines.pop() {
@@ -241,9 +243,8 @@ impl State {
             if !drops_pinches {
                 return Ok(());
             }
-            while let Some((region, (line, point))) = self.regions.next_pinch_of_changed() {
-                let cuts = &mut self.lines[line as usize].cuts;
-                cuts.retain(|cut| *cut != (region, point));
+            for (region, line, point) in self.regions.take_doubtful_pinches() {
+                self.lines[line as usize].cuts.retain(|cut| *cut != (region, point));
                 self.mark_line(line);
             }
             if self.dirty_lines.is_empty() {
@@ -269,13 +270,13 @@ impl State {
                 Ok(at) => std::mem::replace(&mut old[at].1, UNPAIRED),
                 Err(_) => {
                     let number = pieces.add(*piece);
-                    regions.add_piece(piece.region, number);
+                    regions.add_piece(number, piece);
                     number
                 }
             });
         }
         for (_, gone) in old.iter().filter(|(_, number)| *number != UNPAIRED) {
-            regions.change(pieces.half_edges[*gone as usize].region);
+            regions.change(&pieces.half_edges[*gone as usize]);
             pieces.remove(*gone);
         }
         for (piece, number) in cut.iter().zip(numbers.iter()) {
@@ -291,19 +292,24 @@ impl State {
         Ok(())
     }
 
-    /// Finds the pinches of regions that have changed and marks their lines; whether there are any.
+    /// Finds the new pinches of regions that have changed and marks their lines; whether there are any.
     fn find_pinches(&mut self, table: &PlaneTable, numbers: &Numbers) -> bool {
         let mut finder = PinchFinder::new(table, &numbers.points);
-        let mut region_pieces = Vec::new();
+        let (mut old, mut new) = (Vec::new(), Vec::new());
         let mut any = false;
         for k in 0..self.regions.changed().len() {
             let region = self.regions.changed()[k];
-            let alive = self.regions.pieces(region).iter().filter(|number| !self.pieces.is_gone[**number as usize]);
-            region_pieces.clear();
-            region_pieces.extend(alive.map(|number| self.pieces.half_edges[*number as usize]));
-            finder.search(&region_pieces);
-            finder.found.sort_unstable();
-            finder.found.dedup();
+            let alive = |number: &&u32| !self.pieces.is_gone[**number as usize];
+            let half_edge = |number: &u32| self.pieces.half_edges[*number as usize];
+            let (settled, added) = self.regions.pieces(region);
+            new.clear();
+            new.extend(added.iter().filter(alive).map(half_edge));
+            // what new pieces may touch, or be touched by
+            let reach = new.iter().fold(Bounds::EMPTY, |all, piece| all.union(&numbers.extent(piece)));
+            let may_touch = |piece: &HalfEdge| numbers.extent(piece).touches(&reach);
+            old.clear();
+            old.extend(settled.iter().filter(alive).map(half_edge).filter(may_touch));
+            finder.search_new(&old, &new);
             for (line, point) in finder.found.drain(..) {
                 any = true;
                 self.lines[line as usize].cuts.push((region, point));
