@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 
 use planecut_kernel::sign::Sign;
-use planecut_kernel::{DVec2, DVec3, compare_exactly};
+use planecut_kernel::{DVec2, DVec3};
 
 use super::WeldError;
 use super::cancel::HalfEdge;
@@ -246,16 +246,7 @@ impl<'a> Nester<'a> {
     /// The exact order of two points by height, then from left to right: by rounded heights, points would seem to lie on edges
     /// that they only come near.
     fn compare_height(&self, p: u32, q: u32) -> Ordering {
-        let (at_p, at_q) = (self.position(p), self.position(q));
-        let by_rounded = at_p.y.total_cmp(&at_q.y);
-        if p == q || by_rounded.is_ne() {
-            return by_rounded;
-        }
-        if [p, q].iter().all(|point| self.points.exact[*point as usize]) {
-            return at_p.x.total_cmp(&at_q.x);
-        }
-        let rows = |point: u32| self.points.planes[point as usize].map(|plane| self.table.row(plane));
-        compare_exactly(rows(p), rows(q), &[self.at.v, self.at.u])
+        self.points.compare(self.table, p, q, &[self.at.v, self.at.u])
     }
 
     /// Every corner is shared: take the middle of an edge, in rounded coordinates.

@@ -2,6 +2,8 @@
 //!
 //! Coordinates are correctly rounded, so equal points have equal coordinates: the coordinates propose, signs decide.
 
+use std::cmp::Ordering;
+
 use planecut_kernel::sign::{Counts, Sign};
 use planecut_kernel::{DVec3, compare_exactly};
 use rayon::prelude::*;
@@ -18,8 +20,8 @@ pub(super) struct Points {
     /// Three planes through each point, right-handed.
     pub(super) planes: Vec<[PlaneId; 3]>,
     pub(super) positions: Vec<DVec3>,
-    /// Whether the position is the point itself, not rounded; false where that is not easily told.
-    pub(super) exact: Vec<bool>,
+    /// Which coordinates are those of the point itself, not rounded, a bit for each; not where that is not easily told.
+    exact: Vec<u8>,
 }
 
 /// The order of positions: along a curve through space, then by coordinates.
@@ -32,7 +34,7 @@ pub(super) type Triple = (u64, u32);
 pub(super) struct Named {
     pub(super) planes: [PlaneId; 3],
     pub(super) position: DVec3,
-    is_exact: bool,
+    exact: u8,
 }
 
 impl Points {
@@ -98,14 +100,13 @@ impl Points {
     pub(super) fn push(&mut self, named: &Named) -> u32 {
         self.planes.push(named.planes);
         self.positions.push(named.position);
-        self.exact.push(named.is_exact);
+        self.exact.push(named.exact);
         self.planes.len() as u32 - 1
     }
 
     /// Puts a point in the place of another.
     pub(super) fn put(&mut self, number: usize, named: &Named) {
-        (self.planes[number], self.positions[number], self.exact[number]) =
-            (named.planes, named.position, named.is_exact);
+        (self.planes[number], self.positions[number], self.exact[number]) = (named.planes, named.position, named.exact);
     }
 
     /// Numbers all points by position; gives the new number of each.
@@ -124,6 +125,27 @@ impl Points {
         number
     }
 
+    /// Whether two coordinates of a point are its own, not rounded.
+    pub(super) fn are_exact(&self, point: u32, u: usize, v: usize) -> bool {
+        let both = 1 << u | 1 << v;
+        self.exact[point as usize] & both == both
+    }
+
+    /// The exact lexicographic order of two points by some of their coordinates.
+    pub(super) fn compare(&self, table: &PlaneTable, p: u32, q: u32, axes: &[usize]) -> Ordering {
+        if p == q {
+            return Ordering::Equal;
+        }
+        let (at_p, at_q) = (self.positions[p as usize], self.positions[q as usize]);
+        let rows = |point: u32| self.planes[point as usize].map(|plane| table.row(plane));
+        let by_axis = |axis: &usize| {
+            let by_rounded = at_p[*axis].total_cmp(&at_q[*axis]);
+            let is_certain = self.exact[p as usize] & self.exact[q as usize] & 1 << *axis != 0;
+            if by_rounded.is_ne() || is_certain { by_rounded } else { compare_exactly(rows(p), rows(q), &[*axis]) }
+        };
+        axes.iter().map(by_axis).find(|order| order.is_ne()).unwrap_or(Ordering::Equal)
+    }
+
     /// On which side of a plane a point lies; positive is outside.
     pub(super) fn side(&self, table: &PlaneTable, point: u32, plane: PlaneId) -> Sign {
         let planes = self.planes[point as usize];
@@ -138,7 +160,11 @@ impl Named {
         Self {
             planes: if right_handed { [a, b, c] } else { [a, c, b] },
             position,
-            is_exact: [a, b, c].into_iter().all(|plane| holds_exactly(table, plane, position)),
+            exact: if [a, b, c].into_iter().all(|plane| holds_exactly(table, plane, position)) {
+                0b111
+            } else {
+                [a, b, c].into_iter().fold(0, |exact, plane| exact | axis_given_exactly(table, plane, position))
+            },
         }
     }
 }
@@ -165,6 +191,18 @@ pub(super) fn planes((ab, c): Triple) -> [PlaneId; 3] {
 pub(super) fn is_at(table: &PlaneTable, planes: [PlaneId; 3], others: [PlaneId; 3]) -> bool {
     let point = table.homogeneous(planes);
     others.into_iter().all(|plane| table.side(planes, &point, plane) == Sign::Zero)
+}
+
+/// The bit of the axis that a plane is perpendicular to, where the coordinate that it has there is not rounded.
+fn axis_given_exactly(table: &PlaneTable, plane: PlaneId, position: DVec3) -> u8 {
+    let [x, y, z, d] = *table.row(plane).coefficients();
+    let normal = DVec3::new(x, y, z);
+    let axis = normal.abs().max_position();
+    let (along, at) = (normal[axis], position[axis]);
+    let is_perpendicular = normal.abs().element_sum() == along.abs();
+    // the error of a product of such numbers is one itself, and the sum of both is rounded once
+    let is_product = d == 0.0 && at == 0.0 || d.abs() > 1e-200 && at.mul_add(along, -d) == 0.0;
+    if is_perpendicular && is_product { 1 << axis } else { 0 }
 }
 
 /// Whether a plane of short integers passes through a position of few bits: every product and sum is exact then.

@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 
 use planecut_kernel::sign::Sign;
-use planecut_kernel::{DVec2, compare_exactly, planar_turn};
+use planecut_kernel::{DVec2, planar_turn};
 
 use super::{Corner, orient};
 use crate::plane_table::PlaneTable;
@@ -31,11 +31,12 @@ impl Turns<'_> {
         if value.abs() > bound {
             return sign(value);
         }
-        if [a, b, c].iter().all(|corner| self.points.exact[corner.point as usize]) {
+        let Projection { u, v } = self.projection;
+        if [a, b, c].iter().all(|corner| self.points.are_exact(corner.point, u, v)) {
             return sign(orient(a.at, b.at, c.at));
         }
         let rows = [a, b, c].map(|corner| self.points.planes[corner.point as usize].map(|plane| self.table.row(plane)));
-        planar_turn(rows, self.projection.u, self.projection.v)
+        planar_turn(rows, u, v)
     }
 
     /// Whether the exact points certainly turn right, from the rounded coordinates.
@@ -46,18 +47,7 @@ impl Turns<'_> {
 
     /// The exact order of two corners from left to right, then upwards.
     pub(super) fn order(&self, a: &Corner, b: &Corner) -> Ordering {
-        if a.point == b.point {
-            return Ordering::Equal;
-        }
-        let by_x = a.at.x.total_cmp(&b.at.x);
-        if by_x.is_ne() {
-            return by_x;
-        }
-        if [a, b].iter().all(|corner| self.points.exact[corner.point as usize]) {
-            return a.at.y.total_cmp(&b.at.y);
-        }
-        let rows = |corner: &Corner| self.points.planes[corner.point as usize].map(|plane| self.table.row(plane));
-        compare_exactly(rows(a), rows(b), &[self.projection.u, self.projection.v])
+        self.points.compare(self.table, a.point, b.point, &[self.projection.u, self.projection.v])
     }
 }
 
