@@ -62,7 +62,7 @@ impl Body {
     pub(crate) fn is_surely_apart_from(&self, table: &PlaneTable, corners: &[Corner]) -> bool {
         let Some(first) = corners.first() else { return true };
         if let Some(gauge) = self.gauge(table) {
-            let Place::Outside(face) = gauge.place(first, 0) else { return false };
+            let Place::Outside(face) = gauge.place(first, gauge.seed(first)) else { return false };
             return corners.iter().all(|corner| gauge.is_beyond(corner, face));
         }
         self.faces.iter().any(|face| {

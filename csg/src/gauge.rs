@@ -31,6 +31,8 @@ pub(crate) struct Gauge {
     reach: f64,
     /// The planes without their sides, ascending, and the face on each.
     by_plane: Vec<(u32, u32)>,
+    /// For each octant around the center the face in its middle.
+    seeds: [u32; 8],
 }
 
 /// Where a point lies.
@@ -74,6 +76,7 @@ impl Gauge {
             starts: vec![0],
             neighbours: Vec::with_capacity(body.edge_count()),
             by_plane,
+            seeds: [0; 8],
         };
         let face_of: FxHashMap<u32, u32> = gauge.by_plane.iter().copied().collect();
         for face in &body.faces {
@@ -81,7 +84,18 @@ impl Gauge {
             gauge.neighbours.extend(across);
             gauge.starts.push(gauge.neighbours.len() as u32);
         }
+        for octant in 0..8_usize {
+            let sign = |axis: usize| if octant >> axis & 1 == 1 { -1.0 } else { 1.0 };
+            let before = gauge.seeds[octant.saturating_sub(1)];
+            gauge.seeds[octant] = gauge.climb(DVec3::new(sign(0), sign(1), sign(2)), before, 0.0).0;
+        }
         Some(gauge)
+    }
+
+    /// A face from which the climb to a point is short.
+    pub(crate) fn seed(&self, point: &Corner) -> u32 {
+        let from_center = point.at - self.center;
+        self.seeds[from_center.is_negative_bitmask() as usize]
     }
 
     /// The face on a plane, whatever its side.

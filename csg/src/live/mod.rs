@@ -6,6 +6,8 @@
 
 mod operand;
 
+use std::ops::Range;
+
 use planecut_kernel::IncrementalPolytope;
 use thiserror::Error;
 
@@ -15,6 +17,7 @@ use crate::brush::{Brush, Material, MaterialId};
 use crate::evaluate::{EvaluateError, check_materials, material_ranks};
 use crate::expression::Expression;
 use crate::mesh::Mesh;
+use crate::parallel::map_chunks;
 use crate::plane_table::{PlaneId, PlaneTable};
 use crate::skin::{BoundaryEdge, FaceWorker, Scene, misses};
 use crate::tree::{Operation, TreeNode};
@@ -61,6 +64,15 @@ pub enum EditError {
     #[error(transparent)]
     Weld(#[from] WeldError),
 }
+
+/// From so many faces on they are worked out by several threads: waking them takes as long as a few faces.
+const FACES_FOR_THREADS: usize = 64;
+
+/// So many faces of a body are worked out in a row then.
+const FACES_OF_GROUP: usize = 20;
+
+/// No place.
+const NOWHERE: u32 = u32::MAX;
 
 /// Brushes in order, each with a [`Role`], and the boundary of the solid that they make.
 ///
@@ -315,18 +327,21 @@ impl LiveModel {
 
     /// Works out the boundary on some faces, sorted.
     fn skin(&mut self, faces: &[(u32, u32)]) {
-        // what is near the faces of each body
-        let mut near: Vec<u32> = Vec::new();
-        let mut ends: Vec<usize> = Vec::new();
-        for of_body in faces.chunk_by(|a, b| a.0 == b.0) {
-            let Some(body) = body_of(&self.operands, of_body[0].0) else { continue };
-            let bounds =
-                of_body.iter().fold(Bounds::EMPTY, |all, (_, face)| all.union(&body.faces[*face as usize].bounds));
-            near.extend(self.places.near(&bounds));
-            ends.push(near.len());
-        }
         let order = |number: u32| self.operands[number as usize].as_ref().map_or(0, |operand| operand.order);
-        let mut members: Vec<(u64, u32)> = near.iter().map(|number| (order(*number), *number)).collect();
+        // what is near the faces of each body
+        let mut near: Vec<(u64, u32)> = Vec::new();
+        let mut groups: Vec<Group> = Vec::new();
+        for of_body in faces.chunk_by(|a, b| a.0 == b.0) {
+            let number = of_body[0].0;
+            let Some(body) = body_of(&self.operands, number) else { continue };
+            let boxes = of_body.iter().map(|(_, face)| &body.faces[*face as usize].bounds);
+            let bounds = boxes.fold(Bounds::EMPTY, |all, bounds| all.union(bounds));
+            let (start, first) = (near.len(), groups.last().map_or(0, |group| group.faces.end));
+            near.extend(self.places.near(&bounds).map(|number| (order(number), number)));
+            near[start..].sort_unstable();
+            groups.push(Group { number, near: start..near.len(), faces: first..first + of_body.len() });
+        }
+        let mut members = near.clone();
         members.sort_unstable();
         members.dedup();
         // nothing is left of what lies before an intersecting brush that does not come near
@@ -335,7 +350,7 @@ impl LiveModel {
             members.retain(|member| member.0 > *order);
         }
         let place = &mut self.buffers.place;
-        place.resize(self.operands.len(), u32::MAX);
+        place.resize(self.operands.len(), NOWHERE);
         for (k, (_, number)) in (0..).zip(&members) {
             place[*number as usize] = k;
         }
@@ -344,36 +359,64 @@ impl LiveModel {
         let bodies: Vec<&Body> = members.iter().filter_map(|(_, number)| operand(*number).body.as_ref()).collect();
         let leaves: Vec<u32> = (0..members.len() as u32).collect();
         let scene = Scene::of_some(&self.table, bodies, &leaves, &expression, &self.bodies_on_plane, &self.rank);
-        let mut worker = FaceWorker::new(&scene);
-        let (mut found, mut found_ends) = (Vec::new(), Vec::with_capacity(faces.len()));
-        let mut start = 0;
-        let mut near_here = Vec::new();
-        for (of_body, end) in faces.chunk_by(|a, b| a.0 == b.0).zip(ends) {
-            let own = place[of_body[0].0 as usize];
-            near_here.clear();
-            near_here.extend(near[start..end].iter().map(|number| place[*number as usize]).filter(|k| *k != u32::MAX));
-            near_here.sort_unstable();
-            start = end;
-            if own != u32::MAX {
-                worker.begin(own as usize, near_here.len());
-            }
-            for (_, face) in of_body {
-                if own != u32::MAX {
-                    worker.emit(own as usize, *face as usize, &near_here, &mut found);
+        let emit = |groups: &[Group]| {
+            let mut worker = FaceWorker::new(&scene);
+            let (mut found, mut ends, mut near_here) = (Vec::new(), Vec::new(), Vec::new());
+            for Group { number, near: range, faces: of_group } in groups {
+                let own = place[*number as usize];
+                near_here.clear();
+                let places = near[range.clone()].iter().map(|(_, number)| place[*number as usize]);
+                near_here.extend(places.filter(|place| *place != NOWHERE));
+                if own != NOWHERE {
+                    worker.begin(own as usize, near_here.len());
                 }
-                found_ends.push(found.len());
+                for (_, face) in &faces[of_group.clone()] {
+                    if own != NOWHERE {
+                        worker.emit(own as usize, *face as usize, &near_here, &mut found);
+                    }
+                    ends.push(found.len());
+                }
+            }
+            (found, ends)
+        };
+        let parts = if faces.len() < FACES_FOR_THREADS {
+            vec![emit(&groups)]
+        } else {
+            let groups: Vec<Group> = groups.into_iter().flat_map(Group::split).collect();
+            map_chunks(&groups, 1, emit).0
+        };
+        for (_, number) in &members {
+            place[*number as usize] = NOWHERE;
+        }
+        let mut of_part = faces.iter();
+        for (mut found, ends) in parts {
+            let mut start = 0;
+            for (end, (number, face)) in ends.into_iter().zip(&mut of_part) {
+                let operand = self.operands[*number as usize].as_mut().expect("the brush is there");
+                exchange(&mut self.welded, &self.table, &mut operand.edges[*face as usize], &mut found[start..end]);
+                start = end;
             }
         }
-        for (_, number) in &members {
-            place[*number as usize] = u32::MAX;
-        }
-        let mut start = 0;
-        for ((number, face), end) in faces.iter().zip(found_ends) {
-            let operand = self.operands[*number as usize].as_mut().expect("the brush is there");
-            let known = &mut operand.edges[*face as usize];
-            exchange(&mut self.welded, &self.table, known, &mut found[start..end]);
-            start = end;
-        }
+    }
+}
+
+/// Faces of one body that are worked out in a row: a range among the faces, and one among the bodies near.
+struct Group {
+    number: u32,
+    near: Range<usize>,
+    faces: Range<usize>,
+}
+
+impl Group {
+    /// Groups of a few faces each.
+    fn split(self) -> impl Iterator<Item = Self> {
+        let Self { number, near, faces } = self;
+        let end = faces.end;
+        faces.step_by(FACES_OF_GROUP).map(move |start| Self {
+            number,
+            near: near.clone(),
+            faces: start..end.min(start + FACES_OF_GROUP),
+        })
     }
 }
 

@@ -11,12 +11,15 @@ use crate::gauge::{Gauge, Place};
 /// For more pairs of a corner and a body near nothing is kept.
 const MOST: usize = 1 << 20;
 
+/// No face.
+const NONE: u32 = u32::MAX;
+
 /// Clips polygons by bodies, reusing its buffers.
 #[derive(Debug, Default)]
 pub(super) struct Clipper {
     spare: Polygon,
     near: Vec<u32>,
-    /// For each body near the one whose faces are clipped, the face at which the last point was found.
+    /// For each body near the one whose faces are clipped, the face at which the last point was found, or [`NONE`].
     last: Vec<u32>,
     /// How many corners the body has whose faces are clipped.
     corners: usize,
@@ -39,7 +42,7 @@ impl Clipper {
     pub(super) fn begin(&mut self, corners: usize, near: usize) {
         self.corners = if corners.saturating_mul(near) <= MOST { corners } else { 0 };
         self.last.clear();
-        self.last.resize(near, 0);
+        self.last.resize(near, NONE);
         self.known.clear();
     }
 
@@ -153,7 +156,8 @@ impl Clipper {
     fn find(&mut self, cutter: Cutter<'_>, gauge: &Gauge, polygon: &Polygon, i: usize) -> Found {
         let Cutter { scene, face, body, place } = cutter;
         let corner = &polygon.corners[i];
-        match gauge.place(corner, self.last[place]) {
+        let last = self.last[place];
+        match gauge.place(corner, if last == NONE { gauge.seed(corner) } else { last }) {
             Place::Inside(nearest) => Found::Inside(nearest),
             Place::Outside(other) => Found::Beyond(other),
             Place::Near(other) => {

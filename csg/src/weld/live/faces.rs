@@ -6,6 +6,7 @@ use super::names::place;
 use super::numbers::Numbers;
 use super::{Pieces, State};
 use crate::brush::MaterialId;
+use crate::parallel::map_chunks;
 use crate::plane_table::PlaneTable;
 use crate::weld::cancel::HalfEdge;
 use crate::weld::nest::{self, Nester, Projection};
@@ -119,6 +120,9 @@ impl Regions {
     }
 }
 
+/// Faces of together so many corners are triangulated by several threads.
+const CORNERS_FOR_THREADS: usize = 400;
+
 /// The faces, by number.
 #[derive(Default)]
 pub(super) struct Faces {
@@ -195,11 +199,33 @@ impl Faces {
                 pieces.turned.push(pieces.half_edges[piece as usize].twin);
             }
         }
-        let mut triangulator = Triangulator::new(table, &numbers.points);
-        for face in found.iter() {
-            if !self.is_known(pieces, &order, face) {
-                self.add(table, numbers, pieces, (&order, &half_edges), face, &mut triangulator);
-            }
+        let new: Vec<nest::Face<'_>> = found.iter().filter(|face| !self.is_known(pieces, &order, *face)).collect();
+        let triangulate = |faces: &[nest::Face<'_>]| {
+            let mut triangulator = Triangulator::new(table, &numbers.points);
+            let triangles = faces.iter().map(|face| {
+                let normal = table.half_space(numbers.planes[face.region as usize]).normal();
+                triangulator.begin(Projection::new(normal));
+                for members in face.loops() {
+                    let corner = |place: &u32| {
+                        let piece = order[*place as usize];
+                        (piece, &half_edges[*place as usize], piece)
+                    };
+                    triangulator.add_loop(members.iter().map(corner));
+                }
+                let mut triangles = Triangles::default();
+                triangulator.triangulate(&mut triangles);
+                triangles.vertices
+            });
+            triangles.collect::<Vec<Vec<[u32; 3]>>>()
+        };
+        let corners: usize = new.iter().flat_map(|face| face.loops()).map(<[u32]>::len).sum();
+        let triangles = if corners < CORNERS_FOR_THREADS || new.len() < 2 {
+            triangulate(&new)
+        } else {
+            map_chunks(&new, 1, triangulate).0.concat()
+        };
+        for (face, triangles) in new.into_iter().zip(triangles) {
+            self.add(pieces, &order, face, triangles);
         }
         for region in std::mem::take(&mut regions.changed) {
             let region = &mut regions.regions[region as usize];
@@ -235,36 +261,18 @@ impl Faces {
         known.is_met
     }
 
-    fn add<'a>(
-        &mut self,
-        table: &PlaneTable,
-        numbers: &'a Numbers,
-        pieces: &mut Pieces,
-        (order, half_edges): (&[u32], &[HalfEdge]),
-        face: nest::Face<'_>,
-        triangulator: &mut Triangulator<'a>,
-    ) {
-        let number = place(&mut self.faces, &mut self.free, Face::default());
-        let entry = &mut self.faces[number as usize];
-        entry.region = face.region;
-        let normal = table.half_space(numbers.planes[face.region as usize]).normal();
-        triangulator.begin(Projection::new(normal));
+    fn add(&mut self, pieces: &mut Pieces, order: &[u32], face: nest::Face<'_>, triangles: Vec<[u32; 3]>) {
+        let mut entry = Face { region: face.region, triangles, ..Face::default() };
         for members in face.loops() {
-            let corners = members.iter().map(|place| {
-                let piece = order[*place as usize];
-                (piece, &half_edges[*place as usize], piece)
-            });
-            triangulator.add_loop(corners);
             entry.pieces.extend(members.iter().map(|place| order[*place as usize]));
             entry.loops.push(entry.pieces.len() as u32);
         }
-        let mut triangles = Triangles::default();
-        triangulator.triangulate(&mut triangles);
+        self.triangles += entry.triangles.len();
+        let number = place(&mut self.faces, &mut self.free, Face::default());
         for piece in &entry.pieces {
             pieces.face[*piece as usize] = number;
         }
-        self.triangles += triangles.vertices.len();
-        entry.triangles = triangles.vertices;
+        self.faces[number as usize] = entry;
         self.added.push(FaceId(number));
     }
 
