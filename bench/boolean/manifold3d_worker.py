@@ -56,7 +56,12 @@ def _read(path: str) -> tuple[list[Manifold], dict]:
 
 def _run(bodies: list[Manifold], plan: dict) -> dict:
     begin = time.perf_counter()
-    result = _tree(bodies, plan["tree"]) if "tree" in plan else _steps(bodies, plan["steps"])
+    if "tree" in plan:
+        result = _tree(bodies, plan["tree"])
+    elif "moves" in plan:
+        result = _moves(bodies, plan["moves"])
+    else:
+        result = _steps(bodies, plan["steps"])
     triangles = result.num_tri()
     seconds = time.perf_counter() - begin
     if result.status() != manifold3d.Error.NoError:
@@ -68,6 +73,15 @@ def _steps(bodies: list[Manifold], steps: list) -> Manifold:
     result = Manifold()
     for action, body in steps:
         result = result + bodies[body] if action == "add" else result - bodies[body]
+        # forces the evaluation
+        result.num_tri()
+    return result
+
+
+def _moves(bodies: list[Manifold], count: int) -> Manifold:
+    result = Manifold()
+    for form in bodies[count:]:
+        result = Manifold.batch_boolean([form, *bodies[1:count]], manifold3d.OpType.Add)
         # forces the evaluation
         result.num_tri()
     return result

@@ -12,6 +12,7 @@ const CARVE: &str = "carve";
 const CARVE_ONE_BY_ONE: &str = "carve, one by one";
 const DOME: &str = "dome carve";
 const GRID: &str = "grid, one by one";
+const MOVE: &str = "a brush moved among others";
 const SPHERES: &str = "dense spheres";
 
 /// Maps of fewer brushes are nothing to be timed.
@@ -89,6 +90,9 @@ pub(crate) fn all() -> Vec<Workload> {
         all.push(made.of(SPHERES, triangles).quick(triangles == 32_768));
     }
     all.extend([3000, 10_000, 30_000, 100_000].map(rotated));
+    for count in [10, 100, 1000, 10_000, 100_000] {
+        all.push(Workload::new(format!("move_in_{count}"), move || workloads::moved_box(count)).of(MOVE, count));
+    }
     all
 }
 

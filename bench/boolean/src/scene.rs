@@ -46,6 +46,9 @@ pub(crate) enum Plan {
     Tree(Vec<Entry>),
     /// One body after another, by number; the result of each step is materialised.
     Steps(Vec<(Action, u32)>),
+    /// The union of the first so many bodies is there already; each further body then takes the place of the first, one after
+    /// another, and each result is materialised.
+    Moves(u32),
 }
 
 /// Bodies and what is done with them.
@@ -124,7 +127,17 @@ impl Scene {
                     Action::Subtract => Tree::difference(operands),
                 }
             }),
+            Plan::Moves(count) => {
+                let last = Self::moves(&self.bodies, *count).last();
+                Tree::union_of(last.into_iter().flatten().map(Convex::brush).collect())
+            }
         }
+    }
+
+    /// For a plan of moves the bodies whose union is the result of each move.
+    pub(crate) fn moves<T>(bodies: &[T], count: u32) -> impl Iterator<Item = impl Iterator<Item = &T>> {
+        let (model, forms) = bodies.split_at(count as usize);
+        forms.iter().map(|form| std::iter::once(form).chain(model.iter().skip(1)))
     }
 
     /// A tree over brushes.
@@ -218,7 +231,7 @@ mod tests {
     fn a_file_holds_all_of_a_scene() {
         let mut scene = menger(1, Menger::Combs).scene;
         let file = std::env::temp_dir().join(format!("planecut-bench-test-{}.scene", std::process::id()));
-        for plan in [scene.plan.clone(), Plan::Steps(vec![(Action::Add, 1), (Action::Subtract, 0)])] {
+        for plan in [scene.plan.clone(), Plan::Steps(vec![(Action::Add, 1), (Action::Subtract, 0)]), Plan::Moves(3)] {
             scene.plan = plan;
             scene.write(&file).unwrap();
             assert_eq!(Scene::read(&file).unwrap(), scene);
@@ -242,5 +255,7 @@ mod tests {
         assert_eq!(scene.at_once().brushes().len(), 4);
         let batch = Scene::batch(scene.bodies.clone(), Entry::Union);
         assert_eq!(batch.at_once().brushes().len(), 3);
+        let moves = Scene { bodies: scene.bodies, plan: Plan::Moves(1) };
+        assert_eq!(moves.at_once().brushes(), [moves.bodies[2].brush()]);
     }
 }

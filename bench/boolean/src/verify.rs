@@ -7,13 +7,13 @@ use crate::contestants::Outcome;
 use crate::entrant::{Entrant, PLANECUT};
 use crate::scene::{Plan, Scene};
 
-/// The volume that all must have: the known one, else planecut's. For a plan of steps that is what planecut finds for
-/// all of them at once, so that its own steps are checked too.
+/// The volume that all must have: the known one, else planecut's. For a plan of steps or moves that is what planecut finds
+/// for all of them at once, so that its own steps are checked too.
 pub(crate) fn expected(known: Option<f64>, scene: &Scene, records: &[(Entrant, Record)]) -> Option<f64> {
     if known.is_some() {
         return known;
     }
-    if let Plan::Steps(_) = scene.plan {
+    if let Plan::Steps(_) | Plan::Moves(_) = scene.plan {
         let model = Model { materials: vec![Material::named("all")], tree: scene.at_once() };
         return evaluate(&model).ok().map(|evaluation| evaluation.solid.volume);
     }

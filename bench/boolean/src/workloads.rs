@@ -36,6 +36,22 @@ pub(crate) fn box_union(count: usize, is_rotated: bool) -> Task {
     Task::new(Scene::batch(boxes(count, is_rotated), Entry::Union))
 }
 
+/// One box moved three times, to where others are, among boxes as those of [`box_union`].
+pub(crate) fn moved_box(count: usize) -> Task {
+    let mut bodies = boxes(count, true);
+    for k in 1..=3 {
+        // on to the box that is a quarter of the way further
+        let [from, to] = [0, k * count / 4].map(|body| middle(&bodies[body]));
+        let shift = Transform::new(DMat3::IDENTITY, to - from).expect("a shift");
+        bodies.push(convex(&transformed(bodies[0].brush(), &shift)));
+    }
+    Task::new(Scene { bodies, plan: Plan::Moves(count as u32) })
+}
+
+fn middle(body: &Convex) -> DVec3 {
+    body.positions.iter().map(|at| DVec3::from_array(*at)).sum::<DVec3>() / body.positions.len() as f64
+}
+
 /// Boxes of random sizes at constant density; rotated, or on a grid of 1/1024.
 pub(crate) fn boxes(count: usize, is_rotated: bool) -> Vec<Convex> {
     let mut rng = StdRng::seed_from_u64(count as u64 + u64::from(is_rotated));

@@ -134,19 +134,22 @@ impl LiveModel {
     /// [`EditError::Unbounded`], [`EditError::UnknownMaterial`].
     pub fn add_brush(&mut self, brush: Brush, role: Role) -> Result<(BrushId, Change), EditError> {
         let body = self.build(&brush)?;
-        let order = self.next_order;
-        self.next_order += 1;
-        let operand = Operand { brush, role, order, body: None, edges: Vec::new() };
-        let number = self.free.pop().unwrap_or_else(|| {
-            self.operands.push(None);
-            self.operands.len() as u32 - 1
-        });
-        self.operands[number as usize] = Some(operand);
-        if role == Role::Intersect {
-            self.intersecting.push((order, number));
-        }
-        let change = self.change_body(number, body, role == Role::Intersect)?;
-        Ok((BrushId { order, number }, change))
+        let (id, number) = self.append(brush, role);
+        let change = self.change_bodies(vec![(number, body)], role == Role::Intersect)?;
+        Ok((id, change))
+    }
+
+    /// Adds brushes after all others, in their order, as one edit.
+    ///
+    /// # Errors
+    /// [`EditError::Unbounded`], [`EditError::UnknownMaterial`]; then none is added.
+    pub fn add_brushes(&mut self, brushes: Vec<(Brush, Role)>) -> Result<(Vec<BrushId>, Change), EditError> {
+        let bodies = brushes.iter().map(|(brush, _)| self.build(brush)).collect::<Result<Vec<_>, _>>()?;
+        let is_intersecting = brushes.iter().any(|(_, role)| *role == Role::Intersect);
+        let (ids, numbers): (Vec<BrushId>, Vec<u32>) =
+            brushes.into_iter().map(|(brush, role)| self.append(brush, role)).unzip();
+        let change = self.change_bodies(numbers.into_iter().zip(bodies).collect(), is_intersecting)?;
+        Ok((ids, change))
     }
 
     /// Takes a brush out.
@@ -156,7 +159,7 @@ impl LiveModel {
     pub fn remove_brush(&mut self, id: BrushId) -> Result<Change, EditError> {
         let role = self.operand(id)?.role;
         self.intersecting.retain(|entry| entry.0 != id.order);
-        let change = self.change_body(id.number, None, role == Role::Intersect)?;
+        let change = self.change_bodies(vec![(id.number, None)], role == Role::Intersect)?;
         self.operands[id.number as usize] = None;
         self.free.push(id.number);
         Ok(change)
@@ -169,7 +172,7 @@ impl LiveModel {
     pub fn replace_brush(&mut self, id: BrushId, brush: Brush) -> Result<Change, EditError> {
         let role = self.operand(id)?.role;
         let body = self.build(&brush)?;
-        let change = self.change_body(id.number, body, role == Role::Intersect)?;
+        let change = self.change_bodies(vec![(id.number, body)], role == Role::Intersect)?;
         if let Some(operand) = &mut self.operands[id.number as usize] {
             operand.brush = brush;
         }
@@ -189,7 +192,8 @@ impl LiveModel {
             self.intersecting.push((id.order, id.number));
             self.intersecting.sort_unstable();
         }
-        self.change_body(id.number, body, role == Role::Intersect || was == Role::Intersect)
+        let is_intersecting = role == Role::Intersect || was == Role::Intersect;
+        self.change_bodies(vec![(id.number, body)], is_intersecting)
     }
 
     /// A brush.
@@ -260,34 +264,51 @@ impl LiveModel {
         }
     }
 
-    /// Gives a brush another body, or none, and works out what that changes; that of an intersecting one tells everywhere.
-    fn change_body(&mut self, number: u32, new: Option<Body>, is_intersecting: bool) -> Result<Change, EditError> {
-        self.buffers.faces.clear();
-        let operand = self.operands[number as usize].as_mut().expect("the brush is there");
-        let old = operand.body.take();
-        for (_, edge) in operand.edges.drain(..).flatten() {
-            self.welded.remove(edge);
+    /// Makes a brush the last one, as yet without a body.
+    fn append(&mut self, brush: Brush, role: Role) -> (BrushId, u32) {
+        let order = self.next_order;
+        self.next_order += 1;
+        let operand = Some(Operand { brush, role, order, body: None, edges: Vec::new() });
+        let number = self.free.pop().unwrap_or(self.operands.len() as u32);
+        match self.operands.get_mut(number as usize) {
+            Some(place) => *place = operand,
+            None => self.operands.push(operand),
         }
-        if let Some(old) = old {
-            self.places.remove(&old.bounds, number);
+        if role == Role::Intersect {
+            self.intersecting.push((order, number));
+        }
+        (BrushId { order, number }, number)
+    }
+
+    /// Gives brushes other bodies, or none, and works out what that changes; that of an intersecting one tells everywhere.
+    fn change_bodies(&mut self, new: Vec<(u32, Option<Body>)>, is_intersecting: bool) -> Result<Change, EditError> {
+        self.buffers.faces.clear();
+        for (number, _) in &new {
+            let operand = self.operands[*number as usize].as_mut().expect("the brush is there");
+            for (_, edge) in operand.edges.drain(..).flatten() {
+                self.welded.remove(edge);
+            }
+            let Some(old) = operand.body.take() else { continue };
+            self.places.remove(&old.bounds, *number);
             for face in &old.faces {
                 let count = &mut self.bodies_on_plane[face.plane.index() as usize];
                 *count -= u8::from(*count < u8::MAX);
             }
             self.touch(&old);
         }
-        if let Some(new) = new {
-            self.touch(&new);
-            self.places.insert(&new.bounds, number);
-            self.bodies_on_plane.resize(self.table.len(), 0);
-            for face in &new.faces {
+        new.iter().filter_map(|(_, body)| body.as_ref()).for_each(|body| self.touch(body));
+        self.bodies_on_plane.resize(self.table.len(), 0);
+        for (number, body) in new {
+            let Some(body) = body else { continue };
+            self.places.insert(&body.bounds, number);
+            for face in &body.faces {
                 let count = &mut self.bodies_on_plane[face.plane.index() as usize];
                 *count = count.saturating_add(1);
             }
-            self.buffers.faces.extend((0..new.faces.len() as u32).map(|face| (number, face)));
+            self.buffers.faces.extend((0..body.faces.len() as u32).map(|face| (number, face)));
             let operand = self.operands[number as usize].as_mut().expect("the brush is there");
-            operand.edges.resize_with(new.faces.len(), Vec::new);
-            operand.body = Some(new);
+            operand.edges.resize_with(body.faces.len(), Vec::new);
+            operand.body = Some(body);
         }
         if is_intersecting {
             self.touch_all();

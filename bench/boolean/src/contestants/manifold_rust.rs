@@ -33,6 +33,13 @@ impl ManifoldRust {
                     Action::Subtract => solid.boolean(body, OpType::Subtract),
                 }
             }),
+            Plan::Moves(count) => {
+                let unions = Scene::moves(&self.leaves, *count).map(|leaves| {
+                    let leaves = leaves.cloned().map(CsgNode::leaf_node).collect();
+                    Manifold::from_impl(CsgNode::op_n(OpType::Add, leaves).evaluate())
+                });
+                unions.last().unwrap_or_else(Manifold::empty)
+            }
         }
     }
 

@@ -37,7 +37,7 @@ pub(crate) trait Contestant {
 /// The kernels of this program, by name. Files that one needs go beside the scene's.
 pub(crate) fn prepare(name: &str, scene: Scene, file: &Path) -> Result<Box<dyn Contestant>, String> {
     match name {
-        "planecut" => Ok(Box::new(planecut::Planecut::new(&scene))),
+        "planecut" => Ok(Box::new(planecut::Planecut::new(&scene)?)),
         "manifold-rust" => Ok(Box::new(manifold_rust::ManifoldRust::new(scene)?)),
         "boolmesh" => Ok(Box::new(boolmesh::Boolmesh::new(scene)?)),
         "csgrs" => Ok(Box::new(csgrs::Csgrs::new(scene)?)),
@@ -64,6 +64,13 @@ fn fold<T: Clone>(
             };
             combine(&solid, &bodies[*body as usize], operation)
         }),
+        Plan::Moves(count) => {
+            let unions = Scene::moves(bodies, *count).map(|bodies| {
+                let bodies: Vec<T> = bodies.cloned().collect();
+                halves(&bodies, empty, Binary::Union, combine)
+            });
+            unions.last().unwrap_or_else(|| Ok(empty.clone()))
+        }
         Plan::Tree(entries) => {
             let mut stack: Vec<T> = Vec::new();
             let mut leaves = bodies.iter();

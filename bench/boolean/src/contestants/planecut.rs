@@ -3,15 +3,17 @@
 
 use std::time::Instant;
 
-use planecut_csg::{Brush, LiveModel, Material, Model, Role, evaluate};
+use planecut_csg::{Brush, BrushId, LiveModel, Material, Model, Role, evaluate};
 use planecut_kernel::DVec3;
 
 use super::{Contestant, Outcome};
-use crate::scene::{Action, Plan, Scene};
+use crate::scene::{Action, Convex, Plan, Scene};
 
 pub(super) enum Planecut {
     AtOnce(Model),
     Steps(Vec<(Brush, Role)>),
+    /// A model, the brush that is moved, and its forms.
+    Moves(Box<LiveModel>, BrushId, Vec<Brush>),
 }
 
 fn materials() -> Vec<Material> {
@@ -19,9 +21,9 @@ fn materials() -> Vec<Material> {
 }
 
 impl Planecut {
-    pub(super) fn new(scene: &Scene) -> Self {
+    pub(super) fn new(scene: &Scene) -> Result<Self, String> {
         match &scene.plan {
-            Plan::Tree(entries) => Self::AtOnce(Model { materials: materials(), tree: scene.tree(entries) }),
+            Plan::Tree(entries) => Ok(Self::AtOnce(Model { materials: materials(), tree: scene.tree(entries) })),
             Plan::Steps(steps) => {
                 let step = |(action, body): &(Action, u32)| {
                     let role = match action {
@@ -30,7 +32,15 @@ impl Planecut {
                     };
                     (scene.bodies[*body as usize].brush(), role)
                 };
-                Self::Steps(steps.iter().map(step).collect())
+                Ok(Self::Steps(steps.iter().map(step).collect()))
+            }
+            Plan::Moves(count) => {
+                let (model, forms) = scene.bodies.split_at(*count as usize);
+                let mut live = LiveModel::new(materials());
+                let brushes = model.iter().map(|body| (body.brush(), Role::Add)).collect();
+                let (ids, _) = live.add_brushes(brushes).map_err(|error| error.to_string())?;
+                let first = *ids.first().ok_or("no brush to move")?;
+                Ok(Self::Moves(Box::new(live), first, forms.iter().map(Convex::brush).collect()))
             }
         }
     }
@@ -57,15 +67,31 @@ impl Contestant for Planecut {
                 for (brush, role) in steps {
                     live.add_brush(brush, role).map_err(|error| error.to_string())?;
                 }
-                let seconds = begin.elapsed().as_secs_f64();
-                let (mut volume, mut area) = (0.0, 0.0);
-                for [a, b, c] in live.faces().flat_map(|(_, face)| face.triangles()).map(|t| t.map(|corner| corner.1)) {
-                    let (a, normal): (DVec3, DVec3) = (a, (b - a).cross(c - a));
-                    volume += a.dot(normal) / 6.0;
-                    area += 0.5 * normal.length();
+                Ok(outcome(&live, begin.elapsed().as_secs_f64()))
+            }
+            Self::Moves(live, moved, forms) => {
+                let forms = forms.clone();
+                let (before, _) = live.brush(*moved).map_err(|error| error.to_string())?;
+                let before = before.clone();
+                let begin = Instant::now();
+                for form in forms {
+                    live.replace_brush(*moved, form).map_err(|error| error.to_string())?;
                 }
-                Ok(Outcome { seconds, volume, area, triangles: live.triangle_count() })
+                let outcome = outcome(live, begin.elapsed().as_secs_f64());
+                live.replace_brush(*moved, before).map_err(|error| error.to_string())?;
+                Ok(outcome)
             }
         }
     }
+}
+
+fn outcome(live: &LiveModel, seconds: f64) -> Outcome {
+    let (mut volume, mut area) = (0.0, 0.0);
+    for triangle in live.faces().flat_map(|(_, face)| face.triangles()) {
+        let [a, b, c]: [DVec3; 3] = triangle.map(|corner| corner.1);
+        let normal = (b - a).cross(c - a);
+        volume += a.dot(normal) / 6.0;
+        area += 0.5 * normal.length();
+    }
+    Outcome { seconds, volume, area, triangles: live.triangle_count() }
 }
