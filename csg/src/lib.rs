@@ -20,6 +20,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+mod blocks;
 mod body;
 mod bounds;
 mod boxes;
@@ -51,6 +52,7 @@ mod transform;
 mod tree;
 mod weld;
 
+pub use blocks::{Block, BlockOptions, BlocksError, BlocksSummary, evaluate_in_blocks};
 pub use brush::{Brush, BrushFace, Material, MaterialId, Model};
 pub use contract::{contract_edges, contract_short_edges};
 pub use evaluate::{

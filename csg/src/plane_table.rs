@@ -81,9 +81,14 @@ impl PlaneTable {
     /// The numbering depends on the planes alone, not on the order in which they were given.
     #[must_use]
     pub fn intern(half_spaces: &[HalfSpace]) -> (Self, Vec<PlaneId>) {
+        Self::intern_within(half_spaces, 0.0)
+    }
+
+    /// The same among others, of which the largest distance from the origin is known.
+    fn intern_within(half_spaces: &[HalfSpace], reach: f64) -> (Self, Vec<PlaneId>) {
         let rows: Vec<Row> = half_spaces.par_iter().with_min_len(1024).map(Row::new).collect();
         let (exact, class) = group_exactly(&rows);
-        let mut table = Self::default();
+        let mut table = Self { reach, ..Self::default() };
         let ids = table.snap(&exact);
         let of_input = class.into_iter().zip(&rows).map(|(class, row)| {
             let id: PlaneId = ids[class as usize];
@@ -226,7 +231,7 @@ impl PlaneTable {
     /// the input.
     fn snap(&mut self, planes: &[Row]) -> Vec<PlaneId> {
         let units: Vec<[f64; 4]> = planes.par_iter().with_min_len(1024).map(unit).collect();
-        self.reach = units.iter().map(|unit| unit[3].abs()).fold(0.0, f64::max);
+        self.reach = units.iter().map(|unit| unit[3].abs()).fold(self.reach, f64::max);
         let place = |(k, row): (usize, &Row)| (!is_exact(row), row.coefficients().map(sortable), k as u32);
         let mut order: Vec<(bool, [u64; 4], u32)> =
             planes.par_iter().enumerate().with_min_len(1024).map(place).collect();
@@ -306,6 +311,49 @@ impl PlaneTable {
         self.rows.extend([*row, row.flipped()]);
         id
     }
+}
+
+/// The planes of many half-spaces that a table of all of them would replace by one that is nearly the same, without such a
+/// table.
+pub(crate) struct Snapped {
+    replaced: FxHashMap<[u64; 4], HalfSpace>,
+}
+
+impl Snapped {
+    /// Those among some half-spaces.
+    pub(crate) fn of<'a>(half_spaces: impl Iterator<Item = &'a HalfSpace> + Clone) -> Self {
+        let mut snapped = Self { replaced: FxHashMap::default() };
+        let rows = || half_spaces.clone().map(Row::new);
+        if rows().all(|row| is_exact(&row)) {
+            return snapped;
+        }
+        let first_sides = rows().map(|row| if is_reversed(&row) { row.flipped() } else { row });
+        let units: Vec<[f64; 4]> = first_sides.map(|row| unit(&row)).collect();
+        let reach = units.iter().map(|unit| unit[3].abs()).fold(0.0, f64::max);
+        let may_be_near = NearPlanes::new(reach).may_be_near(&units);
+        drop(units);
+        let doubtful = half_spaces.zip(may_be_near).filter(|(_, is_near)| *is_near);
+        let doubtful: Vec<HalfSpace> = doubtful.map(|(half_space, _)| *half_space).collect();
+        let (table, ids) = PlaneTable::intern_within(&doubtful, reach);
+        for (half_space, id) in doubtful.iter().zip(ids) {
+            if !table.row(id).is_same_plane(&Row::new(half_space)) {
+                snapped.replaced.insert(bits(half_space), *table.half_space(id));
+            }
+        }
+        snapped
+    }
+
+    /// What stands for a half-space.
+    pub(crate) fn of_plane(&self, half_space: &HalfSpace) -> HalfSpace {
+        if self.replaced.is_empty() {
+            return *half_space;
+        }
+        self.replaced.get(&bits(half_space)).copied().unwrap_or(*half_space)
+    }
+}
+
+fn bits(half_space: &HalfSpace) -> [u64; 4] {
+    half_space.normal().extend(half_space.offset()).to_array().map(f64::to_bits)
 }
 
 /// Finds planes of a table.

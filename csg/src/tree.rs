@@ -92,6 +92,11 @@ impl Tree {
         Self { brushes, nodes }
     }
 
+    /// A tree of brushes and well-formed nodes over as many leaves.
+    pub(crate) fn of_parts(brushes: Vec<Brush>, nodes: Vec<TreeNode>) -> Self {
+        Self { brushes, nodes }
+    }
+
     /// What lies in any operand.
     #[must_use]
     pub fn union(operands: impl IntoIterator<Item = Self>) -> Self {

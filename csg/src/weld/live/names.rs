@@ -155,7 +155,7 @@ mod tests {
         let (one, two) = (names.thing(a), names.thing(b));
         assert_eq!([a, c].map(|name| names.release(name)), [None, None]);
         assert_eq!(names.release(a), Some(one));
-        assert_eq!(names.thing(take(&mut names, 12)), two);
-        assert_eq!(names.thing(take(&mut names, 3)), one);
+        let [other, reused] = [12, 3].map(|name| take(&mut names, name));
+        assert_eq!((names.thing(other), names.thing(reused)), (two, one));
     }
 }

@@ -1,0 +1,155 @@
+//! Large models block by block: space is cut into boxes that are evaluated on their own, so that memory is bounded by the size
+//! of a block, not by that of the model.
+//!
+//! A brush that reaches over a wall between blocks is cut there, on both sides, which adds the wall to its planes. The
+//! faces on walls are dropped from the mesh of each block; what is left of both sides ends in the same edges, because a point
+//! where planes meet is rounded alike wherever it is worked out. That every such edge finds its like is checked
+//! ([`Seams`]).
+
+mod cut;
+mod prune;
+mod seams;
+
+use glam::DVec3;
+use thiserror::Error;
+
+use crate::bounds::Bounds;
+use crate::brush::{Brush, Material, MaterialId, Model};
+use crate::evaluate::{EvaluateError, check_materials, evaluate};
+use crate::expression::Expression;
+use crate::mesh::Mesh;
+use crate::plane_table::Snapped;
+use cut::{Cut, bounds_of};
+use seams::Seams;
+
+/// How a model is cut into blocks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct BlockOptions {
+    /// A block of more brushes is cut in two where that makes both parts smaller.
+    pub brushes: usize,
+}
+
+impl Default for BlockOptions {
+    /// Blocks of at most 16,384 brushes: a few hundred megabytes for brushes of few faces.
+    fn default() -> Self {
+        Self { brushes: 1 << 14 }
+    }
+}
+
+/// The boundary of a solid within a box.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Block {
+    /// The corner of the box of smallest coordinates.
+    pub min: DVec3,
+    /// The corner of largest coordinates.
+    pub max: DVec3,
+    /// The part of the boundary in the box: closed but for edges on the walls to other blocks, where theirs go on.
+    pub mesh: Mesh,
+    /// The volume of the solid within the box.
+    pub volume: f64,
+}
+
+/// What all blocks have together.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct BlocksSummary {
+    /// Blocks with a brush.
+    pub blocks: usize,
+    /// The volume of the solid.
+    pub volume: f64,
+    /// Triangles of all blocks.
+    pub triangles: usize,
+    /// Edges on walls that go on in no other block: 0 where the blocks together are watertight.
+    pub open_edges: usize,
+}
+
+/// Why a model is not evaluated in blocks.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum BlocksError<E> {
+    /// A brush is not bounded.
+    #[error("found a brush that reaches infinity, number {brush}, expected bounded ones")]
+    Unbounded {
+        /// Its number.
+        brush: usize,
+    },
+    /// As for a model that is evaluated at once.
+    #[error(transparent)]
+    Evaluate(#[from] EvaluateError),
+    /// A block was not taken.
+    #[error("a block was not taken")]
+    Taker(E),
+}
+
+/// Evaluates a model block by block and hands each to `take`, in an order that depends on the model alone.
+///
+/// ```
+/// use planecut_csg::{BlockOptions, Brush, Material, MaterialId, Model, Tree, evaluate_in_blocks};
+/// use planecut_kernel::DVec3;
+///
+/// let cube = |k: u32| Brush::cuboid(DVec3::X * f64::from(k), DVec3::X * f64::from(k) + 1.5, MaterialId(0));
+/// let tree = Tree::union_of((0..100).map(cube).collect());
+/// let model = Model { materials: vec![Material::named("stone")], tree };
+/// let mut triangles = 0;
+/// let taken = evaluate_in_blocks(&model, BlockOptions { brushes: 10 }, |block| {
+///     triangles += block.mesh.triangles.len();
+///     Ok::<(), ()>(())
+/// });
+/// let all = taken.unwrap();
+/// assert!(all.blocks >= 10 && all.triangles == triangles && all.open_edges == 0);
+/// assert!((all.volume - 2.25 * 100.5).abs() < 1e-9);
+/// ```
+///
+/// # Errors
+/// [`BlocksError`]: brushes must be bounded, and so must be the solid.
+pub fn evaluate_in_blocks<E>(
+    model: &Model,
+    options: BlockOptions,
+    mut take: impl FnMut(Block) -> Result<(), E>,
+) -> Result<BlocksSummary, BlocksError<E>> {
+    let brushes = model.tree.brushes();
+    let used = brushes.iter().flat_map(|brush| &brush.faces).map(|face| face.material);
+    check_materials(used, model.materials.len())?;
+    if Expression::new(model.tree.nodes()).base() {
+        return Err(EvaluateError::Unbounded.into());
+    }
+    let bounds = bounds_of(brushes).map_err(|brush| BlocksError::Unbounded { brush })?;
+    // once for all blocks, or what is one plane in one of them would be two in another
+    let snapped = Snapped::of(brushes.iter().flat_map(|brush| &brush.faces).map(|face| &face.half_space));
+    let wall = MaterialId(model.materials.len() as u32);
+    let mut materials = model.materials.clone();
+    materials.push(Material::default());
+    let mut seams = Seams::default();
+    let mut summary = BlocksSummary::default();
+    let mut waiting = vec![Cut::whole(&bounds)];
+    while let Some(block) = waiting.pop() {
+        if block.members.len() > options.brushes.max(1)
+            && let Some(halves) = block.halves(&bounds)
+        {
+            waiting.extend(halves);
+            continue;
+        }
+        if block.members.is_empty() {
+            continue;
+        }
+        let brush = |member: u32| {
+            let mut brush: Brush = brushes[member as usize].clone();
+            for face in &mut brush.faces {
+                face.half_space = snapped.of_plane(&face.half_space);
+            }
+            block.add_walls(&mut brush, &bounds[member as usize], wall);
+            brush
+        };
+        let tree = prune::tree_of_some(model.tree.nodes(), &block.members, brush);
+        let evaluation = evaluate(&Model { materials: materials.clone(), tree })?;
+        let mut mesh = evaluation.mesh;
+        seams.part(&mut mesh, wall);
+        mesh.materials.clone_from(&model.materials);
+        summary.blocks += 1;
+        summary.volume += evaluation.solid.volume;
+        summary.triangles += mesh.triangles.len();
+        let Bounds { min, max } = block.bounds;
+        take(Block { min, max, mesh, volume: evaluation.solid.volume }).map_err(BlocksError::Taker)?;
+    }
+    summary.open_edges = seams.open();
+    Ok(summary)
+}
