@@ -2,11 +2,11 @@
 //! of a block, not by that of the model.
 //!
 //! A brush that reaches over a wall between blocks is cut there, on both sides, which adds the wall to its planes. The
-//! faces on walls are dropped from the mesh of each block; what is left of both sides ends in the same edges, because a point
-//! where planes meet is rounded alike wherever it is worked out. That every such edge finds its like is checked
+//! faces on walls are dropped from the mesh of each block; what is left of both sides ends in the same edges, because walls
+//! go through all of the model ([`grid`]) and a point where planes meet is rounded alike wherever it is worked out. That every such edge finds its like is checked
 //! ([`Seams`]).
 
-mod cut;
+mod grid;
 mod prune;
 mod seams;
 
@@ -19,18 +19,18 @@ use crate::evaluate::{EvaluateError, check_materials, evaluate};
 use crate::expression::Expression;
 use crate::mesh::Mesh;
 use crate::plane_table::Snapped;
-use cut::{Cut, bounds_of};
+use grid::{Grid, bounds_of};
 use seams::Seams;
 
 /// How a model is cut into blocks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct BlockOptions {
-    /// A block of more brushes is cut in two where that makes both parts smaller.
+    /// A block with the middles of more brushes than this is cut in two, where a wall can part them.
     pub brushes: usize,
 }
 
 impl Default for BlockOptions {
-    /// Blocks of at most 16,384 brushes: a few hundred megabytes for brushes of few faces.
+    /// Blocks of about 16,384 brushes: a few hundred megabytes for brushes of few faces.
     fn default() -> Self {
         Self { brushes: 1 << 14 }
     }
@@ -120,17 +120,7 @@ pub fn evaluate_in_blocks<E>(
     materials.push(Material::default());
     let mut seams = Seams::default();
     let mut summary = BlocksSummary::default();
-    let mut waiting = vec![Cut::whole(&bounds)];
-    while let Some(block) = waiting.pop() {
-        if block.members.len() > options.brushes.max(1)
-            && let Some(halves) = block.halves(&bounds)
-        {
-            waiting.extend(halves);
-            continue;
-        }
-        if block.members.is_empty() {
-            continue;
-        }
+    for block in Grid::new(&bounds, options.brushes.max(1)).cells(&bounds) {
         let brush = |member: u32| {
             let mut brush: Brush = brushes[member as usize].clone();
             for face in &mut brush.faces {
