@@ -120,30 +120,21 @@ pub(crate) struct BrushBodies {
     pub(crate) signs: Counts,
 }
 
-/// Numbers that are equal for bodies with the same faces of the same materials, and for no others.
-pub(crate) fn kinds(bodies: &[BrushBody]) -> Vec<u32> {
-    let faces = |number: u32| match &bodies[number as usize] {
-        BrushBody::Bounded(body, _) => body.faces.as_slice(),
-        BrushBody::Empty | BrushBody::Unbounded => &[],
-    };
+/// Numbers that are equal for bodies with the same faces of the same materials, and for no others; `faces` gives those of a
+/// body, and `mark` a [`mark_of`] them.
+pub(crate) fn kinds<'a>(bodies: usize, faces: impl Fn(u32) -> &'a [BodyFace], mark: impl Fn(u32) -> u64) -> Vec<u32> {
     let sorted = |number: u32| {
         let mut faces: Vec<(PlaneId, MaterialId)> =
             faces(number).iter().map(|face| (face.plane, face.material)).collect();
         faces.sort_unstable();
         faces
     };
-    let hasher = FxBuildHasher;
-    // a sum, so that the order of faces does not count
-    let hash = |number: u32| {
-        let each = faces(number).iter().map(|face| hasher.hash_one((face.plane, face.material)));
-        each.fold(0_u64, u64::wrapping_add)
-    };
     let mut known: FxHashMap<u64, Vec<u32>> = FxHashMap::default();
     let kind = |number: u32| {
         if faces(number).is_empty() {
             return number;
         }
-        let alike = known.entry(hash(number)).or_default();
+        let alike = known.entry(mark(number)).or_default();
         let equal = (!alike.is_empty()).then(|| sorted(number));
         let first = equal.and_then(|own| alike.iter().copied().find(|other| sorted(*other) == own));
         first.unwrap_or_else(|| {
@@ -151,7 +142,13 @@ pub(crate) fn kinds(bodies: &[BrushBody]) -> Vec<u32> {
             number
         })
     };
-    (0..bodies.len() as u32).map(kind).collect()
+    (0..bodies as u32).map(kind).collect()
+}
+
+/// A number that faces of the same planes and materials share, whatever their order.
+pub(crate) fn mark_of(faces: &[BodyFace]) -> u64 {
+    let each = faces.iter().map(|face| FxBuildHasher.hash_one((face.plane, face.material)));
+    each.fold(0, u64::wrapping_add)
 }
 
 /// Bodies that are built in a row have at least about so many planes.

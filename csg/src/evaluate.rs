@@ -6,7 +6,7 @@ use glam::DVec3;
 use planecut_kernel::sign::Counts;
 use thiserror::Error;
 
-use crate::body::{Body, BrushBodies, BrushBody, build_bodies, kinds};
+use crate::body::{Body, BrushBodies, BrushBody, build_bodies, kinds, mark_of};
 use crate::brush::{Material, MaterialId, Model};
 use crate::expression::Expression;
 use crate::mesh::Mesh;
@@ -140,7 +140,12 @@ pub fn evaluate_with(model: &Model, unbounded: UnboundedBrushes) -> Result<Evalu
     let keeps = unbounded == UnboundedBrushes::Keep && !summary.unbounded.is_empty();
     let mut leaves = Leaves::default();
     let outer = (keeps || expression.base()).then(|| OuterBox::new(&mut table));
-    let repeated = expression.repeated_leaves(&kinds(&bodies));
+    let faces = |number: u32| match &bodies[number as usize] {
+        BrushBody::Bounded(body, _) => body.faces.as_slice(),
+        BrushBody::Empty | BrushBody::Unbounded => &[],
+    };
+    let kinds = kinds(bodies.len(), faces, |number| mark_of(faces(number)));
+    let repeated = expression.repeated_leaves(&kinds);
     let brushes = bodies.into_iter().zip(&planes).enumerate().zip(repeated);
     for ((leaf, (body, planes)), _) in brushes.filter(|(_, is_repeated)| !is_repeated) {
         match (body, outer) {

@@ -11,7 +11,7 @@ use std::ops::Range;
 use planecut_kernel::IncrementalPolytope;
 use thiserror::Error;
 
-use crate::body::{Body, BodyFace, BrushBody, build};
+use crate::body::{Body, BodyFace, BrushBody, build, kinds, mark_of};
 use crate::bounds::Bounds;
 use crate::brush::{Brush, Material, MaterialId};
 use crate::evaluate::{EvaluateError, check_materials, material_ranks};
@@ -268,7 +268,7 @@ impl LiveModel {
     fn append(&mut self, brush: Brush, role: Role) -> (BrushId, u32) {
         let order = self.next_order;
         self.next_order += 1;
-        let operand = Some(Operand { brush, role, order, body: None, edges: Vec::new() });
+        let operand = Some(Operand { brush, role, order, body: None, mark: 0, edges: Vec::new() });
         let number = self.free.pop().unwrap_or(self.operands.len() as u32);
         match self.operands.get_mut(number as usize) {
             Some(place) => *place = operand,
@@ -308,6 +308,7 @@ impl LiveModel {
             self.buffers.faces.extend((0..body.faces.len() as u32).map(|face| (number, face)));
             let operand = self.operands[number as usize].as_mut().expect("the brush is there");
             operand.edges.resize_with(body.faces.len(), Vec::new);
+            operand.mark = mark_of(&body.faces);
             operand.body = Some(body);
         }
         if is_intersecting {
@@ -370,15 +371,19 @@ impl LiveModel {
         if let Some((order, _)) = far {
             members.retain(|member| member.0 > *order);
         }
+        let operand = |number: u32| self.operands[number as usize].as_ref().expect("what is near is there");
+        let member = |leaf: u32| operand(members[leaf as usize].1);
+        let expression = sequence((0..members.len() as u32).map(|leaf| member(leaf).role));
+        let faces_of = |leaf: u32| member(leaf).body.as_ref().map_or(&[][..], |body| &body.faces);
+        let kinds = kinds(members.len(), faces_of, |leaf| member(leaf).mark);
+        let repeated = expression.repeated_leaves(&kinds);
+        let leaves: Vec<u32> = (0..members.len() as u32).filter(|leaf| !repeated[*leaf as usize]).collect();
         let place = &mut self.buffers.place;
         place.resize(self.operands.len(), NOWHERE);
-        for (k, (_, number)) in (0..).zip(&members) {
-            place[*number as usize] = k;
+        for (k, leaf) in (0..).zip(&leaves) {
+            place[members[*leaf as usize].1 as usize] = k;
         }
-        let operand = |number: u32| self.operands[number as usize].as_ref().expect("what is near is there");
-        let expression = sequence(members.iter().map(|(_, number)| operand(*number).role));
-        let bodies: Vec<&Body> = members.iter().filter_map(|(_, number)| operand(*number).body.as_ref()).collect();
-        let leaves: Vec<u32> = (0..members.len() as u32).collect();
+        let bodies: Vec<&Body> = leaves.iter().filter_map(|leaf| member(*leaf).body.as_ref()).collect();
         let scene = Scene::of_some(&self.table, bodies, &leaves, &expression, &self.bodies_on_plane, &self.rank);
         let emit = |groups: &[Group]| {
             let mut worker = FaceWorker::new(&scene);

@@ -31,6 +31,8 @@ pub(super) struct Operand {
     pub(super) order: u64,
     /// Nothing where the brush is empty.
     pub(super) body: Option<Body>,
+    /// The mark of the body's faces.
+    pub(super) mark: u64,
     /// For each face of the body the edges of the boundary on it, sorted.
     pub(super) edges: Vec<Vec<(BoundaryEdge, EdgeId)>>,
 }

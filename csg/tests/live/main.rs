@@ -1,3 +1,12 @@
-//! Live models against models built anew.
+//! Live models against models built anew, edit by edit.
+//!
+//! - [`edits`]: sequences of edits, what they must come to, shrinking and printing them as Rust.
+//! - [`random`]: random sequences; [`cases`]: edits that once went wrong or easily could.
 
+#[path = "../union/rng.rs"]
+#[allow(dead_code, reason = "shared with the tests of unions")]
+mod rng;
+
+mod cases;
+mod edits;
 mod random;
