@@ -49,7 +49,7 @@ fn turned(random: &mut Rng) -> Planes {
     let center = 3.0 * place();
     let count = 6 + (place().x * 20.0) as usize;
     let plane = |k: usize| {
-        let axis = DVec3::AXES[k / 2 % 3] * if k % 2 == 0 { 1.0 } else { -1.0 };
+        let axis = [DVec3::X, -DVec3::X, DVec3::Y, -DVec3::Y, DVec3::Z, -DVec3::Z][k % 6];
         let normal = (axis + 0.9 * (place() - 0.5)).normalize();
         (normal.to_array(), normal.dot(center) + 0.4 + 0.4 * place().x)
     };

@@ -1,0 +1,166 @@
+//! The boundary on the faces that an edit touches.
+
+use std::ops::Range;
+
+use super::operand::Role;
+use super::{LiveModel, body_of};
+use crate::body::{Body, kinds};
+use crate::bounds::Bounds;
+use crate::expression::Expression;
+use crate::parallel::map_chunks;
+use crate::plane_table::PlaneTable;
+use crate::skin::{BoundaryEdge, FaceWorker, Scene};
+use crate::tree::{Operation, TreeNode};
+use crate::weld::{EdgeId, LiveWeld};
+
+/// From so many faces on they are worked out by several threads: waking them takes as long as a few faces.
+const FACES_FOR_THREADS: usize = 64;
+
+/// So many faces of a body are worked out in a row then.
+const FACES_OF_GROUP: usize = 20;
+
+/// No place.
+const NOWHERE: u32 = u32::MAX;
+
+impl LiveModel {
+    /// Works out the boundary on some faces, sorted.
+    pub(super) fn skin(&mut self, faces: &[(u32, u32)]) {
+        let order = |number: u32| self.operands[number as usize].as_ref().map_or(0, |operand| operand.order);
+        // what is near the faces of each body
+        let mut near: Vec<(u64, u32)> = Vec::new();
+        let mut groups: Vec<Group> = Vec::new();
+        for of_body in faces.chunk_by(|a, b| a.0 == b.0) {
+            let number = of_body[0].0;
+            let Some(body) = body_of(&self.operands, number) else { continue };
+            let boxes = of_body.iter().map(|(_, face)| &body.faces[*face as usize].bounds);
+            let bounds = boxes.fold(Bounds::EMPTY, |all, bounds| all.union(bounds));
+            let (start, first) = (near.len(), groups.last().map_or(0, |group| group.faces.end));
+            near.extend(self.places.near(&bounds).map(|number| (order(number), number)));
+            near[start..].sort_unstable();
+            groups.push(Group { number, near: start..near.len(), faces: first..first + of_body.len() });
+        }
+        let mut members = near.clone();
+        members.sort_unstable();
+        members.dedup();
+        // nothing is left of what lies before an intersecting brush that does not come near
+        let far = self.intersecting.iter().rev().find(|entry| members.binary_search(entry).is_err());
+        if let Some((order, _)) = far {
+            members.retain(|member| member.0 > *order);
+        }
+        let operand = |number: u32| self.operands[number as usize].as_ref().expect("what is near is there");
+        let member = |leaf: u32| operand(members[leaf as usize].1);
+        let expression = sequence((0..members.len() as u32).map(|leaf| member(leaf).role));
+        let faces_of = |leaf: u32| member(leaf).body.as_ref().map_or(&[][..], |body| &body.faces);
+        let kinds = kinds(members.len(), faces_of, |leaf| member(leaf).mark);
+        let repeated = expression.repeated_leaves(&kinds);
+        let leaves: Vec<u32> = (0..members.len() as u32).filter(|leaf| !repeated[*leaf as usize]).collect();
+        let place = &mut self.buffers.place;
+        place.resize(self.operands.len(), NOWHERE);
+        for (k, leaf) in (0..).zip(&leaves) {
+            place[members[*leaf as usize].1 as usize] = k;
+        }
+        let bodies: Vec<&Body> = leaves.iter().filter_map(|leaf| member(*leaf).body.as_ref()).collect();
+        let scene = Scene::of_some(&self.table, bodies, &leaves, &expression, &self.bodies_on_plane, &self.rank);
+        let emit = |groups: &[Group]| {
+            let mut worker = FaceWorker::new(&scene);
+            let (mut found, mut ends, mut near_here) = (Vec::new(), Vec::new(), Vec::new());
+            for Group { number, near: range, faces: of_group } in groups {
+                let own = place[*number as usize];
+                near_here.clear();
+                let places = near[range.clone()].iter().map(|(_, number)| place[*number as usize]);
+                near_here.extend(places.filter(|place| *place != NOWHERE));
+                if own != NOWHERE {
+                    worker.begin(own as usize, near_here.len());
+                }
+                for (_, face) in &faces[of_group.clone()] {
+                    if own != NOWHERE {
+                        worker.emit(own as usize, *face as usize, &near_here, &mut found);
+                    }
+                    ends.push(found.len());
+                }
+            }
+            (found, ends)
+        };
+        let parts = if faces.len() < FACES_FOR_THREADS {
+            vec![emit(&groups)]
+        } else {
+            let groups: Vec<Group> = groups.into_iter().flat_map(Group::split).collect();
+            map_chunks(&groups, 1, emit).0
+        };
+        for (_, number) in &members {
+            place[*number as usize] = NOWHERE;
+        }
+        let mut of_part = faces.iter();
+        for (mut found, ends) in parts {
+            let mut start = 0;
+            for (end, (number, face)) in ends.into_iter().zip(&mut of_part) {
+                let operand = self.operands[*number as usize].as_mut().expect("the brush is there");
+                exchange(&mut self.welded, &self.table, &mut operand.edges[*face as usize], &mut found[start..end]);
+                start = end;
+            }
+        }
+    }
+}
+
+/// Faces of one body that are worked out in a row: a range among the faces, and one among the bodies near.
+struct Group {
+    number: u32,
+    near: Range<usize>,
+    faces: Range<usize>,
+}
+
+impl Group {
+    /// Groups of a few faces each.
+    fn split(self) -> impl Iterator<Item = Self> {
+        let Self { number, near, faces } = self;
+        let end = faces.end;
+        faces.step_by(FACES_OF_GROUP).map(move |start| Self {
+            number,
+            near: near.clone(),
+            faces: start..end.min(start + FACES_OF_GROUP),
+        })
+    }
+}
+
+/// Brushes added, subtracted and intersected one after another.
+fn sequence(roles: impl Iterator<Item = Role>) -> Expression {
+    let mut nodes: Vec<TreeNode> = Vec::new();
+    // what is not yet noted: the union of no brushes at first
+    let (mut operation, mut operands) = (Operation::Union, 0);
+    for role in roles {
+        let next = match role {
+            Role::Add => Operation::Union,
+            Role::Subtract => Operation::Difference,
+            Role::Intersect => Operation::Intersection,
+        };
+        if next != operation {
+            nodes.push(TreeNode::Operation { operation, operands });
+            (operation, operands) = (next, 1);
+        }
+        nodes.push(TreeNode::Leaf);
+        operands += 1;
+    }
+    nodes.push(TreeNode::Operation { operation, operands });
+    Expression::new(&nodes)
+}
+
+/// Puts the edges that were found on a face in the place of those known, sorted; what stays the same is not touched.
+fn exchange(
+    welded: &mut LiveWeld,
+    table: &PlaneTable,
+    known: &mut Vec<(BoundaryEdge, EdgeId)>,
+    found: &mut [BoundaryEdge],
+) {
+    found.sort_unstable();
+    if known.iter().map(|edge| &edge.0).eq(found.iter()) {
+        return;
+    }
+    let mut before = std::mem::take(known).into_iter().peekable();
+    for edge in found {
+        while let Some((_, gone)) = before.next_if(|other| other.0 < *edge) {
+            welded.remove(gone);
+        }
+        known.push(before.next_if(|other| other.0 == *edge).unwrap_or_else(|| (*edge, welded.insert(table, edge))));
+    }
+    before.for_each(|(_, gone)| welded.remove(gone));
+}
