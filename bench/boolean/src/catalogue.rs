@@ -27,7 +27,17 @@ pub(crate) struct Workload {
     /// What it is one of several sizes of, and its size.
     pub(crate) series: Option<(&'static str, usize)>,
     pub(crate) is_quick: bool,
+    pub(crate) in_blocks: InBlocks,
     make: Make,
+}
+
+/// Whether planecut also does a workload block by block.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum InBlocks {
+    No,
+    Too,
+    /// And nobody does it otherwise: it is too large.
+    Only,
 }
 
 impl Workload {
@@ -36,7 +46,7 @@ impl Workload {
     }
 
     fn read(name: impl Into<String>, make: impl Fn() -> Result<Task, String> + 'static) -> Self {
-        Self { name: name.into(), series: None, is_quick: false, make: Box::new(make) }
+        Self { name: name.into(), series: None, is_quick: false, in_blocks: InBlocks::No, make: Box::new(make) }
     }
 
     fn of(self, series: &'static str, size: usize) -> Self {
@@ -45,6 +55,10 @@ impl Workload {
 
     fn quick(self, is_quick: bool) -> Self {
         Self { is_quick, ..self }
+    }
+
+    fn in_blocks(self, in_blocks: InBlocks) -> Self {
+        Self { in_blocks, ..self }
     }
 
     /// Its bodies, and what is done with them.
@@ -89,7 +103,9 @@ pub(crate) fn all() -> Vec<Workload> {
         let made = Workload::new(name, move || workloads::dense_spheres(triangles));
         all.push(made.of(SPHERES, triangles).quick(triangles == 32_768));
     }
-    all.extend([3000, 10_000, 30_000, 100_000].map(rotated));
+    all.push(rotated(3000));
+    all.extend([10_000, 30_000, 100_000].map(|count| rotated(count).in_blocks(InBlocks::Too)));
+    all.push(rotated(1_000_000).in_blocks(InBlocks::Only));
     for count in [10, 100, 1000, 10_000, 100_000] {
         all.push(Workload::new(format!("move_in_{count}"), move || workloads::moved_box(count)).of(MOVE, count));
     }

@@ -5,6 +5,7 @@ use std::time::Duration;
 use crate::machine;
 
 pub(crate) const PLANECUT: &str = "planecut";
+pub(crate) const PLANECUT_BLOCKS: &str = "planecut in blocks";
 pub(crate) const MANIFOLD3D: &str = "manifold3d";
 pub(crate) const OPENSCAD: &str = "openscad";
 
@@ -44,6 +45,13 @@ impl Entrant {
         all
     }
 
+    /// planecut, block by block.
+    pub(crate) const IN_BLOCKS: Self = Self { name: PLANECUT_BLOCKS, cores: CORES };
+
+    pub(crate) fn is_ours(self) -> bool {
+        [PLANECUT, PLANECUT_BLOCKS].contains(&self.name)
+    }
+
     /// The key in the JSON file.
     pub(crate) fn key(self) -> String {
         format!("{} ({} core{})", self.name, self.cores, if self.cores == 1 { "" } else { "s" })
@@ -52,7 +60,7 @@ impl Entrant {
     /// The two that the comparison is about have the most time; the others show no more than where they stand.
     pub(crate) fn limits(self, is_quick: bool) -> Limits {
         let (total, single) = match (self.name, self.cores, is_quick) {
-            (PLANECUT | MANIFOLD3D, CORES, false) => (4.0, 120.0),
+            (PLANECUT | PLANECUT_BLOCKS | MANIFOLD3D, CORES, false) => (4.0, 120.0),
             (PLANECUT | MANIFOLD3D, _, false) => (2.0, 25.0),
             ("manifold-rust", _, false) => (2.0, 15.0),
             (OPENSCAD, _, false) => (2.0, 40.0),

@@ -23,7 +23,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 
-use catalogue::Workload;
+use catalogue::{InBlocks, Workload};
 use conductor::Record;
 use entrant::Entrant;
 use process::Failure;
@@ -110,6 +110,7 @@ fn run(options: &Options) -> Result<(), String> {
         folder: Folder::make()?,
         entrants: Entrant::all(options.is_quick),
         too_slow: HashMap::new(),
+        last: HashMap::new(),
         rounds,
         is_quick: options.is_quick,
     };
@@ -148,6 +149,8 @@ struct Session {
     entrants: Vec<Entrant>,
     /// By series and entrant, the workload whose limit was too short.
     too_slow: HashMap<(&'static str, String), String>,
+    /// By series and entrant, the last size and its median in seconds.
+    last: HashMap<(&'static str, String), (usize, f64)>,
     rounds: usize,
     is_quick: bool,
 }
@@ -157,19 +160,24 @@ impl Session {
         let task = workload.make().map_err(|error| format!("{}: {error}", workload.name))?;
         let file = self.folder.0.join("bodies.scene");
         task.scene.write(&file).map_err(|error| format!("{}: {error}", file.display()))?;
-        let series = workload.series.map(|(series, _)| series);
-        let smaller = |entrant: &Entrant| self.too_slow.get(&(series?, entrant.key()));
-        let (left_out, taking_part): (Vec<Entrant>, Vec<Entrant>) =
-            self.entrants.iter().partition(|entrant| smaller(entrant).is_some());
+        let reason = |entrant: &Entrant| self.reason_to_leave_out(workload, *entrant);
+        let in_blocks = (workload.in_blocks != InBlocks::No).then_some(Entrant::IN_BLOCKS);
+        let at_once = self.entrants.iter().filter(|_| workload.in_blocks != InBlocks::Only).copied();
+        let (taking_part, left_out): (Vec<Entrant>, Vec<Entrant>) =
+            at_once.chain(in_blocks).partition(|entrant| reason(entrant).is_none());
         let records = conductor::conduct(&file, &taking_part, self.rounds, self.is_quick);
         let mut records: Vec<(Entrant, Record)> = taking_part.into_iter().zip(records).collect();
         for entrant in left_out {
-            let text = format!("left out: too slow for {}", smaller(&entrant).map_or("", String::as_str));
+            let text = reason(&entrant).unwrap_or_default();
             records.push((entrant, Record::failed(Failure::Refused(text))));
         }
         for (entrant, record) in &records {
-            if let (Some(series), Some(Failure::OverLimit(_))) = (series, &record.failure) {
+            let Some((series, size)) = workload.series else { continue };
+            if let Some(Failure::OverLimit(_)) = &record.failure {
                 self.too_slow.insert((series, entrant.key()), workload.name.clone());
+            }
+            if let Some(median) = record.median() {
+                self.last.insert((series, entrant.key()), (size, median));
             }
         }
         let volume = verify::expected(task.volume, &task.scene, &records);
@@ -182,6 +190,19 @@ impl Session {
             volume,
             records,
         })
+    }
+
+    /// Why an entrant need not begin: a smaller workload was too long for it, or this one would be if time grows with size.
+    fn reason_to_leave_out(&self, workload: &Workload, entrant: Entrant) -> Option<String> {
+        let (series, size) = workload.series?;
+        let key = (series, entrant.key());
+        if let Some(smaller) = self.too_slow.get(&key) {
+            return Some(format!("left out: too slow for {smaller}"));
+        }
+        let (before, median) = self.last.get(&key)?;
+        let limit = entrant.limits(self.is_quick).single;
+        let is_too_long = median * size as f64 / *before as f64 > limit.as_secs_f64();
+        is_too_long.then(|| format!("left out: {median:.1} s for {before}, {} s at most", limit.as_secs()))
     }
 
     fn trees(&self, options: &Options) -> Vec<trees::Tree> {

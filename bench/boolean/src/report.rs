@@ -30,7 +30,7 @@ impl Line {
 
     /// What is wrong with planecut's own results.
     pub(crate) fn our_fault(&self) -> Option<&str> {
-        let mut ours = self.records.iter().filter(|(entrant, _)| entrant.name == PLANECUT);
+        let mut ours = self.records.iter().filter(|(entrant, _)| entrant.is_ours());
         ours.find_map(|(_, record)| record.wrong.as_deref())
     }
 }

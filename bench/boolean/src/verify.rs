@@ -17,7 +17,7 @@ pub(crate) fn expected(known: Option<f64>, scene: &Scene, records: &[(Entrant, R
         let model = Model { materials: vec![Material::named("all")], tree: scene.at_once() };
         return evaluate(&model).ok().map(|evaluation| evaluation.solid.volume);
     }
-    let ours = records.iter().filter(|(entrant, _)| entrant.name == PLANECUT);
+    let ours = records.iter().filter(|(entrant, _)| entrant.is_ours());
     ours.flat_map(|(_, record)| &record.runs).map(|run| run.volume).next()
 }
 

@@ -6,6 +6,7 @@ mod csgrs;
 mod manifold_rust;
 mod openscad;
 mod planecut;
+mod planecut_blocks;
 pub(crate) mod worker;
 
 use std::path::Path;
@@ -13,6 +14,7 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
+use crate::entrant::PLANECUT_BLOCKS;
 use crate::scene::{Action, Entry, Plan, Scene};
 
 /// What one run gave.
@@ -38,6 +40,7 @@ pub(crate) trait Contestant {
 pub(crate) fn prepare(name: &str, scene: Scene, file: &Path) -> Result<Box<dyn Contestant>, String> {
     match name {
         "planecut" => Ok(Box::new(planecut::Planecut::new(&scene)?)),
+        PLANECUT_BLOCKS => Ok(Box::new(planecut_blocks::PlanecutBlocks::new(&scene)?)),
         "manifold-rust" => Ok(Box::new(manifold_rust::ManifoldRust::new(scene)?)),
         "boolmesh" => Ok(Box::new(boolmesh::Boolmesh::new(scene)?)),
         "csgrs" => Ok(Box::new(csgrs::Csgrs::new(scene)?)),
