@@ -82,6 +82,14 @@ impl Body {
         }
     }
 
+    /// The face on a plane, whatever its side.
+    pub(crate) fn face_on(&self, table: &PlaneTable, plane: PlaneId) -> Option<&BodyFace> {
+        match self.gauge(table) {
+            Some(gauge) => gauge.on_plane(plane).map(|face| &self.faces[face as usize]),
+            None => self.faces.iter().find(|face| face.plane.index() == plane.index()),
+        }
+    }
+
     /// Puts other planes in the place of its own.
     pub(crate) fn renumber_planes(&mut self, renumbered: impl Fn(PlaneId) -> PlaneId) {
         self.gauge = OnceLock::new();

@@ -60,6 +60,27 @@ pub enum EditError {
     Weld(#[from] WeldError),
 }
 
+/// How far the change of a brush reaches.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Reach {
+    /// To what it or its old body touches.
+    Near,
+    /// To the boundary near it: it is the last one, and new.
+    Appended,
+    /// To everything, as what lies outside of an intersecting brush is taken away.
+    Everywhere,
+}
+
+impl Reach {
+    fn of_appended(is_intersecting: bool) -> Self {
+        if is_intersecting { Self::Everywhere } else { Self::Appended }
+    }
+
+    fn of_change(is_intersecting: bool) -> Self {
+        if is_intersecting { Self::Everywhere } else { Self::Near }
+    }
+}
+
 /// Brushes in order, each with a [`Role`], and the boundary of the solid that they make.
 ///
 /// The solid is what is left when one brush after another is added to it, taken from it or intersected with it.
@@ -121,7 +142,7 @@ impl LiveModel {
     pub fn add_brush(&mut self, brush: Brush, role: Role) -> Result<(BrushId, Change), EditError> {
         let body = self.build(&brush)?;
         let (id, number) = self.append(brush, role);
-        let change = self.change_bodies(vec![(number, body)], role == Role::Intersect)?;
+        let change = self.change_bodies(vec![(number, body)], Reach::of_appended(role == Role::Intersect))?;
         Ok((id, change))
     }
 
@@ -134,7 +155,8 @@ impl LiveModel {
         let is_intersecting = brushes.iter().any(|(_, role)| *role == Role::Intersect);
         let (ids, numbers): (Vec<BrushId>, Vec<u32>) =
             brushes.into_iter().map(|(brush, role)| self.append(brush, role)).unzip();
-        let change = self.change_bodies(numbers.into_iter().zip(bodies).collect(), is_intersecting)?;
+        let change =
+            self.change_bodies(numbers.into_iter().zip(bodies).collect(), Reach::of_appended(is_intersecting))?;
         Ok((ids, change))
     }
 
@@ -145,7 +167,7 @@ impl LiveModel {
     pub fn remove_brush(&mut self, id: BrushId) -> Result<Change, EditError> {
         let role = self.operand(id)?.role;
         self.intersecting.retain(|entry| entry.0 != id.order);
-        let change = self.change_bodies(vec![(id.number, None)], role == Role::Intersect)?;
+        let change = self.change_bodies(vec![(id.number, None)], Reach::of_change(role == Role::Intersect))?;
         self.operands[id.number as usize] = None;
         self.free.push(id.number);
         Ok(change)
@@ -158,7 +180,7 @@ impl LiveModel {
     pub fn replace_brush(&mut self, id: BrushId, brush: Brush) -> Result<Change, EditError> {
         let role = self.operand(id)?.role;
         let body = self.build(&brush)?;
-        let change = self.change_bodies(vec![(id.number, body)], role == Role::Intersect)?;
+        let change = self.change_bodies(vec![(id.number, body)], Reach::of_change(role == Role::Intersect))?;
         if let Some(operand) = &mut self.operands[id.number as usize] {
             operand.brush = brush;
         }
@@ -179,7 +201,7 @@ impl LiveModel {
             self.intersecting.sort_unstable();
         }
         let is_intersecting = role == Role::Intersect || was == Role::Intersect;
-        self.change_bodies(vec![(id.number, body)], is_intersecting)
+        self.change_bodies(vec![(id.number, body)], Reach::of_change(is_intersecting))
     }
 
     /// A brush.
@@ -266,8 +288,8 @@ impl LiveModel {
         (BrushId { order, number }, number)
     }
 
-    /// Gives brushes other bodies, or none, and works out what that changes; that of an intersecting one tells everywhere.
-    fn change_bodies(&mut self, new: Vec<(u32, Option<Body>)>, is_intersecting: bool) -> Result<Change, EditError> {
+    /// Gives brushes other bodies, or none, and works out what that changes.
+    fn change_bodies(&mut self, new: Vec<(u32, Option<Body>)>, reach: Reach) -> Result<Change, EditError> {
         self.buffers.faces.clear();
         for (number, _) in &new {
             let operand = self.operands[*number as usize].as_mut().expect("the brush is there");
@@ -280,9 +302,9 @@ impl LiveModel {
                 let count = &mut self.bodies_on_plane[face.plane.index() as usize];
                 *count -= u8::from(*count < u8::MAX);
             }
-            self.touch(&old);
+            self.touch(&old, false);
         }
-        new.iter().filter_map(|(_, body)| body.as_ref()).for_each(|body| self.touch(body));
+        new.iter().filter_map(|(_, body)| body.as_ref()).for_each(|body| self.touch(body, reach == Reach::Appended));
         self.bodies_on_plane.resize(self.table.len(), 0);
         for (number, body) in new {
             let Some(body) = body else { continue };
@@ -297,7 +319,7 @@ impl LiveModel {
             operand.mark = mark_of(&body.faces);
             operand.body = Some(body);
         }
-        if is_intersecting {
+        if reach == Reach::Everywhere {
             self.touch_all();
         }
         let mut faces = std::mem::take(&mut self.buffers.faces);
@@ -310,16 +332,20 @@ impl LiveModel {
         Ok(Change { removed: removed.to_vec(), added: added.to_vec() })
     }
 
-    /// Notes the faces of other bodies that may reach into a body.
-    fn touch(&mut self, by: &Body) {
+    /// Notes the faces of other bodies that may reach into a body. A body that comes last and does not intersect can only take away
+    /// from the boundary on them, but where it has a face on their plane.
+    fn touch(&mut self, by: &Body, is_last: bool) {
         let bounds = &by.bounds;
         for other in self.places.near(bounds) {
-            let Some(body) = body_of(&self.operands, other) else { continue };
-            let reaches = |face: &(u32, &BodyFace)| {
-                let half_space = self.table.half_space(face.1.plane);
-                face.1.bounds.may_share_area(bounds)
+            let Some(Operand { body: Some(body), edges, .. }) = &self.operands[other as usize] else { continue };
+            let reaches = |(number, face): &(u32, &BodyFace)| {
+                let half_space = self.table.half_space(face.plane);
+                let may_matter =
+                    || !is_last || !edges[*number as usize].is_empty() || by.face_on(&self.table, face.plane).is_some();
+                face.bounds.may_share_area(bounds)
+                    && may_matter()
                     && !misses(bounds, half_space.normal(), half_space.offset())
-                    && !by.is_surely_apart_from(&self.table, body.corners(face.1))
+                    && !by.is_surely_apart_from(&self.table, body.corners(face))
             };
             self.buffers.faces.extend((0..).zip(&body.faces).filter(reaches).map(|(face, _)| (other, face)));
         }

@@ -35,14 +35,19 @@ pub(super) fn take_convex(part: &mut Part, edges: &Edges, points: &Points<'_>) -
     let groups: Vec<Group> = (0..edges.sheets as u32).map(|sheet| Group::of(part, edges, sheet)).collect();
     let convex: Vec<bool> =
         groups.iter().zip(&is_folded).map(|(group, folded)| !folded && group.is_convex(points)).collect();
-    for start in 0..edges.sheets {
-        if !convex[start] || is_taken[start] {
-            continue;
-        }
-        if let Some(members) = complete(&groups, &convex, &is_taken, start, points) {
-            let pieces = members.iter().flat_map(|sheet| groups[*sheet].pieces.iter().copied());
-            lumps.push(lump(part, pieces, points));
-            members.into_iter().for_each(|sheet| is_taken[sheet] = true);
+    // one that is taken may have stood in the way of others
+    let mut before = usize::MAX;
+    while lumps.len() != before {
+        before = lumps.len();
+        for start in 0..edges.sheets {
+            if !convex[start] || is_taken[start] {
+                continue;
+            }
+            if let Some(members) = complete(&groups, &convex, &is_taken, start, points) {
+                let pieces = members.iter().flat_map(|sheet| groups[*sheet].pieces.iter().copied());
+                lumps.push(lump(part, pieces, points));
+                members.into_iter().for_each(|sheet| is_taken[sheet] = true);
+            }
         }
     }
     let mut sheet = edges.sheet_of.iter();
@@ -50,7 +55,7 @@ pub(super) fn take_convex(part: &mut Part, edges: &Edges, points: &Points<'_>) -
     lumps
 }
 
-/// The sheets that bound a convex lump together with one of them.
+/// The sheets that bound a convex lump together with one of them, where nothing of other lumps lies in it.
 fn complete(
     groups: &[Group<'_>],
     convex: &[bool],
@@ -63,7 +68,9 @@ fn complete(
     loop {
         let others = (0..groups.len()).filter(|other| !is_taken[*other] && !members.contains(other));
         let Some(other) = others.into_iter().find(|other| whole.is_entered_by(&groups[*other], points)) else {
-            return Some(members);
+            let mut taken = (0..groups.len()).filter(|other| is_taken[*other]);
+            let is_disjoint = !taken.any(|other| whole.is_entered_by(&groups[other], points));
+            return is_disjoint.then_some(members);
         };
         if !convex[other] {
             return None;

@@ -143,6 +143,7 @@ impl Clipper {
             }
             let entry = cutter.place * self.corners + number;
             if self.known[entry] == Found::Unknown {
+                self.stay_near(cutter.place, polygon);
                 self.known[entry] = self.find(cutter, gauge, polygon, i);
             }
             self.known[entry]
@@ -151,6 +152,22 @@ impl Clipper {
             self.last[cutter.place] = nearest;
         }
         found
+    }
+
+    /// Lets the search begin near a corner of the polygon that was placed with another face: faces that follow one another may lie
+    /// far apart.
+    fn stay_near(&mut self, place: usize, polygon: &Polygon) {
+        let known = |corner: &Corner| {
+            let number = corner.number as usize;
+            let found = if number < self.corners { self.known[place * self.corners + number] } else { Found::Unknown };
+            match found {
+                Found::Inside(nearest) | Found::Beyond(nearest) => Some(nearest),
+                Found::Unknown => None,
+            }
+        };
+        if let Some(nearest) = polygon.corners.iter().find_map(known) {
+            self.last[place] = nearest;
+        }
     }
 
     fn find(&mut self, cutter: Cutter<'_>, gauge: &Gauge, polygon: &Polygon, i: usize) -> Found {

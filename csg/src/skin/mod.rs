@@ -124,15 +124,6 @@ impl<'a> Scene<'a> {
         self.bodies_on_plane[face.plane.index() as usize] > 1
     }
 
-    /// The face that a body has on a plane, whatever its side.
-    fn face_on(&self, body: usize, plane: PlaneId) -> Option<&'a BodyFace> {
-        let faces = &self.bodies[body].faces;
-        match self.gauge(body) {
-            Some(gauge) => gauge.on_plane(plane).map(|face| &faces[face as usize]),
-            None => faces.iter().find(|face| face.plane.index() == plane.index()),
-        }
-    }
-
     fn polarity(&self, body: usize) -> Polarity {
         self.expression.polarity(self.leaf_of_body[body])
     }

@@ -151,3 +151,33 @@ fn touching_solids_unite_without_a_wall() {
     let model = Model { materials: vec![Material::default()], tree: Tree::from(solid) };
     assert_eq!(evaluate(&model).expect("a solid").mesh.faces.len(), 6);
 }
+
+/// The cubes of a part can bar each other from being seen as convex, until one of them is taken.
+#[test]
+fn a_lump_that_stood_in_the_way_of_others() {
+    let is_hole = |mut u: u32, mut v: u32| {
+        (0..3).any(|_| {
+            let is_middle = u % 3 == 1 && v % 3 == 1;
+            (u, v) = (u / 3, v / 3);
+            is_middle
+        })
+    };
+    let holes: Vec<[u32; 2]> = (0..27 * 27).map(|k| [k % 27, k / 27]).filter(|[u, v]| is_hole(*u, *v)).collect();
+    let bars = (0..3).flat_map(|axis| holes.iter().map(move |hole| (axis, hole))).map(|(axis, [u, v])| {
+        let (mut low, mut high) = (DVec3::splat(-1.0), DVec3::splat(28.0));
+        for (place, at) in [((axis + 1) % 3, f64::from(*u)), ((axis + 2) % 3, f64::from(*v))] {
+            (low[place], high[place]) = (at, at + 1.0);
+        }
+        Tree::from(Brush::cuboid(low, high, MaterialId(0)))
+    });
+    let block = Tree::from(Brush::cuboid(DVec3::ZERO, DVec3::splat(27.0), MaterialId(0)));
+    let tree = Tree::difference(std::iter::once(block).chain(bars));
+    let sponge = evaluate(&Model { materials: vec![Material::default()], tree }).expect("a bounded solid");
+    let solid = planecut_csg::polyhedron::polyhedron(
+        &sponge.mesh.positions,
+        &sponge.mesh.triangles,
+        &[MaterialId(0)],
+        &planecut_csg::polyhedron::PolyhedronOptions::default(),
+    );
+    assert_eq!(solid.map(|solid| solid.volume), Ok(8000.0));
+}
