@@ -33,9 +33,9 @@ pub(crate) struct Body {
     pub(crate) faces: Vec<BodyFace>,
     /// The planes of the edges, face by face.
     edges: Vec<PlaneId>,
+    /// The different corners, and face by face the numbers of its own.
     corners: Vec<Corner>,
-    /// Their numbers are below this.
-    pub(crate) different_corners: usize,
+    corner_numbers: Vec<u32>,
     pub(crate) bounds: Bounds,
     pub(crate) volume: f64,
     /// Made when first asked for.
@@ -54,20 +54,30 @@ impl Body {
     }
 
     /// The corners of a face: corner `i` between the edges `i` and `i + 1`.
-    pub(crate) fn corners(&self, face: &BodyFace) -> &[Corner] {
-        &self.corners[face.start as usize..face.end as usize]
+    pub(crate) fn corners(&self, face: &BodyFace) -> impl ExactSizeIterator<Item = &Corner> + Clone {
+        let numbers = &self.corner_numbers[face.start as usize..face.end as usize];
+        numbers.iter().map(|number| &self.corners[*number as usize])
+    }
+
+    /// How many different corners there are: their numbers are below this.
+    pub(crate) fn corner_count(&self) -> usize {
+        self.corners.len()
     }
 
     /// Whether all of some corners surely lie beyond one of its planes.
-    pub(crate) fn is_surely_apart_from(&self, table: &PlaneTable, corners: &[Corner]) -> bool {
-        let Some(first) = corners.first() else { return true };
+    pub(crate) fn is_surely_apart_from<'a>(
+        &self,
+        table: &PlaneTable,
+        mut corners: impl Iterator<Item = &'a Corner> + Clone,
+    ) -> bool {
+        let Some(first) = corners.clone().next() else { return true };
         if let Some(gauge) = self.gauge(table) {
             let Place::Outside(face) = gauge.place(first, gauge.seed(first)) else { return false };
-            return corners.iter().all(|corner| gauge.is_beyond(corner, face));
+            return corners.all(|corner| gauge.is_beyond(corner, face));
         }
         self.faces.iter().any(|face| {
             let sieve = Sieve::new(table.half_space(face.plane));
-            corners.iter().all(|corner| sieve.side(corner) == Sign::Positive)
+            corners.clone().all(|corner| sieve.side(corner) == Sign::Positive)
         })
     }
 
@@ -104,7 +114,8 @@ impl Body {
 
     /// The mean of the corners, each counted once for each face at it.
     pub(crate) fn middle(&self) -> DVec3 {
-        self.corners.iter().map(|corner| corner.at).sum::<DVec3>() / self.corners.len() as f64
+        let corners = self.corner_numbers.iter().map(|number| self.corners[*number as usize].at);
+        corners.sum::<DVec3>() / self.corner_numbers.len() as f64
     }
 }
 
@@ -228,7 +239,7 @@ pub(crate) fn body_of(
         faces: Vec::new(),
         edges: Vec::new(),
         corners: Vec::new(),
-        different_corners: 0,
+        corner_numbers: Vec::new(),
         bounds: Bounds::EMPTY,
         volume: 0.0,
         gauge: OnceLock::new(),
@@ -252,20 +263,18 @@ pub(crate) fn body_of(
         for (i, edge) in edges.iter().enumerate() {
             let triple = [plane, body.edges[start + i], body.edges[start + (i + 1) % edges.len()]];
             let known = edge.corner.and_then(|number| shared[number]);
-            let corner = match known {
-                Some(known) => body.corners[known as usize],
-                None => {
-                    body.different_corners += 1;
-                    let number = body.different_corners as u32 - 1;
-                    Corner { number, ..Corner::new(table.homogeneous(triple)) }
-                }
-            };
-            if let (Some(number), None) = (edge.corner, known) {
-                shared[number] = Some(body.corners.len() as u32);
+            let number = known.unwrap_or_else(|| {
+                let number = body.corners.len() as u32;
+                body.corners.push(Corner { number, ..Corner::new(table.homogeneous(triple)) });
+                number
+            });
+            if let Some(shared_number) = edge.corner {
+                shared[shared_number] = Some(number);
             }
-            bounds = bounds.with_corner(&corner);
+            let corner = &body.corners[number as usize];
+            bounds = bounds.with_corner(corner);
             volume.add(if corner.is_well_known() { Some(corner.at) } else { table.position(triple) });
-            body.corners.push(corner);
+            body.corner_numbers.push(number);
         }
         body.bounds = body.bounds.union(&bounds);
         let (start, end) = (start as u32, body.edges.len() as u32);

@@ -91,7 +91,7 @@ impl<'a> FaceWorker<'a> {
 
     /// Begins with the faces of another body; so many bodies are near.
     pub(crate) fn begin(&mut self, body: usize, near: usize) {
-        self.clipper.begin(self.scene.bodies[body].different_corners, near);
+        self.clipper.begin(self.scene.bodies[body].corner_count(), near);
     }
 
     /// Emits the boundary of what face `face` of body `body` is of the boundary; `near` are the bodies whose boxes touch it,

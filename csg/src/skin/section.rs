@@ -27,14 +27,14 @@ pub(super) enum Clip {
 
 impl Polygon {
     pub(super) fn copy_from(&mut self, other: &Self) {
-        self.set(&other.edges, &other.corners);
+        self.set(&other.edges, other.corners.iter());
     }
 
-    pub(super) fn set(&mut self, edges: &[PlaneId], corners: &[Corner]) {
+    pub(super) fn set<'a>(&mut self, edges: &[PlaneId], corners: impl Iterator<Item = &'a Corner>) {
         self.edges.clear();
         self.edges.extend_from_slice(edges);
         self.corners.clear();
-        self.corners.extend_from_slice(corners);
+        self.corners.extend(corners.copied());
     }
 
     /// The three planes of corner `i`.

@@ -2,7 +2,7 @@
 //!
 //! What the weld finds depends on little: what survives on a line on the edges of that line, the loops and faces of a region
 //! on the pieces of that region, its triangles on the face. So all of it is kept, and after edges went and came, their lines
-//! are cancelled and cut again ([`lines`](self)), the regions whose pieces changed are chained and nested again, and the
+//! are cancelled and cut again, the regions whose pieces changed are chained and nested again, and the
 //! faces that are new are triangulated ([`faces`]). Points, lines and regions are numbered as long as an edge names them
 //! ([`numbers`]); nothing depends on these numbers but the numbers of others.
 
@@ -81,7 +81,7 @@ struct Pieces {
     following: Vec<u32>,
     /// The face that each bounds.
     face: Vec<u32>,
-    /// Where [`HalfEdge::region`] is not it any more.
+    /// Taken out; what else is said of such a half-edge is no longer true.
     is_gone: Vec<bool>,
     free: Vec<u32>,
     /// Gone since the last update; their numbers are not used again before it ends.
