@@ -192,9 +192,8 @@ impl LiveModel {
     /// # Errors
     /// [`EditError::UnknownBrush`].
     pub fn set_role(&mut self, id: BrushId, role: Role) -> Result<Change, EditError> {
-        let brush = self.operand(id)?.brush.clone();
-        let body = self.build(&brush)?;
-        let was = std::mem::replace(&mut self.operand_mut(id)?.role, role);
+        let operand = self.operand_mut(id)?;
+        let (body, was) = (operand.body.clone(), std::mem::replace(&mut operand.role, role));
         self.intersecting.retain(|entry| entry.0 != id.order);
         if role == Role::Intersect {
             self.intersecting.push((id.order, id.number));
