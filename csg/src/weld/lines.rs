@@ -9,7 +9,7 @@ use rustc_hash::FxHashMap;
 
 use super::points::Points;
 use crate::distinct::{WEIGHTS, distinct};
-use crate::parallel::{counted, map_chunks};
+use crate::parallel::map_chunks;
 use crate::plane_table::{PlaneId, PlaneTable};
 use crate::skin::BoundaryEdge;
 
@@ -54,24 +54,33 @@ fn number(table: &PlaneTable, pairs: &[u64]) -> (Vec<Line>, Vec<u32>, Counts) {
     // of lines that may be equal, the first in the order given; most are alone
     let mut first: Vec<u32> = (0..found.len() as u32).collect();
     let axes = AxisPlanes::default();
-    let ((), joining) = counted(|| {
-        let mut some = Vec::new();
-        let mut start = 0;
-        while start < order.len() {
-            let (mut end, mut reach) = (start + 1, order[start].0.high());
-            while end < order.len() && order[end].0.axis == order[start].0.axis && order[end].0.low() <= reach {
-                reach = reach.max(order[end].0.high());
-                end += 1;
-            }
-            if end - start > 1 {
-                some.clear();
-                some.extend(order[start..end].iter().map(|(_, k)| *k));
-                some.sort_unstable();
-                join_equal(table, &axes, &found, &some, &mut first);
-            }
-            start = end;
+    // runs of lines that may be equal
+    let mut runs: Vec<&[(Mark, u32)]> = Vec::new();
+    let mut start = 0;
+    while start < order.len() {
+        let (mut end, mut reach) = (start + 1, order[start].0.high());
+        while end < order.len() && order[end].0.axis == order[start].0.axis && order[end].0.low() <= reach {
+            reach = reach.max(order[end].0.high());
+            end += 1;
         }
+        if end - start > 1 {
+            runs.push(&order[start..end]);
+        }
+        start = end;
+    }
+    let (parts, joining) = map_chunks(&runs, 64, |chunk| {
+        let (mut some, mut equal) = (Vec::new(), Vec::new());
+        for run in chunk {
+            some.clear();
+            some.extend(run.iter().map(|(_, k)| *k));
+            some.sort_unstable();
+            find_equal(table, &axes, &found, &some, &mut equal);
+        }
+        equal
     });
+    for (line, other) in parts.into_iter().flatten() {
+        first[line as usize] = other;
+    }
     counts += joining;
     let mut lines: Vec<Line> = Vec::with_capacity(found.len());
     let mut number = vec![0; found.len()];
@@ -86,14 +95,20 @@ fn number(table: &PlaneTable, pairs: &[u64]) -> (Vec<Line>, Vec<u32>, Counts) {
     (lines, number, counts)
 }
 
-/// Finds which of some lines, given in ascending order, are equal: by their exact keys, confirmed by signs.
-fn join_equal(table: &PlaneTable, axes: &AxisPlanes, found: &[(Line, Mark)], some: &[u32], first: &mut [u32]) {
+/// Finds which of some lines, given in ascending order, are equal to an earlier one: by their exact keys, confirmed by signs.
+fn find_equal(
+    table: &PlaneTable,
+    axes: &AxisPlanes,
+    found: &[(Line, Mark)],
+    some: &[u32],
+    equal: &mut Vec<(u32, u32)>,
+) {
     let mut by_key: FxHashMap<Key, Vec<u32>> = FxHashMap::default();
     for k in some {
         let line = &found[*k as usize].0;
         let bucket = by_key.entry(key(table, line)).or_default();
         match bucket.iter().copied().find(|other| axes.is_same(table, &found[*other as usize].0, line)) {
-            Some(other) => first[*k as usize] = other,
+            Some(other) => equal.push((*k, other)),
             None => bucket.push(*k),
         }
     }

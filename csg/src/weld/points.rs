@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use crate::distinct::{distinct, sortable};
 use crate::locality::curve_number;
-use crate::parallel::{counted, map_chunks};
+use crate::parallel::map_chunks;
 use crate::plane_table::{PlaneId, PlaneTable};
 use crate::skin::BoundaryEdge;
 
@@ -50,41 +50,24 @@ impl Points {
         let place = |(k, point): (usize, &Named)| (place(point.position), k as u32);
         let mut sorted: Vec<(Place, u32)> = named.par_iter().enumerate().with_min_len(1024).map(place).collect();
         sorted.par_sort_unstable();
-        let mut points = Self::default();
-        let mut of_named = vec![0; named.len()];
-        let ((), joining) = counted(|| {
-            for alike in sorted.chunk_by(|a, b| a.0 == b.0) {
-                if let [(_, one)] = alike {
-                    of_named[*one as usize] = points.push(&named[*one as usize]);
-                } else {
-                    points.join(table, &named, alike, &mut of_named);
-                }
-            }
+        let alike: Vec<&[(Place, u32)]> = sorted.chunk_by(|a, b| a.0 == b.0).collect();
+        let (parts, joining) = map_chunks(&alike, 512, |chunk| {
+            let mut joined = Vec::with_capacity(chunk.len());
+            chunk.iter().for_each(|alike| join_equal(table, &named, alike, &mut joined));
+            joined
         });
         counts += joining;
+        let mut points = Self::default();
+        let mut of_named = vec![0; named.len()];
+        let mut number = 0;
+        for (k, is_first) in parts.into_iter().flatten() {
+            if is_first {
+                number = points.push(&named[k as usize]);
+            }
+            of_named[k as usize] = number;
+        }
         let number = |ends: &[u32]| [ends[0], ends[1]].map(|k| of_named[k as usize]);
         (points, of_triple.par_chunks_exact(2).with_min_len(1024).map(number).collect(), counts)
-    }
-
-    /// Numbers points that round alike, equal ones once, in their exact order.
-    fn join(&mut self, table: &PlaneTable, named: &[Named], alike: &[(Place, u32)], of_named: &mut [u32]) {
-        let rows = |k: u32| named[k as usize].planes.map(|plane| table.row(plane));
-        // each with those that are equal to it; mostly all are
-        let mut groups: Vec<Vec<u32>> = Vec::new();
-        for (_, k) in alike {
-            let planes = named[*k as usize].planes;
-            match groups.iter_mut().find(|group| is_at(table, named[group[0] as usize].planes, planes)) {
-                Some(group) => group.push(*k),
-                None => groups.push(vec![*k]),
-            }
-        }
-        groups.sort_by(|p, q| compare_exactly(rows(p[0]), rows(q[0]), &[0, 1, 2]));
-        for group in groups {
-            let number = self.push(&named[group[0] as usize]);
-            for k in group {
-                of_named[k as usize] = number;
-            }
-        }
     }
 
     /// The number of the meeting point of three independent planes, a new one where it is not known yet. Looks at all points.
@@ -172,6 +155,29 @@ impl Named {
 /// The order of points whose coordinates, rounded, differ.
 fn place(position: DVec3) -> Place {
     (curve_number(position), position.to_array().map(sortable))
+}
+
+/// Adds points that round alike in their exact order, each with those that are equal to it; tells of each whether it is the first
+/// of these.
+fn join_equal(table: &PlaneTable, named: &[Named], alike: &[(Place, u32)], joined: &mut Vec<(u32, bool)>) {
+    if let [(_, one)] = alike {
+        joined.push((*one, true));
+        return;
+    }
+    let rows = |k: u32| named[k as usize].planes.map(|plane| table.row(plane));
+    // mostly all are equal
+    let mut groups: Vec<Vec<u32>> = Vec::new();
+    for (_, k) in alike {
+        let planes = named[*k as usize].planes;
+        match groups.iter_mut().find(|group| is_at(table, named[group[0] as usize].planes, planes)) {
+            Some(group) => group.push(*k),
+            None => groups.push(vec![*k]),
+        }
+    }
+    groups.sort_by(|p, q| compare_exactly(rows(p[0]), rows(q[0]), &[0, 1, 2]));
+    for group in groups {
+        joined.extend(group.iter().enumerate().map(|(place, k)| (*k, place == 0)));
+    }
 }
 
 /// What names the meeting point of three planes, whatever their order and sides.
