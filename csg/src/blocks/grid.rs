@@ -87,12 +87,10 @@ impl Grid {
 
     /// The cell that a place is in.
     fn place(&self, at: DVec3) -> Place {
-        [0, 1, 2].map(|axis| self.below(axis, at[axis]).clamp(1, self.walls[axis].len() - 1) - 1)
-    }
-
-    /// How many walls lie at or below a coordinate.
-    fn below(&self, axis: usize, at: f64) -> usize {
-        self.walls[axis].partition_point(|wall| *wall <= at)
+        [0, 1, 2].map(|axis| {
+            let walls = &self.walls[axis];
+            walls.partition_point(|wall| *wall <= at[axis]).clamp(1, walls.len() - 1) - 1
+        })
     }
 
     fn bounds(&self, place: Place) -> Bounds {

@@ -17,7 +17,7 @@ use crate::mesh::Mesh;
 use crate::plane_table::{PlaneId, PlaneTable};
 use crate::skin::{BoundaryEdge, misses};
 pub use crate::weld::{FaceId, LiveFace};
-use crate::weld::{LiveWeld, WeldError, weld};
+use crate::weld::{LiveWeld, weld};
 pub use operand::Role;
 use operand::{Operand, Places};
 
@@ -37,7 +37,8 @@ pub struct Change {
     pub added: Vec<FaceId>,
 }
 
-/// Why an edit was refused; the model is as it was, but after [`EditError::Weld`].
+/// Why an edit was refused; the model is as it was, but after [`EvaluateError::Weld`], a bug in this
+/// crate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum EditError {
@@ -47,17 +48,9 @@ pub enum EditError {
     /// The planes of a brush do not bound a body.
     #[error("found a brush that reaches infinity, expected one that is bounded")]
     Unbounded,
-    /// A face names a material that is not in the list.
-    #[error("found a face of material number {}, expected a number below {count}", .material.0)]
-    UnknownMaterial {
-        /// The material.
-        material: MaterialId,
-        /// How many there are.
-        count: usize,
-    },
-    /// The boundary does not close: a bug in this crate.
+    /// As for a model that is evaluated: a face names an unknown material, or the boundary does not close.
     #[error(transparent)]
-    Weld(#[from] WeldError),
+    Evaluate(#[from] EvaluateError),
 }
 
 /// How far the change of a brush reaches.
@@ -138,7 +131,7 @@ impl LiveModel {
     /// Adds a brush after all others.
     ///
     /// # Errors
-    /// [`EditError::Unbounded`], [`EditError::UnknownMaterial`].
+    /// [`EditError::Unbounded`], [`EvaluateError::UnknownMaterial`].
     pub fn add_brush(&mut self, brush: Brush, role: Role) -> Result<(BrushId, Change), EditError> {
         let body = self.build(&brush)?;
         let (id, number) = self.append(brush, role);
@@ -149,7 +142,7 @@ impl LiveModel {
     /// Adds brushes after all others, in their order, as one edit.
     ///
     /// # Errors
-    /// [`EditError::Unbounded`], [`EditError::UnknownMaterial`]; then none is added.
+    /// [`EditError::Unbounded`], [`EvaluateError::UnknownMaterial`]; then none is added.
     pub fn add_brushes(&mut self, brushes: Vec<(Brush, Role)>) -> Result<(Vec<BrushId>, Change), EditError> {
         let bodies = brushes.iter().map(|(brush, _)| self.build(brush)).collect::<Result<Vec<_>, _>>()?;
         let is_intersecting = brushes.iter().any(|(_, role)| *role == Role::Intersect);
@@ -176,7 +169,7 @@ impl LiveModel {
     /// Puts another brush in the place of one.
     ///
     /// # Errors
-    /// [`EditError::UnknownBrush`], [`EditError::Unbounded`], [`EditError::UnknownMaterial`].
+    /// [`EditError::UnknownBrush`], [`EditError::Unbounded`], [`EvaluateError::UnknownMaterial`].
     pub fn replace_brush(&mut self, id: BrushId, brush: Brush) -> Result<Change, EditError> {
         let role = self.operand(id)?.role;
         let body = self.build(&brush)?;
@@ -258,11 +251,7 @@ impl LiveModel {
 
     fn build(&mut self, brush: &Brush) -> Result<Option<Body>, EditError> {
         let materials: Vec<MaterialId> = brush.faces.iter().map(|face| face.material).collect();
-        if let Err(EvaluateError::UnknownMaterial { material, count }) =
-            check_materials(materials.iter().copied(), self.materials.len())
-        {
-            return Err(EditError::UnknownMaterial { material, count });
-        }
+        check_materials(materials.iter().copied(), self.materials.len())?;
         let planes: Vec<PlaneId> = brush.faces.iter().map(|face| self.table.insert(&face.half_space)).collect();
         match build(&self.table, &planes, &materials, &mut self.buffers.polytope) {
             BrushBody::Bounded(body, _) => Ok(Some(body)),
@@ -326,7 +315,7 @@ impl LiveModel {
         faces.dedup();
         self.skin(&faces);
         self.buffers.faces = faces;
-        self.welded.update(&self.table)?;
+        self.welded.update(&self.table).map_err(EvaluateError::from)?;
         let (removed, added) = self.welded.changes();
         Ok(Change { removed: removed.to_vec(), added: added.to_vec() })
     }

@@ -90,16 +90,7 @@ impl<'a> Scene<'a> {
             let count = &mut bodies_on_plane[face.plane.index() as usize];
             *count = count.saturating_add(1);
         }
-        let bodies_on_plane = bodies_on_plane.into();
-        Self {
-            table,
-            bodies: bodies.iter().collect(),
-            leaf_of_body,
-            expression,
-            flat: expression.flat(),
-            bodies_on_plane,
-            rank,
-        }
+        Self::of_some(table, bodies.iter().collect(), leaf_of_body, expression, bodies_on_plane, rank)
     }
 
     /// Some of many bodies; how many of all have a face on each plane is known.
@@ -108,11 +99,11 @@ impl<'a> Scene<'a> {
         bodies: Vec<&'a Body>,
         leaf_of_body: &'a [u32],
         expression: &'a Expression,
-        bodies_on_plane: &'a [u8],
+        bodies_on_plane: impl Into<Cow<'a, [u8]>>,
         rank: &'a [u32],
     ) -> Self {
-        let flat = expression.flat();
-        Self { table, bodies, leaf_of_body, expression, flat, bodies_on_plane: bodies_on_plane.into(), rank }
+        let (flat, bodies_on_plane) = (expression.flat(), bodies_on_plane.into());
+        Self { table, bodies, leaf_of_body, expression, flat, bodies_on_plane, rank }
     }
 
     fn gauge(&self, body: usize) -> Option<&'a Gauge> {

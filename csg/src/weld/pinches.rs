@@ -6,6 +6,7 @@ use planecut_kernel::sign::{Counts, Sign};
 use super::cancel::HalfEdge;
 use super::points::Points;
 use super::regions_of;
+use crate::bounds::Bounds;
 use crate::parallel::map_chunks;
 use crate::plane_table::PlaneTable;
 
@@ -60,7 +61,7 @@ impl<'a> PinchFinder<'a> {
             self.places.clear();
             self.places.extend(self.corners.iter().map(|corner| self.points.positions[*corner as usize]));
             for piece in region {
-                let (min, max) = self.extent(piece);
+                let Bounds { min, max } = self.points.extent(piece);
                 let is_inside = |at: &DVec3| at.cmpge(min).all() & at.cmple(max).all();
                 // both ends are
                 if self.places.iter().filter(|at| is_inside(at)).count() > 2 {
@@ -79,7 +80,7 @@ impl<'a> PinchFinder<'a> {
             sorted.sort_unstable_by(|p, q| coordinate(*p).total_cmp(&coordinate(*q)));
         }
         for piece in region {
-            let (min, max) = self.extent(piece);
+            let Bounds { min, max } = self.points.extent(piece);
             let range = |axis: usize| {
                 let value = |p: &u32| self.points.positions[*p as usize][axis];
                 let start = sorted[axis].partition_point(|p| value(p) < min[axis]);
@@ -110,15 +111,9 @@ impl<'a> PinchFinder<'a> {
         self.found.dedup();
     }
 
-    /// The box of the rounded ends of an edge. Rounding is monotone, so it holds the rounded corners on the edge.
-    fn extent(&self, piece: &HalfEdge) -> (DVec3, DVec3) {
-        let (from, to) = (self.points.positions[piece.from as usize], self.points.positions[piece.to as usize]);
-        (from.min(to), from.max(to))
-    }
-
     /// Notes those of some corners that lie strictly inside an edge. Signs decide.
     fn touching(&mut self, piece: &HalfEdge, corners: &[u32]) {
-        let (min, max) = self.extent(piece);
+        let Bounds { min, max } = self.points.extent(piece);
         let is_inside = |at: DVec3| at.cmpge(min).all() && at.cmple(max).all();
         for &point in corners {
             if is_inside(self.points.positions[point as usize])

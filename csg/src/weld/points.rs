@@ -8,6 +8,8 @@ use planecut_kernel::sign::{Counts, Sign};
 use planecut_kernel::{DVec3, compare_exactly};
 use rayon::prelude::*;
 
+use super::cancel::HalfEdge;
+use crate::bounds::Bounds;
 use crate::distinct::{distinct, sortable};
 use crate::locality::curve_number;
 use crate::parallel::map_chunks;
@@ -106,6 +108,12 @@ impl Points {
         self.positions = order.iter().map(|p| self.positions[*p as usize]).collect();
         self.exact = order.iter().map(|p| self.exact[*p as usize]).collect();
         number
+    }
+
+    /// The box of the rounded ends of a half-edge. Rounding is monotone, so it holds the rounded points on it.
+    pub(super) fn extent(&self, piece: &HalfEdge) -> Bounds {
+        let (from, to) = (self.positions[piece.from as usize], self.positions[piece.to as usize]);
+        Bounds { min: from.min(to), max: from.max(to) }
     }
 
     /// Whether two coordinates of a point are its own, not rounded.

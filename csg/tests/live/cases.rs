@@ -1,6 +1,6 @@
 //! Edits that easily go wrong.
 
-use planecut_csg::{Brush, EditError, LiveModel, Material, MaterialId, Role};
+use planecut_csg::{Brush, EditError, EvaluateError, LiveModel, Material, MaterialId, Role};
 use planecut_kernel::{DVec3, HalfSpace};
 
 fn cuboid(min: [f64; 3], max: [f64; 3]) -> Brush {
@@ -25,7 +25,7 @@ fn refused_edits_leave_the_model_as_it_was() {
         live.add_brushes(vec![(cuboid([5.0; 3], [6.0; 3]), Role::Add), (open, Role::Add)]),
         Err(EditError::Unbounded)
     );
-    let refused = EditError::UnknownMaterial { material: MaterialId(1), count: 1 };
+    let refused = EditError::Evaluate(EvaluateError::UnknownMaterial { material: MaterialId(1), count: 1 });
     assert_eq!(live.replace_brush(hole, unknown), Err(refused));
     assert_eq!(live.mesh().unwrap(), before);
     live.remove_brush(hole).unwrap();

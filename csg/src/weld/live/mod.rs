@@ -108,7 +108,7 @@ impl LiveWeld {
         let on_line = &mut self.state.lines[line];
         let at = on_line.edges.len() as u32;
         let number = place(&mut self.edges, &mut self.free_edges, Edge { numbered, place: at });
-        self.state.lines[line].edges.push(number);
+        on_line.edges.push(number);
         self.state.mark_line(line as u32);
         EdgeId(number)
     }
@@ -305,8 +305,8 @@ impl State {
             new.clear();
             new.extend(added.iter().filter(alive).map(half_edge));
             // what new pieces may touch, or be touched by
-            let reach = new.iter().fold(Bounds::EMPTY, |all, piece| all.union(&numbers.extent(piece)));
-            let may_touch = |piece: &HalfEdge| numbers.extent(piece).touches(&reach);
+            let reach = new.iter().fold(Bounds::EMPTY, |all, piece| all.union(&numbers.points.extent(piece)));
+            let may_touch = |piece: &HalfEdge| numbers.points.extent(piece).touches(&reach);
             old.clear();
             old.extend(settled.iter().filter(alive).map(half_edge).filter(may_touch));
             finder.search_new(&old, &new);

@@ -6,13 +6,12 @@ use planecut_kernel::{DVec3, compare_exactly};
 use rustc_hash::FxHashMap;
 
 use super::names::{NameId, Names, place};
-use crate::bounds::Bounds;
 use crate::brush::MaterialId;
 use crate::distinct::sortable;
 use crate::locality::curve_number;
 use crate::plane_table::{PlaneId, PlaneTable};
 use crate::skin::BoundaryEdge;
-use crate::weld::cancel::{HalfEdge, Run};
+use crate::weld::cancel::Run;
 use crate::weld::lines::{self, AxisPlanes, Line};
 use crate::weld::points::{self, Named, Points};
 
@@ -144,12 +143,6 @@ impl Numbers {
         });
         self.region_uses[number as usize] += 1;
         number
-    }
-
-    /// The box of the rounded ends of a half-edge.
-    pub(super) fn extent(&self, piece: &HalfEdge) -> Bounds {
-        let (from, to) = (self.position(piece.from), self.position(piece.to));
-        Bounds { min: from.min(to), max: from.max(to) }
     }
 
     pub(super) fn position(&self, point: u32) -> DVec3 {
