@@ -3,6 +3,7 @@
 use glam::DVec3;
 use planecut_kernel::HalfSpace;
 
+use crate::body::{Built, build_ahead};
 use crate::tree::Tree;
 
 /// Index into [`Model::materials`].
@@ -48,6 +49,8 @@ pub struct Brush {
     pub name: Option<String>,
     /// Line of the input on which the brush begins, counted from 1; 0 where there is none.
     pub line: u32,
+    /// Its body, where that was built before: see [`Model::build_bodies`].
+    pub built: Built,
 }
 
 impl Brush {
@@ -78,4 +81,29 @@ pub struct Model {
     pub materials: Vec<Material>,
     /// The brushes, in the input's order, and how they are combined.
     pub tree: Tree,
+}
+
+impl Model {
+    /// Builds the bodies of all brushes now, in parallel, so that evaluations of this model need not, nor those of models and
+    /// live models that take clones of its brushes. Outcomes are the same with and without; the bodies take memory, some
+    /// 150 bytes for each face.
+    ///
+    /// ```
+    /// use planecut_csg::{Brush, Material, MaterialId, Model, Tree, evaluate};
+    /// use planecut_kernel::DVec3;
+    ///
+    /// # fn main() -> Result<(), planecut_csg::EvaluateError> {
+    /// let block = Brush::cuboid(DVec3::ZERO, DVec3::splat(2.0), MaterialId(0));
+    /// let tool = Brush::cuboid(DVec3::ONE, DVec3::splat(3.0), MaterialId(0));
+    /// let mut stock = Model { materials: vec![Material::named("steel")], tree: Tree::from(block) | tool.into() };
+    /// stock.build_bodies();
+    /// let [block, tool] = [0, 1].map(|k| Tree::from(stock.tree.brushes()[k].clone()));
+    /// let cut = Model { materials: stock.materials.clone(), tree: block - tool };
+    /// assert_eq!(evaluate(&cut)?.solid.volume, 7.0);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn build_bodies(&mut self) {
+        build_ahead(self.tree.brushes_mut());
+    }
 }

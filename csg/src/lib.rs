@@ -33,7 +33,6 @@ mod corner;
 mod distinct;
 mod evaluate;
 mod expression;
-mod gauge;
 mod live;
 mod locality;
 mod mesh;
@@ -53,6 +52,7 @@ mod tree;
 mod weld;
 
 pub use blocks::{Block, BlockOptions, BlocksError, BlocksSummary, evaluate_in_blocks};
+pub use body::Built;
 pub use brush::{Brush, BrushFace, Material, MaterialId, Model};
 pub use contract::{contract_edges, contract_short_edges};
 pub use evaluate::{

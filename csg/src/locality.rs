@@ -6,7 +6,6 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::body::{Body, BrushBody};
 use crate::bounds::Bounds;
 use crate::distinct::sortable;
 use crate::plane_table::{PlaneId, PlaneTable};
@@ -31,15 +30,10 @@ fn spread(v: u64) -> u64 {
     (v | v << 2) & 0x1249_2492_4924_9249
 }
 
-/// Numbers the planes of a table anew by where the bodies are whose faces lie on them; other planes come last.
-pub(crate) fn renumber_planes(table: &mut PlaneTable, planes: &mut [Vec<PlaneId>], bodies: &mut [BrushBody]) {
-    let bounded = |body: &BrushBody| match body {
-        BrushBody::Bounded(body, _) => Some(body.bounds),
-        BrushBody::Empty | BrushBody::Unbounded => None,
-    };
-    let bounds: Vec<Option<Bounds>> = bodies.iter().map(bounded).collect();
+/// Numbers the planes of a table anew by where the brushes are that have them, as far as these are bodies; other planes come last.
+pub(crate) fn renumber_planes(table: &mut PlaneTable, planes: &mut [Vec<PlaneId>], bounds: &[Option<Bounds>]) {
     let mut order: Vec<(u64, u32)> = (0..)
-        .zip(&bounds)
+        .zip(bounds)
         .filter_map(|(number, bounds): (u32, _)| bounds.map(|bounds| (curve_number(bounds.center()), number)))
         .collect();
     order.par_sort_unstable();
@@ -70,9 +64,4 @@ pub(crate) fn renumber_planes(table: &mut PlaneTable, planes: &mut [Vec<PlaneId>
     table.renumber(&new_of_old);
     let renumbered = |plane: PlaneId| plane.with_index(new_of_old[plane.index() as usize]);
     planes.par_iter_mut().with_min_len(256).flatten_iter().for_each(|plane| *plane = renumbered(*plane));
-    bodies.par_iter_mut().with_min_len(64).for_each(|body| {
-        if let BrushBody::Bounded(body, _) = body {
-            Body::renumber_planes(body, renumbered);
-        }
-    });
 }

@@ -10,8 +10,8 @@ mod skin;
 use planecut_kernel::IncrementalPolytope;
 use thiserror::Error;
 
-use crate::body::{Body, BodyFace, BrushBody, build, mark_of};
-use crate::brush::{Brush, Material, MaterialId};
+use crate::body::{Body, BodyFace, BrushBody, built_or_build, mark_of};
+use crate::brush::{Brush, Material};
 use crate::evaluate::{EvaluateError, check_materials, material_ranks};
 use crate::mesh::Mesh;
 use crate::plane_table::{PlaneId, PlaneTable};
@@ -250,10 +250,9 @@ impl LiveModel {
     }
 
     fn build(&mut self, brush: &Brush) -> Result<Option<Body>, EditError> {
-        let materials: Vec<MaterialId> = brush.faces.iter().map(|face| face.material).collect();
-        check_materials(materials.iter().copied(), self.materials.len())?;
+        check_materials(brush.faces.iter().map(|face| face.material), self.materials.len())?;
         let planes: Vec<PlaneId> = brush.faces.iter().map(|face| self.table.insert(&face.half_space)).collect();
-        match build(&self.table, &planes, &materials, &mut self.buffers.polytope) {
+        match built_or_build(&self.table, brush, &planes, &mut self.buffers.polytope) {
             BrushBody::Bounded(body, _) => Ok(Some(body)),
             BrushBody::Empty => Ok(None),
             BrushBody::Unbounded => Err(EditError::Unbounded),
@@ -329,7 +328,7 @@ impl LiveModel {
             let reaches = |(number, face): &(u32, &BodyFace)| {
                 let half_space = self.table.half_space(face.plane);
                 let may_matter =
-                    || !is_last || !edges[*number as usize].is_empty() || by.face_on(&self.table, face.plane).is_some();
+                    || !is_last || !edges[*number as usize].is_empty() || by.face_on(face.plane).is_some();
                 face.bounds.may_share_area(bounds)
                     && may_matter()
                     && !misses(bounds, half_space.normal(), half_space.offset())

@@ -4,9 +4,8 @@ use planecut_kernel::sign::Sign;
 
 use super::Scene;
 use super::section::{Clip, Polygon};
-use crate::body::BodyFace;
+use crate::body::{BodyFace, Gauge, Place};
 use crate::corner::Corner;
-use crate::gauge::{Gauge, Place};
 
 /// For more pairs of a corner and a body near nothing is kept.
 const MOST: usize = 1 << 20;

@@ -286,7 +286,7 @@ impl<'a> FaceWorker<'a> {
     fn reaching(&self, leaf: usize, face: &BodyFace) -> Reaching {
         let body = self.bodies[leaf];
         let is_shared = self.scene.is_plane_shared(face);
-        let other = if is_shared { self.scene.bodies[body].face_on(self.scene.table, face.plane) } else { None };
+        let other = if is_shared { self.scene.bodies[body].face_on(face.plane) } else { None };
         let contact = match other {
             None => Contact::Across,
             Some(other) if other.plane == face.plane => Contact::SameWay,

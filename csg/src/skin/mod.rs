@@ -17,11 +17,10 @@ use std::borrow::Cow;
 
 use planecut_kernel::sign::Counts;
 
-use crate::body::{Body, BodyFace};
+use crate::body::{Body, BodyFace, Gauge};
 use crate::boxes::Boxes;
 use crate::brush::MaterialId;
 use crate::expression::{Expression, Flat, Polarity};
-use crate::gauge::Gauge;
 use crate::parallel::map_chunks;
 use crate::plane_table::{PlaneId, PlaneTable};
 pub(crate) use contact::misses;

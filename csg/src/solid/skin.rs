@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use super::Solid;
 use super::cell::Cell;
-use crate::body::{Body, body_of};
+use crate::body::{Body, Shape};
 use crate::brush::{Material, MaterialId};
 use crate::evaluate::{EvaluateError, SolidMeasures, check_materials, material_ranks};
 use crate::mesh::Mesh;
@@ -71,7 +71,12 @@ impl Solid {
             let plane = cell.plane(handle).expect("each plane of the polytope is known");
             (plane.plane, material(plane.material))
         };
-        body_of(&self.table, cell.polytope(), face).ok_or(EvaluateError::Unbounded)
+        let plane = |handle: PlaneIdx| {
+            let id = face(handle).0;
+            (self.table.row(id), self.table.half_space(id))
+        };
+        let shape = Shape::of(cell.polytope(), plane).ok_or(EvaluateError::Unbounded)?;
+        Ok(Body::new(&shape, face))
     }
 
     fn check_materials(&self, count: usize) -> Result<(), EvaluateError> {

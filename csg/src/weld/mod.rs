@@ -114,8 +114,7 @@ pub(crate) fn weld(
     rank: &[u32],
     materials: &[Material],
 ) -> Result<Welded, WeldError> {
-    let (mut regions, of_edge) = Regions::number(edges, rank);
-    let (points, pieces, mut signs) = half_edges(table, edges, &mut regions, &of_edge)?;
+    let (regions, points, pieces, mut signs) = half_edges(table, edges, rank)?;
     let (nested, counted) = nest(table, &regions, &points, &pieces)?;
     signs += counted;
     let (vertex, point) = manifold::vertices(&pieces, &nested.following);
@@ -178,16 +177,18 @@ impl Regions {
     }
 }
 
-/// Numbers points and lines, cancels what is opposite, and cuts and pairs what is left; half-edges are sorted by region and
-/// place.
+/// Numbers regions, points and lines, cancels what is opposite, and cuts and pairs what is left; half-edges are sorted by
+/// region and place.
 fn half_edges(
     table: &PlaneTable,
     edges: &[BoundaryEdge],
-    regions: &mut Regions,
-    of_edge: &[u32],
-) -> Result<(Points, Vec<HalfEdge>, Counts), WeldError> {
-    let (mut points, ends, mut signs) = Points::identify(table, edges);
-    let (lines, of_pair, counted) = lines::identify(table, edges);
+    rank: &[u32],
+) -> Result<(Regions, Points, Vec<HalfEdge>, Counts), WeldError> {
+    // each has parts for one thread, during which the others go on
+    let ((mut points, ends, mut signs), ((mut regions, of_edge), (lines, of_pair, counted))) = rayon::join(
+        || Points::identify(table, edges),
+        || rayon::join(|| Regions::number(edges, rank), || lines::identify(table, edges)),
+    );
     signs += counted;
     let run = |(k, edge): (usize, &BoundaryEdge)| Run {
         line: of_pair[k],
@@ -213,7 +214,7 @@ fn half_edges(
         cancel::cut_further(table, &points, &lines, &pinches, &mut pieces);
         sorted = order_by_region(&pieces, regions.planes.len());
     }
-    Ok((points, sorted, signs))
+    Ok((regions, points, sorted, signs))
 }
 
 /// Sorts half-edges by region and place, keeping the pairs.

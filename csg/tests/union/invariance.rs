@@ -1,7 +1,7 @@
 //! What must not change the outcome, bit for bit: order, threads, repetition, what lies inside, walls between touching parts.
 
 use glam::DVec3;
-use planecut_csg::{Evaluation, Model, evaluate};
+use planecut_csg::{Brush, Evaluation, Model, evaluate};
 
 use crate::generate::{
     general_scene, kindred_scene, placed, sloped_brush, sloped_scene, split, with_materials, with_noise,
@@ -80,6 +80,29 @@ fn the_number_of_threads_changes_nothing() {
         let outcome = |k: usize| pools[k].install(|| evaluate(model)).map_err(|error| error.to_string());
         let expected = outcome(0)?;
         (1..3).try_for_each(|k| same(&outcome(k)?, &expected, "threads"))
+    });
+}
+
+#[test]
+fn bodies_that_were_built_before_change_nothing() {
+    sweep(300, any_scene, |model| {
+        let expected = evaluate_soundly(model)?;
+        let mut rng = Rng::new(11);
+        let mut ahead = with_brushes(model, |brushes| {
+            for brush in brushes {
+                let faces = brush.faces.clone();
+                // some bodies are those of faces that change later
+                brush.faces.truncate(faces.len() - usize::from(rng.chance(0.5)));
+                let mut alone = Model { tree: brush.clone().into(), ..Model::default() };
+                alone.build_bodies();
+                *brush = Brush { faces, ..alone.tree.into_brushes().remove(0) };
+            }
+        });
+        same(&evaluate_soundly(&ahead)?, &expected, "some bodies built ahead, some of them stale")?;
+        (0..2).try_for_each(|_| {
+            ahead.build_bodies();
+            same(&evaluate_soundly(&ahead)?, &expected, "all bodies built ahead")
+        })
     });
 }
 

@@ -92,7 +92,7 @@ impl<'a> Builder<'a> {
         if faces.is_empty() {
             self.brushes_left_out.add(line);
         } else {
-            self.brushes.push(Brush { faces, name: name.map(str::to_owned), line });
+            self.brushes.push(Brush { faces, name: name.map(str::to_owned), line, ..Brush::default() });
         }
         Ok(())
     }

@@ -7,12 +7,12 @@
 //! looking at a few faces near the last one, however many there are, and the planes that it may lie on or beyond are found
 //! as those connected to the largest. Numbers here are rounded, with a bound for the error; what they leave open signs decide.
 
-use planecut_kernel::DVec3;
-use rustc_hash::FxHashMap;
+use std::ops::Range;
 
-use crate::body::Body;
+use planecut_kernel::{DVec3, HalfSpace};
+
+use super::shape::Corners;
 use crate::corner::Corner;
-use crate::plane_table::{PlaneId, PlaneTable};
 
 /// Bodies of fewer faces are asked plane by plane.
 const MANY: usize = 14;
@@ -29,8 +29,6 @@ pub(crate) struct Gauge {
     neighbours: Vec<u32>,
     /// The largest sum of a dual's magnitudes.
     reach: f64,
-    /// The planes without their sides, ascending, and the face on each.
-    by_plane: Vec<(u32, u32)>,
     /// For each octant around the center the face in its middle.
     seeds: [u32; 8],
 }
@@ -49,17 +47,21 @@ pub(crate) enum Place {
 }
 
 impl Gauge {
-    /// That of a body of many faces which is not too thin for its numbers.
-    pub(crate) fn of(table: &PlaneTable, body: &Body) -> Option<Self> {
-        if body.faces.len() < MANY {
+    /// That of a body of many faces which is not too thin for its numbers; of each face the half-space, and which of the edges of the
+    /// body it has.
+    pub(super) fn new<'a, H: ExactSizeIterator<Item = &'a HalfSpace>>(
+        half_spaces: impl Fn() -> H,
+        edges: impl Iterator<Item = Range<u32>>,
+        corners: &Corners,
+    ) -> Option<Self> {
+        if half_spaces().len() < MANY {
             return None;
         }
-        let center = body.middle();
-        let half_spaces = || body.faces.iter().map(|face| table.half_space(face.plane));
+        let center = corners.middle();
         let duals: Vec<DVec3> = half_spaces()
             .map(|half_space| half_space.normal() / (half_space.offset() - half_space.normal().dot(center)))
             .collect();
-        let is_inside = |(half_space, dual): (&planecut_kernel::HalfSpace, &DVec3)| {
+        let is_inside = |(half_space, dual): (&HalfSpace, &DVec3)| {
             let (normal, offset) = (half_space.normal(), half_space.offset());
             let room = 16.0 * U * ((normal * center).abs().element_sum() + offset.abs());
             offset - normal.dot(center) > room && dual.is_finite()
@@ -67,21 +69,22 @@ impl Gauge {
         if !half_spaces().zip(&duals).all(is_inside) {
             return None;
         }
-        let mut by_plane: Vec<(u32, u32)> = (0..).zip(&body.faces).map(|(k, face)| (face.plane.index(), k)).collect();
-        by_plane.sort_unstable();
         let mut gauge = Self {
             center,
             reach: duals.iter().map(|dual| dual.abs().element_sum()).fold(0.0, f64::max),
             duals,
             starts: vec![0],
-            neighbours: Vec::with_capacity(body.edge_count()),
-            by_plane,
+            neighbours: Vec::with_capacity(corners.edges.len()),
             seeds: [0; 8],
         };
-        let face_of: FxHashMap<u32, u32> = gauge.by_plane.iter().copied().collect();
-        for face in &body.faces {
-            let across = body.edges(face).iter().filter_map(|edge| face_of.get(&edge.index()));
-            gauge.neighbours.extend(across);
+        let planes = corners.planes.iter().chain(&corners.edges).map(|plane| plane.0 + 1).max().unwrap_or(0);
+        let mut face_of: Vec<Option<u32>> = vec![None; planes];
+        for (plane, face) in corners.planes.iter().zip(0..) {
+            face_of[plane.0] = Some(face);
+        }
+        for edges in edges {
+            let edges = &corners.edges[edges.start as usize..edges.end as usize];
+            gauge.neighbours.extend(edges.iter().filter_map(|plane| face_of[plane.0]));
             gauge.starts.push(gauge.neighbours.len() as u32);
         }
         for octant in 0..8_usize {
@@ -96,12 +99,6 @@ impl Gauge {
     pub(crate) fn seed(&self, point: &Corner) -> u32 {
         let from_center = point.at - self.center;
         self.seeds[from_center.is_negative_bitmask() as usize]
-    }
-
-    /// The face on a plane, whatever its side.
-    pub(crate) fn on_plane(&self, plane: PlaneId) -> Option<u32> {
-        let at = self.by_plane.binary_search_by_key(&plane.index(), |entry| entry.0).ok()?;
-        Some(self.by_plane[at].1)
     }
 
     /// Where a point lies, climbing from a face.

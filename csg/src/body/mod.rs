@@ -1,0 +1,139 @@
+//! The exact boundary of each brush, as plane ids: what the skin works on.
+//!
+//! - [`shape`] is a body in numbers of its own, which it keeps whatever table its planes are in.
+//! - [`build`] makes those of brushes, where they were not made before ([`Built`]).
+//! - [`gauge`] tells where points lie in a body of many faces.
+
+mod build;
+mod built;
+mod gauge;
+mod kinds;
+mod shape;
+
+use std::sync::{Arc, OnceLock};
+
+use planecut_kernel::PlaneIdx;
+use planecut_kernel::sign::Sign;
+
+use crate::bounds::Bounds;
+use crate::brush::MaterialId;
+use crate::corner::{Corner, Sieve};
+use crate::plane_table::{PlaneId, PlaneTable};
+
+pub(crate) use build::{BrushBodies, build, build_bodies, built_or_build};
+pub use built::Built;
+pub(crate) use built::build_ahead;
+pub(crate) use gauge::{Gauge, Place};
+pub(crate) use kinds::{kinds, mark_of};
+use shape::Corners;
+pub(crate) use shape::Shape;
+
+/// A face of a [`Body`].
+#[derive(Debug, Clone)]
+pub(crate) struct BodyFace {
+    pub(crate) plane: PlaneId,
+    pub(crate) material: MaterialId,
+    pub(crate) bounds: Bounds,
+    /// Its edges and corners among those of the body.
+    start: u32,
+    end: u32,
+}
+
+/// A bounded convex body with interior.
+#[derive(Debug, Clone)]
+pub(crate) struct Body {
+    pub(crate) faces: Vec<BodyFace>,
+    /// The planes of the edges, face by face.
+    edges: Vec<PlaneId>,
+    corners: Arc<Corners>,
+    pub(crate) bounds: Bounds,
+    pub(crate) volume: f64,
+    /// For a body of many faces their planes without sides, ascending, and the face on each; made when first asked for.
+    by_plane: OnceLock<Vec<(u32, u32)>>,
+}
+
+impl Body {
+    /// A shape whose planes are in a table: `face_of` gives the id and the material of each.
+    pub(crate) fn new(shape: &Shape, face_of: impl Fn(PlaneIdx) -> (PlaneId, MaterialId)) -> Self {
+        let corners = &shape.corners;
+        let face = |(face, plane): (&shape::Face, &PlaneIdx)| {
+            let (plane, material) = face_of(*plane);
+            BodyFace { plane, material, bounds: face.bounds, start: face.start, end: face.end }
+        };
+        Self {
+            faces: shape.faces.iter().zip(&corners.planes).map(face).collect(),
+            edges: corners.edges.iter().map(|plane| face_of(*plane).0).collect(),
+            corners: Arc::clone(corners),
+            bounds: shape.bounds,
+            volume: shape.volume,
+            by_plane: OnceLock::new(),
+        }
+    }
+
+    /// Where points lie in it, for a body of many faces.
+    pub(crate) fn gauge(&self, table: &PlaneTable) -> Option<&Gauge> {
+        let half_spaces = || self.faces.iter().map(|face| table.half_space(face.plane));
+        let edges = self.faces.iter().map(|face| face.start..face.end);
+        self.corners.gauge.get_or_init(|| Gauge::new(half_spaces, edges, &self.corners).map(Box::new)).as_deref()
+    }
+
+    /// The planes of the edges of a face, counter-clockwise seen from outside.
+    pub(crate) fn edges(&self, face: &BodyFace) -> &[PlaneId] {
+        &self.edges[face.start as usize..face.end as usize]
+    }
+
+    /// The corners of a face: corner `i` between the edges `i` and `i + 1`.
+    pub(crate) fn corners(&self, face: &BodyFace) -> impl ExactSizeIterator<Item = &Corner> + Clone {
+        let numbers = &self.corners.numbers[face.start as usize..face.end as usize];
+        numbers.iter().map(|number| &self.corners.different[*number as usize])
+    }
+
+    /// How many different corners there are: their numbers are below this.
+    pub(crate) fn corner_count(&self) -> usize {
+        self.corners.different.len()
+    }
+
+    /// Whether all of some corners surely lie beyond one of its planes.
+    pub(crate) fn is_surely_apart_from<'a>(
+        &self,
+        table: &PlaneTable,
+        mut corners: impl Iterator<Item = &'a Corner> + Clone,
+    ) -> bool {
+        let Some(first) = corners.clone().next() else { return true };
+        if let Some(gauge) = self.gauge(table) {
+            let Place::Outside(face) = gauge.place(first, gauge.seed(first)) else { return false };
+            return corners.all(|corner| gauge.is_beyond(corner, face));
+        }
+        self.faces.iter().any(|face| {
+            let sieve = Sieve::new(table.half_space(face.plane));
+            corners.clone().all(|corner| sieve.side(corner) == Sign::Positive)
+        })
+    }
+
+    /// The face on a plane, whatever its side.
+    pub(crate) fn face_on(&self, plane: PlaneId) -> Option<&BodyFace> {
+        const MANY: usize = 16;
+        if self.faces.len() < MANY {
+            return self.faces.iter().find(|face| face.plane.index() == plane.index());
+        }
+        let by_plane = self.by_plane.get_or_init(|| {
+            let mut by_plane: Vec<(u32, u32)> =
+                (0..).zip(&self.faces).map(|(k, face)| (face.plane.index(), k)).collect();
+            by_plane.sort_unstable();
+            by_plane
+        });
+        let place = by_plane.binary_search_by_key(&plane.index(), |entry| entry.0).ok()?;
+        Some(&self.faces[by_plane[place].1 as usize])
+    }
+}
+
+/// What a brush turned out to be.
+#[derive(Debug, Clone)]
+pub(crate) enum BrushBody {
+    /// A bounded body; how many of its planes have no face.
+    Bounded(Body, usize),
+    /// No interior.
+    Empty,
+    /// Not bounded.
+    Unbounded,
+}

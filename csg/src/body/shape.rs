@@ -1,0 +1,145 @@
+//! A bounded convex body in numbers of its own: faces, edges and corners, whatever ids its planes have elsewhere.
+
+use std::sync::{Arc, OnceLock};
+
+use glam::DVec3;
+use planecut_kernel::sign::{Homogeneous, Row};
+use planecut_kernel::{HalfSpace, IncrementalPolytope, PlaneIdx, meet};
+
+use super::gauge::Gauge;
+use crate::bounds::Bounds;
+use crate::corner::Corner;
+
+/// A bounded convex body with interior, its planes named as in the polytope that it was read from.
+#[derive(Debug, Clone)]
+pub(crate) struct Shape {
+    pub(super) faces: Vec<Face>,
+    pub(super) corners: Arc<Corners>,
+    pub(super) bounds: Bounds,
+    pub(super) volume: f64,
+}
+
+/// A face of a [`Shape`].
+#[derive(Debug, Clone)]
+pub(super) struct Face {
+    pub(super) bounds: Bounds,
+    /// Its edges and corners among those of the body.
+    pub(super) start: u32,
+    pub(super) end: u32,
+}
+
+/// What bodies of the same shape share.
+#[derive(Debug, Default)]
+pub(super) struct Corners {
+    /// The different corners.
+    pub(super) different: Vec<Corner>,
+    /// Face by face the numbers of its corners, and the planes of its edges.
+    pub(super) numbers: Vec<u32>,
+    pub(super) edges: Vec<PlaneIdx>,
+    /// The plane of each face.
+    pub(super) planes: Vec<PlaneIdx>,
+    /// Made when first asked for.
+    pub(super) gauge: OnceLock<Option<Box<Gauge>>>,
+}
+
+impl Corners {
+    /// The mean of the corners, each counted once for each face at it.
+    pub(super) fn middle(&self) -> DVec3 {
+        let corners = self.numbers.iter().map(|number| self.different[*number as usize].at);
+        corners.sum::<DVec3>() / self.numbers.len() as f64
+    }
+}
+
+impl Shape {
+    /// That of a bounded polytope; nothing where it is not bounded. `plane` gives the coefficients of its planes: exact ones,
+    /// and the same as a half-space.
+    pub(crate) fn of<'a>(
+        polytope: &IncrementalPolytope,
+        plane: impl Fn(PlaneIdx) -> (&'a Row, &'a HalfSpace),
+    ) -> Option<Self> {
+        let mut faces: Vec<Face> = Vec::new();
+        let mut corners = Corners::default();
+        let mut volume = Volume::default();
+        let mut is_bounded = true;
+        // the corners that other faces have as well, by their numbers
+        let mut shared: Vec<Option<u32>> = vec![None; polytope.corner_bound()];
+        polytope.for_each_facet(|own, edges| {
+            let start = corners.edges.len();
+            for edge in edges {
+                let Some(edge) = edge.plane else {
+                    is_bounded = false;
+                    return;
+                };
+                corners.edges.push(edge);
+            }
+            let mut bounds = Bounds::EMPTY;
+            volume.begin_face();
+            for (i, edge) in edges.iter().enumerate() {
+                let triple = [own, corners.edges[start + i], corners.edges[start + (i + 1) % edges.len()]];
+                let [a, b, c] = triple.map(|idx| plane(idx).0);
+                let known = edge.corner.and_then(|number| shared[number]);
+                let number = known.unwrap_or_else(|| {
+                    let number = corners.different.len() as u32;
+                    corners.different.push(Corner { number, ..Corner::new(Homogeneous::meet(a, b, c)) });
+                    number
+                });
+                if let Some(shared_number) = edge.corner {
+                    shared[shared_number] = Some(number);
+                }
+                let corner = &corners.different[number as usize];
+                bounds = bounds.with_corner(corner);
+                volume.add(if corner.is_well_known() { Some(corner.at) } else { meet(a, b, c) });
+                corners.numbers.push(number);
+            }
+            corners.planes.push(own);
+            faces.push(Face { bounds, start: start as u32, end: corners.edges.len() as u32 });
+        });
+        if !is_bounded {
+            return None;
+        }
+        let mut shape = Self { faces, corners: Arc::new(corners), bounds: Bounds::EMPTY, volume: volume.six / 6.0 };
+        shape.tighten_bounds(|idx| plane(idx).1);
+        Some(shape)
+    }
+
+    pub(crate) fn bounds(&self) -> &Bounds {
+        &self.bounds
+    }
+
+    /// Cuts what corners are known to lie in down to what the planes leave of it.
+    fn tighten_bounds<'a>(&mut self, half_space: impl Fn(PlaneIdx) -> &'a HalfSpace) {
+        let planes = &self.corners.planes;
+        let all = self.faces.iter().fold(Bounds::EMPTY, |bounds, face| bounds.union(&face.bounds));
+        self.bounds = planes.iter().fold(all, |bounds, plane| bounds.within(half_space(*plane)));
+        for (face, plane) in self.faces.iter_mut().zip(planes) {
+            let on_plane = face.bounds.within(&half_space(*plane).flipped());
+            face.bounds = on_plane.intersection(&self.bounds);
+        }
+    }
+}
+
+/// The volume between the polygons of a convex boundary, as a sum of tetrahedra from one corner: nothing cancels.
+#[derive(Default)]
+struct Volume {
+    six: f64,
+    apex: Option<DVec3>,
+    /// The first corner of the face and the last one so far, seen from the apex.
+    first: Option<DVec3>,
+    last: Option<DVec3>,
+}
+
+impl Volume {
+    fn begin_face(&mut self) {
+        (self.first, self.last) = (None, None);
+    }
+
+    fn add(&mut self, corner: Option<DVec3>) {
+        let Some(corner) = corner else { return };
+        let corner = corner - *self.apex.get_or_insert(corner);
+        let first = *self.first.get_or_insert(corner);
+        if let Some(last) = self.last {
+            self.six += first.cross(last).dot(corner);
+        }
+        self.last = Some(corner);
+    }
+}
