@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use crate::conductor::Record;
-use crate::entrant::{CORES, Entrant, MANIFOLD3D, PLANECUT};
+use crate::entrant::{CORES, Entrant, MANIFOLD3D, PLANECUT, PLANECUT_PLANES};
 use crate::growth::growth;
 use crate::machine;
 use crate::report::{Line, Report};
@@ -93,15 +93,14 @@ fn row(line: &Line, entrant: Entrant, record: &Record) -> [String; 9] {
 /// Where planecut stands beside manifold3d.
 pub(crate) fn ratios(report: &Report) -> String {
     let mut table = String::from(
-        "| workload | planecut ms | manifold3d ms | manifold3d / planecut | on one core |\n|---|---:|---:|---:|---:|\n",
+        "| workload | planecut ms | manifold3d ms | manifold3d / planecut | on one core | from planes ms |\n|---|---:|---:|---:|---:|---:|\n",
     );
     for line in &report.lines {
-        let times = [PLANECUT, MANIFOLD3D].map(|name| line.median(name, CORES).map(|seconds| 1e3 * seconds));
+        let time = |name| line.median(name, CORES).map(|seconds| significant(1e3 * seconds)).unwrap_or_default();
+        let [ours, theirs, from_planes] = [PLANECUT, MANIFOLD3D, PLANECUT_PLANES].map(time);
         let ratios = [CORES, 1].map(|cores| line.ratio(MANIFOLD3D, cores));
-        let [ours, theirs, both, one] = [times[0], times[1], ratios[0], ratios[1]].map(|value| value.map(significant));
-        let (ours, theirs) = (ours.unwrap_or_default(), theirs.unwrap_or_default());
-        let [both, one] = [both, one].map(|ratio| ratio.map_or(String::new(), |ratio| format!("{ratio}×")));
-        let _ = writeln!(table, "| {} | {ours} | {theirs} | {both} | {one} |", line.name);
+        let [both, one] = ratios.map(|ratio| ratio.map_or(String::new(), |ratio| format!("{}×", significant(ratio))));
+        let _ = writeln!(table, "| {} | {ours} | {theirs} | {both} | {one} | {from_planes} |", line.name);
     }
     table
 }

@@ -327,8 +327,7 @@ impl LiveModel {
             let Some(Operand { body: Some(body), edges, .. }) = &self.operands[other as usize] else { continue };
             let reaches = |(number, face): &(u32, &BodyFace)| {
                 let half_space = self.table.half_space(face.plane);
-                let may_matter =
-                    || !is_last || !edges[*number as usize].is_empty() || by.face_on(face.plane).is_some();
+                let may_matter = || !is_last || !edges[*number as usize].is_empty() || by.face_on(face.plane).is_some();
                 face.bounds.may_share_area(bounds)
                     && may_matter()
                     && !misses(bounds, half_space.normal(), half_space.offset())

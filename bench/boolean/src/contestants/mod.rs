@@ -14,7 +14,7 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
-use crate::entrant::PLANECUT_BLOCKS;
+use crate::entrant::{PLANECUT, PLANECUT_BLOCKS, PLANECUT_PLANES};
 use crate::scene::{Action, Entry, Plan, Scene};
 
 /// What one run gave.
@@ -39,7 +39,8 @@ pub(crate) trait Contestant {
 /// The kernels of this program, by name. Files that one needs go beside the scene's.
 pub(crate) fn prepare(name: &str, scene: Scene, file: &Path) -> Result<Box<dyn Contestant>, String> {
     match name {
-        "planecut" => Ok(Box::new(planecut::Planecut::new(&scene)?)),
+        PLANECUT => Ok(Box::new(planecut::Planecut::with_bodies(&scene)?)),
+        PLANECUT_PLANES => Ok(Box::new(planecut::Planecut::new(&scene)?)),
         PLANECUT_BLOCKS => Ok(Box::new(planecut_blocks::PlanecutBlocks::new(&scene)?)),
         "manifold-rust" => Ok(Box::new(manifold_rust::ManifoldRust::new(scene)?)),
         "boolmesh" => Ok(Box::new(boolmesh::Boolmesh::new(scene)?)),

@@ -1,9 +1,9 @@
-//! planecut: brushes to a welded, triangulated mesh, the building of the brushes' bodies included. What is done one by one is
-//! done to a live model, whose mesh is in memory after each step, face by face.
+//! planecut: from brushes, whose bodies are there as the others' are or else are built within it, to a welded, triangulated mesh.
+//! What is done one by one is done to a live model, whose mesh is in memory after each step, face by face.
 
 use std::time::Instant;
 
-use planecut_csg::{Brush, BrushId, LiveModel, Material, Model, Role, evaluate};
+use planecut_csg::{Brush, BrushId, LiveModel, Material, Model, Role, Tree, evaluate};
 use planecut_kernel::DVec3;
 
 use super::{Contestant, Outcome};
@@ -20,7 +20,29 @@ fn materials() -> Vec<Material> {
     vec![Material::named("all")]
 }
 
+/// Brushes with their bodies.
+fn built(brushes: Vec<Brush>) -> Vec<Brush> {
+    let mut model = Model { materials: materials(), tree: Tree::union_of(brushes) };
+    model.build_bodies();
+    model.tree.into_brushes()
+}
+
 impl Planecut {
+    /// With all bodies built before the clock starts.
+    pub(super) fn with_bodies(scene: &Scene) -> Result<Self, String> {
+        Ok(match Self::new(scene)? {
+            Self::AtOnce(mut model) => {
+                model.build_bodies();
+                Self::AtOnce(model)
+            }
+            Self::Steps(steps) => {
+                let (brushes, roles): (Vec<Brush>, Vec<Role>) = steps.into_iter().unzip();
+                Self::Steps(built(brushes).into_iter().zip(roles).collect())
+            }
+            Self::Moves(live, moved, forms) => Self::Moves(live, moved, built(forms)),
+        })
+    }
+
     pub(super) fn new(scene: &Scene) -> Result<Self, String> {
         match &scene.plan {
             Plan::Tree(entries) => Ok(Self::AtOnce(Model { materials: materials(), tree: scene.tree(entries) })),
