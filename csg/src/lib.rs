@@ -59,7 +59,7 @@ pub use evaluate::{
     EvaluateError, Evaluation, ModelSummary, SolidMeasures, StageTimes, UnboundedBrushes, evaluate, evaluate_with,
     summarize,
 };
-pub use live::{BrushId, Change, EditError, FaceId, LiveFace, LiveModel, Role};
+pub use live::{BrushId, Change, Edit, EditError, Edited, FaceId, LiveFace, LiveModel, Role};
 pub use mesh::{Mesh, MeshFace};
 pub use outline::Outline;
 pub use plane_table::{PlaneId, PlaneTable, SNAP_TOLERANCE};

@@ -24,7 +24,15 @@ impl OuterBox {
     /// Adds the planes to a table.
     pub(crate) fn new(table: &mut PlaneTable) -> Self {
         let distance = table.reach().max(f64::from(1 << 10));
-        let half = (distance * REACH).log2().ceil().exp2().min(MAX_OFFSET_RATIO);
+        Self::at(table, (distance * REACH).log2().ceil().exp2().min(MAX_OFFSET_RATIO))
+    }
+
+    /// The largest one, of the first planes of a table that has none yet.
+    pub(crate) fn farthest(table: &mut PlaneTable) -> Self {
+        Self::at(table, MAX_OFFSET_RATIO)
+    }
+
+    fn at(table: &mut PlaneTable, half: f64) -> Self {
         let planes = std::array::from_fn(|k| {
             let axis = DVec3::AXES[k / 2];
             let normal = if k % 2 == 0 { axis } else { -axis };

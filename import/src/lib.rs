@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod edits;
 mod lines;
 pub mod map;
 pub mod mesh;

@@ -30,6 +30,8 @@ pub(crate) enum Command {
     Info(InfoArgs),
     /// Draw the solid of a model or a map as a picture
     Render(RenderArgs),
+    /// Apply edits to a model, each at the cost of what it touches, and write what it is then
+    Edit(EditArgs),
     /// Check that a mesh is watertight, manifold and not self-crossing; exit status 1 if not
     Check(CheckArgs),
 }
@@ -94,6 +96,36 @@ pub(crate) struct RenderArgs {
     /// Size of the picture in pixels
     #[arg(long, value_name = "WxH", default_value = "1280x960", value_parser = parse_size)]
     pub(crate) size: Size,
+    #[command(flatten)]
+    pub(crate) reading: ReadingArgs,
+    #[command(flatten)]
+    pub(crate) common: CommonArgs,
+}
+
+/// Arguments of `edit`.
+#[derive(Debug, Args)]
+pub(crate) struct EditArgs {
+    /// The model, map, tree or closed mesh to begin with (.json, .map, .csg, .obj, .stl, .ply, .glb, .gltf); `-` is standard input
+    #[arg(value_name = "INPUT")]
+    pub(crate) input: PathBuf,
+    /// The edits, one JSON object a line
+    #[arg(value_name = "EDITS.jsonl")]
+    pub(crate) edits: PathBuf,
+    /// Mesh to write, by its ending .glb, .gltf, .obj or .stl; may be given several times; `-` is standard output
+    #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1)]
+    pub(crate) outputs: Vec<PathBuf>,
+    /// Format of `-o -`: glb, gltf, obj or stl
+    #[arg(long, value_name = "FORMAT", value_parser = parse_format)]
+    pub(crate) format: Option<Format>,
+    /// Factor from the input's units to those of the meshes
+    #[arg(long, value_name = "S", default_value_t = 1.0, value_parser = parse_scale)]
+    pub(crate) scale: f64,
+    /// After each edit, compare with the same model built anew
+    #[arg(long)]
+    pub(crate) verify: bool,
+    /// Also write counts, measures and times as JSON
+    #[arg(long, value_name = "JSON")]
+    pub(crate) report: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) reading: ReadingArgs,
     #[command(flatten)]

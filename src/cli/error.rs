@@ -3,9 +3,10 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use planecut::csg::EvaluateError;
 use planecut::csg::check::MeshProblem;
+use planecut::csg::{EditError, EvaluateError};
 use planecut::export::ExportError;
+use planecut::import::edits::EditsError;
 use planecut::import::map::MapError;
 use planecut::import::mesh::{MeshError, SolidError};
 use planecut::import::model::ModelError;
@@ -65,6 +66,27 @@ pub(crate) enum CliError {
     /// The input is no closed mesh.
     #[error(transparent)]
     Solid(#[from] SolidError),
+    /// The edits are none.
+    #[error(transparent)]
+    Edits(#[from] EditsError),
+    /// An edit cannot be done.
+    #[error("{}{}: {source}", .path.display(), at_line(*.line))]
+    Edit {
+        /// The edits.
+        path: PathBuf,
+        /// The line, counted from 1; 0 for none.
+        line: u32,
+        /// Why.
+        source: EditError,
+    },
+    /// After an edit the model is not the one built anew.
+    #[error("{}{}: found a bug in planecut: a mesh that differs from that of the model built anew", .path.display(), at_line(*.line))]
+    NotFresh {
+        /// The edits.
+        path: PathBuf,
+        /// The line, counted from 1; 0 for all.
+        line: u32,
+    },
     /// The mesh is not sound.
     #[error("{}: found {problem}, expected a watertight, manifold mesh that does not cross itself", .path.display())]
     NotSound {
@@ -134,8 +156,11 @@ impl CliError {
             | Self::Model(_)
             | Self::Scad(_)
             | Self::Mesh(_)
-            | Self::Solid(_) => UNUSABLE,
+            | Self::Solid(_)
+            | Self::Edits(_) => UNUSABLE,
             Self::NotSound { .. }
+            | Self::Edit { .. }
+            | Self::NotFresh { .. }
             | Self::Evaluate { .. }
             | Self::Bug { .. }
             | Self::Encode { .. }
@@ -144,6 +169,11 @@ impl CliError {
             | Self::Threads(_) => FAILED,
         }
     }
+}
+
+/// A line after the name of a file; nothing for line 0.
+fn at_line(line: u32) -> String {
+    if line == 0 { String::new() } else { format!(":{line}") }
 }
 
 fn ending(path: &Path) -> String {

@@ -101,6 +101,11 @@ impl Input {
         }
     }
 
+    /// A file of any kind.
+    pub(crate) fn plain(path: &Path) -> Self {
+        Self { path: path.to_owned(), source: Source::File }
+    }
+
     /// Any input.
     ///
     /// # Errors

@@ -6,6 +6,7 @@ mod args;
 mod build;
 mod cells;
 mod check;
+mod edit;
 mod error;
 mod info;
 mod input;
@@ -44,6 +45,7 @@ fn parse_and_run() -> Result<(), CliError> {
         Command::Build(args) => build::run(&args),
         Command::Info(args) => info::run(&args),
         Command::Render(args) => render::run(&args),
+        Command::Edit(args) => edit::run(&args),
         Command::Check(args) => check::run(&args),
     }
 }

@@ -28,6 +28,9 @@ pub(crate) struct Report {
     mesh: MeshPart,
     /// The signs that were asked for.
     signs: SignsPart,
+    /// What `edit` did; other commands say nothing of it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    edit: Option<EditPart>,
     /// Where the time went, in milliseconds.
     pub(crate) time_ms: Times,
     /// What was left out or is doubtful.
@@ -51,6 +54,7 @@ impl Report {
             solid: Some(SolidPart::new(&evaluation.solid)),
             mesh,
             signs: SignsPart::new(&evaluation.signs),
+            edit: None,
             time_ms: Times::new(&evaluation.times),
             warnings: Vec::new(),
         }
@@ -68,6 +72,7 @@ impl Report {
             solid: topology.watertight.then(|| SolidPart::new(&measures)),
             mesh: MeshPart::new(topology, None),
             signs: SignsPart::new(&Counts::default()),
+            edit: None,
             time_ms: Times::default(),
             warnings: Vec::new(),
         }
@@ -88,6 +93,11 @@ impl Report {
             solid.volume = volume + 0.0;
         }
         self.mesh = mesh;
+    }
+
+    /// Says what edits were done.
+    pub(crate) fn set_edit(&mut self, edit: EditPart) {
+        self.edit = Some(edit);
     }
 
     /// The report as a file: JSON with line breaks.
@@ -204,6 +214,18 @@ impl SignsPart {
     }
 }
 
+/// Edits of a live model, and how long they took.
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct EditPart {
+    pub(crate) edits: usize,
+    /// `null` where there were none.
+    pub(crate) median_ms: Option<f64>,
+    pub(crate) p99_ms: Option<f64>,
+    /// How long the same model takes to be built anew: the median, where that was done after each edit.
+    pub(crate) fresh_ms: f64,
+    pub(crate) same_as_fresh: bool,
+}
+
 /// Milliseconds that each stage took; the total holds reading and checking as well.
 #[derive(Debug, Clone, Default, Serialize)]
 pub(crate) struct Times {
@@ -225,6 +247,11 @@ impl Times {
             triangulate: milliseconds(times.triangulate),
             ..Self::default()
         }
+    }
+
+    /// From the model in memory to its mesh.
+    pub(crate) fn of_evaluation(&self) -> f64 {
+        self.evaluate + self.weld + self.triangulate
     }
 }
 

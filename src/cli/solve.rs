@@ -73,7 +73,11 @@ pub(crate) fn solve_read(
     Ok(Solved { model, mesh: evaluation.mesh, unbounded: evaluation.model.unbounded, report, warnings })
 }
 
-fn read(input: &Input, kind: InputKind, reading: &ReadingArgs) -> Result<(Model, Vec<Warning>), CliError> {
+/// Reads an input.
+///
+/// # Errors
+/// [`CliError`] for unusable input.
+pub(crate) fn read(input: &Input, kind: InputKind, reading: &ReadingArgs) -> Result<(Model, Vec<Warning>), CliError> {
     let bytes = input.read()?;
     Ok(match kind {
         InputKind::Json => {
@@ -96,12 +100,16 @@ fn read(input: &Input, kind: InputKind, reading: &ReadingArgs) -> Result<(Model,
 }
 
 fn evaluate_model(input: &Input, kind: InputKind, model: &Model) -> Result<Evaluation, CliError> {
-    let unbounded = match kind {
+    evaluate_with(model, unbounded_of(kind)).map_err(|source| CliError::of_evaluation(&input.path, source))
+}
+
+/// What becomes of unbounded brushes of an input.
+pub(crate) fn unbounded_of(kind: InputKind) -> UnboundedBrushes {
+    match kind {
         InputKind::Json | InputKind::Csg | InputKind::Mesh(_) => UnboundedBrushes::Keep,
         // Nobody means half of space in a map: the brush lacks a face.
         InputKind::Map => UnboundedBrushes::LeaveOut,
-    };
-    evaluate_with(model, unbounded).map_err(|source| CliError::of_evaluation(&input.path, source))
+    }
 }
 
 /// One warning for each kind of brush that adds nothing to the solid, on the line of the first of them.

@@ -112,9 +112,14 @@ impl Body {
 
     /// The face on a plane, whatever its side.
     pub(crate) fn face_on(&self, plane: PlaneId) -> Option<&BodyFace> {
+        self.place_on(plane).map(|place| &self.faces[place])
+    }
+
+    /// The place of the face on a plane, whatever its side.
+    pub(crate) fn place_on(&self, plane: PlaneId) -> Option<usize> {
         const MANY: usize = 16;
         if self.faces.len() < MANY {
-            return self.faces.iter().find(|face| face.plane.index() == plane.index());
+            return self.faces.iter().position(|face| face.plane.index() == plane.index());
         }
         let by_plane = self.by_plane.get_or_init(|| {
             let mut by_plane: Vec<(u32, u32)> =
@@ -123,7 +128,7 @@ impl Body {
             by_plane
         });
         let place = by_plane.binary_search_by_key(&plane.index(), |entry| entry.0).ok()?;
-        Some(&self.faces[by_plane[place].1 as usize])
+        Some(by_plane[place].1 as usize)
     }
 }
 

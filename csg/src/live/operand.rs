@@ -1,9 +1,12 @@
 //! The brushes of a live model: their bodies, where these are, and which edges of the boundary their faces make.
 
+use std::sync::Arc;
+
 use planecut_kernel::DVec3;
 use rstar::RTree;
 use rstar::primitives::{GeomWithData, Rectangle};
 
+use super::planes::PlaneUse;
 use crate::body::Body;
 use crate::bounds::Bounds;
 use crate::brush::Brush;
@@ -22,13 +25,39 @@ pub enum Role {
     Intersect,
 }
 
-/// A brush of a live model.
+/// All that the user has said of a brush.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct State {
+    pub(super) brush: Brush,
+    /// The numbers of its planes, ascending.
+    pub(super) planes: Vec<u32>,
+    /// What the next plane is numbered.
+    pub(super) next_plane: u32,
+    pub(super) role: Role,
+}
+
+impl State {
+    /// A brush whose planes are numbered from 0.
+    pub(super) fn new(brush: Brush, role: Role) -> Self {
+        let next_plane = brush.faces.len() as u32;
+        Self { brush, planes: (0..next_plane).collect(), next_plane, role }
+    }
+
+    /// The place of a plane among the faces of the brush.
+    pub(super) fn place_of(&self, plane: u32) -> Option<usize> {
+        self.planes.binary_search(&plane).ok()
+    }
+}
+
+/// A brush of a live model, and what is worked out from it.
 #[derive(Debug)]
 pub(super) struct Operand {
-    pub(super) brush: Brush,
-    pub(super) role: Role,
-    /// Its place in the order of the brushes.
-    pub(super) order: u64,
+    pub(super) id: u64,
+    /// Whether it is still part of the model: what is not is forgotten at the end of the edit.
+    pub(super) is_there: bool,
+    pub(super) state: Arc<State>,
+    /// Its planes, in their order.
+    pub(super) uses: Vec<PlaneUse>,
     /// Nothing where the brush is empty.
     pub(super) body: Option<Body>,
     /// The mark of the body's faces.

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::operand::Role;
+use super::order::{restricted, sequence};
 use super::{LiveModel, body_of};
 use crate::body::{Body, kinds};
 use crate::bounds::Bounds;
@@ -10,7 +10,6 @@ use crate::expression::Expression;
 use crate::parallel::map_chunks;
 use crate::plane_table::PlaneTable;
 use crate::skin::{BoundaryEdge, FaceWorker, Scene};
-use crate::tree::{Operation, TreeNode};
 use crate::weld::{EdgeId, LiveWeld};
 
 /// From so many faces on they are worked out by several threads: waking them takes as long as a few faces.
@@ -22,10 +21,13 @@ const FACES_OF_GROUP: usize = 20;
 /// No place.
 const NOWHERE: u32 = u32::MAX;
 
+/// What was found on some faces: the edges, and where those of each face end.
+type Found = (Vec<BoundaryEdge>, Vec<usize>);
+
 impl LiveModel {
     /// Works out the boundary on some faces, sorted.
-    pub(super) fn skin(&mut self, faces: &[(u32, u32)]) {
-        let order = |number: u32| self.operands[number as usize].as_ref().map_or(0, |operand| operand.order);
+    pub(super) fn skin(&mut self, faces: &[(u32, u32)]) -> Vec<Found> {
+        let id = |number: u32| self.operands[number as usize].as_ref().map_or(0, |operand| operand.id);
         // what is near the faces of each body
         let mut near: Vec<(u64, u32)> = Vec::new();
         let mut groups: Vec<Group> = Vec::new();
@@ -35,7 +37,7 @@ impl LiveModel {
             let boxes = of_body.iter().map(|(_, face)| &body.faces[*face as usize].bounds);
             let bounds = boxes.fold(Bounds::EMPTY, |all, bounds| all.union(bounds));
             let (start, first) = (near.len(), groups.last().map_or(0, |group| group.faces.end));
-            near.extend(self.places.near(&bounds).map(|number| (order(number), number)));
+            near.extend(self.places.near(&bounds).map(|number| (id(number), number)));
             near[start..].sort_unstable();
             groups.push(Group { number, near: start..near.len(), faces: first..first + of_body.len() });
         }
@@ -44,12 +46,17 @@ impl LiveModel {
         members.dedup();
         // nothing is left of what lies before an intersecting brush that does not come near
         let far = self.intersecting.iter().rev().find(|entry| members.binary_search(entry).is_err());
-        if let Some((order, _)) = far {
-            members.retain(|member| member.0 > *order);
+        if let Some((id, _)) = far {
+            members.retain(|member| member.0 > *id);
         }
         let operand = |number: u32| self.operands[number as usize].as_ref().expect("what is near is there");
         let member = |leaf: u32| operand(members[leaf as usize].1);
-        let expression = sequence((0..members.len() as u32).map(|leaf| member(leaf).role));
+        let is_member = |leaf: u32| members.binary_search_by_key(&u64::from(leaf), |member| member.0).is_ok();
+        let base = self.base.as_ref().filter(|_| far.is_none()).map(|base| restricted(&base.nodes, is_member));
+        let in_base = self.base.as_ref().map_or(0, |base| u64::from(base.leaves));
+        let in_sequence = members.partition_point(|member| member.0 < in_base) as u32..members.len() as u32;
+        let roles = in_sequence.map(|leaf| member(leaf).state.role);
+        let expression = Expression::new(&sequence(base.unwrap_or_default(), roles));
         let faces_of = |leaf: u32| member(leaf).body.as_ref().map_or(&[][..], |body| &body.faces);
         let kinds = kinds(members.len(), faces_of, |leaf| member(leaf).mark);
         let repeated = expression.repeated_leaves(&kinds);
@@ -60,7 +67,8 @@ impl LiveModel {
             place[members[*leaf as usize].1 as usize] = k;
         }
         let bodies: Vec<&Body> = leaves.iter().filter_map(|leaf| member(*leaf).body.as_ref()).collect();
-        let scene = Scene::of_some(&self.table, bodies, &leaves, &expression, &self.bodies_on_plane, &self.rank);
+        let table = &self.planes.table;
+        let scene = Scene::of_some(table, bodies, &leaves, &expression, &self.bodies_on_plane, &self.rank);
         let emit = |groups: &[Group]| {
             let mut worker = FaceWorker::new(&scene);
             let (mut found, mut ends, mut near_here) = (Vec::new(), Vec::new(), Vec::new());
@@ -74,7 +82,9 @@ impl LiveModel {
                 }
                 for (_, face) in &faces[of_group.clone()] {
                     if own != NOWHERE {
+                        let start = found.len();
                         worker.emit(own as usize, *face as usize, &near_here, &mut found);
+                        found[start..].sort_unstable();
                     }
                     ends.push(found.len());
                 }
@@ -90,12 +100,18 @@ impl LiveModel {
         for (_, number) in &members {
             place[*number as usize] = NOWHERE;
         }
+        parts
+    }
+
+    /// Hands the weld what has changed on faces that were worked out again.
+    pub(super) fn exchange(&mut self, faces: &[(u32, u32)], found: Vec<Found>) {
         let mut of_part = faces.iter();
-        for (mut found, ends) in parts {
+        for (found, ends) in found {
             let mut start = 0;
             for (end, (number, face)) in ends.into_iter().zip(&mut of_part) {
                 let operand = self.operands[*number as usize].as_mut().expect("the brush is there");
-                exchange(&mut self.welded, &self.table, &mut operand.edges[*face as usize], &mut found[start..end]);
+                let known = &mut operand.edges[*face as usize];
+                exchange(&mut self.welded, &self.planes.table, known, &found[start..end]);
                 start = end;
             }
         }
@@ -122,36 +138,13 @@ impl Group {
     }
 }
 
-/// Brushes added, subtracted and intersected one after another.
-fn sequence(roles: impl Iterator<Item = Role>) -> Expression {
-    let mut nodes: Vec<TreeNode> = Vec::new();
-    // what is not yet noted: the union of no brushes at first
-    let (mut operation, mut operands) = (Operation::Union, 0);
-    for role in roles {
-        let next = match role {
-            Role::Add => Operation::Union,
-            Role::Subtract => Operation::Difference,
-            Role::Intersect => Operation::Intersection,
-        };
-        if next != operation {
-            nodes.push(TreeNode::Operation { operation, operands });
-            (operation, operands) = (next, 1);
-        }
-        nodes.push(TreeNode::Leaf);
-        operands += 1;
-    }
-    nodes.push(TreeNode::Operation { operation, operands });
-    Expression::new(&nodes)
-}
-
-/// Puts the edges that were found on a face in the place of those known, sorted; what stays the same is not touched.
+/// Puts the edges that were found on a face in the place of those known, both sorted; what stays the same is not touched.
 fn exchange(
     welded: &mut LiveWeld,
     table: &PlaneTable,
     known: &mut Vec<(BoundaryEdge, EdgeId)>,
-    found: &mut [BoundaryEdge],
+    found: &[BoundaryEdge],
 ) {
-    found.sort_unstable();
     if known.iter().map(|edge| &edge.0).eq(found.iter()) {
         return;
     }

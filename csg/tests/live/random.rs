@@ -3,7 +3,7 @@
 use planecut_csg::Role;
 use planecut_kernel::DVec3;
 
-use crate::edits::{Edit, Planes, Tally, check};
+use crate::edits::{Edit, Faces, Plane, Planes, Tally, check};
 use crate::rng::Rng;
 
 /// Boxes and cut boxes on a small grid: everything touches.
@@ -56,6 +56,24 @@ fn turned(random: &mut Rng) -> Planes {
     (0..count).map(plane).collect()
 }
 
+/// Boxes of a turned grid, each plane with noise of its own: what is meant to be one plane is nearly one.
+fn noisy(random: &mut Rng) -> Planes {
+    let planes = on_grid(random);
+    let turned = |(normal, offset): Plane| {
+        let [x, y, z] = normal;
+        let (sine, cosine) = (0.6_f64.sin(), 0.6_f64.cos());
+        let mut noise = || 1.0 + 4e-13 * (random.real(0.0, 1.0) - 0.5);
+        let normal = [(cosine * x - sine * y) * noise(), (sine * x + cosine * y) * noise(), z * noise()];
+        (normal, offset * noise())
+    };
+    planes.into_iter().map(turned).collect()
+}
+
+fn any_plane(random: &mut Rng, shape: fn(&mut Rng) -> Planes) -> Plane {
+    let planes = shape(random);
+    planes[random.below(planes.len())]
+}
+
 fn sequence(random: &mut Rng, length: usize, shape: fn(&mut Rng) -> Planes) -> Vec<Edit> {
     let edit = |_| {
         let role = match random.below(12) {
@@ -63,42 +81,58 @@ fn sequence(random: &mut Rng, length: usize, shape: fn(&mut Rng) -> Planes) -> V
             7..11 => Role::Subtract,
             _ => Role::Intersect,
         };
-        let at = random.below(1000);
-        match random.below(6) {
-            0..3 => Edit::Add(shape(random), random.below(2) as u32, role),
-            3 => Edit::Remove(at),
-            4 => Edit::Replace(at, shape(random)),
-            _ => Edit::SetRole(at, role),
+        let (at, plane) = (random.below(1000), random.below(1000));
+        match random.below(16) {
+            0..4 => Edit::Add(shape(random), random.below(2) as u32, role),
+            4 => Edit::Remove(at),
+            5 => Edit::Replace(at, shape(random)),
+            6 => Edit::SetRole(at, role),
+            7..9 => Edit::AddPlane(at, any_plane(random, shape), random.below(2) as u32),
+            9 => Edit::RemovePlane(at, plane),
+            10..12 => Edit::MovePlane(at, plane, any_plane(random, shape).1),
+            12 => {
+                let by = [0; 3].map(|_| f64::from(random.integer(-2, 2)));
+                Edit::Move(at, [0.0, 0.0, 1.0], 90.0 * f64::from(random.integer(0, 3)), by)
+            }
+            13..15 => Edit::Undo,
+            _ => Edit::Redo,
         }
     };
     (0..length).map(edit).collect()
 }
 
-fn sweep(seeds: u64, length: usize, shape: fn(&mut Rng) -> Planes) -> Tally {
+fn sweep(seeds: u64, length: usize, shape: fn(&mut Rng) -> Planes, faces: Faces) -> Tally {
     (0..seeds).fold(Tally::default(), |sum, seed| {
-        let tally = check(seed, &sequence(&mut Rng::new(seed), length, shape));
+        let tally = check(seed, &sequence(&mut Rng::new(seed), length, shape), faces);
         Tally {
             compared: sum.compared + tally.compared,
             equal: sum.equal + tally.equal,
             triangles: sum.triangles + tally.triangles,
+            refused: sum.refused + tally.refused,
         }
     })
 }
 
 #[test]
 fn random_edits_on_a_grid() {
-    let tally = sweep(60, 60, on_grid);
-    assert!(tally.equal * 10 > tally.compared * 9 && tally.triangles > 40 * tally.compared, "{tally:?}");
+    let tally = sweep(60, 60, on_grid, Faces::Same);
+    assert!(tally.equal * 10 > tally.compared * 9 && tally.triangles > 20 * tally.compared, "{tally:?}");
 }
 
 #[test]
 fn random_edits_around_lines() {
-    let tally = sweep(60, 30, around_lines);
+    let tally = sweep(60, 30, around_lines, Faces::Same);
     assert!(tally.compared > 500, "{tally:?}");
 }
 
 #[test]
 fn random_edits_in_general_position() {
-    let tally = sweep(25, 60, turned);
-    assert!(tally.equal * 10 > tally.compared * 9 && tally.triangles > 200 * tally.compared, "{tally:?}");
+    let tally = sweep(25, 60, turned, Faces::Same);
+    assert!(tally.equal * 10 > tally.compared * 9 && tally.triangles > 60 * tally.compared, "{tally:?}");
+}
+
+#[test]
+fn random_edits_among_planes_that_are_nearly_the_same() {
+    let tally = sweep(60, 60, noisy, Faces::Noisy);
+    assert!(tally.compared > 1500 && tally.triangles > 20 * tally.compared && tally.refused > 20, "{tally:?}");
 }

@@ -148,6 +148,16 @@ impl LiveWeld {
         Ok(())
     }
 
+    /// Whether a point or a line is known by the plane of an index: then it must stay that plane.
+    pub(crate) fn names(&self, index: u32) -> bool {
+        self.numbers.names(index)
+    }
+
+    /// The indices of planes by which no point and no line is known any more, perhaps.
+    pub(crate) fn take_unnamed(&mut self) -> Vec<u32> {
+        self.numbers.take_unnamed()
+    }
+
     /// A face, where there is one of this number.
     pub(crate) fn face(&self, id: FaceId) -> Option<LiveFace<'_>> {
         LiveFace::new(&self.numbers, &self.state, id)

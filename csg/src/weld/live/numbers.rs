@@ -38,6 +38,9 @@ pub(super) struct Numbers {
     materials: Vec<MaterialId>,
     region_uses: Vec<u32>,
     free_regions: Vec<u32>,
+    /// By how many points and lines each plane is known, and those by which none is known any more.
+    known_by: Vec<u32>,
+    unnamed: Vec<u32>,
     axes: AxisPlanes,
 }
 
@@ -61,15 +64,47 @@ impl Numbers {
     /// Takes an edge out.
     pub(super) fn release(&mut self, edge: &NumberedEdge) {
         for end in edge.ends {
-            self.point_names.release(end);
+            if let Some(gone) = self.point_names.release(end) {
+                self.points.planes[gone as usize].into_iter().for_each(|plane| self.lose(plane));
+            }
         }
-        self.line_names.release(edge.line);
+        if let Some(gone) = self.line_names.release(edge.line) {
+            self.lines[gone as usize].planes.into_iter().for_each(|plane| self.lose(plane));
+        }
         let region = edge.run.region as usize;
         self.region_uses[region] -= 1;
         if self.region_uses[region] == 0 {
             self.region_numbers.remove(&(self.planes[region], self.materials[region]));
             self.free_regions.push(region as u32);
         }
+    }
+
+    /// Notes that a point or a line is known by a plane.
+    fn gain(&mut self, plane: PlaneId) {
+        let at = plane.index() as usize;
+        if at >= self.known_by.len() {
+            self.known_by.resize(at + 1, 0);
+        }
+        self.known_by[at] += 1;
+    }
+
+    /// Notes that a point or a line that was known by a plane is no more.
+    fn lose(&mut self, plane: PlaneId) {
+        let uses = &mut self.known_by[plane.index() as usize];
+        *uses -= 1;
+        if *uses == 0 {
+            self.unnamed.push(plane.index());
+        }
+    }
+
+    /// Whether a point or a line is known by the plane of an index.
+    pub(super) fn names(&self, index: u32) -> bool {
+        self.known_by.get(index as usize).is_some_and(|uses| *uses > 0)
+    }
+
+    /// The indices of planes by which no point and no line is known any more, perhaps.
+    pub(super) fn take_unnamed(&mut self) -> Vec<u32> {
+        std::mem::take(&mut self.unnamed)
     }
 
     /// The order of points in space, whatever their numbers.
@@ -108,6 +143,7 @@ impl Numbers {
                 self.points.put(number, &named);
             }
             self.places[number] = curve_number(named.position);
+            named.planes.into_iter().for_each(|plane| self.gain(plane));
         }
         id
     }
@@ -127,6 +163,7 @@ impl Numbers {
             } else {
                 self.lines[number] = line;
             }
+            line.planes.into_iter().for_each(|plane| self.gain(plane));
         }
         id
     }

@@ -1,24 +1,21 @@
 //! Every plane of a model once: interned exactly up to scale, with noise snapped away.
 
-use std::cmp::Ordering;
+mod near;
+mod same;
+mod snapped;
 
 use planecut_kernel::sign::{Homogeneous, Row, Sign, cross_component, orient3};
 use planecut_kernel::{DVec3, HalfSpace, meet};
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
-use crate::distinct::{WEIGHTS, distinct, sortable};
-
-/// Planes whose unit normals and relative offsets differ by at most this are taken to be one plane that went through
-/// rotations or decimal text, relative to the largest distance of a plane from the origin.
-pub const SNAP_TOLERANCE: f64 = 1e-12;
-
-/// Planes whose normal has coprime integer components of at most this many bits are exact and never snapped onto others:
-/// what went through rotations or decimal text is hardly ever that short.
-const EXACT_BITS: u32 = 36;
-
-/// Side of the cells in which near planes are sought; many times the tolerance, so that one cell nearly always does.
-const SNAP_CELL: f64 = 1024.0 * SNAP_TOLERANCE;
+use crate::distinct::sortable;
+use near::NearPlanes;
+pub use near::SNAP_TOLERANCE;
+pub(crate) use near::{NearCells, is_nearly_same, unit};
+use same::group_exactly;
+pub(crate) use same::{Key, compare_coefficients, is_exact, is_reversed, key};
+pub(crate) use snapped::Snapped;
 
 /// An oriented plane of a [`PlaneTable`]: an index and a bit for the opposite side.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -288,7 +285,7 @@ impl PlaneTable {
     fn find_near(&mut self, place: &[f64; 4]) -> Option<PlaneId> {
         let (reach, rows) = (self.reach, &self.rows);
         let index = self.index.get_or_insert_default();
-        let near = index.near.take().filter(|near| reach <= near.size);
+        let near = index.near.take().filter(|near| near.holds(reach));
         // twice the reach, so that tables that grow are hashed again only now and then
         let near = near.unwrap_or_else(|| NearPlanes::of(rows, 2.0 * reach));
         index.near.insert(near).find(place, reach)
@@ -303,57 +300,27 @@ impl PlaneTable {
         id
     }
 
-    fn push(&mut self, row: &Row) -> PlaneId {
+    /// Adds a plane without looking for it; only for tables to which [`insert`](Self::insert) adds nothing.
+    pub(crate) fn push(&mut self, row: &Row) -> PlaneId {
         let id = PlaneId::new(self.len(), false);
-        let [x, y, z, d] = *row.coefficients();
-        let half_space = HalfSpace::new(DVec3::new(x, y, z), d).expect("scaled from a valid half-space");
+        let half_space = half_space_of(row);
         self.half_spaces.extend([half_space, half_space.flipped()]);
         self.rows.extend([*row, row.flipped()]);
         id
     }
-}
 
-/// The planes of many half-spaces that a table of all of them would replace by one that is nearly the same, without such a
-/// table.
-pub(crate) struct Snapped {
-    replaced: FxHashMap<[u64; 4], HalfSpace>,
-}
-
-impl Snapped {
-    /// Those among some half-spaces.
-    pub(crate) fn of<'a>(half_spaces: impl Iterator<Item = &'a HalfSpace> + Clone) -> Self {
-        let mut snapped = Self { replaced: FxHashMap::default() };
-        let rows = || half_spaces.clone().map(Row::new);
-        if rows().all(|row| is_exact(&row)) {
-            return snapped;
-        }
-        let first_sides = rows().map(|row| if is_reversed(&row) { row.flipped() } else { row });
-        let units: Vec<[f64; 4]> = first_sides.map(|row| unit(&row)).collect();
-        let reach = units.iter().map(|unit| unit[3].abs()).fold(0.0, f64::max);
-        let may_be_near = NearPlanes::new(reach).may_be_near(&units);
-        drop(units);
-        let doubtful = half_spaces.zip(may_be_near).filter(|(_, is_near)| *is_near);
-        let doubtful: Vec<HalfSpace> = doubtful.map(|(half_space, _)| *half_space).collect();
-        let (table, ids) = PlaneTable::intern_within(&doubtful, reach);
-        for (half_space, id) in doubtful.iter().zip(ids) {
-            if !table.row(id).is_same_plane(&Row::new(half_space)) {
-                snapped.replaced.insert(bits(half_space), *table.half_space(id));
-            }
-        }
-        snapped
-    }
-
-    /// What stands for a half-space.
-    pub(crate) fn of_plane(&self, half_space: &HalfSpace) -> HalfSpace {
-        if self.replaced.is_empty() {
-            return *half_space;
-        }
-        self.replaced.get(&bits(half_space)).copied().unwrap_or(*half_space)
+    /// Puts another plane in the place of one; only for tables to which [`insert`](Self::insert) adds nothing.
+    pub(crate) fn put(&mut self, index: u32, row: &Row) {
+        let half_space = half_space_of(row);
+        let at = 2 * index as usize;
+        (self.half_spaces[at], self.half_spaces[at + 1]) = (half_space, half_space.flipped());
+        (self.rows[at], self.rows[at + 1]) = (*row, row.flipped());
     }
 }
 
-fn bits(half_space: &HalfSpace) -> [u64; 4] {
-    half_space.normal().extend(half_space.offset()).to_array().map(f64::to_bits)
+fn half_space_of(row: &Row) -> HalfSpace {
+    let [x, y, z, d] = *row.coefficients();
+    HalfSpace::new(DVec3::new(x, y, z), d).expect("scaled from a valid half-space")
 }
 
 /// Finds planes of a table.
@@ -374,155 +341,6 @@ impl Index {
         }
         index
     }
-}
-
-/// Numbers that equal planes share.
-type Key = (usize, [u64; 3]);
-
-fn key(row: &Row) -> Key {
-    let (first, ratios) = row.ratios();
-    (first, ratios.map(f64::to_bits))
-}
-
-/// Whether a plane is surely meant as it is.
-fn is_exact(row: &Row) -> bool {
-    row.integer_bits().is_some_and(|bits| bits <= EXACT_BITS)
-}
-
-/// Whether the first coefficient of the normal that is not zero is negative.
-fn is_reversed(row: &Row) -> bool {
-    row.coefficients().iter().find(|v| **v != 0.0).is_some_and(|v| *v < 0.0)
-}
-
-/// The order of rows by their coefficients.
-fn compare_coefficients(p: &Row, q: &Row) -> Ordering {
-    let pairs = p.coefficients().iter().zip(q.coefficients());
-    pairs.map(|(a, b)| a.total_cmp(b)).find(|order| order.is_ne()).unwrap_or(Ordering::Equal)
-}
-
-/// Groups rows that describe the same plane: for each group its side with a positive first coefficient, and the group of
-/// each row. Of rows of different scale the least stands for the group, so that the order of the input does not matter.
-fn group_exactly(rows: &[Row]) -> (Vec<Row>, Vec<u32>) {
-    let rows: Vec<Row> =
-        rows.par_iter().with_min_len(1024).map(|row| if is_reversed(row) { row.flipped() } else { *row }).collect();
-    let keys: Vec<Key> = rows.par_iter().with_min_len(1024).map(key).collect();
-    // spread by the low bits of a ratio
-    let spread = |key: &Key| (key.1[0] ^ key.1[1] >> 7 ^ key.1[2] >> 13) as usize & 0xFFFF;
-    let (different, mut class) = distinct(&keys, 1 << 16, spread);
-    let mut groups: Vec<Option<Row>> = vec![None; different.len()];
-    // groups that share all numbers with one that was there before
-    let mut further: FxHashMap<u32, Vec<u32>> = FxHashMap::default();
-    for (row, class) in rows.iter().zip(&mut class) {
-        let same = |group: &u32| groups[*group as usize].is_none_or(|other| other.is_same_plane(row));
-        if !same(class) {
-            let others = further.entry(*class).or_default();
-            *class = others.iter().copied().find(same).unwrap_or_else(|| {
-                others.push(groups.len() as u32);
-                groups.push(None);
-                groups.len() as u32 - 1
-            });
-        }
-        let least = groups[*class as usize].get_or_insert(*row);
-        if compare_coefficients(row, least).is_lt() {
-            *least = *row;
-        }
-    }
-    (groups.into_iter().flatten().collect(), class)
-}
-
-/// Unit normal and distance from the origin.
-fn unit(row: &Row) -> [f64; 4] {
-    let [x, y, z, d] = *row.coefficients();
-    let length = DVec3::new(x, y, z).length();
-    [x / length, y / length, z / length, d / length]
-}
-
-/// A hash of planes by their unit normal and relative offset.
-#[derive(Debug, Clone)]
-struct NearPlanes {
-    /// The last plane of each cell.
-    cells: FxHashMap<[i64; 4], u32>,
-    /// Each with the one before in its cell.
-    planes: Vec<([f64; 4], PlaneId, Option<u32>)>,
-    /// Distances from the origin are hashed as shares of this.
-    size: f64,
-}
-
-impl NearPlanes {
-    fn new(size: f64) -> Self {
-        Self { cells: FxHashMap::default(), planes: Vec::new(), size: size.max(f64::MIN_POSITIVE) }
-    }
-
-    fn of(rows: &[Row], size: f64) -> Self {
-        let mut near = Self::new(size);
-        for (k, row) in rows.iter().step_by(2).enumerate() {
-            near.insert(unit(row), PlaneId::new(k, false));
-        }
-        near
-    }
-
-    /// Which of some planes may be within the tolerance of another: most are told apart by one number each.
-    fn may_be_near(&self, units: &[[f64; 4]]) -> Vec<bool> {
-        // the sum of the weights times the tolerance, and room for rounding
-        const APART: f64 = 3.0 * SNAP_TOLERANCE;
-        let number = |unit: &[f64; 4]| self.shares(*unit).iter().zip(WEIGHTS).map(|(share, w)| share * w).sum::<f64>();
-        let mut sorted: Vec<(u64, u32)> = units
-            .par_iter()
-            .enumerate()
-            .with_min_len(1024)
-            .map(|(k, unit)| (sortable(number(unit)), k as u32))
-            .collect();
-        sorted.par_sort_unstable();
-        // the side of a plane whose first coefficient is noise is noise, too
-        let mut may_be_near: Vec<bool> = units.iter().map(|unit| unit[0] <= SNAP_TOLERANCE).collect();
-        for pair in sorted.windows(2) {
-            let [p, q] = [0, 1].map(|k| pair[k].1 as usize);
-            if number(&units[q]) - number(&units[p]) <= APART {
-                (may_be_near[p], may_be_near[q]) = (true, true);
-            }
-        }
-        may_be_near
-    }
-
-    fn insert(&mut self, unit: [f64; 4], id: PlaneId) {
-        let before = self.cells.insert(self.shares(unit).map(cell), self.planes.len() as u32);
-        self.planes.push((unit, id, before));
-    }
-
-    /// The side of a plane that is within the tolerance; `reach` is the largest distance from the origin.
-    fn find(&self, unit: &[f64; 4], reach: f64) -> Option<PlaneId> {
-        let opposite = || {
-            // both have a first coefficient that is not negative
-            let may_be_near = unit[0] <= SNAP_TOLERANCE;
-            may_be_near.then(|| self.find_side(&unit.map(|v| -v), reach)).flatten().map(PlaneId::flipped)
-        };
-        self.find_side(unit, reach).or_else(opposite)
-    }
-
-    fn find_side(&self, unit: &[f64; 4], reach: f64) -> Option<PlaneId> {
-        let tolerances = [SNAP_TOLERANCE, SNAP_TOLERANCE, SNAP_TOLERANCE, SNAP_TOLERANCE * reach];
-        let near = |other: &[f64; 4]| (0..4).all(|k| (unit[k] - other[k]).abs() <= tolerances[k]);
-        let low = self.shares(std::array::from_fn(|k| unit[k] - tolerances[k])).map(cell);
-        let high = self.shares(std::array::from_fn(|k| unit[k] + tolerances[k])).map(cell);
-        let different = (0..4).filter(|k| low[*k] != high[*k]).fold(0, |bits, k| bits | 1 << k);
-        (0..16usize)
-            .filter(|corner| corner & !different == 0)
-            .map(|corner| std::array::from_fn(|k| if corner >> k & 1 == 0 { low[k] } else { high[k] }))
-            .filter_map(|key: [i64; 4]| self.cells.get(&key))
-            .flat_map(|last| std::iter::successors(Some(*last), |k| self.planes[*k as usize].2))
-            .map(|k| &self.planes[k as usize])
-            .filter(|(other, ..)| near(other))
-            .map(|(_, id, _)| *id)
-            .min()
-    }
-
-    fn shares(&self, [x, y, z, d]: [f64; 4]) -> [f64; 4] {
-        [x, y, z, d / self.size]
-    }
-}
-
-fn cell(v: f64) -> i64 {
-    (v / SNAP_CELL).floor() as i64
 }
 
 #[cfg(test)]

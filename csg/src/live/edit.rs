@@ -1,0 +1,259 @@
+//! What can be done to a live model.
+
+use std::sync::Arc;
+
+use planecut_kernel::HalfSpace;
+
+use super::history::New;
+use super::operand::State;
+use super::{BrushId, Change, EditError, LiveModel, Role};
+use crate::brush::{Brush, BrushFace, MaterialId};
+use crate::transform::Transform;
+
+/// An edit, to be kept in a list and applied again: see [`LiveModel::apply`].
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Edit {
+    /// [`LiveModel::add_plane`].
+    AddPlane {
+        /// The brush.
+        brush: BrushId,
+        /// What its body is cut down to.
+        half_space: HalfSpace,
+        /// What the face on the plane is made of; where nothing is said, that of the first face of the brush.
+        material: Option<MaterialId>,
+    },
+    /// [`LiveModel::remove_plane`].
+    RemovePlane {
+        /// The brush.
+        brush: BrushId,
+        /// The number of the plane.
+        plane: u32,
+    },
+    /// [`LiveModel::move_plane`].
+    MovePlane {
+        /// The brush.
+        brush: BrushId,
+        /// The number of the plane.
+        plane: u32,
+        /// The new offset, for the normal as it was given.
+        offset: f64,
+    },
+    /// [`LiveModel::add_brush`].
+    AddBrush {
+        /// The brush.
+        brush: Brush,
+        /// What it does.
+        role: Role,
+    },
+    /// [`LiveModel::remove_brush`].
+    RemoveBrush {
+        /// The brush.
+        brush: BrushId,
+    },
+    /// [`LiveModel::replace_brush`].
+    ReplaceBrush {
+        /// The brush.
+        brush: BrushId,
+        /// What takes its place.
+        by: Brush,
+    },
+    /// [`LiveModel::transform_brush`].
+    TransformBrush {
+        /// The brush.
+        brush: BrushId,
+        /// The map.
+        transform: Transform,
+    },
+    /// [`LiveModel::set_role`].
+    SetRole {
+        /// The brush.
+        brush: BrushId,
+        /// What it does from now on.
+        role: Role,
+    },
+    /// [`LiveModel::undo`].
+    Undo,
+    /// [`LiveModel::redo`].
+    Redo,
+}
+
+/// What an [`Edit`] came to.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Edited {
+    /// The number of a brush that was added.
+    pub brush: Option<BrushId>,
+    /// The number of a plane that was added.
+    pub plane: Option<u32>,
+    /// What has changed.
+    pub change: Change,
+}
+
+impl From<Change> for Edited {
+    fn from(change: Change) -> Self {
+        Self { change, ..Self::default() }
+    }
+}
+
+impl LiveModel {
+    /// Does an edit.
+    ///
+    /// # Errors
+    /// Those of the method that the edit stands for.
+    pub fn apply(&mut self, edit: Edit) -> Result<Edited, EditError> {
+        Ok(match edit {
+            Edit::AddPlane { brush, half_space, material } => {
+                let first = |brush: &Brush| brush.faces.first().map(|face| face.material);
+                let material = material.or(first(self.brush(brush)?.0)).unwrap_or(MaterialId(0));
+                let (plane, change) = self.add_plane(brush, half_space, material)?;
+                Edited { plane: Some(plane), ..change.into() }
+            }
+            Edit::RemovePlane { brush, plane } => self.remove_plane(brush, plane)?.into(),
+            Edit::MovePlane { brush, plane, offset } => self.move_plane(brush, plane, offset)?.into(),
+            Edit::AddBrush { brush, role } => {
+                let (brush, change) = self.add_brush(brush, role)?;
+                Edited { brush: Some(brush), ..change.into() }
+            }
+            Edit::RemoveBrush { brush } => self.remove_brush(brush)?.into(),
+            Edit::ReplaceBrush { brush, by } => self.replace_brush(brush, by)?.into(),
+            Edit::TransformBrush { brush, transform } => self.transform_brush(brush, &transform)?.into(),
+            Edit::SetRole { brush, role } => self.set_role(brush, role)?.into(),
+            Edit::Undo => self.undo()?.into(),
+            Edit::Redo => self.redo()?.into(),
+        })
+    }
+
+    /// Cuts a brush down to a half-space; gives the number of the plane in the brush. [`LiveModel::remove_plane`] lets the brush grow back.
+    ///
+    /// # Errors
+    /// [`EditError::UnknownBrush`], [`EditError::Evaluate`].
+    pub fn add_plane(
+        &mut self,
+        brush: BrushId,
+        half_space: HalfSpace,
+        material: MaterialId,
+    ) -> Result<(u32, Change), EditError> {
+        let mut state = State::clone(self.state(brush)?);
+        let plane = state.next_plane;
+        state.next_plane += 1;
+        state.planes.push(plane);
+        state.brush.faces.push(BrushFace { half_space, material });
+        self.check_materials(&state.brush)?;
+        Ok((plane, self.edit_brush(brush, state)?))
+    }
+
+    /// Takes a plane out of a brush, which grows to what its other planes leave.
+    ///
+    /// # Errors
+    /// [`EditError::UnknownBrush`], [`EditError::UnknownPlane`], [`EditError::Evaluate`].
+    pub fn remove_plane(&mut self, brush: BrushId, plane: u32) -> Result<Change, EditError> {
+        let mut state = State::clone(self.state(brush)?);
+        let place = state.place_of(plane).ok_or(EditError::UnknownPlane { brush, plane })?;
+        state.planes.remove(place);
+        state.brush.faces.remove(place);
+        self.edit_brush(brush, state)
+    }
+
+    /// Gives a plane of a brush another offset: `n·x ≤ offset`, `n` being the normal that was given, whatever its length.
+    ///
+    /// # Errors
+    /// [`EditError::UnknownBrush`], [`EditError::UnknownPlane`], [`EditError::Offset`], [`EditError::Evaluate`].
+    pub fn move_plane(&mut self, brush: BrushId, plane: u32, offset: f64) -> Result<Change, EditError> {
+        let mut state = State::clone(self.state(brush)?);
+        let place = state.place_of(plane).ok_or(EditError::UnknownPlane { brush, plane })?;
+        let half_space = &mut state.brush.faces[place].half_space;
+        *half_space = HalfSpace::new(half_space.normal(), offset).map_err(|_| EditError::Offset(offset))?;
+        self.edit_brush(brush, state)
+    }
+
+    /// Adds a brush after all others.
+    ///
+    /// # Errors
+    /// [`EditError::Evaluate`].
+    pub fn add_brush(&mut self, brush: Brush, role: Role) -> Result<(BrushId, Change), EditError> {
+        let (ids, change) = self.add_brushes(vec![(brush, role)])?;
+        Ok((ids[0], change))
+    }
+
+    /// Adds brushes after all others, in their order, as one edit.
+    ///
+    /// # Errors
+    /// [`EditError::Evaluate`]; then none is added.
+    pub fn add_brushes(&mut self, brushes: Vec<(Brush, Role)>) -> Result<(Vec<BrushId>, Change), EditError> {
+        let first = self.next_id;
+        let (change, before, after) = self.append(brushes)?;
+        self.history.note(before, after);
+        Ok(((first..self.next_id).map(BrushId).collect(), change))
+    }
+
+    /// Adds brushes; also what they were before, and are now.
+    pub(super) fn append(
+        &mut self,
+        brushes: impl IntoIterator<Item = (Brush, Role)>,
+    ) -> Result<(Change, Vec<New>, Vec<New>), EditError> {
+        let state = |(id, (brush, role)): (u64, (Brush, Role))| {
+            self.check_materials(&brush)?;
+            Ok((id, Some(Arc::new(State::new(brush, role)))))
+        };
+        let new: Vec<New> = (self.next_id..).zip(brushes).map(state).collect::<Result<_, EditError>>()?;
+        let end = self.next_id + new.len() as u64;
+        let (change, before) = self.change(new.clone())?;
+        self.next_id = end;
+        Ok((change, before, new))
+    }
+
+    /// Takes a brush out.
+    ///
+    /// # Errors
+    /// [`EditError::UnknownBrush`], [`EditError::Evaluate`].
+    pub fn remove_brush(&mut self, id: BrushId) -> Result<Change, EditError> {
+        self.state(id)?;
+        self.edit(vec![(id.0, None)])
+    }
+
+    /// Puts another brush in the place of one; its planes get new numbers.
+    ///
+    /// # Errors
+    /// [`EditError::UnknownBrush`], [`EditError::Evaluate`].
+    pub fn replace_brush(&mut self, id: BrushId, brush: Brush) -> Result<Change, EditError> {
+        self.check_materials(&brush)?;
+        let State { next_plane, role, .. } = **self.state(id)?;
+        let count = brush.faces.len() as u32;
+        let planes = (next_plane..next_plane + count).collect();
+        self.edit_brush(id, State { brush, planes, next_plane: next_plane + count, role })
+    }
+
+    /// Moves a brush by an affine map; its planes keep their numbers.
+    ///
+    /// # Errors
+    /// [`EditError::UnknownBrush`], [`EditError::Transform`], [`EditError::Evaluate`].
+    pub fn transform_brush(&mut self, id: BrushId, transform: &Transform) -> Result<Change, EditError> {
+        let mut state = State::clone(self.state(id)?);
+        for face in &mut state.brush.faces {
+            face.half_space = transform.half_space(&face.half_space)?;
+        }
+        self.edit_brush(id, state)
+    }
+
+    /// Gives a brush another role.
+    ///
+    /// # Errors
+    /// [`EditError::UnknownBrush`], [`EditError::Nested`], [`EditError::Evaluate`].
+    pub fn set_role(&mut self, id: BrushId, role: Role) -> Result<Change, EditError> {
+        let state = State { role, ..State::clone(self.state(id)?) };
+        if !self.is_in_sequence(id.0) {
+            return Err(EditError::Nested(id));
+        }
+        self.edit_brush(id, state)
+    }
+
+    fn edit_brush(&mut self, id: BrushId, state: State) -> Result<Change, EditError> {
+        self.edit(vec![(id.0, Some(Arc::new(state)))])
+    }
+
+    fn edit(&mut self, new: Vec<New>) -> Result<Change, EditError> {
+        let (change, before) = self.change(new.clone())?;
+        self.history.note(before, new);
+        Ok(change)
+    }
+}

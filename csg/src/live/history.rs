@@ -1,0 +1,98 @@
+//! Edits to be taken back and done again.
+
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+use super::operand::State;
+use super::{Change, EditError, LiveModel};
+
+/// A brush as it is to be; nothing where it is not to be there.
+pub(super) type New = (u64, Option<Arc<State>>);
+
+/// So many edits can be taken back unless another number is set.
+const LIMIT: usize = 1000;
+
+/// What edits have changed, the last one last.
+pub(super) struct History {
+    done: VecDeque<Step>,
+    undone: Vec<Step>,
+    limit: usize,
+}
+
+/// The brushes that an edit has changed, before and after it.
+struct Step {
+    before: Vec<New>,
+    after: Vec<New>,
+}
+
+impl Default for History {
+    fn default() -> Self {
+        Self { done: VecDeque::new(), undone: Vec::new(), limit: LIMIT }
+    }
+}
+
+impl History {
+    /// Notes an edit; what was taken back cannot be done again after it.
+    pub(super) fn note(&mut self, before: Vec<New>, after: Vec<New>) {
+        self.undone.clear();
+        self.done.push_back(Step { before, after });
+        self.shorten();
+    }
+
+    fn shorten(&mut self) {
+        let surplus = self.done.len().saturating_sub(self.limit);
+        self.done.drain(..surplus);
+    }
+}
+
+impl LiveModel {
+    /// Takes the last edit back that was not yet taken back. Brushes and planes have the numbers again that they had.
+    ///
+    /// # Errors
+    /// [`EditError::NothingToUndo`].
+    pub fn undo(&mut self) -> Result<Change, EditError> {
+        let step = self.history.done.pop_back().ok_or(EditError::NothingToUndo)?;
+        let outcome = self.go_to(&step.before);
+        match outcome {
+            Ok(_) => self.history.undone.push(step),
+            Err(_) => self.history.done.push_back(step),
+        }
+        outcome
+    }
+
+    /// Does the edit again that was last taken back.
+    ///
+    /// # Errors
+    /// [`EditError::NothingToRedo`].
+    pub fn redo(&mut self) -> Result<Change, EditError> {
+        let step = self.history.undone.pop().ok_or(EditError::NothingToRedo)?;
+        let outcome = self.go_to(&step.after);
+        match outcome {
+            Ok(_) => self.history.done.push_back(step),
+            Err(_) => self.history.undone.push(step),
+        }
+        outcome
+    }
+
+    /// How many edits can be taken back at most, 1,000 unless another number is set: a model that is edited for long does not
+    /// grow.
+    pub fn set_history_limit(&mut self, limit: usize) {
+        self.history.limit = limit;
+        self.history.shorten();
+    }
+
+    fn go_to(&mut self, states: &[New]) -> Result<Change, EditError> {
+        let again = |(id, state): &New| {
+            let known = self.by_id.get(id).and_then(|number| self.operands[*number as usize].as_ref());
+            let next_plane = known.map_or(0, |operand| operand.state.next_plane);
+            // no number of a plane is given twice
+            let state = state.as_ref().map(|state| match state.next_plane < next_plane {
+                true => Arc::new(State { next_plane, ..State::clone(state) }),
+                false => Arc::clone(state),
+            });
+            (*id, state)
+        };
+        let new = states.iter().map(again).collect();
+        Ok(self.change(new)?.0)
+    }
+}

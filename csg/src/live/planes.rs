@@ -1,0 +1,433 @@
+//! The planes in use, snapped as a table of all of them would be, whatever the order in which they came.
+//!
+//! [`PlaneTable::intern`] goes through all planes in an order that depends on the planes alone and takes each for an earlier one
+//! that is near. What becomes of a plane so depends on those within the tolerance of it, of these, and so on: mostly on none.
+//! When a plane comes or goes, that is worked out again for what it hangs together with. The tolerance grows with the largest
+//! distance from the origin; when that changes, all planes are looked at that have any other near.
+
+use std::collections::BTreeMap;
+
+use planecut_kernel::HalfSpace;
+use planecut_kernel::sign::Row;
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use crate::distinct::sortable;
+use crate::plane_table::{
+    Key, NearCells, PlaneId, PlaneTable, compare_coefficients, is_exact, is_nearly_same, is_reversed, key, unit,
+};
+
+/// A plane that a face uses: the group of what is exactly the same plane, and whether it is the other side.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct PlaneUse {
+    group: u32,
+    is_reversed: bool,
+}
+
+/// Planes in use.
+#[derive(Default)]
+pub(super) struct LivePlanes {
+    pub(super) table: PlaneTable,
+    groups: Vec<Group>,
+    free_groups: Vec<u32>,
+    by_key: FxHashMap<Key, Vec<u32>>,
+    /// The distances from the origin, each with the number of groups that have it.
+    distances: BTreeMap<u64, u32>,
+    reach: f64,
+    near: NearCells,
+    /// Groups with others near them.
+    crowded: FxHashSet<u32>,
+    /// What came, went or has another row since the last time.
+    changed: Vec<u32>,
+    free_indices: Vec<u32>,
+}
+
+/// Rows of exactly one plane, on its side with a positive first coefficient.
+#[derive(Default)]
+struct Group {
+    /// One of them, in use or not.
+    plane: Option<Row>,
+    /// Each with how often it is used; the least stands for the plane.
+    rows: Vec<(Row, u32)>,
+    /// The numbers of those who use it, as often as they do.
+    users: Vec<u32>,
+    /// The unit normal and distance under which it is hashed, and whether it is exact; nothing before that.
+    hashed: Option<([f64; 4], bool)>,
+    /// The plane that it is taken for.
+    id: Option<PlaneId>,
+    /// The index in the table where it stands for itself.
+    own: Option<u32>,
+    is_changed: bool,
+}
+
+/// What settling came to.
+#[derive(Default)]
+pub(super) struct Settled {
+    /// Users of planes that are now taken for others than before, ascending.
+    pub(super) users: Vec<u32>,
+    /// Indices that no group uses any more.
+    pub(super) retired: Vec<u32>,
+}
+
+impl Group {
+    fn is_plane_of(&self, row: &Row) -> bool {
+        self.plane.as_ref().is_some_and(|plane| plane.is_same_plane(row))
+    }
+
+    /// The row that stands for the plane, where it is in use.
+    fn row(&self) -> Option<&Row> {
+        self.rows.iter().map(|(row, _)| row).min_by(|p, q| compare_coefficients(p, q))
+    }
+}
+
+/// The row of the side with a positive first coefficient, and whether that is the other side.
+fn first_side(half_space: &HalfSpace) -> (Row, bool) {
+    let row = Row::new(half_space);
+    let reversed = is_reversed(&row);
+    (if reversed { row.flipped() } else { row }, reversed)
+}
+
+impl LivePlanes {
+    /// Planes among which one is of a table that is there already.
+    pub(super) fn new(table: PlaneTable) -> Self {
+        Self { table, ..Self::default() }
+    }
+
+    /// Uses the plane of a half-space; its id is known once it is settled.
+    pub(super) fn take(&mut self, half_space: &HalfSpace, user: u32) -> PlaneUse {
+        let (row, is_reversed) = first_side(half_space);
+        let alike = self.by_key.entry(key(&row)).or_default();
+        let known = alike.iter().copied().find(|group| self.groups[*group as usize].is_plane_of(&row));
+        let number = known.unwrap_or_else(|| {
+            let number = self.free_groups.pop().unwrap_or_else(|| {
+                self.groups.push(Group::default());
+                self.groups.len() as u32 - 1
+            });
+            self.groups[number as usize].plane = Some(row);
+            alike.push(number);
+            number
+        });
+        let group = &mut self.groups[number as usize];
+        group.users.push(user);
+        match group.rows.iter_mut().find(|known| known.0 == row) {
+            Some(known) => known.1 += 1,
+            None => {
+                group.rows.push((row, 1));
+                self.mark(number);
+            }
+        }
+        PlaneUse { group: number, is_reversed }
+    }
+
+    /// Uses a plane once less.
+    pub(super) fn release(&mut self, half_space: &HalfSpace, used: PlaneUse, user: u32) {
+        let (row, _) = first_side(half_space);
+        let group = &mut self.groups[used.group as usize];
+        let place = group.users.iter().rposition(|known| *known == user).expect("a user is known");
+        group.users.swap_remove(place);
+        let place = group.rows.iter().position(|known| known.0 == row).expect("a row in use is known");
+        group.rows[place].1 -= 1;
+        if group.rows[place].1 == 0 {
+            group.rows.swap_remove(place);
+            self.mark(used.group);
+        }
+    }
+
+    fn mark(&mut self, number: u32) {
+        let group = &mut self.groups[number as usize];
+        if !group.is_changed {
+            group.is_changed = true;
+            self.changed.push(number);
+        }
+    }
+
+    /// The id of a plane in use that is settled.
+    pub(super) fn id(&self, used: PlaneUse) -> PlaneId {
+        let id = self.groups[used.group as usize].id.expect("planes are settled before they are asked for");
+        if used.is_reversed { id.flipped() } else { id }
+    }
+
+    /// Frees an index that was retired, for another plane.
+    pub(super) fn free(&mut self, index: u32) {
+        self.free_indices.push(index);
+    }
+
+    /// Works out for what each plane is taken that may be affected by what came and went. Planes that had an index among `kept`
+    /// get it back.
+    pub(super) fn settle(&mut self, kept: &[u32]) -> Settled {
+        let mut settled = Settled::default();
+        let mut doubtful: Vec<u32> = Vec::new();
+        let mut moved: Vec<u32> = Vec::new();
+        for number in std::mem::take(&mut self.changed) {
+            let group = &mut self.groups[number as usize];
+            group.is_changed = false;
+            let hashed = group.row().map(|row| (unit(row), is_exact(row)));
+            let before = std::mem::replace(&mut group.hashed, hashed);
+            if hashed != before {
+                if let Some((old, _)) = before {
+                    self.count_distance(old[3], false);
+                    self.near.remove(&old, number);
+                    self.leave_crowd(number, &old, &mut doubtful);
+                }
+                if let Some((unit, _)) = hashed {
+                    self.count_distance(unit[3], true);
+                    moved.push(number);
+                }
+            }
+            if hashed.is_none() {
+                self.drop_group(number, &mut settled);
+            } else {
+                doubtful.push(number);
+            }
+        }
+        self.rehash(&moved, &mut doubtful);
+        let mut seen: FxHashSet<u32> = FxHashSet::default();
+        for number in doubtful {
+            if self.groups[number as usize].hashed.is_none() || seen.contains(&number) {
+                continue;
+            }
+            let cluster = self.cluster(number);
+            seen.extend(cluster.iter().copied());
+            self.settle_cluster(&cluster, kept, &mut settled);
+        }
+        settled.users.sort_unstable();
+        settled.users.dedup();
+        settled
+    }
+
+    fn count_distance(&mut self, distance: f64, comes: bool) {
+        // of numbers that are not negative the bits are in the same order
+        let bits = distance.abs().to_bits();
+        let count = self.distances.entry(bits).or_default();
+        if comes {
+            *count += 1;
+        } else {
+            *count -= 1;
+            if *count == 0 {
+                self.distances.remove(&bits);
+            }
+        }
+    }
+
+    /// Notes who is no longer near another, as a group is no longer where it was.
+    fn leave_crowd(&mut self, number: u32, old: &[f64; 4], doubtful: &mut Vec<u32>) {
+        if !self.crowded.remove(&number) {
+            return;
+        }
+        let mut near = Vec::new();
+        self.near.find(old, &mut near);
+        near.retain(|other| *other != number);
+        doubtful.extend_from_slice(&near);
+        for other in near {
+            if self.neighbours(other).is_empty() {
+                self.crowded.remove(&other);
+            }
+        }
+    }
+
+    /// Puts into the hash what is at another place, or all where the largest distance has grown or shrunk by much.
+    fn rehash(&mut self, moved: &[u32], doubtful: &mut Vec<u32>) {
+        let reach = self.distances.last_key_value().map_or(0.0, |(bits, _)| f64::from_bits(*bits));
+        let is_other_reach = self.reach != reach;
+        self.reach = reach;
+        let size = reach.max(f64::MIN_POSITIVE).log2().ceil().exp2();
+        let all: Vec<u32>;
+        let moved = if size == self.near.size() {
+            moved
+        } else {
+            self.near = NearCells::new(size);
+            doubtful.extend(self.crowded.drain());
+            all = (0..self.groups.len() as u32).collect();
+            &all
+        };
+        for &number in moved {
+            if let Some((unit, _)) = &self.groups[number as usize].hashed {
+                self.near.insert(unit, number);
+            }
+        }
+        for &number in moved {
+            let near = self.neighbours(number);
+            if !near.is_empty() {
+                self.crowded.extend(near);
+                self.crowded.insert(number);
+            }
+        }
+        if is_other_reach {
+            doubtful.extend(self.crowded.iter());
+        }
+        // whatever the order of the set
+        doubtful.sort_unstable();
+    }
+
+    /// The other groups that are near a group, or would be if the tolerance were a little larger.
+    fn neighbours(&self, number: u32) -> Vec<u32> {
+        let mut near = Vec::new();
+        if let Some((unit, _)) = &self.groups[number as usize].hashed {
+            self.near.find(unit, &mut near);
+        }
+        near.retain(|other| *other != number);
+        near
+    }
+
+    /// What hangs together with a group.
+    fn cluster(&self, number: u32) -> Vec<u32> {
+        if !self.crowded.contains(&number) {
+            return vec![number];
+        }
+        let mut cluster = vec![number];
+        let mut next = 0;
+        while next < cluster.len() {
+            for other in self.neighbours(cluster[next]) {
+                if !cluster.contains(&other) {
+                    cluster.push(other);
+                }
+            }
+            next += 1;
+        }
+        cluster
+    }
+
+    /// Finds for what each group of a cluster is taken: exact ones for themselves, others for the first within the tolerance.
+    fn settle_cluster(&mut self, cluster: &[u32], kept: &[u32], settled: &mut Settled) {
+        let mut order = cluster.to_vec();
+        order.sort_by_cached_key(|number| {
+            let row = self.groups[*number as usize].row();
+            row.map(|row| (!is_exact(row), row.coefficients().map(sortable)))
+        });
+        let mut leaders: Vec<u32> = Vec::new();
+        for number in order {
+            let Some((unit, is_exact)) = self.groups[number as usize].hashed else { continue };
+            let leads = |flipped: bool| {
+                let is_near = |leader: &&u32| {
+                    let other = self.groups[**leader as usize].hashed.map_or([f64::NAN; 4], |place| place.0);
+                    is_nearly_same(&unit, &other, flipped, self.reach)
+                };
+                leaders.iter().find(is_near).map(|leader| (*leader, flipped))
+            };
+            let leader = if is_exact { None } else { leads(false).or_else(|| leads(true)) };
+            let id = match leader {
+                Some((leader, flipped)) => {
+                    let id = self.groups[leader as usize].id.expect("what leads comes first");
+                    settled.retired.extend(self.groups[number as usize].own.take());
+                    if flipped { id.flipped() } else { id }
+                }
+                None => {
+                    leaders.push(number);
+                    PlaneId::of_index(self.own_index(number, kept))
+                }
+            };
+            let group = &mut self.groups[number as usize];
+            if group.id.replace(id) != Some(id) {
+                settled.users.extend_from_slice(&group.users);
+            }
+        }
+    }
+
+    /// The index of a group that stands for itself.
+    fn own_index(&mut self, number: u32, kept: &[u32]) -> u32 {
+        let group = &mut self.groups[number as usize];
+        if let Some(own) = group.own {
+            return own;
+        }
+        let row = *group.row().expect("what is settled is in use");
+        let is_same = |index: &&u32| self.table.row(PlaneId::of_index(**index)).is_same_plane(&row);
+        let index = match (kept.iter().find(is_same), self.free_indices.last()) {
+            (Some(index), _) => *index,
+            (None, Some(_)) => {
+                let index = self.free_indices.pop().unwrap_or_default();
+                self.table.put(index, &row);
+                index
+            }
+            (None, None) => self.table.push(&row).index(),
+        };
+        self.groups[number as usize].own = Some(index);
+        index
+    }
+
+    /// Forgets a group that nobody uses.
+    fn drop_group(&mut self, number: u32, settled: &mut Settled) {
+        let group = &mut self.groups[number as usize];
+        settled.retired.extend(group.own.take());
+        group.id = None;
+        let Some(row) = group.plane.take() else { return };
+        if let Some(alike) = self.by_key.get_mut(&key(&row)) {
+            alike.retain(|other| *other != number);
+            if alike.is_empty() {
+                self.by_key.remove(&key(&row));
+            }
+        }
+        self.free_groups.push(number);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use planecut_kernel::DVec3;
+
+    use super::*;
+
+    /// A little generator of numbers below a bound.
+    struct Draw(u64);
+
+    impl Draw {
+        fn below(&mut self, bound: u64) -> u64 {
+            self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (self.0 >> 33) % bound
+        }
+
+        /// Few directions and distances, most of them with noise of the size of the tolerance.
+        fn half_space(&mut self) -> HalfSpace {
+            let normals = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.6, 0.7, 0.0], [0.0, 0.3, -0.8], [0.3, 0.5, 0.7]];
+            let [x, y, z] = normals[self.below(5) as usize];
+            let offset = [0.0, 1.0, 1.5, 3.0][self.below(4) as usize];
+            let scale = [1.0, 3.0, -1.0, -7.0][self.below(4) as usize];
+            let mut noise = |v: f64| if self.below(3) == 0 { v } else { v + 3e-13 * (self.below(9) as f64 - 4.0) };
+            let normal = DVec3::new(noise(x), noise(y), noise(z));
+            HalfSpace::new(normal * scale, noise(offset) * scale).expect("a valid half-space")
+        }
+    }
+
+    #[test]
+    fn planes_come_apart_as_the_farthest_one_goes() {
+        let half_space = |offset: f64| HalfSpace::new(DVec3::new(0.6, 0.7, 0.0), offset).expect("a valid half-space");
+        let mut planes = LivePlanes::default();
+        let [low, high] = [1.0, 1.0 + 4e-12].map(|offset| (half_space(offset), planes.take(&half_space(offset), 0)));
+        let far = (half_space(8.0), planes.take(&half_space(8.0), 0));
+        planes.settle(&[]);
+        assert_eq!(planes.id(low.1), planes.id(high.1));
+        planes.release(&far.0, far.1, 0);
+        let settled = planes.settle(&[]);
+        assert_ne!(planes.id(low.1), planes.id(high.1));
+        assert_eq!(settled.users, [0]);
+    }
+
+    #[test]
+    fn planes_are_snapped_as_in_a_table_of_all_of_them() {
+        for seed in 0..60 {
+            let mut draw = Draw(seed);
+            let mut planes = LivePlanes::default();
+            let mut held: Vec<(HalfSpace, PlaneUse)> = Vec::new();
+            for step in 0..120 {
+                for _ in 0..=draw.below(3) {
+                    if held.is_empty() || draw.below(5) < 3 {
+                        let half_space = draw.half_space();
+                        held.push((half_space, planes.take(&half_space, 0)));
+                    } else {
+                        let (half_space, used) = held.swap_remove(draw.below(held.len() as u64) as usize);
+                        planes.release(&half_space, used, 0);
+                    }
+                }
+                let settled = planes.settle(&[]);
+                settled.retired.iter().for_each(|index| planes.free(*index));
+                let all: Vec<HalfSpace> = held.iter().map(|held| held.0).collect();
+                let (table, ids) = PlaneTable::intern(&all);
+                for (k, (half_space, used)) in held.iter().enumerate() {
+                    let (found, expected) = (planes.table.row(planes.id(*used)), table.row(ids[k]));
+                    assert!(
+                        found.is_same_plane(expected) && is_reversed(found) == is_reversed(expected),
+                        "seed {seed}, step {step}: {half_space:?} is taken for {found:?} instead of {expected:?} of {all:?}"
+                    );
+                }
+            }
+        }
+    }
+}
