@@ -179,7 +179,7 @@ mod tests {
     #[test]
     fn chains_of_brushes_are_sequences_and_nested_ones_are_not() {
         use Role::{Add, Intersect, Subtract};
-        let chain = ((leaf() | leaf()) - (leaf() | leaf()) | leaf()) & (leaf() & leaf());
+        let chain = (((leaf() | leaf()) - (leaf() | leaf())) | leaf()) & (leaf() & leaf());
         let expected = [Add, Add, Subtract, Subtract, Add, Intersect, Intersect];
         assert_eq!(roles_of(&chain).as_deref(), Some(&expected[..]));
         assert_eq!(roles_of(&Tree::empty()).as_deref(), Some(&[][..]));

@@ -1,0 +1,118 @@
+//! Edits of maps: so many of each kind, each taken back before the next.
+
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use planecut_csg::{LiveModel, Mesh, Model, UnboundedBrushes, evaluate_with};
+use planecut_import::map::{MapOptions, read_map};
+use serde::Serialize;
+
+use super::draw::{Draw, Kind};
+
+/// How long edits took, in milliseconds.
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct Times {
+    pub(crate) name: &'static str,
+    pub(crate) edits: usize,
+    pub(crate) median_ms: f64,
+    pub(crate) p99_ms: f64,
+    pub(crate) max_ms: f64,
+    /// How often the median goes into the time of a model that is built anew.
+    pub(crate) fresh_ratio: f64,
+}
+
+/// A map that was edited.
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct MapTimes {
+    pub(crate) name: String,
+    pub(crate) brushes: usize,
+    pub(crate) triangles: usize,
+    /// The model built anew: the median.
+    pub(crate) fresh_ms: f64,
+    /// The first build of the live model.
+    pub(crate) first_ms: f64,
+    pub(crate) kinds: Vec<Times>,
+    /// Meshes that were compared with those of models built anew.
+    pub(crate) compared: usize,
+}
+
+pub(crate) fn measure(file: &Path, edits: usize, verifies: bool) -> Result<MapTimes, String> {
+    let name = file.file_stem().map_or(String::new(), |name| name.to_string_lossy().into_owned());
+    let text = std::fs::read(file).map_err(|error| format!("{}: {error}", file.display()))?;
+    let model = read_map(&text, &name, &MapOptions::default()).map_err(|error| error.to_string())?.model;
+    let mut draw = Draw::new(&model, 1);
+    let brushes = model.tree.brushes().len();
+    let begin = Instant::now();
+    let mut live = LiveModel::from_model_with(model.clone(), UnboundedBrushes::LeaveOut).map_err(|e| e.to_string())?;
+    let first_ms = milliseconds(begin.elapsed());
+    let anew = live.mesh().map_err(|error| error.to_string())?;
+    let mut fresh: Vec<Duration> = Vec::new();
+    let mut of_kind: Vec<(&'static str, Vec<Duration>)> = Vec::new();
+    let mut undone: Vec<Duration> = Vec::new();
+    let mut compared = 0;
+    for kind in Kind::ALL {
+        let mut times = Vec::with_capacity(edits);
+        // what is taken out again was put in before: mostly a cut
+        let with_cut = kind == Kind::RemovePlane;
+        for _ in 0..edits {
+            let mut edit = draw.edit(kind, &live);
+            if with_cut {
+                let done = live.apply(draw.edit(Kind::AddPlane, &live)).map_err(|error| error.to_string())?;
+                if let (Some(plane), [brush]) = (done.plane, &done.change.brushes[..]) {
+                    edit = planecut_csg::Edit::RemovePlane { brush: *brush, plane };
+                }
+            }
+            let shown = format!("{edit:?}");
+            let begin = Instant::now();
+            live.apply(edit).map_err(|error| format!("{shown}: {error}"))?;
+            times.push(begin.elapsed());
+            if verifies {
+                compare(&live, &shown)?;
+                compared += 1;
+            }
+            let begin = Instant::now();
+            live.undo().map_err(|error| format!("{shown}, undone: {error}"))?;
+            undone.push(begin.elapsed());
+            if with_cut {
+                live.undo().map_err(|error| format!("{shown}, undone: {error}"))?;
+            }
+        }
+        of_kind.push((kind.name(), times));
+        fresh.push(build(&live.to_model())?.0);
+        if live.mesh().map_err(|error| error.to_string())? != anew {
+            return Err(format!("{name}: after {} and undo the mesh is another", kind.name()));
+        }
+    }
+    of_kind.push(("undo", undone));
+    let fresh_ms = milliseconds(quantile(&mut fresh, 0.5));
+    let times = |(name, mut times): (&'static str, Vec<Duration>)| {
+        let [median_ms, p99_ms, max_ms] = [0.5, 0.99, 1.0].map(|share| milliseconds(quantile(&mut times, share)));
+        Times { name, edits: times.len(), median_ms, p99_ms, max_ms, fresh_ratio: fresh_ms / median_ms }
+    };
+    let kinds = of_kind.into_iter().map(times).collect();
+    Ok(MapTimes { name, brushes, triangles: anew.triangles.len(), fresh_ms, first_ms, kinds, compared })
+}
+
+/// A model built anew, and how long that takes.
+fn build(model: &Model) -> Result<(Duration, Mesh), String> {
+    let begin = Instant::now();
+    let evaluation = evaluate_with(model, UnboundedBrushes::LeaveOut).map_err(|error| error.to_string())?;
+    Ok((begin.elapsed(), evaluation.mesh))
+}
+
+fn compare(live: &LiveModel, edit: &str) -> Result<(), String> {
+    let (_, fresh) = build(&live.to_model())?;
+    let mesh = live.mesh().map_err(|error| error.to_string())?;
+    if mesh == fresh { Ok(()) } else { Err(format!("after {edit} the mesh is not that of the model built anew")) }
+}
+
+/// The smallest time that such a share of all does not exceed.
+pub(crate) fn quantile(times: &mut [Duration], share: f64) -> Duration {
+    times.sort_unstable();
+    let place = (share * times.len() as f64).ceil() as usize;
+    times.get(place.saturating_sub(1)).copied().unwrap_or_default()
+}
+
+pub(crate) fn milliseconds(duration: Duration) -> f64 {
+    1e3 * duration.as_secs_f64()
+}
