@@ -4,6 +4,7 @@
 mod check;
 mod damaged;
 mod determinism;
+mod edit;
 mod examples;
 mod meshes;
 mod model;

@@ -76,7 +76,7 @@ pub enum EditError {
     #[error("found brush {} within nested operations, expected one that is added, subtracted or intersected by itself", .0.0)]
     Nested(BrushId),
     /// The offset of a plane is out of range.
-    #[error("found a plane at offset {0}, expected a finite one that is not too large for its normal")]
+    #[error("found a plane at offset {0:?}, expected a finite one that is not too large for its normal")]
     Offset(f64),
     /// A plane leaves the accepted range as it is transformed.
     #[error(transparent)]

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use planecut_csg::{LiveModel, Mesh, Model, UnboundedBrushes, evaluate_with};
+use planecut_csg::{Edit, LiveModel, Mesh, Model, UnboundedBrushes, evaluate_with};
 use planecut_import::map::{MapOptions, read_map};
 use serde::Serialize;
 
@@ -40,7 +40,6 @@ pub(crate) fn measure(file: &Path, edits: usize, verifies: bool) -> Result<MapTi
     let name = file.file_stem().map_or(String::new(), |name| name.to_string_lossy().into_owned());
     let text = std::fs::read(file).map_err(|error| format!("{}: {error}", file.display()))?;
     let model = read_map(&text, &name, &MapOptions::default()).map_err(|error| error.to_string())?.model;
-    let mut draw = Draw::new(&model, 1);
     let brushes = model.tree.brushes().len();
     let begin = Instant::now();
     let mut live = LiveModel::from_model_with(model.clone(), UnboundedBrushes::LeaveOut).map_err(|e| e.to_string())?;
@@ -49,41 +48,28 @@ pub(crate) fn measure(file: &Path, edits: usize, verifies: bool) -> Result<MapTi
     let mut fresh: Vec<Duration> = Vec::new();
     let mut of_kind: Vec<(&'static str, Vec<Duration>)> = Vec::new();
     let mut undone: Vec<Duration> = Vec::new();
-    let mut compared = 0;
+    let mut draw = Draw::new(&model, 1);
     for kind in Kind::ALL {
-        let mut times = Vec::with_capacity(edits);
-        // what is taken out again was put in before: mostly a cut
-        let with_cut = kind == Kind::RemovePlane;
-        for _ in 0..edits {
-            let mut edit = draw.edit(kind, &live);
-            if with_cut {
-                let done = live.apply(draw.edit(Kind::AddPlane, &live)).map_err(|error| error.to_string())?;
-                if let (Some(plane), [brush]) = (done.plane, &done.change.brushes[..]) {
-                    edit = planecut_csg::Edit::RemovePlane { brush: *brush, plane };
-                }
-            }
-            let shown = format!("{edit:?}");
-            let begin = Instant::now();
-            live.apply(edit).map_err(|error| format!("{shown}: {error}"))?;
-            times.push(begin.elapsed());
-            if verifies {
-                compare(&live, &shown)?;
-                compared += 1;
-            }
-            let begin = Instant::now();
-            live.undo().map_err(|error| format!("{shown}, undone: {error}"))?;
-            undone.push(begin.elapsed());
-            if with_cut {
-                live.undo().map_err(|error| format!("{shown}, undone: {error}"))?;
-            }
-        }
-        of_kind.push((kind.name(), times));
+        let [done, back] = edit(&mut live, &mut draw, kind, edits, |_, _| Ok(()))?;
+        of_kind.push((kind.name(), done));
+        undone.extend(back);
         fresh.push(build(&live.to_model())?.0);
         if live.mesh().map_err(|error| error.to_string())? != anew {
             return Err(format!("{name}: after {} and undo the mesh is another", kind.name()));
         }
     }
     of_kind.push(("undo", undone));
+    let mut compared = 0;
+    if verifies {
+        // the same edits again: building anew in between would take away what is at hand
+        let mut draw = Draw::new(&model, 1);
+        for kind in Kind::ALL {
+            edit(&mut live, &mut draw, kind, edits, |live, shown| {
+                compared += 1;
+                compare(live, shown)
+            })?;
+        }
+    }
     let fresh_ms = milliseconds(quantile(&mut fresh, 0.5));
     let times = |(name, mut times): (&'static str, Vec<Duration>)| {
         let [median_ms, p99_ms, max_ms] = [0.5, 0.99, 1.0].map(|share| milliseconds(quantile(&mut times, share)));
@@ -91,6 +77,41 @@ pub(crate) fn measure(file: &Path, edits: usize, verifies: bool) -> Result<MapTi
     };
     let kinds = of_kind.into_iter().map(times).collect();
     Ok(MapTimes { name, brushes, triangles: anew.triangles.len(), fresh_ms, first_ms, kinds, compared })
+}
+
+/// Does edits of a kind, each taken back before the next; how long each took, and each undo. `look` sees the model after each.
+fn edit(
+    live: &mut LiveModel,
+    draw: &mut Draw,
+    kind: Kind,
+    edits: usize,
+    mut look: impl FnMut(&LiveModel, &str) -> Result<(), String>,
+) -> Result<[Vec<Duration>; 2], String> {
+    let (mut done, mut undone) = (Vec::with_capacity(edits), Vec::with_capacity(edits));
+    for _ in 0..edits {
+        let mut edit = draw.edit(kind, live);
+        // what is taken out was put in just before
+        let cut = if kind == Kind::RemovePlane { Some(draw.edit(Kind::AddPlane, live)) } else { None };
+        let has_cut = cut.is_some();
+        if let Some(cut) = cut {
+            let cut = live.apply(cut).map_err(|error| error.to_string())?;
+            if let (Some(plane), Some(brush)) = (cut.plane, cut.change.brushes.first()) {
+                edit = Edit::RemovePlane { brush: *brush, plane };
+            }
+        }
+        let shown = format!("{edit:?}");
+        let begin = Instant::now();
+        live.apply(edit).map_err(|error| format!("{shown}: {error}"))?;
+        done.push(begin.elapsed());
+        look(live, &shown)?;
+        let begin = Instant::now();
+        live.undo().map_err(|error| format!("{shown}, undone: {error}"))?;
+        undone.push(begin.elapsed());
+        if has_cut {
+            live.undo().map_err(|error| format!("{shown}, undone: {error}"))?;
+        }
+    }
+    Ok([done, undone])
 }
 
 /// A model built anew, and how long that takes.
