@@ -18,9 +18,21 @@ pub struct CutId(u32);
 /// A plane and its handle in each cell that it may reach.
 #[derive(Debug, Clone)]
 pub(super) struct PlaneCut {
-    id: CutId,
-    plane: PlaneId,
-    handles: Vec<(u32, PlaneIdx)>,
+    pub(super) id: CutId,
+    pub(super) plane: PlaneId,
+    /// Whether what lies outside of it stays, as cells of their own.
+    pub(super) divides: bool,
+    pub(super) handles: Vec<CutCell>,
+}
+
+/// A cell that was cut.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct CutCell {
+    /// Its place among the cells.
+    pub(super) cell: u32,
+    pub(super) handle: PlaneIdx,
+    /// Whether it is the part outside.
+    pub(super) is_outside: bool,
 }
 
 impl Solid {
@@ -43,30 +55,39 @@ impl Solid {
     /// # }
     /// ```
     pub fn add_plane(&mut self, half_space: &HalfSpace) -> CutId {
-        let plane = Arc::make_mut(&mut self.table).insert(half_space);
-        let id = CutId(self.next_cut);
-        self.next_cut += 1;
-        let cell_plane = CellPlane { plane, brush_face: None, material: MaterialId(0) };
+        let (id, cell_plane) = self.next_cut(half_space);
         let mut handles = Vec::new();
         // Boxes stay those of the uncut cells, so that what a cut passes by now it passes by whatever is taken back.
         for (place, cell) in (0..).zip(&mut self.cells) {
-            if box_side(&self.table, cell.bounds(), plane) != Side::Inside {
-                handles.push((place, cell.add_again(&self.table, cell_plane).0));
+            if box_side(&self.table, cell.bounds(), cell_plane.plane) != Side::Inside {
+                let handle = cell.add_again(&self.table, cell_plane).0;
+                handles.push(CutCell { cell: place, handle, is_outside: false });
             }
         }
-        self.cuts.push(PlaneCut { id, plane, handles });
+        self.cuts.push(PlaneCut { id, plane: cell_plane.plane, divides: false, handles });
         id
     }
 
-    /// Takes a cut back: the solid is what it would be had the plane never been added. Gives the half-space, `None` where
-    /// there is no such cut.
+    /// Takes a cut back: the solid is what it would be had the plane never been added, or its cells what they would be had it
+    /// not divided them. Gives the half-space, `None` where there is no such cut.
     pub fn remove_plane(&mut self, cut: CutId) -> Option<HalfSpace> {
         let place = self.cuts.iter().position(|known| known.id == cut)?;
         let cut = self.cuts.remove(place);
-        for (cell, handle) in cut.handles {
-            self.cells[cell as usize].remove(handle);
+        for CutCell { cell, handle, .. } in &cut.handles {
+            self.cells[*cell as usize].remove(*handle);
+        }
+        if cut.divides {
+            self.rejoin(&cut.handles);
         }
         Some(*self.table.half_space(cut.plane))
+    }
+
+    /// The handle of a cut, and its plane as the cells take it.
+    pub(super) fn next_cut(&mut self, half_space: &HalfSpace) -> (CutId, CellPlane) {
+        let plane = Arc::make_mut(&mut self.table).insert(half_space);
+        let id = CutId(self.next_cut);
+        self.next_cut += 1;
+        (id, CellPlane { plane, brush_face: None, material: MaterialId(0) })
     }
 
     /// The part inside a half-space, and the part outside.
@@ -98,6 +119,7 @@ impl Solid {
             return;
         }
         self.cuts.clear();
+        self.families.clear();
         self.index = OnceLock::new();
         self.cover = None;
         self.cells.retain(|cell| !cell.is_empty());

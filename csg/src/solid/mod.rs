@@ -5,7 +5,7 @@
 //! - [`flat`] finds for each leaf of a tree the [`formula`] that its part of the solid fulfils, [`carve`] cuts the cells,
 //!   [`order`] chooses along which planes first, [`merge`] joins neighbours, for bodies that are given, too ([`join`]). [`from_tree`] and [`boolean`] are made of these;
 //!   [`boxes`] tells what comes near what.
-//! - [`cuts`] and [`motion`] change a solid; [`measure`], [`query`], [`ray`] and [`components`] ask it; [`skin`] gives its meshes
+//! - [`cuts`], [`divide`] and [`motion`] change a solid; [`measure`], [`query`], [`ray`] and [`components`] ask it; [`skin`] gives its meshes
 //!   and [`sources`] the brush behind a place on them.
 
 mod boolean;
@@ -14,6 +14,7 @@ mod cell;
 mod components;
 mod convex;
 mod cuts;
+mod divide;
 mod flat;
 mod formula;
 mod from_tree;
@@ -75,6 +76,8 @@ pub struct Solid {
     /// The planes with which it was cut and that can be taken back.
     cuts: Vec<PlaneCut>,
     next_cut: u32,
+    /// Where cells were divided, the place of each among the cells as they were before; else empty.
+    families: Vec<u32>,
     sources: Sources,
     /// Finds cells by their boxes; made when first asked. Cuts leave it as it is.
     index: OnceLock<Boxes>,
@@ -101,7 +104,16 @@ impl From<&Tree> for Solid {
 
 impl Solid {
     fn of_cells(table: Arc<PlaneTable>, cells: Vec<Cell>, sources: Sources) -> Self {
-        Self { table, cells, cover: None, cuts: Vec::new(), next_cut: 0, sources, index: OnceLock::new() }
+        Self {
+            table,
+            cells,
+            cover: None,
+            cuts: Vec::new(),
+            next_cut: 0,
+            families: Vec::new(),
+            sources,
+            index: OnceLock::new(),
+        }
     }
 
     /// Nothing.

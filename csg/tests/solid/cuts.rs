@@ -1,6 +1,8 @@
 //! Cutting and taking cuts back.
 
-use planecut_csg::{CutId, Solid};
+use std::collections::HashMap;
+
+use planecut_csg::{Cell, CutId, Solid};
 use planecut_kernel::{HalfSpace, PlaneIdx};
 
 use crate::rng::Rng;
@@ -17,7 +19,7 @@ fn bits(half_space: &HalfSpace) -> [u64; 4] {
 
 /// The cells as they are seen: the planes of each facet and of its edges.
 fn seen(solid: &Solid) -> Vec<Facets> {
-    let of_cell = |cell: &planecut_csg::Cell| {
+    let of_cell = |cell: &Cell| {
         let plane = |handle: &PlaneIdx| cell.polytope().plane(*handle).map_or([0; 4], bits);
         let facets = cell.polytope().facets();
         let mut rings: Facets = facets
@@ -83,6 +85,82 @@ fn cuts_that_are_taken_back_leave_nothing_behind() {
             ensure_eq!(solid.volume(), volume, "volume after all is taken back");
             ensure!(seen(&solid) == before, "cells differ after all is taken back");
             ensure_membership(shape, &solid, 100)
+        });
+    }
+}
+
+/// What is done to a solid, to be taken back one by one.
+type Operation = (bool, HalfSpace);
+
+fn apply(solid: &mut Solid, (divides, half_space): &Operation) -> CutId {
+    if *divides { solid.divide(half_space) } else { solid.add_plane(half_space) }
+}
+
+/// The cell that holds a point, where it is strictly inside of one.
+fn cell_at(solid: &Solid, point: glam::DVec3) -> Result<Option<usize>, String> {
+    let holds = |cell: &Cell| {
+        cell.planes().all(|(_, plane)| solid.table().half_space(plane.plane).signed_distance(point) < -1e-9)
+    };
+    let mut found = solid.cells().enumerate().filter(|(_, cell)| holds(cell)).map(|(place, _)| place);
+    let first = found.next();
+    ensure_eq!(found.next(), None, "two cells overlap");
+    Ok(first)
+}
+
+#[test]
+fn divided_cells_grow_back_together() {
+    for kind in [Kind::Boxes, Kind::Sloped, Kind::Mixed] {
+        let generate = |rng: &mut Rng| {
+            let leaves = 1 + rng.below(5);
+            bounded(random_shape(rng, kind, leaves))
+        };
+        sweep(30, generate, |shape| {
+            let base = Solid::from_tree(&shape.tree());
+            let mut solid = base.clone();
+            let mut rng = Rng::new(solid.cells().count() as u64 + 5);
+            let mut done: Vec<(CutId, Operation)> = Vec::new();
+            for _ in 0..16 {
+                if done.is_empty() || rng.chance(0.6) {
+                    let operation = (rng.chance(0.7), random_cut(&mut rng));
+                    done.push((apply(&mut solid, &operation), operation));
+                } else {
+                    let (cut, _) = done.remove(rng.below(done.len()));
+                    solid.remove_plane(cut).ok_or("no such cut")?;
+                }
+                ensure_sound(&solid)?;
+                // what all that is left makes of a new one
+                let mut fresh = base.clone();
+                for (_, operation) in &done {
+                    apply(&mut fresh, operation);
+                }
+                let volumes = |solid: &Solid| {
+                    let volume = |cell: &Cell| cell.polytope().measures().map(|measures| measures.volume);
+                    let mut all: Vec<f64> = solid.cells().filter_map(volume).collect();
+                    all.sort_by(f64::total_cmp);
+                    all
+                };
+                let (found, expected) = (volumes(&solid), volumes(&fresh));
+                ensure_eq!(found.len(), expected.len(), "cells");
+                found.iter().zip(&expected).try_for_each(|(a, b)| ensure_close("a cell", *a, *b, 1e-3))?;
+                // two points share a cell where they did before and no plane is between them
+                let mut cells: HashMap<(usize, Vec<bool>), usize> = HashMap::new();
+                let mut sides: HashMap<usize, (usize, Vec<bool>)> = HashMap::new();
+                for _ in 0..60 {
+                    let point = rng.point(-4.0, 4.0);
+                    let (Some(before), Some(now)) = (cell_at(&base, point)?, cell_at(&solid, point)?) else { continue };
+                    let dividing = done.iter().filter(|(_, operation)| operation.0);
+                    let side = dividing.map(|(_, (_, plane))| plane.signed_distance(point) > 0.0).collect();
+                    let name: (usize, Vec<bool>) = (before, side);
+                    ensure_eq!(*cells.entry(name.clone()).or_insert(now), now, "one part in two cells");
+                    ensure_eq!(sides.entry(now).or_insert(name.clone()), &name, "two parts in one cell");
+                }
+            }
+            for (cut, _) in done {
+                solid.remove_plane(cut).ok_or("no such cut")?;
+            }
+            ensure!(seen(&solid) == seen(&base), "cells differ after all is taken back");
+            ensure_eq!(solid.volume(), base.volume(), "volume after all is taken back");
+            ensure_membership(shape, &solid, 50)
         });
     }
 }
