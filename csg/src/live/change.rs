@@ -9,7 +9,7 @@ use super::operand::{Operand, Role, State};
 use super::planes::Settled;
 use super::{BrushId, Change, EditError, LiveModel};
 use crate::body::{Body, BodyFace, BrushBody, built_or_build, mark_of};
-use crate::brush::MaterialId;
+use crate::brush::{Brush, MaterialId};
 use crate::evaluate::{EvaluateError, UnboundedBrushes};
 use crate::parallel::map_chunks;
 use crate::plane_table::PlaneId;
@@ -59,6 +59,7 @@ impl LiveModel {
             let (_, numbers, unsettled) = self.set_states(before, &settled.retired);
             self.forget(&numbers);
             unsettled.retired.iter().for_each(|index| self.planes.free(*index));
+            self.buffers.faces = faces;
             return Err(EvaluateError::Unbounded.into());
         }
         for (_, edge) in old.into_iter().flat_map(|placed| placed.edges).flatten() {
@@ -112,9 +113,8 @@ impl LiveModel {
                 Some(state) => {
                     let faces = state.brush.faces.iter();
                     operand.uses.extend(faces.map(|face| self.planes.take(&face.half_space, number)));
-                    if state.role == Role::Intersect
-                        && self.base.as_ref().is_none_or(|base| id >= u64::from(base.leaves))
-                    {
+                    let is_in_sequence = self.base.as_ref().is_none_or(|base| id >= u64::from(base.leaves));
+                    if state.role == Role::Intersect && is_in_sequence {
                         self.intersecting.push((id, number));
                     }
                     std::mem::replace(&mut operand.state, state)
@@ -130,7 +130,7 @@ impl LiveModel {
 
     /// The number of a brush that is new.
     fn make_room(&mut self, id: u64) -> u32 {
-        let empty = State { brush: Default::default(), planes: Vec::new(), next_plane: 0, role: Role::Add };
+        let empty = State { brush: Brush::default(), planes: Vec::new(), next_plane: 0, role: Role::Add };
         let operand = Operand {
             id,
             is_there: true,
@@ -199,7 +199,8 @@ impl LiveModel {
         }
     }
 
-    /// Puts bodies in the place of others; gives these. Edges on faces of the same plane and material go over to the body that is there now.
+    /// Puts bodies in the place of others; gives these. Edges on faces of the same plane and material go over to the body
+    /// that is there now.
     fn place(&mut self, bodies: Vec<Placed>) -> Vec<Placed> {
         self.bodies_on_plane.resize(self.planes.table.len(), 0);
         let mut place = |mut placed: Placed| {

@@ -123,7 +123,8 @@ impl LiveModel {
         })
     }
 
-    /// Cuts a brush down to a half-space; gives the number of the plane in the brush. [`LiveModel::remove_plane`] lets the brush grow back.
+    /// Cuts a brush down to a half-space; gives the number of the plane in the brush. [`LiveModel::remove_plane`] lets the
+    /// brush grow back.
     ///
     /// # Errors
     /// [`EditError::UnknownBrush`], [`EditError::Evaluate`].
