@@ -285,8 +285,8 @@ impl LiveModel {
         self.welded.faces()
     }
 
-    /// Whether the faces are those of the mesh. They are not where solids alternate around a line or a point, so that
-    /// faces cross there.
+    /// Whether the faces are those of the mesh. They are not where solids alternate around a line, so that faces cross
+    /// in it: what an exclusive or of three half-spaces does.
     #[must_use]
     pub fn has_faces(&self) -> bool {
         !self.welded.has_crossings()

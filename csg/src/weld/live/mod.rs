@@ -90,12 +90,12 @@ struct Pieces {
     turned: Vec<u32>,
 }
 
-/// Where faces cross in lines or edges in points; what the weld makes of that is not worked out here.
+/// Where edges cross in points: there they are cut. What the weld makes of faces that cross in lines is not worked out here.
 #[derive(Default)]
 struct Crossings {
-    /// For each region and point how many lines pass it.
-    passing: FxHashMap<(u32, u32), u32>,
-    points: usize,
+    /// For each region and point the lines that pass it.
+    passing: FxHashMap<(u32, u32), Vec<u32>>,
+    /// How many lines there are in which faces cross.
     lines: usize,
 }
 
@@ -178,9 +178,9 @@ impl LiveWeld {
         self.state.faces.changes()
     }
 
-    /// Whether faces cross in a line or edges in a point. Then the faces here are not those of the weld.
+    /// Whether faces cross in a line. Then the faces here are not those of the weld.
     pub(crate) fn has_crossings(&self) -> bool {
-        self.state.crossings.points + self.state.crossings.lines > 0
+        self.state.crossings.lines > 0
     }
 }
 
@@ -212,16 +212,18 @@ impl<'a> Cutter<'a> {
         }
     }
 
-    /// Leaves in `cut` the paired pieces of a line.
-    fn cut(&mut self, line: &OnLine) -> Result<(), WeldError> {
+    /// Leaves in `surviving` what is left of the edges of a line.
+    fn cancel(&mut self, line: &OnLine) -> Result<(), WeldError> {
         self.group.clear();
         self.group.extend(line.edges.iter().map(|edge| self.edges[*edge as usize].numbered.run));
         self.surviving.runs.clear();
         self.surviving.slits.clear();
         self.surviving.passed.clear();
-        self.worker.cancel(&mut self.group, &mut self.surviving)?;
-        self.further.clear();
-        self.further.extend(line.cuts.iter().map(|(_, point)| *point));
+        self.worker.cancel(&mut self.group, &mut self.surviving)
+    }
+
+    /// Leaves in `cut` the paired pieces of that, cut at `further` points as well.
+    fn cut(&mut self) -> Result<(), WeldError> {
         self.cut.clear();
         self.worker.cut(&self.surviving.runs, &self.further, &mut self.cut)
     }
@@ -264,10 +266,11 @@ impl State {
     }
 
     fn cut_line(&mut self, cutter: &mut Cutter<'_>, number: u32) -> Result<(), WeldError> {
-        let Self { lines, pieces, regions, crossings, .. } = self;
+        cutter.cancel(&self.lines[number as usize])?;
+        self.note_crossings(number, cutter);
+        let Self { lines, pieces, regions, .. } = self;
         let line = &mut lines[number as usize];
-        cutter.cut(line)?;
-        crossings.note(line, cutter);
+        cutter.cut()?;
         let Cutter { cut, old, numbers, .. } = cutter;
         let key = |piece: &HalfEdge| (piece.region, piece.from, piece.to);
         old.clear();
@@ -300,6 +303,44 @@ impl State {
         line.pieces.clear();
         line.pieces.extend_from_slice(numbers);
         Ok(())
+    }
+
+    /// Notes what crosses on a line that is cut again, and where it is to be cut; marks the lines for which that makes a
+    /// difference.
+    fn note_crossings(&mut self, number: u32, cutter: &mut Cutter<'_>) {
+        let line = &mut self.lines[number as usize];
+        let crossings = &mut self.crossings;
+        let has_slits = !cutter.surviving.slits.is_empty();
+        crossings.lines += usize::from(has_slits);
+        crossings.lines -= usize::from(std::mem::replace(&mut line.has_slits, has_slits));
+        let passed = &mut cutter.passed;
+        passed.clear();
+        passed.extend(cutter.surviving.passed.iter().map(|(region, point, _)| (*region, *point)));
+        passed.sort_unstable();
+        passed.dedup();
+        std::mem::swap(&mut line.passed, passed);
+        let mut others: Vec<u32> = Vec::new();
+        for gone in passed.iter().filter(|at| line.passed.binary_search(at).is_err()) {
+            let Some(passing) = crossings.passing.get_mut(gone) else { continue };
+            passing.retain(|other| *other != number);
+            match passing[..] {
+                [] => drop(crossings.passing.remove(gone)),
+                [alone] => others.push(alone),
+                _ => {}
+            }
+        }
+        for new in line.passed.iter().filter(|at| passed.binary_search(at).is_err()) {
+            let passing = crossings.passing.entry(*new).or_default();
+            passing.push(number);
+            if let [other, _] = passing[..] {
+                others.push(other);
+            }
+        }
+        cutter.further.clear();
+        cutter.further.extend(line.cuts.iter().map(|(_, point)| *point));
+        let is_crossed = |at: &&(u32, u32)| crossings.passing.get(at).is_some_and(|passing| passing.len() > 1);
+        cutter.further.extend(line.passed.iter().filter(is_crossed).map(|(_, point)| *point));
+        others.into_iter().for_each(|other| self.mark_line(other));
     }
 
     /// Finds the new pinches of regions that have changed and marks their lines; whether there are any.
@@ -347,36 +388,5 @@ impl Pieces {
     fn remove(&mut self, number: u32) {
         self.is_gone[number as usize] = true;
         self.gone.push(number);
-    }
-}
-
-impl Crossings {
-    /// Notes what crosses on a line that was cut again.
-    fn note(&mut self, line: &mut OnLine, cutter: &mut Cutter<'_>) {
-        let has_slits = !cutter.surviving.slits.is_empty();
-        self.lines += usize::from(has_slits);
-        self.lines -= usize::from(std::mem::replace(&mut line.has_slits, has_slits));
-        cutter.passed.clear();
-        cutter.passed.extend(cutter.surviving.passed.iter().map(|(region, point, _)| (*region, *point)));
-        cutter.passed.sort_unstable();
-        cutter.passed.dedup();
-        if cutter.passed == line.passed {
-            return;
-        }
-        for at in &line.passed {
-            let lines = self.passing.get_mut(at).expect("it was noted");
-            *lines -= 1;
-            if *lines == 0 {
-                self.passing.remove(at);
-            } else if *lines == 1 {
-                self.points -= 1;
-            }
-        }
-        for at in &cutter.passed {
-            let lines = self.passing.entry(*at).or_default();
-            *lines += 1;
-            self.points += usize::from(*lines == 2);
-        }
-        std::mem::swap(&mut line.passed, &mut cutter.passed);
     }
 }
