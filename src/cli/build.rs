@@ -1,8 +1,8 @@
 //! `planecut build`: a model or a map into meshes, a picture and a report.
 
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
-use planecut::export::{ExportOptions, Part, encode_parts, render_preview};
+use planecut::export::{Part, render_preview};
 
 use super::args::{BuildArgs, Style};
 use super::cells::Cells;
@@ -10,10 +10,10 @@ use super::error::CliError;
 use super::input::{Input, InputKind};
 use super::output::{MeshTarget, Target, check_targets};
 use super::pool::on_threads;
+use super::product::{Product, encode};
 use super::progress::Progress;
 use super::report::milliseconds;
-use super::solve::{Solved, solve};
-use super::terminal;
+use super::solve::solve;
 
 /// What is to be written where.
 struct Plan<'a> {
@@ -23,17 +23,6 @@ struct Plan<'a> {
     meshes: Vec<MeshTarget>,
     preview: Option<Target>,
     report: Option<Target>,
-}
-
-/// An output that is complete in memory.
-type Encoded = (Target, Vec<u8>);
-
-/// What is there before the first file is written.
-struct Product {
-    solved: Solved,
-    outputs: Vec<Encoded>,
-    /// How long the meshes took to encode.
-    encoding: Duration,
 }
 
 /// Runs the command: everything is encoded in memory before the first file is written.
@@ -46,21 +35,7 @@ pub(crate) fn run(args: &BuildArgs) -> Result<(), CliError> {
     let progress = Progress::start(args.common.quiet);
     let product = on_threads(args.common.threads, || plan.carry_out(&progress))?;
     drop(progress);
-    let Product { mut solved, outputs, encoding } = product;
-    if !args.common.quiet {
-        terminal::print_warnings(&plan.input.name(), &solved.warnings);
-    }
-    let writing = Instant::now();
-    for (target, bytes) in &outputs {
-        target.write(bytes)?;
-    }
-    if let Some(target) = &plan.report {
-        solved.report.time_ms.export = milliseconds(encoding + writing.elapsed());
-        solved.report.time_ms.total = milliseconds(begin.elapsed());
-        // Last, so that a report is a sign that all else is there.
-        target.write(solved.report.to_json().as_bytes())?;
-    }
-    Ok(())
+    product.write(&plan.input.name(), args.common.quiet, plan.report.as_ref(), begin)
 }
 
 impl<'a> Plan<'a> {
@@ -91,8 +66,8 @@ impl<'a> Plan<'a> {
         let begin = Instant::now();
         progress.stage("encoding");
         let mut outputs = match cells {
-            Some(cells) => self.encode(&cells.parts())?,
-            None => self.encode(&[Part { name: "solid", mesh: &solved.mesh }])?,
+            Some(cells) => encode(&cells.parts(), &self.meshes, self.args.scale)?,
+            None => encode(&[Part { name: "solid", mesh: &solved.mesh }], &self.meshes, self.args.scale)?,
         };
         let encoding = begin.elapsed();
         if let Some(target) = &self.preview {
@@ -105,14 +80,5 @@ impl<'a> Plan<'a> {
             solved.report.time_ms.preview = milliseconds(drawing.elapsed());
         }
         Ok(Product { solved, outputs, encoding })
-    }
-
-    fn encode(&self, parts: &[Part<'_>]) -> Result<Vec<Encoded>, CliError> {
-        let options = ExportOptions { scale: self.args.scale };
-        let encode_one = |MeshTarget { target, format }: &MeshTarget| match encode_parts(parts, *format, &options) {
-            Ok(bytes) => Ok((target.clone(), bytes)),
-            Err(source) => Err(CliError::Encode { output: target.to_string(), source }),
-        };
-        self.meshes.iter().map(encode_one).collect()
     }
 }

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use planecut::csg::{EditError, LiveModel, Mesh, evaluate_with};
-use planecut::export::{ExportOptions, Part, encode_parts};
+use planecut::export::Part;
 use planecut::import::edits::{EditsImport, read_edits};
 
 use super::args::EditArgs;
@@ -12,10 +12,10 @@ use super::error::CliError;
 use super::input::{Input, InputKind};
 use super::output::{MeshTarget, Target, check_targets};
 use super::pool::on_threads;
+use super::product::{Product, encode};
 use super::progress::Progress;
 use super::report::{EditPart, milliseconds};
-use super::solve::{Solved, read, solve_read, unbounded_of};
-use super::terminal;
+use super::solve::{read, solve_read, unbounded_of};
 
 /// What is to be written where.
 struct Plan<'a> {
@@ -24,13 +24,6 @@ struct Plan<'a> {
     kind: InputKind,
     meshes: Vec<MeshTarget>,
     report: Option<Target>,
-}
-
-/// What is there before the first file is written.
-struct Product {
-    solved: Solved,
-    outputs: Vec<(Target, Vec<u8>)>,
-    encoding: Duration,
 }
 
 /// Runs the command: everything is encoded in memory before the first file is written.
@@ -43,20 +36,7 @@ pub(crate) fn run(args: &EditArgs) -> Result<(), CliError> {
     let progress = Progress::start(args.common.quiet);
     let product = on_threads(args.common.threads, || plan.carry_out(&progress))?;
     drop(progress);
-    let Product { mut solved, outputs, encoding } = product;
-    if !args.common.quiet {
-        terminal::print_warnings(&plan.input.name(), &solved.warnings);
-    }
-    let writing = Instant::now();
-    for (target, bytes) in &outputs {
-        target.write(bytes)?;
-    }
-    if let Some(target) = &plan.report {
-        solved.report.time_ms.export = milliseconds(encoding + writing.elapsed());
-        solved.report.time_ms.total = milliseconds(begin.elapsed());
-        target.write(solved.report.to_json().as_bytes())?;
-    }
-    Ok(())
+    product.write(&plan.input.name(), args.common.quiet, plan.report.as_ref(), begin)
 }
 
 impl<'a> Plan<'a> {
@@ -120,15 +100,7 @@ impl<'a> Plan<'a> {
         });
         let begin = Instant::now();
         progress.stage("encoding");
-        let options = ExportOptions { scale: self.args.scale };
-        let encode = |MeshTarget { target, format }: &MeshTarget| {
-            let part = Part { name: "solid", mesh: &solved.mesh };
-            match encode_parts(&[part], *format, &options) {
-                Ok(bytes) => Ok((target.clone(), bytes)),
-                Err(source) => Err(CliError::Encode { output: target.to_string(), source }),
-            }
-        };
-        let outputs = self.meshes.iter().map(encode).collect::<Result<_, CliError>>()?;
+        let outputs = encode(&[Part { name: "solid", mesh: &solved.mesh }], &self.meshes, self.args.scale)?;
         Ok(Product { solved, outputs, encoding: begin.elapsed() })
     }
 }

@@ -12,6 +12,7 @@ mod info;
 mod input;
 mod output;
 mod pool;
+mod product;
 mod progress;
 mod render;
 mod report;

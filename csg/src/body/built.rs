@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use glam::DVec3;
 use planecut_kernel::sign::Row;
 use planecut_kernel::{HalfSpace, IncrementalPolytope};
 
@@ -10,6 +9,7 @@ use super::Shape;
 use super::build::least_of_chunk;
 use crate::brush::{Brush, BrushFace};
 use crate::parallel::map_chunks;
+use crate::plane_table::half_space_of;
 
 /// What a brush is, in numbers of its own.
 #[derive(Debug, Clone)]
@@ -65,8 +65,7 @@ fn ahead(brush: &Brush, polytope: &mut IncrementalPolytope) -> Built {
     // as a table has them
     let in_table = |half_space: &HalfSpace| {
         let row = Row::new(half_space);
-        let [x, y, z, d] = *row.coefficients();
-        (row, HalfSpace::new(DVec3::new(x, y, z), d).expect("scaled from a valid half-space"))
+        (row, half_space_of(&row))
     };
     let planes: Vec<(Row, HalfSpace)> = half_spaces.iter().map(in_table).collect();
     let shape = shape_of_planes(planes.len(), |k| (&planes[k].0, &planes[k].1), polytope);

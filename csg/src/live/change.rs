@@ -103,6 +103,7 @@ impl LiveModel {
         for (id, state) in new {
             let known = self.by_id.get(&id).copied();
             let Some(number) = known.or_else(|| state.as_ref().map(|_| self.make_room(id))) else { continue };
+            let is_in_sequence = self.is_in_sequence(id);
             let operand = self.operands[number as usize].as_mut().expect("the brush is there");
             for (face, used) in operand.state.brush.faces.iter().zip(operand.uses.drain(..)) {
                 self.planes.release(&face.half_space, used, number);
@@ -113,7 +114,6 @@ impl LiveModel {
                 Some(state) => {
                     let faces = state.brush.faces.iter();
                     operand.uses.extend(faces.map(|face| self.planes.take(&face.half_space, number)));
-                    let is_in_sequence = self.base.as_ref().is_none_or(|base| id >= u64::from(base.leaves));
                     if state.role == Role::Intersect && is_in_sequence {
                         self.intersecting.push((id, number));
                     }

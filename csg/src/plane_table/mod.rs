@@ -16,7 +16,7 @@ use near::NearPlanes;
 pub use near::SNAP_TOLERANCE;
 pub(crate) use near::{NearCells, is_nearly_same, unit};
 use same::group_exactly;
-pub(crate) use same::{Key, compare_coefficients, is_exact, is_reversed, key};
+pub(crate) use same::{Key, compare_coefficients, first_side, is_exact, is_reversed, key};
 pub(crate) use snapped::Snapped;
 
 /// An oriented plane of a [`PlaneTable`]: an index and a bit for the opposite side.
@@ -267,9 +267,7 @@ impl PlaneTable {
         serves: impl Fn(&Self, &(Row, PlaneId)) -> bool,
         add: impl FnOnce(&mut Self, &Row) -> PlaneId,
     ) -> PlaneId {
-        let row = Row::new(half_space);
-        let reversed = is_reversed(&row);
-        let row = if reversed { row.flipped() } else { row };
+        let (row, reversed) = first_side(&Row::new(half_space));
         if self.index.is_none() {
             self.index = Some(Index::of(&self.rows, &self.replaced));
         }
@@ -320,7 +318,8 @@ impl PlaneTable {
     }
 }
 
-fn half_space_of(row: &Row) -> HalfSpace {
+/// The half-space of a row that was made from one.
+pub(crate) fn half_space_of(row: &Row) -> HalfSpace {
     let [x, y, z, d] = *row.coefficients();
     HalfSpace::new(DVec3::new(x, y, z), d).expect("scaled from a valid half-space")
 }

@@ -30,6 +30,12 @@ pub(crate) fn is_reversed(row: &Row) -> bool {
     row.coefficients().iter().find(|v| **v != 0.0).is_some_and(|v| *v < 0.0)
 }
 
+/// The side of a plane with a positive first coefficient, and whether that is the other one.
+pub(crate) fn first_side(row: &Row) -> (Row, bool) {
+    let reversed = is_reversed(row);
+    (if reversed { row.flipped() } else { *row }, reversed)
+}
+
 /// The order of rows by their coefficients.
 pub(crate) fn compare_coefficients(p: &Row, q: &Row) -> Ordering {
     let pairs = p.coefficients().iter().zip(q.coefficients());
@@ -39,8 +45,7 @@ pub(crate) fn compare_coefficients(p: &Row, q: &Row) -> Ordering {
 /// Groups rows that describe the same plane: for each group its side with a positive first coefficient, and the group of
 /// each row. Of rows of different scale the least stands for the group, so that the order of the input does not matter.
 pub(super) fn group_exactly(rows: &[Row]) -> (Vec<Row>, Vec<u32>) {
-    let rows: Vec<Row> =
-        rows.par_iter().with_min_len(1024).map(|row| if is_reversed(row) { row.flipped() } else { *row }).collect();
+    let rows: Vec<Row> = rows.par_iter().with_min_len(1024).map(|row| first_side(row).0).collect();
     let keys: Vec<Key> = rows.par_iter().with_min_len(1024).map(key).collect();
     // spread by the low bits of a ratio
     let spread = |key: &Key| (key.1[0] ^ key.1[1] >> 7 ^ key.1[2] >> 13) as usize & 0xFFFF;

@@ -6,7 +6,7 @@ use rustc_hash::FxHashMap;
 
 use super::PlaneTable;
 use super::near::{NearPlanes, unit};
-use super::same::{is_exact, is_reversed};
+use super::same::{first_side, is_exact};
 
 /// The planes of many half-spaces that a table of all of them would replace by one that is nearly the same, without such a
 /// table.
@@ -22,7 +22,7 @@ impl Snapped {
         if rows().all(|row| is_exact(&row)) {
             return snapped;
         }
-        let first_sides = rows().map(|row| if is_reversed(&row) { row.flipped() } else { row });
+        let first_sides = rows().map(|row| first_side(&row).0);
         let units: Vec<[f64; 4]> = first_sides.map(|row| unit(&row)).collect();
         let reach = units.iter().map(|unit| unit[3].abs()).fold(0.0, f64::max);
         let may_be_near = NearPlanes::new(reach).may_be_near(&units);

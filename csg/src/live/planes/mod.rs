@@ -16,7 +16,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::distinct::sortable;
 use crate::plane_table::{
-    Key, NearCells, PlaneId, PlaneTable, compare_coefficients, is_exact, is_nearly_same, is_reversed, key, unit,
+    Key, NearCells, PlaneId, PlaneTable, compare_coefficients, first_side, is_exact, is_nearly_same, key, unit,
 };
 
 /// A plane that a face uses: the group of what is exactly the same plane, and whether it is the other side.
@@ -82,13 +82,6 @@ impl Group {
     }
 }
 
-/// The row of the side with a positive first coefficient, and whether that is the other side.
-fn first_side(half_space: &HalfSpace) -> (Row, bool) {
-    let row = Row::new(half_space);
-    let reversed = is_reversed(&row);
-    (if reversed { row.flipped() } else { row }, reversed)
-}
-
 impl LivePlanes {
     /// None, beside those of a table that stay as they are.
     pub(super) fn new(table: PlaneTable) -> Self {
@@ -97,7 +90,7 @@ impl LivePlanes {
 
     /// Uses the plane of a half-space; its id is known once it is settled.
     pub(super) fn take(&mut self, half_space: &HalfSpace, user: u32) -> PlaneUse {
-        let (row, is_reversed) = first_side(half_space);
+        let (row, is_reversed) = first_side(&Row::new(half_space));
         let alike = self.by_key.entry(key(&row)).or_default();
         let known = alike.iter().copied().find(|group| self.groups[*group as usize].is_plane_of(&row));
         let number = known.unwrap_or_else(|| {
@@ -123,7 +116,7 @@ impl LivePlanes {
 
     /// Uses a plane once less.
     pub(super) fn release(&mut self, half_space: &HalfSpace, used: PlaneUse, user: u32) {
-        let (row, _) = first_side(half_space);
+        let (row, _) = first_side(&Row::new(half_space));
         let group = &mut self.groups[used.group as usize];
         let place = group.users.iter().rposition(|known| *known == user).expect("a user is known");
         group.users.swap_remove(place);

@@ -3,6 +3,7 @@
 use planecut_kernel::DVec3;
 
 use super::*;
+use crate::plane_table::is_reversed;
 
 /// A little generator of numbers below a bound.
 struct Draw(u64);
