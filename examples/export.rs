@@ -26,7 +26,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     // The skin: one closed mesh with a material on each face.
     let evaluation = evaluate(&import.model)?;
     // Millimetres in, metres out.
-    let options = ExportOptions { scale: 0.001 };
+    let options = ExportOptions { scale: 0.001, ..ExportOptions::default() };
     for format in Format::ALL {
         let path = folder.join(format!("{name}.{}", format.extension()));
         write_atomic(&path, &encode(&evaluation.mesh, format, &options)?)?;

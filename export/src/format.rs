@@ -67,11 +67,14 @@ pub struct ExportOptions {
     ///
     /// glTF carries it as the root node's scale, the other formats multiply the coordinates.
     pub scale: f64,
+    /// Says of each part that it is a convex collider: in glTF by `{"collider": "convex"}` in the extras of its node. Other formats have no
+    /// place for it.
+    pub convex_colliders: bool,
 }
 
 impl Default for ExportOptions {
     fn default() -> Self {
-        Self { scale: 1.0 }
+        Self { scale: 1.0, convex_colliders: false }
     }
 }
 
@@ -132,7 +135,8 @@ mod tests {
     #[test]
     fn unusable_scales_are_refused() {
         for scale in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-40, 1e40] {
-            let error = encode(&Mesh::default(), Format::Stl, &ExportOptions { scale }).expect_err("refused");
+            let error = encode(&Mesh::default(), Format::Stl, &ExportOptions { scale, ..ExportOptions::default() })
+                .expect_err("refused");
             assert!(matches!(error, ExportError::Scale(_)));
         }
     }

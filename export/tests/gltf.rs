@@ -63,7 +63,7 @@ fn z_up(point: DVec3) -> DVec3 {
 }
 
 fn check_round_trip(mesh: &Mesh, scale: f64) {
-    let options = ExportOptions { scale };
+    let options = ExportOptions { scale, ..ExportOptions::default() };
     let bytes = encode(mesh, Format::Glb, &options).expect("encoded");
     assert_eq!(bytes, encode(mesh, Format::Glb, &options).expect("encoded"), "two runs differ");
     let [seen] = &read(&bytes)[..] else { panic!("one mesh node expected") };

@@ -58,7 +58,9 @@ fn obj_keeps_every_bit_and_every_index() {
 fn obj_scales_and_numbers_parts_on() {
     let meshes = [common::cube_with_hole(), common::random_boxes(3, 2)];
     let parts = [Part { name: "a b", mesh: &meshes[0] }, Part { name: "", mesh: &meshes[1] }];
-    let obj = read_obj(&encode_parts(&parts, Format::Obj, &ExportOptions { scale: 0.5 }).expect("encoded"));
+    let obj = read_obj(
+        &encode_parts(&parts, Format::Obj, &ExportOptions { scale: 0.5, ..ExportOptions::default() }).expect("encoded"),
+    );
     assert_eq!(obj.objects, ["a_b", "solid"]);
     let expected: Vec<_> = meshes.iter().flat_map(|mesh| &mesh.positions).map(|&p| p * 0.5).collect();
     assert_eq!(obj.positions, expected);
@@ -71,7 +73,7 @@ fn obj_scales_and_numbers_parts_on() {
 fn stl_has_the_triangles_in_single_precision() {
     let mesh = common::random_boxes(100, 9);
     let scale = 25.4;
-    let bytes = encode(&mesh, Format::Stl, &ExportOptions { scale }).expect("encoded");
+    let bytes = encode(&mesh, Format::Stl, &ExportOptions { scale, ..ExportOptions::default() }).expect("encoded");
     assert!(!bytes.starts_with(b"solid"), "would be taken for a text file");
     let (header, records) = bytes.split_at(84);
     assert_eq!(u32::from_le_bytes(header[80..].try_into().expect("4 bytes")) as usize, mesh.triangles.len());

@@ -5,7 +5,8 @@ mod mesh_support;
 use glam::DVec3;
 use mesh_support::{obj, ply, split_cube, stl_ascii, stl_binary};
 use planecut_csg::{Material, Solid};
-use planecut_import::mesh::{MeshFormat, MeshImport, read_solid};
+use planecut_import::mesh::{MeshFormat, MeshImport, read_parts, read_solid};
+use planecut_kernel::IncrementalPolytope;
 
 fn read(bytes: &[u8], format: MeshFormat) -> MeshImport {
     read_solid(bytes, format, "m").unwrap_or_else(|error| panic!("{error}"))
@@ -169,4 +170,21 @@ fn decimals_tell_how_exact_they_are() {
     let import = read(text.as_bytes(), MeshFormat::Obj);
     let brushes = import.model.tree.brushes();
     assert_eq!((brushes.len(), brushes[0].faces.len()), (1, sides as usize + 2));
+}
+
+#[test]
+fn convex_objects_hold_all_their_points_where_that_is_asked() {
+    // no three of these decimals give a plane that a few floating-point numbers can be
+    let text = "o gem\nv 0.1 0.2 0.9\nv 0.7 -0.3 0.05\nv 0.15 0.8 0.01\nv -0.6 -0.4 0.03\nv 0.07 0.11 -0.83\nv 7 7 7\n\
+                f 1 2 3\nf 1 3 4\nf 1 4 2\nf 5 3 2\nf 5 4 3\nf 5 2 4\n";
+    let parts = read_parts(text.as_bytes(), MeshFormat::Obj, "m").unwrap_or_else(|error| panic!("{error}"));
+    // the last one is of no facet
+    assert_eq!(parts.points.len(), 5);
+    let [brush] = parts.import.model.tree.brushes() else { panic!("one body") };
+    let mut body = IncrementalPolytope::with_epsilon(0.0);
+    for face in &brush.faces {
+        body.add_plane(face.half_space);
+    }
+    assert!(parts.points.iter().all(|point| body.contains(*point)));
+    assert_eq!(brush.name.as_deref(), Some("gem"));
 }

@@ -38,7 +38,7 @@ pub mod sign;
 
 pub use glam::{DMat3, DVec2, DVec3, DVec4};
 pub use half_space::{HalfSpace, HalfSpaceError, MAX_NORMAL, MAX_NORMAL_RATIO, MAX_OFFSET_RATIO, MIN_NORMAL};
-pub use hull::{HullError, MAX_COORDINATE, hull};
+pub use hull::{HullError, MAX_COORDINATE, hull, hull_triangles};
 pub use meet::{compare_exactly, direction_across, line_coordinates, line_direction, meet, planar_turn};
 pub use polytope::{
     AddPlaneResult, BoundaryLine, BoundingBox, ClippedLine, ClosestFeature, ClosestPoint, DEFAULT_EPSILON, Edge,

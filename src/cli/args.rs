@@ -4,6 +4,8 @@ use std::path::{Path, PathBuf};
 
 use clap::error::ErrorKind;
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use planecut::csg::Tree;
+use planecut::csg::coarsen::{CoarsenOptions, LEAST_MAX_FACES, LEAST_MAX_VERTICES, Side};
 use planecut::export::{Format, MAX_IMAGE_SIDE, PreviewOptions, PreviewStyle};
 use planecut::import::map::MapOptions;
 use planecut::import::model::ModelOptions;
@@ -32,6 +34,8 @@ pub(crate) enum Command {
     Render(RenderArgs),
     /// Apply edits to a model, each at the cost of what it touches, and write what it is then
     Edit(EditArgs),
+    /// Make few convex cells of a solid or of a convex decomposition, within a stated error: colliders
+    Coarsen(CoarsenArgs),
     /// Check that a mesh is watertight, manifold and not self-crossing; exit status 1 if not
     Check(CheckArgs),
 }
@@ -132,6 +136,88 @@ pub(crate) struct EditArgs {
     pub(crate) common: CommonArgs,
 }
 
+/// Arguments of `coarsen`.
+#[derive(Debug, Args)]
+pub(crate) struct CoarsenArgs {
+    /// The model, map, tree, closed mesh or convex decomposition to read (.json, .map, .csg, .obj, .stl, .ply, .glb, .gltf); `-` is standard input
+    #[arg(value_name = "INPUT")]
+    pub(crate) input: PathBuf,
+    /// Cells to write, by the ending .glb, .gltf, .obj or .stl; a file for each cell where `{}` stands for its number; may be given several
+    /// times; `-` is standard output
+    #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1)]
+    pub(crate) outputs: Vec<PathBuf>,
+    /// Format of `-o -`: glb, gltf, obj or stl
+    #[arg(long, value_name = "FORMAT", value_parser = parse_format)]
+    pub(crate) format: Option<Format>,
+    /// Factor from the input's units to those of the meshes
+    #[arg(long, value_name = "S", default_value_t = 1.0, value_parser = parse_scale)]
+    pub(crate) scale: f64,
+    /// Names of the cells, `{}` standing for their numbers: `cell{}-convcolonly` for Godot, `UCX_part_{}` for Unreal
+    #[arg(long, value_name = "PATTERN", default_value = "cell {}")]
+    pub(crate) name: String,
+    /// Also draw a picture of the cells, each in a colour of its own (.png)
+    #[arg(long, value_name = "PNG")]
+    pub(crate) preview: Option<PathBuf>,
+    /// Size of the picture in pixels
+    #[arg(long, value_name = "WxH", default_value = "1280x960", value_parser = parse_size)]
+    pub(crate) preview_size: Size,
+    /// Also write counts, measures and times as JSON
+    #[arg(long, value_name = "JSON")]
+    pub(crate) report: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) limits: CoarsenLimits,
+    #[command(flatten)]
+    pub(crate) reading: ReadingArgs,
+    #[command(flatten)]
+    pub(crate) common: CommonArgs,
+}
+
+/// What cells may be.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Limits; without any, cells are merged as long as that adds nothing")]
+pub(crate) struct CoarsenLimits {
+    /// At most so many cells; as many as there are, or more, changes nothing
+    #[arg(long, value_name = "N", value_parser = parse_count::<1>)]
+    pub(crate) max_cells: Option<usize>,
+    /// At most so much volume added, as a part of the solid's: 0.1 is a tenth; goes before --max-cells
+    #[arg(long, value_name = "R", value_parser = parse_ratio)]
+    pub(crate) max_excess: Option<f64>,
+    /// At most so many faces of each cell, 6 or more
+    #[arg(long, value_name = "N", value_parser = parse_count::<LEAST_MAX_FACES>)]
+    pub(crate) max_faces: Option<usize>,
+    /// At most so many vertices of each cell, 8 or more
+    #[arg(long, value_name = "N", value_parser = parse_count::<LEAST_MAX_VERTICES>)]
+    pub(crate) max_vertices: Option<usize>,
+    /// A solid that no cell may grow into, as door and window openings, in the units of the input; may be given several times
+    #[arg(long, value_name = "FILE", num_args = 1)]
+    pub(crate) keep_clear: Vec<PathBuf>,
+    /// Merge no cells of different materials
+    #[arg(long)]
+    pub(crate) by_material: bool,
+    /// Make cells that are thinner than this so thick, in the units of the input
+    #[arg(long, value_name = "T", value_parser = parse_thickness)]
+    pub(crate) min_thickness: Option<f64>,
+    /// Cells within the solid instead of around it
+    #[arg(long, conflicts_with_all = ["max_faces", "max_vertices", "min_thickness", "keep_clear"])]
+    pub(crate) inner: bool,
+}
+
+impl CoarsenLimits {
+    /// The same as the library wants it.
+    pub(crate) fn options(&self, keep_clear: Option<Tree>) -> CoarsenOptions {
+        CoarsenOptions {
+            max_cells: self.max_cells,
+            max_excess: self.max_excess,
+            max_faces: self.max_faces,
+            max_vertices: self.max_vertices,
+            keep_clear,
+            by_material: self.by_material,
+            min_thickness: self.min_thickness,
+            side: if self.inner { Side::Inner } else { Side::Outer },
+        }
+    }
+}
+
 /// Arguments of `check`.
 #[derive(Debug, Args)]
 pub(crate) struct CheckArgs {
@@ -174,6 +260,16 @@ impl ReadingArgs {
     pub(crate) fn scad_options(&self, input: &Input) -> ScadOptions {
         let folder = input.file().and_then(Path::parent).map(Path::to_owned).unwrap_or_default();
         ScadOptions { folder, keep_going: self.scad.keep_going }
+    }
+
+    /// The same for another input, of any kind: what is for one kind alone is left out.
+    pub(crate) fn of_any_kind(&self) -> Self {
+        Self {
+            input_format: None,
+            model: ModelArgs { set: Vec::new() },
+            map: MapArgs { world_only: false, skip_texture: Vec::new(), skip_class: Vec::new() },
+            scad: ScadArgs { keep_going: self.scad.keep_going },
+        }
     }
 
     /// Sees that no option is for another kind of input.
@@ -320,6 +416,21 @@ fn parse_setting(text: &str) -> Result<(String, f64), String> {
 fn parse_tolerance(text: &str) -> Result<f64, String> {
     let tolerance = text.parse().ok().filter(|tolerance| (0.0..=1.0).contains(tolerance));
     tolerance.ok_or_else(|| "expected a number between 0 and 1".to_owned())
+}
+
+fn parse_count<const LEAST: usize>(text: &str) -> Result<usize, String> {
+    let count = text.parse().ok().filter(|count| *count >= LEAST);
+    count.ok_or_else(|| format!("expected a whole number, at least {LEAST}"))
+}
+
+fn parse_ratio(text: &str) -> Result<f64, String> {
+    let ratio = text.parse().ok().filter(|ratio: &f64| ratio.is_finite() && *ratio >= 0.0);
+    ratio.ok_or_else(|| "expected a number that is not negative".to_owned())
+}
+
+fn parse_thickness(text: &str) -> Result<f64, String> {
+    let thickness = text.parse().ok().filter(|thickness| (0.0..=1e30).contains(thickness));
+    thickness.ok_or_else(|| "expected a number between 0 and 1e30".to_owned())
 }
 
 fn parse_size(text: &str) -> Result<Size, String> {

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use planecut::export::{Part, render_preview};
+use planecut::export::{ExportOptions, Part, render_preview};
 
 use super::args::{BuildArgs, Style};
 use super::cells::Cells;
@@ -65,9 +65,10 @@ impl<'a> Plan<'a> {
         };
         let begin = Instant::now();
         progress.stage("encoding");
+        let options = ExportOptions { scale: self.args.scale, ..ExportOptions::default() };
         let mut outputs = match cells {
-            Some(cells) => encode(&cells.parts(), &self.meshes, self.args.scale)?,
-            None => encode(&[Part { name: "solid", mesh: &solved.mesh }], &self.meshes, self.args.scale)?,
+            Some(cells) => encode(&cells.parts(), &self.meshes, &options)?,
+            None => encode(&[Part { name: "solid", mesh: &solved.mesh }], &self.meshes, &options)?,
         };
         let encoding = begin.elapsed();
         if let Some(target) = &self.preview {

@@ -1,4 +1,4 @@
-//! The convex cells of a solid, for `--cells`.
+//! The convex cells of a solid, for `--cells` and `coarsen`.
 
 use std::time::Instant;
 
@@ -11,7 +11,10 @@ use super::input::{Input, InputKind};
 use super::report::{MeshPart, milliseconds};
 use super::solve::Solved;
 
-/// Convex cells whose interiors are disjoint, as meshes.
+/// What stands for a number in names.
+pub(crate) const NUMBER: &str = "{}";
+
+/// Convex cells, as meshes.
 pub(crate) struct Cells {
     meshes: Vec<Mesh>,
     names: Vec<String>,
@@ -34,11 +37,16 @@ impl Cells {
         // Slivers between planes that differ by mere rounding: nothing of them is left once points of noise are joined.
         meshes.retain(|mesh| !mesh.triangles.is_empty());
         let volume = solid.volume().ok_or_else(|| CliError::of_evaluation(&input.path, EvaluateError::Unbounded))?;
-        let names = (0..meshes.len()).map(|number| format!("cell {number}")).collect();
-        let cells = Self { meshes, names };
+        let cells = Self::named(meshes, "cell {}");
         solved.report.set_cells(cells.meshes.len(), volume, cells.measured());
         solved.report.time_ms.evaluate += milliseconds(begin.elapsed());
         Ok(cells)
+    }
+
+    /// Meshes whose names are a pattern with their numbers for `{}`.
+    pub(crate) fn named(meshes: Vec<Mesh>, pattern: &str) -> Self {
+        let names = (0..meshes.len()).map(|number| pattern.replace(NUMBER, &number.to_string())).collect();
+        Self { meshes, names }
     }
 
     /// One part for each cell.
@@ -47,7 +55,7 @@ impl Cells {
     }
 
     /// The counts of all meshes together.
-    fn measured(&self) -> MeshPart {
+    pub(crate) fn measured(&self) -> MeshPart {
         let (mut positions, mut triangles, mut faces) = (Vec::new(), Vec::new(), 0);
         for mesh in &self.meshes {
             let first = positions.len() as u32;
@@ -60,7 +68,7 @@ impl Cells {
 }
 
 /// The union of a map's brushes but for those that are not bounded.
-fn without(model: &Model, unbounded: &[usize]) -> Tree {
+pub(crate) fn without(model: &Model, unbounded: &[usize]) -> Tree {
     let brushes = model.tree.brushes().iter().enumerate();
     Tree::union_of(brushes.filter(|(number, _)| !unbounded.contains(number)).map(|(_, brush)| brush.clone()).collect())
 }

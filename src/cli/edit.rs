@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use planecut::csg::{EditError, LiveModel, Mesh, evaluate_with};
-use planecut::export::Part;
+use planecut::export::{ExportOptions, Part};
 use planecut::import::edits::{EditsImport, read_edits};
 
 use super::args::EditArgs;
@@ -100,7 +100,8 @@ impl<'a> Plan<'a> {
         });
         let begin = Instant::now();
         progress.stage("encoding");
-        let outputs = encode(&[Part { name: "solid", mesh: &solved.mesh }], &self.meshes, self.args.scale)?;
+        let options = ExportOptions { scale: self.args.scale, ..ExportOptions::default() };
+        let outputs = encode(&[Part { name: "solid", mesh: &solved.mesh }], &self.meshes, &options)?;
         Ok(Product { solved, outputs, encoding: begin.elapsed() })
     }
 }

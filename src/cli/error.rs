@@ -4,6 +4,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use planecut::csg::check::MeshProblem;
+use planecut::csg::coarsen::CoarsenError;
 use planecut::csg::{EditError, EvaluateError};
 use planecut::export::ExportError;
 use planecut::import::edits::EditsError;
@@ -87,6 +88,14 @@ pub(crate) enum CliError {
         /// The line, counted from 1; 0 for all.
         line: u32,
     },
+    /// The cells cannot be coarsened so.
+    #[error("{}: {source}", .path.display())]
+    Coarsen {
+        /// The input.
+        path: PathBuf,
+        /// Why.
+        source: CoarsenError,
+    },
     /// The mesh is not sound.
     #[error("{}: found {problem}, expected a watertight, manifold mesh that does not cross itself", .path.display())]
     NotSound {
@@ -162,6 +171,7 @@ impl CliError {
             | Self::Edit { .. }
             | Self::NotFresh { .. }
             | Self::Evaluate { .. }
+            | Self::Coarsen { .. }
             | Self::Bug { .. }
             | Self::Encode { .. }
             | Self::Write { .. }

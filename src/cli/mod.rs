@@ -6,6 +6,7 @@ mod args;
 mod build;
 mod cells;
 mod check;
+mod coarsen;
 mod edit;
 mod error;
 mod info;
@@ -47,6 +48,7 @@ fn parse_and_run() -> Result<(), CliError> {
         Command::Info(args) => info::run(&args),
         Command::Render(args) => render::run(&args),
         Command::Edit(args) => edit::run(&args),
+        Command::Coarsen(args) => coarsen::run(&args),
         Command::Check(args) => check::run(&args),
     }
 }

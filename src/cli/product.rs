@@ -55,9 +55,12 @@ impl Product {
 ///
 /// # Errors
 /// [`CliError::Encode`].
-pub(crate) fn encode(parts: &[Part<'_>], meshes: &[MeshTarget], scale: f64) -> Result<Vec<Encoded>, CliError> {
-    let options = ExportOptions { scale };
-    let encode_one = |MeshTarget { target, format }: &MeshTarget| match encode_parts(parts, *format, &options) {
+pub(crate) fn encode(
+    parts: &[Part<'_>],
+    meshes: &[MeshTarget],
+    options: &ExportOptions,
+) -> Result<Vec<Encoded>, CliError> {
+    let encode_one = |MeshTarget { target, format }: &MeshTarget| match encode_parts(parts, *format, options) {
         Ok(bytes) => Ok((target.clone(), bytes)),
         Err(source) => Err(CliError::Encode { output: target.to_string(), source }),
     };

@@ -6,6 +6,7 @@
 use std::time::Duration;
 
 use planecut::csg::check::{Measures, TopologyReport};
+use planecut::csg::coarsen::Coarsened;
 use planecut::csg::{Evaluation, ModelSummary, SolidMeasures, StageTimes};
 use planecut::kernel::DVec3;
 use planecut::kernel::sign::Counts;
@@ -31,6 +32,9 @@ pub(crate) struct Report {
     /// What `edit` did; other commands say nothing of it.
     #[serde(skip_serializing_if = "Option::is_none")]
     edit: Option<EditPart>,
+    /// What `coarsen` did; other commands say nothing of it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    coarsen: Option<CoarsenPart>,
     /// Where the time went, in milliseconds.
     pub(crate) time_ms: Times,
     /// What was left out or is doubtful.
@@ -55,6 +59,7 @@ impl Report {
             mesh,
             signs: SignsPart::new(&evaluation.signs),
             edit: None,
+            coarsen: None,
             time_ms: Times::new(&evaluation.times),
             warnings: Vec::new(),
         }
@@ -73,6 +78,7 @@ impl Report {
             mesh: MeshPart::new(topology, None),
             signs: SignsPart::new(&Counts::default()),
             edit: None,
+            coarsen: None,
             time_ms: Times::default(),
             warnings: Vec::new(),
         }
@@ -98,6 +104,12 @@ impl Report {
     /// Says what edits were done.
     pub(crate) fn set_edit(&mut self, edit: EditPart) {
         self.edit = Some(edit);
+    }
+
+    /// Says what became of the cells, whose meshes were written.
+    pub(crate) fn set_coarsen(&mut self, coarsen: CoarsenPart, mesh: MeshPart) {
+        self.coarsen = Some(coarsen);
+        self.mesh = mesh;
     }
 
     /// The report as a file: JSON with line breaks.
@@ -226,11 +238,47 @@ pub(crate) struct EditPart {
     pub(crate) same_as_fresh: bool,
 }
 
+/// Cells that became fewer.
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct CoarsenPart {
+    cells_in: usize,
+    cells_out: usize,
+    /// Of the solid.
+    volume_in: f64,
+    /// Of the union of the cells.
+    volume_out: f64,
+    /// What the union adds, relative to the solid.
+    excess: f64,
+    exact_merges: usize,
+    volume_sum_in: f64,
+    volume_sum_out: f64,
+    sum_excess: f64,
+    /// How long it took, in milliseconds; reading and evaluating the input are not in it.
+    time_ms: f64,
+}
+
+impl CoarsenPart {
+    pub(crate) fn new(coarsened: &Coarsened, time: Duration) -> Self {
+        Self {
+            cells_in: coarsened.cells_in,
+            cells_out: coarsened.cells.len(),
+            volume_in: coarsened.volume_in,
+            volume_out: coarsened.volume_out,
+            excess: coarsened.excess(),
+            exact_merges: coarsened.exact_merges,
+            volume_sum_in: coarsened.volume_sum_in,
+            volume_sum_out: coarsened.volume_sum_out,
+            sum_excess: coarsened.sum_excess(),
+            time_ms: milliseconds(time),
+        }
+    }
+}
+
 /// Milliseconds that each stage took; the total holds reading and checking as well.
 #[derive(Debug, Clone, Default, Serialize)]
 pub(crate) struct Times {
     pub(crate) import: f64,
-    /// With taking the solid apart into cells, where they were asked for.
+    /// With taking the solid apart into cells and coarsening these, where that was asked for.
     pub(crate) evaluate: f64,
     weld: f64,
     triangulate: f64,

@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 mod check;
+mod coarsen;
 mod damaged;
 mod determinism;
 mod edit;

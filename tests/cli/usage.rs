@@ -28,7 +28,12 @@ fn arguments_the_parser_does_not_know() {
     refused("build m.map -o a.glb --reprot r.json", "--reprot");
     refused("build m.map -o a.glb n.map", "n.map");
     refused("build -o a.glb", "INPUT");
-    refused("coarsen m.map -o a.glb", "coarsen");
+    refused("coarsen m.map -o a.glb --max-cells 0", "at least 1");
+    refused("coarsen m.map -o a.glb --max-faces 5", "at least 6");
+    refused("coarsen m.map -o a.glb --max-vertices 7", "at least 8");
+    refused("coarsen m.map -o a.glb --max-excess=-0.1", "not negative");
+    refused("coarsen m.map -o a.glb --min-thickness nan", "between 0");
+    refused("coarsen m.map -o a.glb --inner --max-faces 8", "--inner");
     refused("render m.map -o a.png --style sketch", "sketch");
 }
 

@@ -84,6 +84,9 @@ impl Document {
         json["nodes"][0]["scale"] = json!(vec![options.scale; 3]);
         for (part, translation) in self.translations.iter().enumerate() {
             json["nodes"][part + 1]["translation"] = json!(translation);
+            if options.convex_colliders {
+                json["nodes"][part + 1]["extras"] = json!({"collider": "convex"});
+            }
         }
         if let Some(uri) = uri {
             json["buffers"][0]["uri"] = uri.into();

@@ -24,7 +24,7 @@ use planecut_csg::Material;
 
 pub use error::{MeshError, Place};
 pub use planecut_csg::polyhedron::Precision;
-pub use solid::{MeshImport, SolidError, read_solid, solid_of_mesh};
+pub use solid::{MeshImport, PartsImport, SolidError, read_parts, read_solid, solid_of_mesh};
 
 use error::Fault;
 

@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 use planecut_csg::polyhedron::{PolyhedronError, PolyhedronOptions, polyhedron};
-use planecut_csg::{Material, MaterialId, Model, Tree};
+use planecut_csg::{Brush, Material, MaterialId, Model, Tree};
+use planecut_kernel::hull;
 use rustc_hash::FxHashMap;
 use thiserror::Error;
 
@@ -62,9 +63,54 @@ pub fn read_solid(bytes: &[u8], format: MeshFormat, name: &str) -> Result<MeshIm
 /// [`SolidError::Surface`] where an object's surface is not closed, crosses itself, or encloses nothing.
 pub fn solid_of_mesh(mut mesh: IndexedMesh, format: MeshFormat, name: &str) -> Result<MeshImport, SolidError> {
     if format == MeshFormat::Gltf {
-        mesh.positions.iter_mut().for_each(|p| *p = DVec3::new(p.x, 0.0 - p.z, p.y));
+        turn_up(&mut mesh);
     }
-    solid_of(&mesh).map_err(|(object, source)| {
+    import(&mesh, name, ConvexObjects::AsStated)
+}
+
+/// The convex parts of a mesh, as they are to be coarsened, and its points.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PartsImport {
+    /// The model, in which an object that is a convex body is the hull of its points, and holds each of them exactly; other objects are
+    /// as in [`read_solid`].
+    pub import: MeshImport,
+    /// The points of all triangles, turned as the model is.
+    pub points: Vec<DVec3>,
+}
+
+/// Reads a mesh whose objects are closed, as [`read_solid`], but so that convex objects hold all of their points: rounding in the file may
+/// have left some of them outside of the facets of others, or bent facets that were meant to be planar.
+///
+/// # Errors
+/// As [`read_solid`].
+pub fn read_parts(bytes: &[u8], format: MeshFormat, name: &str) -> Result<PartsImport, SolidError> {
+    let mut mesh = read_mesh(bytes, format, name)?;
+    if format == MeshFormat::Gltf {
+        turn_up(&mut mesh);
+    }
+    let mut used: Vec<u32> = mesh.triangles.iter().flatten().copied().collect();
+    used.sort_unstable();
+    used.dedup();
+    let points = used.into_iter().map(|point| mesh.positions[point as usize]).collect();
+    Ok(PartsImport { import: import(&mesh, name, ConvexObjects::AsHulls)?, points })
+}
+
+/// From glTF's axes, in which y points up, to those in which z does.
+fn turn_up(mesh: &mut IndexedMesh) {
+    mesh.positions.iter_mut().for_each(|p| *p = DVec3::new(p.x, 0.0 - p.z, p.y));
+}
+
+/// What becomes of objects that are convex bodies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum ConvexObjects {
+    /// Bodies with the planes of their facets.
+    AsStated,
+    /// The hulls of their points.
+    AsHulls,
+}
+
+fn import(mesh: &IndexedMesh, name: &str, convex: ConvexObjects) -> Result<MeshImport, SolidError> {
+    solid_of(mesh, convex).map_err(|(object, source)| {
         let triangle = source.facet().map(|facet| object.triangles.start + facet);
         let place = triangle.and_then(|triangle| mesh.places.get(triangle)).cloned().unwrap_or(Place::End);
         SolidError::Surface { name: name.to_owned(), place, object: object.name.clone(), source: Box::new(source) }
@@ -74,26 +120,29 @@ pub fn solid_of_mesh(mut mesh: IndexedMesh, format: MeshFormat, name: &str) -> R
 /// An object's surface is wrong.
 type Fault = (MeshObject, PolyhedronError);
 
-fn solid_of(mesh: &IndexedMesh) -> Result<MeshImport, Fault> {
-    match united(mesh, &mesh.objects) {
+fn solid_of(mesh: &IndexedMesh, convex: ConvexObjects) -> Result<MeshImport, Fault> {
+    match united(mesh, &mesh.objects, convex) {
         Err((object, error @ PolyhedronError::Open { .. })) if mesh.objects.len() > 1 => {
             let whole = MeshObject { name: None, triangles: 0..mesh.triangles.len() };
             // what is wrong with the object says more than what is wrong with all
-            united(mesh, &[whole]).map_err(|_| (object, error))
+            united(mesh, &[whole], convex).map_err(|_| (object, error))
         }
         result => result,
     }
 }
 
-fn united(mesh: &IndexedMesh, objects: &[MeshObject]) -> Result<MeshImport, Fault> {
+fn united(mesh: &IndexedMesh, objects: &[MeshObject], convex: ConvexObjects) -> Result<MeshImport, Fault> {
     let (materials, material_of) = materials(mesh);
     let mut import = MeshImport { model: Model { materials, tree: Tree::empty() }, warnings: Vec::new() };
     let mut brushes = Vec::new();
     for object in objects {
         let (points, triangles) = own_points(mesh, object);
         let options = PolyhedronOptions { precision: mesh.precision };
-        let solid = polyhedron(&points, &triangles, &material_of[object.triangles.clone()], &options)
+        let mut solid = polyhedron(&points, &triangles, &material_of[object.triangles.clone()], &options)
             .map_err(|error| (object.clone(), error))?;
+        if let (ConvexObjects::AsHulls, [cell]) = (convex, &mut solid.cells[..]) {
+            *cell = hull_of(&points, cell);
+        }
         let line = match mesh.places.get(object.triangles.start) {
             Some(Place::Line(line)) => u32::try_from(*line).unwrap_or(0),
             _ => 0,
@@ -110,6 +159,13 @@ fn united(mesh: &IndexedMesh, objects: &[MeshObject]) -> Result<MeshImport, Faul
     }
     import.model.tree = Tree::union_of(brushes);
     Ok(import)
+}
+
+/// The hull of points with the material of a body that is the same but for rounding; that body where there is no hull.
+fn hull_of(points: &[DVec3], body: &Brush) -> Brush {
+    let (Ok(hull), Some(face)) = (hull(points), body.faces.first()) else { return body.clone() };
+    let facets = hull.facets();
+    Brush::from_half_spaces(facets.iter().filter_map(|(plane, _)| hull.plane(*plane).copied()), face.material)
 }
 
 /// The points that an object uses, and its triangles by their numbers.

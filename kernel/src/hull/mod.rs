@@ -103,6 +103,31 @@ pub fn hull(points: &[DVec3]) -> Result<IncrementalPolytope, HullError> {
     Ok(polytope)
 }
 
+/// The boundary of the convex hull of points as triangles, each three numbers of points, counter-clockwise seen from outside.
+///
+/// The combinatorics are decided exactly: the triangles close, each corner is a point that no plane of three others cuts off, and no
+/// point lies outside of a triangle's plane. Facets with more than three corners are cut into coplanar triangles. Points within a facet or an
+/// edge may be corners or not.
+///
+/// Where only coordinates are needed this is several times faster than [`hull`], which makes exact planes of the facets.
+///
+/// # Errors
+/// As [`hull`].
+///
+/// ```
+/// use planecut_kernel::{DVec3, HullError, hull_triangles};
+///
+/// # fn main() -> Result<(), HullError> {
+/// let corners: Vec<DVec3> = (0..8).map(|k| DVec3::new((k & 1) as f64, (k >> 1 & 1) as f64, (k >> 2) as f64)).collect();
+/// assert_eq!(hull_triangles(&corners)?.len(), 12);
+/// # Ok(())
+/// # }
+/// ```
+pub fn hull_triangles(points: &[DVec3]) -> Result<Vec<[u32; 3]>, HullError> {
+    check_range(points)?;
+    Ok(Triangulation::of(points)?.triangles().collect())
+}
+
 /// In rounds that double, each in the order given: a random half of all last, a random half of the others before that, and so
 /// on (Amenta, Choi, Rote 2003). Neighbours stay near each other, but no order of the facets makes every plane cut a large
 /// part of what is there away.

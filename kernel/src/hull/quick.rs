@@ -186,6 +186,11 @@ impl<'a> Triangulation<'a> {
         }
     }
 
+    /// All triangles.
+    pub(super) fn triangles(&self) -> impl Iterator<Item = [u32; 3]> {
+        self.triangles.iter().filter(|triangle| triangle.alive).map(|triangle| triangle.corners)
+    }
+
     /// One triangle for each facet, chosen among the coplanar ones, in an order in which neighbours are near each other.
     pub(super) fn facets(&self) -> Vec<u32> {
         let mut done = vec![false; self.triangles.len()];

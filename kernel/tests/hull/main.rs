@@ -5,7 +5,7 @@
 use std::collections::BTreeSet;
 
 use dashu_ratio::RBig;
-use planecut_kernel::{DVec3, HullError, IncrementalPolytope, hull};
+use planecut_kernel::{DVec3, HullError, IncrementalPolytope, hull, hull_triangles};
 use planecut_oracle::random::Rng;
 use planecut_oracle::settings::first_seed;
 
@@ -135,6 +135,30 @@ fn check_planes(
     if held.len() != facets.len() { Err("a facet without a plane".into()) } else { Ok(()) }
 }
 
+/// Triangles lie in facets, face outward, close, and leave no facet out.
+fn check_triangles(triangles: &[[u32; 3]], points: &[Vector], facets: &BTreeSet<Vec<usize>>) -> Result<(), String> {
+    let mut edges = BTreeSet::new();
+    let mut held = BTreeSet::new();
+    for triangle in triangles {
+        let corners = triangle.map(|corner| corner as usize);
+        let [a, b, c] = corners.map(|corner| &points[corner]);
+        let normal = cross(&minus(b, a), &minus(c, a));
+        if is_zero(&normal) || points.iter().any(|p| dot(&normal, &minus(p, a)) > RBig::ZERO) {
+            return Err(format!("{triangle:?} is no triangle of the hull seen from outside"));
+        }
+        held.extend(facets.iter().filter(|facet| corners.iter().all(|corner| facet.contains(corner))));
+        for k in 0..3 {
+            if !edges.insert((corners[k], corners[(k + 1) % 3])) {
+                return Err(format!("{triangle:?} has an edge that another one has"));
+            }
+        }
+    }
+    if edges.iter().any(|(a, b)| !edges.contains(&(*b, *a))) {
+        return Err("the triangles do not close".into());
+    }
+    if held.len() != facets.len() { Err("a facet without a triangle".into()) } else { Ok(()) }
+}
+
 #[test]
 fn small_sets_of_points() {
     let mut by_dimension = [0usize; 4];
@@ -153,6 +177,11 @@ fn small_sets_of_points() {
                 assert_eq!(dimension, 3, "{}", report("dimension"));
                 let whole = points.iter().all(|p| *p == p.trunc() && p.abs().max_element() < 1e3);
                 if let Err(error) = check_planes(&polytope, &points, &facets, whole) {
+                    panic!("{}", report(&error));
+                }
+                let triangles =
+                    hull_triangles(&points).unwrap_or_else(|error| panic!("{}", report(&error.to_string())));
+                if let Err(error) = check_triangles(&triangles, &exact, &facets) {
                     panic!("{}", report(&error));
                 }
                 assert!(polytope.is_bounded(), "{}", report("unbounded"));
