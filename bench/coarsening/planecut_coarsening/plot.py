@@ -72,10 +72,12 @@ class _Axes:
         foot = _HEIGHT - _BOTTOM
         last = -math.inf
         for count in self.counts:
-            if self.x(count) - last >= _APART:
-                last = self.x(count)
-                yield f'<path d="M{last:.1f} {foot}v6" stroke="{_QUIET}"/>'
-                yield _text(last, foot + 22, str(count), "middle", _QUIET)
+            x = self.x(count)
+            # The last one always has its mark.
+            if count == self.counts[-1] or min(x - last, self.x(self.counts[-1]) - x) >= _APART:
+                last = x
+                yield f'<path d="M{x:.1f} {foot}v6" stroke="{_QUIET}"/>'
+                yield _text(x, foot + 22, str(count), "middle", _QUIET)
         yield _text((_LEFT + _WIDTH - _RIGHT) / 2, foot + 44, "convex cells", "middle", _INK)
         yield _text(_LEFT, _TOP - 16, "volume added", "start", _INK)
 
