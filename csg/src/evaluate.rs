@@ -13,7 +13,7 @@ use crate::mesh::Mesh;
 use crate::outer::OuterBox;
 use crate::plane_table::PlaneTable;
 use crate::skin::{BoundaryEdge, Scene, skin};
-use crate::tree::{Operation, TreeNode};
+use crate::tree::{Operation, Tree, TreeNode};
 use crate::weld::{WeldError, Welded, weld};
 
 /// What a model holds.
@@ -124,6 +124,11 @@ pub fn summarize(model: &Model) -> ModelSummary {
 /// close: a bug in this crate, never the user's mistake.
 pub fn evaluate(model: &Model) -> Result<Evaluation, EvaluateError> {
     evaluate_with(model, UnboundedBrushes::Keep)
+}
+
+/// The solid of a tree, whatever its materials.
+pub(crate) fn evaluate_shape(tree: Tree) -> Result<Evaluation, EvaluateError> {
+    evaluate(&Model { materials: vec![Material::named("any")], tree: tree.with_material(MaterialId(0)) })
 }
 
 /// The same as [`evaluate`], with a choice for unbounded brushes.

@@ -170,6 +170,16 @@ impl Tree {
         self.brushes
     }
 
+    /// Whether it is the union of its brushes.
+    pub(crate) fn is_union(&self) -> bool {
+        self.nodes.iter().all(|node| match node {
+            TreeNode::Leaf => true,
+            TreeNode::Operation { operation: Operation::Union, .. } => true,
+            TreeNode::Operation { operation: Operation::Complement, .. } => false,
+            TreeNode::Operation { operands, .. } => *operands == 1,
+        })
+    }
+
     /// The entries in postfix order; the last one is the root.
     #[must_use]
     pub fn nodes(&self) -> &[TreeNode] {

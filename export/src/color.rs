@@ -18,10 +18,21 @@ fn name_color(name: &str) -> [f32; 3] {
     let unit = |shift: u32| ((hash >> shift) & 0xffff) as f32 / 65535.0;
     let (hue, saturation, lightness) = (unit(0), 0.22 + 0.26 * unit(16), 0.56 + 0.16 * unit(32));
     let chroma = (1.0 - (2.0 * lightness - 1.0).abs()) * saturation;
-    [0.0, 2.0 / 3.0, 1.0 / 3.0].map(|offset| {
-        let ramp = (((hue + offset).fract() * 6.0 - 3.0).abs() - 1.0).clamp(0.0, 1.0);
-        srgb_to_linear(lightness + chroma * (ramp - 0.5))
-    })
+    ramps(hue).map(|ramp| srgb_to_linear(lightness + chroma * (ramp - 0.5)))
+}
+
+/// A colour for a number, linear RGB: numbers that follow one another have hues that are far apart, and differ in lightness.
+#[must_use]
+pub fn distinct_color(number: usize) -> [f32; 3] {
+    const GOLDEN_RATIO: f64 = 0.618_033_988_749_895;
+    let hue = (number as f64 * GOLDEN_RATIO).fract() as f32;
+    let lightness = [0.42, 0.3, 0.52][number % 3];
+    ramps(hue).map(|ramp| (lightness + 0.42 * (ramp - 0.5)).clamp(0.02, 1.0))
+}
+
+/// How much of red, green and blue there is in a pure hue, each from 0 to 1.
+fn ramps(hue: f32) -> [f32; 3] {
+    [0.0, 2.0 / 3.0, 1.0 / 3.0].map(|offset| (((hue + offset).fract() * 6.0 - 3.0).abs() - 1.0).clamp(0.0, 1.0))
 }
 
 /// 64-bit FNV-1a with a final mix, so that names which differ in their last letter differ in hue.

@@ -21,6 +21,7 @@ mod single_precision;
 mod stl;
 mod topology;
 
+pub use color::distinct_color;
 pub use error::ExportError;
 pub use file::write_atomic;
 pub use format::{ExportOptions, Format, Part, encode, encode_parts};

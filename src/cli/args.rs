@@ -46,31 +46,53 @@ pub(crate) struct BuildArgs {
     /// The model, map, tree or closed mesh to read (.json, .map, .csg, .obj, .stl, .ply, .glb, .gltf); `-` is standard input
     #[arg(value_name = "INPUT")]
     pub(crate) input: PathBuf,
-    /// Mesh to write, by its ending .glb, .gltf, .obj or .stl; may be given several times; `-` is standard output
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
+    /// Write the convex cells of the solid, one mesh each, instead of its skin
+    #[arg(long)]
+    pub(crate) cells: bool,
+    #[command(flatten)]
+    pub(crate) picture: PictureArgs,
+    #[command(flatten)]
+    pub(crate) reading: ReadingArgs,
+    #[command(flatten)]
+    pub(crate) common: CommonArgs,
+}
+
+/// Where meshes and the report go.
+#[derive(Debug, Args)]
+pub(crate) struct OutputArgs {
+    /// Mesh to write, by its ending .glb, .gltf, .obj or .stl; may be given several times; `-` is standard output. Of `coarsen` a name with
+    /// `{}` is a file for each cell, `{}` standing for its number
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1)]
     pub(crate) outputs: Vec<PathBuf>,
     /// Format of `-o -`: glb, gltf, obj or stl
     #[arg(long, value_name = "FORMAT", value_parser = parse_format)]
     pub(crate) format: Option<Format>,
-    /// Write the convex cells of the solid, one mesh each, instead of its skin
-    #[arg(long)]
-    pub(crate) cells: bool,
     /// Factor from the input's units to those of the meshes
     #[arg(long, value_name = "S", default_value_t = 1.0, value_parser = parse_scale)]
     pub(crate) scale: f64,
-    /// Also draw a picture (.png)
+    /// Also write counts, measures and times as JSON
+    #[arg(long, value_name = "JSON")]
+    pub(crate) report: Option<PathBuf>,
+}
+
+/// A picture beside the meshes.
+#[derive(Debug, Args)]
+pub(crate) struct PictureArgs {
+    /// Also draw a picture (.png); of `coarsen` each cell in a colour of its own
     #[arg(long, value_name = "PNG")]
     pub(crate) preview: Option<PathBuf>,
     /// Size of the picture in pixels
     #[arg(long, value_name = "WxH", default_value = "1280x960", value_parser = parse_size)]
-    pub(crate) preview_size: Size,
-    /// Also write counts, measures and times as JSON
-    #[arg(long, value_name = "JSON")]
-    pub(crate) report: Option<PathBuf>,
-    #[command(flatten)]
-    pub(crate) reading: ReadingArgs,
-    #[command(flatten)]
-    pub(crate) common: CommonArgs,
+    preview_size: Size,
+}
+
+impl PictureArgs {
+    /// How to draw it.
+    pub(crate) fn options(&self) -> PreviewOptions {
+        self.preview_size.preview(Style::Shaded)
+    }
 }
 
 /// Arguments of `info`.
@@ -115,21 +137,11 @@ pub(crate) struct EditArgs {
     /// The edits, one JSON object a line
     #[arg(value_name = "EDITS.jsonl")]
     pub(crate) edits: PathBuf,
-    /// Mesh to write, by its ending .glb, .gltf, .obj or .stl; may be given several times; `-` is standard output
-    #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1)]
-    pub(crate) outputs: Vec<PathBuf>,
-    /// Format of `-o -`: glb, gltf, obj or stl
-    #[arg(long, value_name = "FORMAT", value_parser = parse_format)]
-    pub(crate) format: Option<Format>,
-    /// Factor from the input's units to those of the meshes
-    #[arg(long, value_name = "S", default_value_t = 1.0, value_parser = parse_scale)]
-    pub(crate) scale: f64,
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
     /// After each edit, compare with the same model built anew
     #[arg(long)]
     pub(crate) verify: bool,
-    /// Also write counts, measures and times as JSON
-    #[arg(long, value_name = "JSON")]
-    pub(crate) report: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) reading: ReadingArgs,
     #[command(flatten)]
@@ -142,28 +154,13 @@ pub(crate) struct CoarsenArgs {
     /// The model, map, tree, closed mesh or convex decomposition to read (.json, .map, .csg, .obj, .stl, .ply, .glb, .gltf); `-` is standard input
     #[arg(value_name = "INPUT")]
     pub(crate) input: PathBuf,
-    /// Cells to write, by the ending .glb, .gltf, .obj or .stl; a file for each cell where `{}` stands for its number; may be given several
-    /// times; `-` is standard output
-    #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1)]
-    pub(crate) outputs: Vec<PathBuf>,
-    /// Format of `-o -`: glb, gltf, obj or stl
-    #[arg(long, value_name = "FORMAT", value_parser = parse_format)]
-    pub(crate) format: Option<Format>,
-    /// Factor from the input's units to those of the meshes
-    #[arg(long, value_name = "S", default_value_t = 1.0, value_parser = parse_scale)]
-    pub(crate) scale: f64,
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
     /// Names of the cells, `{}` standing for their numbers: `cell{}-convcolonly` for Godot, `UCX_part_{}` for Unreal
     #[arg(long, value_name = "PATTERN", default_value = "cell {}")]
     pub(crate) name: String,
-    /// Also draw a picture of the cells, each in a colour of its own (.png)
-    #[arg(long, value_name = "PNG")]
-    pub(crate) preview: Option<PathBuf>,
-    /// Size of the picture in pixels
-    #[arg(long, value_name = "WxH", default_value = "1280x960", value_parser = parse_size)]
-    pub(crate) preview_size: Size,
-    /// Also write counts, measures and times as JSON
-    #[arg(long, value_name = "JSON")]
-    pub(crate) report: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) picture: PictureArgs,
     #[command(flatten)]
     pub(crate) limits: CoarsenLimits,
     #[command(flatten)]

@@ -2,15 +2,14 @@
 
 use std::time::Instant;
 
-use planecut::export::{ExportOptions, Part, render_preview};
+use planecut::export::{ExportOptions, Part};
 
-use super::args::{BuildArgs, Style};
+use super::args::BuildArgs;
 use super::cells::Cells;
 use super::error::CliError;
 use super::input::{Input, InputKind};
 use super::output::{MeshTarget, Target, check_targets};
-use super::pool::on_threads;
-use super::product::{Product, encode};
+use super::product::{Product, draw, encode, produce};
 use super::progress::Progress;
 use super::report::milliseconds;
 use super::solve::solve;
@@ -32,10 +31,7 @@ struct Plan<'a> {
 pub(crate) fn run(args: &BuildArgs) -> Result<(), CliError> {
     let begin = Instant::now();
     let plan = Plan::resolve(args)?;
-    let progress = Progress::start(args.common.quiet);
-    let product = on_threads(args.common.threads, || plan.carry_out(&progress))?;
-    drop(progress);
-    product.write(&plan.input.name(), args.common.quiet, plan.report.as_ref(), begin)
+    produce(&args.common, &plan.input, plan.report.as_ref(), begin, |progress| plan.carry_out(progress))
 }
 
 impl<'a> Plan<'a> {
@@ -46,9 +42,9 @@ impl<'a> Plan<'a> {
             args,
             input,
             kind,
-            meshes: MeshTarget::resolve_all(&args.outputs, args.format)?,
-            preview: args.preview.as_deref().map(Target::picture).transpose()?,
-            report: args.report.as_deref().map(Target::new),
+            meshes: MeshTarget::resolve_all(&args.output.outputs, args.output.format)?,
+            preview: args.picture.preview.as_deref().map(Target::picture).transpose()?,
+            report: args.output.report.as_deref().map(Target::new),
         };
         let meshes = plan.meshes.iter().map(|mesh| &mesh.target);
         check_targets(plan.input.file(), meshes.chain(&plan.preview).chain(&plan.report))?;
@@ -65,7 +61,7 @@ impl<'a> Plan<'a> {
         };
         let begin = Instant::now();
         progress.stage("encoding");
-        let options = ExportOptions { scale: self.args.scale, ..ExportOptions::default() };
+        let options = ExportOptions { scale: self.args.output.scale, ..ExportOptions::default() };
         let mut outputs = match cells {
             Some(cells) => encode(&cells.parts(), &self.meshes, &options)?,
             None => encode(&[Part { name: "solid", mesh: &solved.mesh }], &self.meshes, &options)?,
@@ -74,10 +70,7 @@ impl<'a> Plan<'a> {
         if let Some(target) = &self.preview {
             let drawing = Instant::now();
             progress.stage("drawing");
-            let options = self.args.preview_size.preview(Style::Shaded);
-            let picture = render_preview(&solved.mesh, &options)
-                .map_err(|source| CliError::Encode { output: target.to_string(), source })?;
-            outputs.push((target.clone(), picture));
+            outputs.push(draw(&solved.mesh, target, &self.args.picture.options())?);
             solved.report.time_ms.preview = milliseconds(drawing.elapsed());
         }
         Ok(Product { solved, outputs, encoding })

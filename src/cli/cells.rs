@@ -1,5 +1,6 @@
 //! The convex cells of a solid, for `--cells` and `coarsen`.
 
+use std::borrow::Cow;
 use std::time::Instant;
 
 use planecut::csg::check::check_topology;
@@ -27,10 +28,7 @@ impl Cells {
     /// [`CliError::Evaluate`] for an unbounded solid, [`CliError::Bug`] for a bug.
     pub(crate) fn new(input: &Input, kind: InputKind, solved: &mut Solved) -> Result<Self, CliError> {
         let begin = Instant::now();
-        let solid = match kind {
-            InputKind::Json | InputKind::Csg | InputKind::Mesh(_) => Solid::from_tree(&solved.model.tree),
-            InputKind::Map => Solid::from_tree(&without(&solved.model, &solved.unbounded)),
-        };
+        let solid = Solid::from_tree(&bounded_tree(kind, solved));
         let mut meshes = solid
             .cell_meshes(&solved.model.materials)
             .map_err(|source| CliError::of_evaluation(&input.path, source))?;
@@ -67,8 +65,16 @@ impl Cells {
     }
 }
 
+/// The tree of an input, of a map without what is not bounded.
+pub(crate) fn bounded_tree(kind: InputKind, solved: &Solved) -> Cow<'_, Tree> {
+    match kind {
+        InputKind::Json | InputKind::Csg | InputKind::Mesh(_) => Cow::Borrowed(&solved.model.tree),
+        InputKind::Map => Cow::Owned(without(&solved.model, &solved.unbounded)),
+    }
+}
+
 /// The union of a map's brushes but for those that are not bounded.
-pub(crate) fn without(model: &Model, unbounded: &[usize]) -> Tree {
+fn without(model: &Model, unbounded: &[usize]) -> Tree {
     let brushes = model.tree.brushes().iter().enumerate();
     Tree::union_of(brushes.filter(|(number, _)| !unbounded.contains(number)).map(|(_, brush)| brush.clone()).collect())
 }

@@ -1,23 +1,22 @@
 //! `planecut coarsen`: few convex cells for a solid or a convex decomposition.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use planecut::csg::coarsen::{CoarsenOptions, Coarsened, Coarsener};
 use planecut::csg::{Brush, EvaluateError, Material, MaterialId, Mesh, Model, Tree, evaluate};
-use planecut::export::{ExportOptions, Format, Part, render_preview};
+use planecut::export::{ExportOptions, distinct_color};
 use planecut::import::Warning;
 use planecut::import::mesh::read_parts;
 use planecut::kernel::DVec3;
 use rayon::prelude::*;
 
-use super::args::{CoarsenArgs, Style};
-use super::cells::{Cells, NUMBER, without};
+use super::args::CoarsenArgs;
+use super::cells::{Cells, NUMBER, bounded_tree};
 use super::error::CliError;
 use super::input::{Input, InputKind};
 use super::output::{MeshTarget, Target, check_targets};
-use super::pool::on_threads;
-use super::product::{Encoded, Product, encode};
+use super::product::{Encoded, Product, draw, encode, produce};
 use super::progress::Progress;
 use super::report::{CoarsenPart, milliseconds};
 use super::solve::{Solved, read, solve_read};
@@ -30,7 +29,7 @@ struct Plan<'a> {
     /// Where all cells go together.
     meshes: Vec<MeshTarget>,
     /// Where each goes alone: names in which its number stands for `{}`.
-    patterns: Vec<(String, Format)>,
+    patterns: Vec<MeshTarget>,
     clear: Vec<(Input, InputKind)>,
     preview: Option<Target>,
     report: Option<Target>,
@@ -43,41 +42,38 @@ struct Plan<'a> {
 pub(crate) fn run(args: &CoarsenArgs) -> Result<(), CliError> {
     let begin = Instant::now();
     let plan = Plan::resolve(args)?;
-    let progress = Progress::start(args.common.quiet);
-    let product = on_threads(args.common.threads, || plan.carry_out(&progress))?;
-    drop(progress);
-    // the names of single cells are known by now
-    check_targets(plan.input.file(), product.outputs.iter().map(|(target, _)| target).chain(&plan.report))?;
-    product.write(&plan.input.name(), args.common.quiet, plan.report.as_ref(), begin)
+    produce(&args.common, &plan.input, plan.report.as_ref(), begin, |progress| plan.carry_out(progress))
 }
 
 impl<'a> Plan<'a> {
     fn resolve(args: &'a CoarsenArgs) -> Result<Self, CliError> {
         let (input, kind) = Input::resolve_any(&args.input, args.reading.input_format)?;
         args.reading.check(kind)?;
-        let (patterns, whole): (Vec<&PathBuf>, Vec<&PathBuf>) = args.outputs.iter().partition(|path| is_pattern(path));
-        let whole: Vec<PathBuf> = whole.into_iter().cloned().collect();
-        let pattern = |path: &&PathBuf| match MeshTarget::resolve_all(&[(*path).clone()], None)?.as_slice() {
-            [MeshTarget { format, .. }] => Ok((path.display().to_string(), *format)),
-            _ => Err(CliError::Usage("found no format for a pattern, expected one".to_owned())),
-        };
+        let targets = MeshTarget::resolve_all(&args.output.outputs, args.output.format)?;
+        let (patterns, meshes) = targets.into_iter().partition(|mesh| pattern_of(mesh).is_some());
         let clear = |path: &PathBuf| Input::resolve_any(path, None);
         let plan = Self {
             args,
             input,
             kind,
-            meshes: MeshTarget::resolve_all(&whole, args.format)?,
-            patterns: patterns.iter().map(pattern).collect::<Result<_, _>>()?,
+            meshes,
+            patterns,
             clear: args.limits.keep_clear.iter().map(clear).collect::<Result<_, _>>()?,
-            preview: args.preview.as_deref().map(Target::picture).transpose()?,
-            report: args.report.as_deref().map(Target::new),
+            preview: args.picture.preview.as_deref().map(Target::picture).transpose()?,
+            report: args.output.report.as_deref().map(Target::new),
         };
-        let files = || plan.clear.iter().map(|(input, _)| input).chain([&plan.input]).filter_map(Input::file);
-        for file in files().map(Some).chain([None]) {
-            let meshes = plan.meshes.iter().map(|mesh| &mesh.target);
-            check_targets(file, meshes.chain(&plan.preview).chain(&plan.report))?;
-        }
+        plan.check(&plan.meshes.iter().map(|mesh| &mesh.target).chain(&plan.preview).collect::<Vec<_>>())?;
         Ok(plan)
+    }
+
+    /// Sees that outputs and report replace none of the inputs, nor each other.
+    fn check(&self, outputs: &[&Target]) -> Result<(), CliError> {
+        let inputs = self.clear.iter().map(|(input, _)| input).chain([&self.input]);
+        // standard input is no file, and outputs must differ all the same
+        for file in inputs.map(Input::file) {
+            check_targets(file, outputs.iter().copied().chain(&self.report))?;
+        }
+        Ok(())
     }
 
     fn carry_out(&self, progress: &Progress) -> Result<Product, CliError> {
@@ -101,11 +97,11 @@ impl<'a> Plan<'a> {
             let drawing = Instant::now();
             progress.stage("drawing");
             let union = in_colors(&coarsened).map_err(|source| CliError::of_evaluation(&self.input.path, source))?;
-            let picture = render_preview(&union, &self.args.preview_size.preview(Style::Shaded))
-                .map_err(|source| CliError::Encode { output: target.to_string(), source })?;
-            outputs.push((target.clone(), picture));
+            outputs.push(draw(&union, target, &self.args.picture.options())?);
             solved.report.time_ms.preview = milliseconds(drawing.elapsed());
         }
+        // the names of single cells are known by now
+        self.check(&outputs.iter().map(|(target, _)| target).collect::<Vec<_>>())?;
         Ok(Product { solved, outputs, encoding })
     }
 
@@ -128,11 +124,8 @@ impl<'a> Plan<'a> {
     }
 
     fn coarsen(&self, solved: &Solved, points: &[DVec3], options: &CoarsenOptions) -> Result<Coarsened, CliError> {
-        let tree = match self.kind {
-            InputKind::Map => &without(&solved.model, &solved.unbounded),
-            InputKind::Json | InputKind::Csg | InputKind::Mesh(_) => &solved.model.tree,
-        };
-        let coarsened = Coarsener::new(tree, points, options).and_then(|coarsener| coarsener.coarsened());
+        let tree = bounded_tree(self.kind, solved);
+        let coarsened = Coarsener::new(&tree, points, options).and_then(|coarsener| coarsener.coarsened());
         coarsened.map_err(|source| CliError::Coarsen { path: self.input.path.clone(), source })
     }
 
@@ -163,13 +156,14 @@ impl<'a> Plan<'a> {
     }
 
     fn encode(&self, cells: &Cells) -> Result<Vec<Encoded>, CliError> {
-        let options = ExportOptions { scale: self.args.scale, convex_colliders: true };
+        let options = ExportOptions { scale: self.args.output.scale, convex_colliders: true };
         let parts = cells.parts();
         let mut outputs = encode(&parts, &self.meshes, &options)?;
-        for (pattern, format) in &self.patterns {
+        for mesh in &self.patterns {
+            let pattern = pattern_of(mesh).unwrap_or_default();
             for (number, part) in parts.iter().enumerate() {
                 let target = Target::File(PathBuf::from(pattern.replace(NUMBER, &number.to_string())));
-                outputs.extend(encode(&[Part { ..*part }], &[MeshTarget { target, format: *format }], &options)?);
+                outputs.extend(encode(&[*part], &[MeshTarget { target, format: mesh.format }], &options)?);
             }
         }
         Ok(outputs)
@@ -180,21 +174,14 @@ impl<'a> Plan<'a> {
 fn in_colors(coarsened: &Coarsened) -> Result<Mesh, EvaluateError> {
     let colored = |(number, cell): (u32, &Brush)| Tree::from(cell.clone()).with_material(MaterialId(number));
     let tree = Tree::union((0..).zip(&coarsened.cells).map(colored));
-    let material = |number| Material { color: Some(color(number)), ..Material::named(format!("{number:09}")) };
+    let material = |number| Material { color: Some(distinct_color(number)), ..Material::named(format!("{number:09}")) };
     Ok(evaluate(&Model { materials: (0..coarsened.cells.len()).map(material).collect(), tree })?.mesh)
 }
 
-/// A colour for a number, linear RGB: hues that are far apart for numbers that follow one another.
-fn color(number: usize) -> [f32; 3] {
-    const GOLDEN_RATIO: f64 = 0.618_033_988_749_895;
-    let hue = (number as f64 * GOLDEN_RATIO).fract();
-    let lightness = [0.42, 0.3, 0.52][number % 3];
-    [0.0, 2.0 / 3.0, 1.0 / 3.0].map(|offset| {
-        let ramp = (((hue + offset).fract() * 6.0 - 3.0).abs() - 1.0).clamp(0.0, 1.0);
-        (lightness + 0.42 * (ramp - 0.5)).clamp(0.02, 1.0) as f32
-    })
-}
-
-fn is_pattern(path: &Path) -> bool {
-    path.to_str().is_some_and(|name| name.contains(NUMBER))
+/// The name of a place for single cells.
+fn pattern_of(mesh: &MeshTarget) -> Option<&str> {
+    match &mesh.target {
+        Target::File(path) => path.to_str().filter(|name| name.contains(NUMBER)),
+        Target::Stdout => None,
+    }
 }

@@ -11,8 +11,7 @@ use super::args::EditArgs;
 use super::error::CliError;
 use super::input::{Input, InputKind};
 use super::output::{MeshTarget, Target, check_targets};
-use super::pool::on_threads;
-use super::product::{Product, encode};
+use super::product::{Product, encode, produce};
 use super::progress::Progress;
 use super::report::{EditPart, milliseconds};
 use super::solve::{read, solve_read, unbounded_of};
@@ -33,10 +32,7 @@ struct Plan<'a> {
 pub(crate) fn run(args: &EditArgs) -> Result<(), CliError> {
     let begin = Instant::now();
     let plan = Plan::resolve(args)?;
-    let progress = Progress::start(args.common.quiet);
-    let product = on_threads(args.common.threads, || plan.carry_out(&progress))?;
-    drop(progress);
-    product.write(&plan.input.name(), args.common.quiet, plan.report.as_ref(), begin)
+    produce(&args.common, &plan.input, plan.report.as_ref(), begin, |progress| plan.carry_out(progress))
 }
 
 impl<'a> Plan<'a> {
@@ -47,8 +43,8 @@ impl<'a> Plan<'a> {
             args,
             input,
             kind,
-            meshes: MeshTarget::resolve_all(&args.outputs, args.format)?,
-            report: args.report.as_deref().map(Target::new),
+            meshes: MeshTarget::resolve_all(&args.output.outputs, args.output.format)?,
+            report: args.output.report.as_deref().map(Target::new),
         };
         for file in [plan.input.file(), Some(args.edits.as_path())] {
             check_targets(file, plan.meshes.iter().map(|mesh| &mesh.target).chain(&plan.report))?;
@@ -100,7 +96,7 @@ impl<'a> Plan<'a> {
         });
         let begin = Instant::now();
         progress.stage("encoding");
-        let options = ExportOptions { scale: self.args.scale, ..ExportOptions::default() };
+        let options = ExportOptions { scale: self.args.output.scale, ..ExportOptions::default() };
         let outputs = encode(&[Part { name: "solid", mesh: &solved.mesh }], &self.meshes, &options)?;
         Ok(Product { solved, outputs, encoding: begin.elapsed() })
     }

@@ -1,11 +1,16 @@
-//! What `build` and `edit` make: all of it is there before the first file is written.
+//! What `build`, `edit` and `coarsen` make: all of it is there before the first file is written.
 
 use std::time::{Duration, Instant};
 
-use planecut::export::{ExportOptions, Part, encode_parts};
+use planecut::csg::Mesh;
+use planecut::export::{ExportOptions, Part, PreviewOptions, encode_parts, render_preview};
 
+use super::args::CommonArgs;
 use super::error::CliError;
+use super::input::Input;
 use super::output::{MeshTarget, Target};
+use super::pool::on_threads;
+use super::progress::Progress;
 use super::report::milliseconds;
 use super::solve::Solved;
 use super::terminal;
@@ -26,13 +31,7 @@ impl Product {
     ///
     /// # Errors
     /// [`CliError::Write`] or [`CliError::Stdout`] where the system refuses.
-    pub(crate) fn write(
-        mut self,
-        input: &str,
-        is_quiet: bool,
-        report: Option<&Target>,
-        begin: Instant,
-    ) -> Result<(), CliError> {
+    fn write(mut self, input: &str, is_quiet: bool, report: Option<&Target>, begin: Instant) -> Result<(), CliError> {
         if !is_quiet {
             terminal::print_warnings(input, &self.solved.warnings);
         }
@@ -48,6 +47,34 @@ impl Product {
             target.write(report.to_json().as_bytes())?;
         }
         Ok(())
+    }
+}
+
+/// Makes a product on as many threads as asked for, with a spinner, and writes it.
+///
+/// # Errors
+/// What `work` gives, [`CliError::Threads`], and those of writing.
+pub(crate) fn produce(
+    common: &CommonArgs,
+    input: &Input,
+    report: Option<&Target>,
+    begin: Instant,
+    work: impl FnOnce(&Progress) -> Result<Product, CliError> + Send,
+) -> Result<(), CliError> {
+    let progress = Progress::start(common.quiet);
+    let product = on_threads(common.threads, || work(&progress))?;
+    drop(progress);
+    product.write(&input.name(), common.quiet, report, begin)
+}
+
+/// Draws a mesh for a place.
+///
+/// # Errors
+/// [`CliError::Encode`].
+pub(crate) fn draw(mesh: &Mesh, target: &Target, options: &PreviewOptions) -> Result<Encoded, CliError> {
+    match render_preview(mesh, options) {
+        Ok(picture) => Ok((target.clone(), picture)),
+        Err(source) => Err(CliError::Encode { output: target.to_string(), source }),
     }
 }
 

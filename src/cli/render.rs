@@ -1,12 +1,11 @@
 //! `planecut render`: the solid of a model or a map as a picture.
 
-use planecut::export::render_preview;
-
 use super::args::RenderArgs;
 use super::error::CliError;
 use super::input::Input;
 use super::output::{Target, check_targets};
 use super::pool::on_threads;
+use super::product::draw;
 use super::progress::Progress;
 use super::solve::solve;
 use super::terminal;
@@ -21,11 +20,10 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), CliError> {
     let target = Target::picture(&args.output)?;
     check_targets(input.file(), [&target].into_iter())?;
     let progress = Progress::start(args.common.quiet);
-    let (solved, picture) = on_threads(args.common.threads, || {
+    let (solved, (target, picture)) = on_threads(args.common.threads, || {
         let solved = solve(&input, kind, &args.reading, &progress)?;
         progress.stage("drawing");
-        let picture = render_preview(&solved.mesh, &args.size.preview(args.style))
-            .map_err(|source| CliError::Encode { output: target.to_string(), source })?;
+        let picture = draw(&solved.mesh, &target, &args.size.preview(args.style))?;
         Ok((solved, picture))
     })?;
     drop(progress);

@@ -145,3 +145,15 @@ fn unusable_input_is_refused_and_nothing_written() {
     coarsen(&ball.display().to_string(), folder.path(), options).expect_error(1, "ball.json");
     assert!(!folder.path().join("a.glb").exists());
 }
+
+/// Planes that touched cells without carrying a face made the boundary of their union fail to close.
+#[test]
+fn a_gear_is_coarsened_to_any_number_of_cells() {
+    let folder = scratch();
+    let input = format!("{}/examples/gear.json", crate::support::ROOT);
+    for cells in [3, 8, 20] {
+        coarsen(&input, folder.path(), &format!("-o DIR/a.glb --max-cells {cells} --report DIR/r.json"))
+            .expect_quiet_success();
+        assert_eq!(report(folder.path())["coarsen"]["cells_out"], json!(cells));
+    }
+}

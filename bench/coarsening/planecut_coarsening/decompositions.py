@@ -1,10 +1,9 @@
 """Decompositions made coarser: the number of cells against the volume that is added."""
 
 from .bodies import read_bodies
-from .entrant import Failed, planecut
 from .greedy import greedy_merges
 from .measure import Reference, union
-from .setting import Row, Setting, check, row_of, row_of_bodies
+from .setting import Row, Setting, planecut_rows, row_of_bodies
 
 INPUTS = {
     "lego": "convex/bullet3/lego_vhacd.obj",
@@ -32,12 +31,7 @@ def measure_decompositions(setting: Setting) -> list[Row]:
         below = [cap for cap in (_CAPS_QUICK if setting.quick else _CAPS) if cap < len(bodies)]
         caps = [*below, len(bodies)]
         for cap in caps:
-            try:
-                run = planecut(setting.binary, setting.data / path, setting.scratch, "--max-cells", str(cap))
-                rows.append(row_of(name, "planecut", "", cap, run, reference))
-                check(rows[-1], setting)
-            except (Failed, ValueError) as error:
-                setting.fail(f"{name} at {cap}: {error}")
+            rows += planecut_rows(setting, name, setting.data / path, cap, reference)
         greedy = greedy_merges(bodies, set(caps))
         rows += [row_of_bodies(name, "greedy", greedy[cap], reference) for cap in caps]
     return rows

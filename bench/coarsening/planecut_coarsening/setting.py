@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from .bodies import Body
-from .entrant import Run
+from .entrant import Failed, Run, planecut
 from .measure import Measure, Reference, measure, union
 
 
@@ -61,15 +61,22 @@ def row_of(name: str, entrant: str, settings: str, asked: int, run: Run, referen
     return _told(Row(name, entrant, settings, asked, found, run.seconds, difference))
 
 
+def planecut_rows(setting: Setting, name: str, path: Path, cap: int, reference: Reference) -> list[Row]:
+    """planecut's run on a file with at most so many cells, measured and checked; nothing where it failed."""
+    try:
+        run = planecut(setting.binary, path, setting.scratch, "--max-cells", str(cap))
+        row = row_of(name, "planecut", "", cap, run, reference)
+    except (Failed, ValueError) as error:
+        setting.fail(f"{name} at {cap}: {error}")
+        return []
+    if row.measure.cells > row.asked or row.measure.cells < 1:
+        setting.fail(f"{row.input}: {row.measure.cells} cells where {row.asked} were asked for")
+    return [row]
+
+
 def row_of_bodies(name: str, entrant: str, bodies: list[Body], reference: Reference) -> Row:
     """Bodies that were made without a clock, measured."""
     return _told(Row(name, entrant, "", len(bodies), measure(bodies, reference)))
-
-
-def check(row: Row, setting: Setting) -> None:
-    """Whether planecut kept to the number of cells."""
-    if row.measure.cells > row.asked or row.measure.cells < 1:
-        setting.fail(f"{row.input}: {row.measure.cells} cells where {row.asked} were asked for")
 
 
 def _told(row: Row) -> Row:

@@ -1,9 +1,9 @@
 """One closed mesh into few hulls, by planecut, CoACD and V-HACD."""
 
 from .bodies import read_bodies
-from .entrant import Failed, library, planecut
+from .entrant import Failed, library
 from .measure import Reference
-from .setting import Row, Setting, check, row_of
+from .setting import Row, Setting, planecut_rows, row_of
 
 NAME = "SnowFlake.obj"
 _PATH = "convex/coacd/SnowFlake.obj"
@@ -23,12 +23,7 @@ def measure_whole_mesh(setting: Setting) -> list[Row]:
     reference = Reference.of(bodies[0].solid(), bodies)
     rows = []
     for count in _COUNTS_QUICK if setting.quick else _COUNTS:
-        try:
-            run = planecut(setting.binary, setting.data / _PATH, setting.scratch, "--max-cells", str(count))
-            rows.append(row_of(NAME, "planecut", "", count, run, reference))
-            check(rows[-1], setting)
-        except (Failed, ValueError) as error:
-            setting.fail(f"{NAME} at {count}: {error}")
+        rows += planecut_rows(setting, NAME, setting.data / _PATH, count, reference)
         for entrant in LIBRARIES:
             found = _all(setting, entrant, count, reference)
             rows += sorted(found, key=lambda row: row.measure.union_excess)[:1]

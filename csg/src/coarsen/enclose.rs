@@ -3,18 +3,29 @@
 use planecut_kernel::{DVec3, HalfSpace, hull};
 
 use super::CoarsenError;
-use super::part::{Part, bounds_of, holds};
-use crate::boxes::Boxes;
+use super::clear::Clear;
+use super::part::{Part, bounds_of, holds, most};
 use crate::known_planes::{KnownPlanes, compare};
 
 /// A box around points without extent is so much larger than they are, relative to their coordinates.
 const PADDING: f64 = 1.0 / (1u64 << 40) as f64;
 
+impl Part {
+    /// The body around parts, of the material of most of them.
+    ///
+    /// # Errors
+    /// [`CoarsenError::OutOfRange`] for coordinates that no plane can have.
+    pub(super) fn around(parts: &[&Self], clear: &Clear) -> Result<Self, CoarsenError> {
+        let volume = |part: &&Self| (part.material, part.volume());
+        Self::of_cell(enclose(parts, clear)?, most(parts.iter().map(volume)))
+    }
+}
+
 /// Half-spaces whose intersection holds all parts, exactly, and about is their hull; of one part, its own.
 ///
 /// Where a facet of the hull is one of a part, it is the very same plane. `clear` are regions that the hull does not reach into but
 /// for rounding: where one of their planes has all parts on its other side, this side of it is one of the half-spaces.
-pub(super) fn enclose(parts: &[&Part], clear: &[Part], clear_boxes: &Boxes) -> Result<Vec<HalfSpace>, CoarsenError> {
+pub(super) fn enclose(parts: &[&Part], clear: &Clear) -> Result<Vec<HalfSpace>, CoarsenError> {
     if let [part] = parts
         && part.points.iter().all(|point| part.polytope.contains(*point))
     {
@@ -34,10 +45,8 @@ pub(super) fn enclose(parts: &[&Part], clear: &[Part], clear_boxes: &Boxes) -> R
         }
         Err(_) => box_around(&points, parts)?,
     };
-    let mut near = Vec::new();
-    clear_boxes.touching(&bounds_of(&points), &mut near);
-    for region in near {
-        let sides = clear[region as usize].half_spaces.iter().map(HalfSpace::flipped);
+    for region in clear.near(&bounds_of(&points)) {
+        let sides = region.half_spaces.iter().map(HalfSpace::flipped);
         half_spaces.extend(sides.filter(|side| parts.iter().all(|part| part.is_within(side))).take(1));
     }
     half_spaces.sort_by(compare);

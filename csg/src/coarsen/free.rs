@@ -5,14 +5,13 @@ use std::ops::ControlFlow;
 use planecut_kernel::{DVec3, HalfSpace};
 
 use super::CoarsenError;
+use super::clear::Clear;
 use super::enclose::enclose;
 use super::hull::Hull;
 use super::merge::{Merge, Merger};
 use super::part::{Part, built};
 use super::search::Search;
 use super::subtract::for_each_left;
-use crate::boxes::Boxes;
-use crate::brush::MaterialId;
 
 /// A volume that is smaller than this part of a body's is nothing but rounding.
 const NOTHING: f64 = 1e-13;
@@ -31,7 +30,7 @@ pub(super) fn merge_freely(search: &Search) -> Result<Vec<Part>, CoarsenError> {
     let mut bodies: Vec<Option<Part>> = search.parts.iter().cloned().map(Some).collect();
     while let Some(Merge { kept, gone }) = merger.step_where(|pair, hull| adds_nothing(&bodies, pair, hull)) {
         let members = std::iter::once(&kept).chain(&gone).filter_map(|place| bodies[*place as usize].take());
-        bodies[kept as usize] = Some(merged(search, &members.collect::<Vec<_>>())?);
+        bodies[kept as usize] = Some(merged(&members.collect::<Vec<_>>())?);
     }
     Ok(bodies.into_iter().flatten().collect())
 }
@@ -51,27 +50,18 @@ fn adds_nothing(bodies: &[Option<Part>], pair: [u32; 2], hull: &Hull) -> bool {
     if !is_filled_between(a, b, &filling, TOUCHING * hull.size()) {
         return false;
     }
-    let Ok(half_spaces) = enclose(&[a, b], &[], &Boxes::default()) else { return false };
+    let Ok(half_spaces) = enclose(&[a, b], &Clear::default()) else { return false };
     is_filled(&half_spaces, &filling, NOTHING * hull.volume)
 }
 
 /// One part for some.
-fn merged(search: &Search, members: &[Part]) -> Result<Part, CoarsenError> {
-    let members: Vec<&Part> = members.iter().collect();
-    let half_spaces = enclose(&members, search.clear, &Boxes::default())?;
-    let part = Part::of_half_spaces(half_spaces, material_of(&members))?.ok_or(CoarsenError::OutOfRange)?;
+fn merged(members: &[Part]) -> Result<Part, CoarsenError> {
+    // within the solid nothing is to stay clear
+    let part = Part::around(&members.iter().collect::<Vec<_>>(), &Clear::default())?;
     let points = members.iter().flat_map(|member| &member.points).copied();
     // the hull holds them, but by what it is made of, not by what it is
     let points = points.filter(|point| !part.polytope.contains(*point)).collect();
     Ok(Part { points, ..part })
-}
-
-/// The material of the largest of some parts.
-pub(super) fn material_of(parts: &[&Part]) -> MaterialId {
-    let mut volumes: std::collections::BTreeMap<MaterialId, f64> = std::collections::BTreeMap::new();
-    parts.iter().for_each(|part| *volumes.entry(part.material).or_default() += part.volume());
-    let most = volumes.into_iter().rev().max_by(|a, b| a.1.total_cmp(&b.1));
-    most.map_or(MaterialId(0), |(material, _)| material)
 }
 
 /// Whether parts seem to hold what lies half way between corners of two of them.
@@ -90,10 +80,9 @@ fn is_filled_between(a: &Part, b: &Part, parts: &[&Part], margin: f64) -> bool {
 
 /// Whether parts fill a body, but for a volume that is nothing. Where that takes too long to find out, they do not.
 fn is_filled(half_spaces: &[HalfSpace], parts: &[&Part], nothing: f64) -> bool {
-    let others: Vec<_> = parts.iter().map(|part| part.as_other()).collect();
     let (mut outside, mut pieces) = (0.0, 0);
     let body = built(half_spaces.iter().copied());
-    let filled = for_each_left(&body, &others, |piece| {
+    let filled = for_each_left(&body, parts, |piece| {
         outside += piece.measures().map_or(f64::INFINITY, |measures| measures.volume);
         pieces += 1;
         if outside <= nothing && pieces <= MOST_PIECES { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }

@@ -77,16 +77,12 @@ impl Hull {
         (self.bounds.max - self.bounds.min).length()
     }
 
-    /// Whether points lie within it, or outside by no more than rounding.
-    pub(super) fn holds(&self, points: &[DVec3]) -> bool {
+    /// Whether points in a box lie within it, or outside by no more than rounding.
+    pub(super) fn holds(&self, bounds: &Bounds, points: &[DVec3]) -> bool {
         let margin = TOUCHING * self.size();
-        points.iter().all(|point| self.planes.iter().all(|(normal, offset)| normal.dot(*point) <= offset + margin))
-    }
-
-    /// Whether a part's points lie within it, or outside by no more than rounding.
-    pub(super) fn holds_box_and(&self, bounds: &Bounds, points: &[DVec3]) -> bool {
-        let margin = DVec3::splat(TOUCHING * self.size());
         let fits = bounds.min.cmpge(self.bounds.min - margin).all() && bounds.max.cmple(self.bounds.max + margin).all();
-        fits && self.holds(points)
+        let is_within =
+            |point: &DVec3| self.planes.iter().all(|(normal, offset)| normal.dot(*point) <= offset + margin);
+        fits && points.iter().all(is_within)
     }
 }

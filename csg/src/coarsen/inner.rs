@@ -4,7 +4,6 @@ use planecut_kernel::{HalfSpace, IncrementalPolytope};
 use rayon::prelude::*;
 
 use super::part::{Part, built};
-use super::shrink::Body;
 use super::subtract::subtract;
 use super::{CoarsenError, CoarsenOptions};
 use crate::boxes::Boxes;
@@ -43,10 +42,7 @@ fn grown_part(part: &Part, parts: &[Part], boxes: &Boxes, options: &CoarsenOptio
         boxes.touching(&grown.bounds, &mut near);
         let fits = |place: &&u32| !options.by_material || parts[**place as usize].material == part.material;
         let neighbours: Vec<&Part> = near.iter().filter(fits).map(|place| &parts[*place as usize]).collect();
-        let is_inside = |wider: &Part| {
-            let others: Vec<_> = neighbours.iter().map(|other| other.as_other()).collect();
-            subtract(&wider.polytope, &others).is_empty()
-        };
+        let is_inside = |wider: &Part| subtract(&wider.polytope, &neighbours).is_empty();
         let beyond = |facet: &HalfSpace, other: &Part| -> Result<Option<Part>, CoarsenError> {
             if !other.is_within(&facet.flipped()) {
                 return Ok(None);
@@ -71,10 +67,10 @@ fn grown_part(part: &Part, parts: &[Part], boxes: &Boxes, options: &CoarsenOptio
 }
 
 /// The bodies, at most so many, that hold most of the solid together: always the one that adds most.
-pub(super) fn chosen(bodies: &[Part], count: usize) -> Result<Vec<Body>, CoarsenError> {
+pub(super) fn chosen(bodies: &[Part], count: usize) -> Vec<Part> {
     let mut chosen: Vec<usize> = Vec::new();
     // what a body adds never becomes more
-    let mut at_most: Vec<f64> = bodies.iter().map(|body| body.volume()).collect();
+    let mut at_most: Vec<f64> = bodies.iter().map(Part::volume).collect();
     while chosen.len() < count.min(bodies.len()) {
         let mut known = vec![false; bodies.len()];
         let best = loop {
@@ -86,7 +82,7 @@ pub(super) fn chosen(bodies: &[Part], count: usize) -> Result<Vec<Body>, Coarsen
             known[best] = true;
             let own = &bodies[best];
             let near = chosen.iter().map(|place| &bodies[*place]).filter(|other| other.bounds.touches(&own.bounds));
-            let left = subtract(&own.polytope, &near.map(Part::as_other).collect::<Vec<_>>());
+            let left = subtract(&own.polytope, &near.collect::<Vec<_>>());
             at_most[best] = left.iter().filter_map(IncrementalPolytope::measures).map(|measures| measures.volume).sum();
         };
         match best.filter(|best| at_most[*best] > 0.0) {
@@ -94,5 +90,5 @@ pub(super) fn chosen(bodies: &[Part], count: usize) -> Result<Vec<Body>, Coarsen
             None => break,
         }
     }
-    chosen.into_iter().map(|place| Body::new(bodies[place].half_spaces.clone(), bodies[place].material)).collect()
+    chosen.into_iter().map(|place| bodies[place].clone()).collect()
 }

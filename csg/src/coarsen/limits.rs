@@ -3,12 +3,10 @@
 use planecut_kernel::{DVec3, HalfSpace, IncrementalPolytope, PlaneIdx};
 use rustc_hash::FxHashMap;
 
+use super::clear::Clear;
 use super::enclose::enclose;
-use super::part::{Part, bounds_of, built};
-use super::shrink::Body;
-use super::subtract::shares_interior;
+use super::part::{Part, built};
 use super::{CoarsenError, CoarsenOptions};
-use crate::boxes::Boxes;
 
 /// Vertices that are nearer to each other than this part of a cell's size count as one.
 const ONE: f64 = 1.0 / (1u64 << 32) as f64;
@@ -18,8 +16,7 @@ const MOST_EDGES: usize = 300;
 /// What every cell must fulfil.
 pub(super) struct Limits<'a> {
     pub(super) options: &'a CoarsenOptions,
-    pub(super) clear: &'a [Part],
-    pub(super) clear_boxes: &'a Boxes,
+    pub(super) clear: &'a Clear,
 }
 
 impl Limits<'_> {
@@ -27,7 +24,7 @@ impl Limits<'_> {
     ///
     /// # Errors
     /// [`CoarsenError::Blocked`] where what is kept clear does not allow that.
-    pub(super) fn fulfil(&self, body: Body) -> Result<Body, CoarsenError> {
+    pub(super) fn fulfil(&self, body: Part) -> Result<Part, CoarsenError> {
         let body = match self.options.min_thickness {
             Some(least) => self.thickened(body, least)?,
             None => body,
@@ -36,14 +33,13 @@ impl Limits<'_> {
     }
 
     /// The body of fewest faces and vertices that is left when planes are taken out, always the one that adds least.
-    fn reduced(&self, body: Body) -> Result<Body, CoarsenError> {
+    fn reduced(&self, body: Part) -> Result<Part, CoarsenError> {
         let most_faces = self.options.max_faces.unwrap_or(usize::MAX);
         let most_vertices = self.options.max_vertices.unwrap_or(usize::MAX);
         if most_faces == usize::MAX && most_vertices == usize::MAX {
             return Ok(body);
         }
-        let size = (body.bounds.max - body.bounds.min).length();
-        let mut polytope = IncrementalPolytope::with_epsilon(ONE * size);
+        let mut polytope = IncrementalPolytope::with_epsilon(ONE * body.size());
         for half_space in &body.half_spaces {
             polytope.add_plane(*half_space);
         }
@@ -65,7 +61,7 @@ impl Limits<'_> {
             let without = |(_, plane): (f64, PlaneIdx)| {
                 let mut wider = polytope.clone();
                 wider.remove_plane(plane);
-                (wider.is_bounded() && self.is_clear(&wider)).then_some(wider)
+                (wider.is_bounded() && self.clear.allows(&wider)).then_some(wider)
             };
             polytope = order.into_iter().find_map(without).ok_or(CoarsenError::Blocked { faces, vertices })?;
             is_changed = true;
@@ -73,23 +69,13 @@ impl Limits<'_> {
         if !is_changed {
             return Ok(body);
         }
-        let half_spaces = polytope.facets().iter().filter_map(|(plane, _)| polytope.plane(*plane).copied()).collect();
-        Body::new(half_spaces, body.material)
-    }
-
-    /// Whether a body keeps out of what is to stay clear, exactly.
-    fn is_clear(&self, body: &IncrementalPolytope) -> bool {
-        if self.clear.is_empty() {
-            return true;
-        }
-        let mut near = Vec::new();
-        self.clear_boxes.touching(&bounds_of(&body.to_mesh().0), &mut near);
-        near.iter().all(|region| !shares_interior(body, &self.clear[*region as usize].half_spaces))
+        let facets = polytope.facets();
+        Part::of_cell(facets.iter().filter_map(|(plane, _)| polytope.plane(*plane).copied()), body.material)
     }
 
     /// The cell swept along the direction in which it is thinnest, until it is nowhere thinner than `least`; on one side alone where the other
     /// is kept clear, and as it is where both are.
-    fn thickened(&self, mut body: Body, least: f64) -> Result<Body, CoarsenError> {
+    fn thickened(&self, mut body: Part, least: f64) -> Result<Part, CoarsenError> {
         // a needle is thin in two directions
         for _ in 0..3 {
             let (direction, width) = thinnest(&body);
@@ -97,12 +83,10 @@ impl Limits<'_> {
             if lacking <= 1e-9 * least {
                 break;
             }
-            let sweeps = [(0.5, 0.5), (1.0, 0.0), (0.0, 1.0)];
             let mut swept = None;
-            for (forth, back) in sweeps {
+            for (forth, back) in [(0.5, 0.5), (1.0, 0.0), (0.0, 1.0)] {
                 let wider = self.swept(&body, direction * lacking * forth, direction * lacking * back)?;
-                let polytope = built(wider.half_spaces.iter().copied());
-                if self.is_clear(&polytope) {
+                if self.clear.allows(&wider.polytope) {
                     swept = Some(wider);
                     break;
                 }
@@ -115,12 +99,9 @@ impl Limits<'_> {
         Ok(body)
     }
 
-    fn swept(&self, body: &Body, forth: DVec3, back: DVec3) -> Result<Body, CoarsenError> {
-        let part =
-            Part::of_half_spaces(body.half_spaces.iter().copied(), body.material)?.ok_or(CoarsenError::OutOfRange)?;
+    fn swept(&self, body: &Part, forth: DVec3, back: DVec3) -> Result<Part, CoarsenError> {
         let points = body.corners.iter().flat_map(|corner| [*corner + forth, *corner - back]).collect();
-        let half_spaces = enclose(&[&Part { points, ..part }], self.clear, self.clear_boxes)?;
-        Body::new(half_spaces, body.material)
+        Part::of_cell(enclose(&[&Part { points, ..body.clone() }], self.clear)?, body.material)
     }
 }
 
@@ -145,9 +126,8 @@ impl Removal {
 /// The direction in which a body is thinnest, and its width there.
 ///
 /// The least width is found across a face, or across two edges that are not parallel (Houle, Toussaint 1988).
-fn thinnest(body: &Body) -> (DVec3, f64) {
-    let polytope = built(body.half_spaces.iter().copied());
-    let (corners, polygons) = polytope.to_mesh();
+fn thinnest(body: &Part) -> (DVec3, f64) {
+    let (corners, polygons) = body.polytope.to_mesh();
     let mut directions: Vec<DVec3> = body.half_spaces.iter().map(|plane| unit(plane.normal())).collect();
     let edges =
         polygons.iter().flat_map(|polygon| (0..polygon.len()).map(|k| (polygon[k], polygon[(k + 1) % polygon.len()])));

@@ -129,7 +129,7 @@ impl<'a> Merger<'a> {
         gone.extend((0..self.groups.len() as u32).filter(|place| ![kept, other].contains(place)).filter(|place| {
             let within = |group: &Group| {
                 self.search.may_join(group.parts[0], self.first_part(kept))
-                    && hull.holds_box_and(&group.hull.bounds, &group.hull.corners)
+                    && hull.holds(&group.hull.bounds, &group.hull.corners)
             };
             self.groups[*place as usize].as_ref().is_some_and(within)
         }));

@@ -4,13 +4,14 @@
 //! What a grouping costs is the volume of the *union* of its cells beyond the solid, not the sum of what single merges add.
 //!
 //! - `part`: a convex part; `hull`, `probes`: hulls in floating point, and the points that say how much they add; `search`: what every
-//!   group must fulfil.
+//!   group must fulfil; `clear`: where nothing may grow.
 //! - `free` merges what adds nothing, `merge` what adds least; `relocate` and `regroup` better the groups.
 //! - `enclose` makes exact bodies of them, `shrink` draws these in where they overlap, with `subtract`; `limits` sees to engines' caps.
 //! - `inner`: cells within the solid.
 //!
 //! Floating point proposes; that the cells enclose the solid is decided by exact signs.
 
+mod clear;
 mod enclose;
 mod free;
 mod hull;
@@ -26,23 +27,25 @@ mod search;
 mod shrink;
 mod subtract;
 
-use planecut_kernel::{DVec3, HalfSpace};
+use planecut_kernel::DVec3;
 
 pub use options::{CoarsenError, CoarsenOptions, LEAST_MAX_FACES, LEAST_MAX_VERTICES, Side};
 
+use crate::bounds::Bounds;
 use crate::boxes::Boxes;
-use crate::brush::{Brush, Material, MaterialId, Model};
-use crate::evaluate::evaluate;
-use crate::solid::{Cell, Solid};
-use crate::tree::{Operation, Tree, TreeNode};
+use crate::brush::{Brush, BrushFace};
+use crate::evaluate::evaluate_shape;
+use crate::solid::{Cell, CellPlane, Solid};
+use crate::tree::Tree;
+use clear::Clear;
 use limits::Limits;
 use merge::{Merge, Merger};
-use part::Part;
+use part::{Part, boxes_of};
 use probes::Probes;
 use regroup::regroup;
 use relocate::{Clock, relocate};
-use search::{Group, Hulls, Search};
-use shrink::{Body, Shrinking};
+use search::{Group, Hulls, MOST_PAIRS, Search};
+use shrink::Shrinking;
 
 /// Fewest and most probes, and how many for each part.
 const PROBES: (usize, usize, usize) = (1 << 14, 1 << 17, 64);
@@ -95,14 +98,11 @@ pub struct Coarsener {
     /// After merges that add nothing.
     free: Vec<Part>,
     free_boxes: Boxes,
-    clear: Vec<Part>,
-    clear_boxes: Boxes,
+    clear: Clear,
     probes: Probes,
     hulls: Hulls,
-    /// All merges of the free parts, one after another, until nothing can be merged.
-    merges: Vec<Merge>,
-    /// The volume added after each merge, as far as probes tell.
-    added: Vec<f64>,
+    /// All merges of the free parts, one after another, until nothing can be merged, and the volume added after each, as far as probes tell.
+    merges: Vec<(Merge, f64)>,
     volume: f64,
 }
 
@@ -142,11 +142,12 @@ impl Coarsener {
             return Err(CoarsenError::Empty);
         }
         give_points(&mut parts, points);
-        let volume = union_volume(parts.iter().map(brush_of))?;
-        let clear = clear_parts(options, &parts)?;
+        let volume = union_volume(parts.iter().map(Part::brush))?;
+        let boxes = boxes_of(&parts);
+        let regions = options.keep_clear.as_ref().map_or(Ok(Vec::new()), parts_of)?;
+        let clear = Clear::around(&parts, &boxes, &regions)?;
         let (least, most, each) = PROBES;
         let probes = Probes::around(&parts, (each * parts.len()).clamp(least, most));
-        let boxes = Boxes::new(parts.iter().map(|part| part.bounds).collect());
         let free = match options.side {
             Side::Outer => {
                 let hulls = Hulls::of(&parts, &probes);
@@ -154,21 +155,9 @@ impl Coarsener {
             }
             Side::Inner => inner::grown(&parts, &boxes, options)?,
         };
-        let (free_boxes, clear_boxes) = (boxes_of(&free), boxes_of(&clear));
-        let (options, hulls) = (options.clone(), Hulls::of(&free, &probes));
-        let mut coarsener = Self {
-            options,
-            parts,
-            free,
-            free_boxes,
-            clear,
-            clear_boxes,
-            probes,
-            hulls,
-            merges: Vec::new(),
-            added: Vec::new(),
-            volume,
-        };
+        let (free_boxes, hulls) = (boxes_of(&free), Hulls::of(&free, &probes));
+        let options = options.clone();
+        let mut coarsener = Self { options, parts, free, free_boxes, clear, probes, hulls, merges: Vec::new(), volume };
         coarsener.descend();
         Ok(coarsener)
     }
@@ -203,11 +192,11 @@ impl Coarsener {
     /// As [`Coarsener::coarsened`].
     pub fn to_cells(&self, count: usize) -> Result<Coarsened, CoarsenError> {
         if count >= self.parts.len() {
-            return self.finished(self.parts.iter().map(body_of).collect::<Result<_, _>>()?, 0);
+            return self.finished(self.parts.iter().map(held_exactly).collect::<Result<_, _>>()?, 0);
         }
         let exact_merges = self.parts.len() - self.free.len();
         if self.options.side == Side::Inner {
-            return self.finished(inner::chosen(&self.free, count)?, exact_merges);
+            return self.finished(inner::chosen(&self.free, count), exact_merges);
         }
         let search = Search::new(&self.free, &self.hulls, &self.probes, &self.clear, &self.options);
         let mut groups = self.groups_at(&search, count);
@@ -219,7 +208,6 @@ impl Coarsener {
             parts: &self.free,
             boxes: &self.free_boxes,
             clear: &self.clear,
-            clear_boxes: &self.clear_boxes,
             by_material: self.options.by_material,
         };
         if groups.len() < self.free.len() {
@@ -264,8 +252,8 @@ impl Coarsener {
 
     /// How many cells there may be where greedy merging adds so much.
     fn guess(&self, excess: f64) -> usize {
-        let within = self.added.partition_point(|added| *added <= excess * self.volume);
-        let gone: usize = self.merges[..within].iter().map(|merge| merge.gone.len()).sum();
+        let within = self.merges.partition_point(|(_, added)| *added <= excess * self.volume);
+        let gone: usize = self.merges[..within].iter().map(|(merge, _)| merge.gone.len()).sum();
         self.free.len() - gone
     }
 
@@ -277,22 +265,21 @@ impl Coarsener {
         let search = Search::new(&self.free, &self.hulls, &self.probes, &self.clear, &self.options);
         let groups = (0..self.free.len() as u32).map(|part| search.single(part)).collect();
         let mut merger = Merger::new(&search, groups, vec![0; self.probes.words()]);
-        let (mut merges, mut added) = (Vec::new(), Vec::new());
-        let pairs: Vec<([u32; 2], hull::Hull)> = merger.hulls().collect();
+        let mut merges = Vec::new();
+        let pairs = merger.hulls().take(MOST_PAIRS).collect();
         while merger.count() > 1 {
             let Some(merge) = merger.step() else { break };
-            merges.push(merge);
-            added.push(merger.added());
+            merges.push((merge, merger.added()));
         }
-        (self.merges, self.added) = (merges, added);
-        self.hulls.keep(pairs.into_iter());
+        self.merges = merges;
+        self.hulls.keep(pairs);
     }
 
     /// The groups of greedy merging when there are no more than so many.
     fn groups_at(&self, search: &Search, count: usize) -> Vec<Group> {
         let mut members: Vec<Vec<u32>> = (0..self.free.len() as u32).map(|part| vec![part]).collect();
         let mut left = members.len();
-        for Merge { kept, gone } in &self.merges {
+        for (Merge { kept, gone }, _) in &self.merges {
             if left <= count {
                 break;
             }
@@ -305,24 +292,23 @@ impl Coarsener {
         members.into_iter().filter(|parts| !parts.is_empty()).map(|parts| search.group(parts)).collect()
     }
 
-    fn body_around(&self, group: &Group) -> Result<Body, CoarsenError> {
+    fn body_around(&self, group: &Group) -> Result<Part, CoarsenError> {
         let parts: Vec<&Part> = group.parts.iter().map(|part| &self.free[*part as usize]).collect();
-        let half_spaces = enclose::enclose(&parts, &self.clear, &self.clear_boxes)?;
-        Body::new(half_spaces, free::material_of(&parts))
+        Part::around(&parts, &self.clear)
     }
 
     /// The result of cells.
-    fn finished(&self, bodies: Vec<Body>, exact_merges: usize) -> Result<Coarsened, CoarsenError> {
-        let limits = Limits { options: &self.options, clear: &self.clear, clear_boxes: &self.clear_boxes };
-        let bodies = bodies.into_iter().map(|body| limits.fulfil(body)).collect::<Result<Vec<Body>, _>>()?;
-        let cells: Vec<Brush> = bodies.iter().map(Body::brush).collect();
+    fn finished(&self, bodies: Vec<Part>, exact_merges: usize) -> Result<Coarsened, CoarsenError> {
+        let limits = Limits { options: &self.options, clear: &self.clear };
+        let bodies = bodies.into_iter().map(|body| limits.fulfil(body)).collect::<Result<Vec<Part>, _>>()?;
+        let cells: Vec<Brush> = bodies.iter().map(Part::brush).collect();
         Ok(Coarsened {
             cells_in: self.parts.len(),
             exact_merges,
             volume_in: self.volume,
             volume_out: union_volume(cells.iter().cloned())?,
             volume_sum_in: self.parts.iter().map(Part::volume).sum(),
-            volume_sum_out: bodies.iter().map(|body| body.volume).sum(),
+            volume_sum_out: bodies.iter().map(Part::volume).sum(),
             cells,
         })
     }
@@ -337,7 +323,7 @@ fn better(search: &Search, groups: &mut [Group]) {
     for _ in 0..rounds {
         relocate(search, groups, &mut clock, rounds);
         let now = clock.now();
-        let is_new = regroup(search, groups, &mut clock, 2, regrouped);
+        let is_new = regroup(search, groups, &mut clock, regrouped);
         regrouped = now;
         if !is_new {
             break;
@@ -347,13 +333,7 @@ fn better(search: &Search, groups: &mut [Group]) {
 
 /// The convex parts of a tree's solid: the brushes of a union, else disjoint cells.
 fn parts_of(tree: &Tree) -> Result<Vec<Part>, CoarsenError> {
-    let is_union = tree.nodes().iter().all(|node| match node {
-        TreeNode::Leaf => true,
-        TreeNode::Operation { operation, operands } => {
-            *operation == Operation::Union || *operands == 1 && *operation != Operation::Complement
-        }
-    });
-    if is_union {
+    if tree.is_union() {
         return tree.brushes().iter().filter_map(|brush| Part::of_brush(brush).transpose()).collect();
     }
     let solid = Solid::from_tree(tree);
@@ -361,24 +341,14 @@ fn parts_of(tree: &Tree) -> Result<Vec<Part>, CoarsenError> {
 }
 
 fn brush_of_cell(solid: &Solid, cell: &Cell) -> Brush {
-    let face = |plane: &crate::solid::CellPlane| crate::brush::BrushFace {
-        half_space: *solid.table().half_space(plane.plane),
-        material: plane.material,
-    };
+    let face =
+        |plane: &CellPlane| BrushFace { half_space: *solid.table().half_space(plane.plane), material: plane.material };
     Brush { faces: cell.planes().map(|(_, plane)| face(plane)).collect(), ..Brush::default() }
 }
 
-fn brush_of(part: &Part) -> Brush {
-    Brush::from_half_spaces(part.half_spaces.iter().copied(), MaterialId(0))
-}
-
-fn body_of(part: &Part) -> Result<Body, CoarsenError> {
-    let half_spaces: Vec<HalfSpace> = enclose::enclose(&[part], &[], &Boxes::default())?;
-    Body::new(half_spaces, part.material)
-}
-
-fn boxes_of(parts: &[Part]) -> Boxes {
-    Boxes::new(parts.iter().map(|part| part.bounds).collect())
+/// The part, loosened as far as its points ask for it.
+fn held_exactly(part: &Part) -> Result<Part, CoarsenError> {
+    Part::around(&[part], &Clear::default())
 }
 
 /// Gives each point that no part holds exactly to the nearest one, as far as it is near.
@@ -389,7 +359,7 @@ fn give_points(parts: &mut [Part], points: &[DVec3]) {
     let boxes = boxes_of(parts);
     let mut near = Vec::new();
     for point in points {
-        let around = crate::bounds::Bounds { min: *point - margin, max: *point + margin };
+        let around = Bounds { min: *point - margin, max: *point + margin };
         boxes.touching(&around, &mut near);
         if near.iter().any(|part| parts[*part as usize].polytope.contains(*point)) {
             continue;
@@ -405,25 +375,7 @@ fn give_points(parts: &mut [Part], points: &[DVec3]) {
     }
 }
 
-/// What no cell may grow into, without what the solid fills already.
-fn clear_parts(options: &CoarsenOptions, parts: &[Part]) -> Result<Vec<Part>, CoarsenError> {
-    let Some(tree) = &options.keep_clear else { return Ok(Vec::new()) };
-    let boxes = boxes_of(parts);
-    let mut clear = Vec::new();
-    for region in parts_of(tree)? {
-        let mut near = Vec::new();
-        boxes.touching(&region.bounds, &mut near);
-        let others: Vec<_> = near.iter().map(|part| parts[*part as usize].as_other()).collect();
-        for piece in subtract::subtract(&region.polytope, &others) {
-            clear.extend(Part::of_polytope(piece, region.material)?);
-        }
-    }
-    Ok(clear)
-}
-
 /// The volume of the union of bodies.
 fn union_volume(bodies: impl Iterator<Item = Brush>) -> Result<f64, CoarsenError> {
-    let materials = vec![Material::named("any")];
-    let tree = Tree::union_of(bodies.collect()).with_material(MaterialId(0));
-    Ok(evaluate(&Model { materials, tree })?.solid.volume)
+    Ok(evaluate_shape(Tree::union_of(bodies.collect()))?.solid.volume)
 }

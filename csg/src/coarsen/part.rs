@@ -1,10 +1,13 @@
 //! The convex bodies that are to become fewer.
 
+use std::collections::BTreeMap;
+
 use planecut_kernel::{AddPlaneResult, DVec3, HalfSpace, IncrementalPolytope};
 
 use super::CoarsenError;
 use crate::bounds::Bounds;
-use crate::brush::{Brush, BrushFace, MaterialId};
+use crate::boxes::Boxes;
+use crate::brush::{Brush, MaterialId};
 
 /// Room for the rounding of a corner's coordinates and of its distance from a plane, relative to the terms of the latter.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
@@ -56,9 +59,22 @@ impl Part {
         Ok(Some(Self { polytope, half_spaces, corners, points: Vec::new(), material, bounds }))
     }
 
-    /// What [`super::subtract`] takes away.
-    pub(super) fn as_other(&self) -> (&[HalfSpace], &Bounds) {
-        (&self.half_spaces, &self.bounds)
+    /// The body of half-spaces that is sure to have interior.
+    pub(super) fn of_cell(
+        half_spaces: impl IntoIterator<Item = HalfSpace>,
+        material: MaterialId,
+    ) -> Result<Self, CoarsenError> {
+        Self::of_half_spaces(half_spaces, material)?.ok_or(CoarsenError::OutOfRange)
+    }
+
+    /// The same body as a brush.
+    pub(super) fn brush(&self) -> Brush {
+        Brush::from_half_spaces(self.half_spaces.iter().copied(), self.material)
+    }
+
+    /// The length of the diagonal of its box.
+    pub(super) fn size(&self) -> f64 {
+        (self.bounds.max - self.bounds.min).length()
     }
 
     pub(super) fn volume(&self) -> f64 {
@@ -94,9 +110,7 @@ pub(super) fn holds(half_space: &HalfSpace, point: DVec3) -> bool {
     if distance.abs() > ROUNDING * magnitude {
         return distance < 0.0;
     }
-    let mut half = IncrementalPolytope::with_epsilon(0.0);
-    half.add_plane(*half_space);
-    half.contains(point)
+    built([*half_space]).contains(point)
 }
 
 /// The polytope of half-spaces, with nothing contracted.
@@ -106,6 +120,11 @@ pub(super) fn built(half_spaces: impl IntoIterator<Item = HalfSpace>) -> Increme
         polytope.add_plane(half_space);
     }
     polytope
+}
+
+/// The boxes of parts.
+pub(super) fn boxes_of(parts: &[Part]) -> Boxes {
+    Boxes::new(parts.iter().map(|part| part.bounds).collect())
 }
 
 /// The box around points.
@@ -119,10 +138,14 @@ fn material_of(part: &Part, brush: &Brush) -> MaterialId {
     if brush.faces.iter().all(|face| face.material == first) {
         return first;
     }
-    let mut areas: std::collections::BTreeMap<MaterialId, f64> = std::collections::BTreeMap::new();
-    for ((plane, _), BrushFace { material, .. }) in part.polytope.planes().zip(&brush.faces) {
-        *areas.entry(*material).or_default() += part.polytope.face_area(plane).unwrap_or(0.0);
-    }
-    let most = areas.into_iter().rev().max_by(|a, b| a.1.total_cmp(&b.1));
-    most.map_or(first, |(material, _)| material)
+    let faces = part.polytope.planes().zip(&brush.faces);
+    most(faces.map(|((plane, _), face)| (face.material, part.polytope.face_area(plane).unwrap_or(0.0))))
+}
+
+/// The material with the greatest sum; of several the one with the lowest number.
+pub(super) fn most(shares: impl Iterator<Item = (MaterialId, f64)>) -> MaterialId {
+    let mut sums: BTreeMap<MaterialId, f64> = BTreeMap::new();
+    shares.for_each(|(material, share)| *sums.entry(material).or_default() += share);
+    let most = sums.into_iter().rev().max_by(|a, b| a.1.total_cmp(&b.1));
+    most.map_or(MaterialId(0), |(material, _)| material)
 }

@@ -6,9 +6,8 @@ use planecut_kernel::{DVec3, HalfSpace};
 use rayon::prelude::*;
 
 use super::hull::Hull;
-use super::part::Part;
+use super::part::{Part, bounds_of, boxes_of};
 use crate::bounds::Bounds;
-use crate::boxes::Boxes;
 use crate::locality::curve_number;
 
 /// Probes in a word of a set.
@@ -41,7 +40,7 @@ impl Probes {
         let points: Vec<DVec3> = parts.iter().flat_map(Part::all_points).collect();
         let hull = Hull::of(&points, &Self::default());
         let size = hull.bounds.max - hull.bounds.min;
-        let boxes = Boxes::new(parts.iter().map(|part| part.bounds).collect());
+        let boxes = boxes_of(parts);
         let solids: Vec<Vec<(DVec3, f64)>> = parts.par_iter().map(|part| unit_planes(&part.half_spaces)).collect();
         let drawn = DRAWN * wanted;
         let step = DVec3::new(1.0 / ROOT, 1.0 / (ROOT * ROOT), 1.0 / (ROOT * ROOT * ROOT));
@@ -81,8 +80,8 @@ impl Probes {
 
     fn of_points(mut points: Vec<DVec3>, unit: f64) -> Self {
         points.truncate(points.len() / WORD * WORD);
-        let origin = super::part::bounds_of(&points).center();
-        let words: Vec<Bounds> = points.chunks(WORD).map(super::part::bounds_of).collect();
+        let origin = bounds_of(&points).center();
+        let words: Vec<Bounds> = points.chunks(WORD).map(bounds_of).collect();
         let blocks =
             words.chunks(BLOCK).map(|words| words.iter().fold(Bounds::EMPTY, |all, one| all.union(one))).collect();
         let axis = |word: &[DVec3], axis: usize| std::array::from_fn(|k| (word[k] - origin)[axis] as f32);
@@ -146,6 +145,17 @@ pub(super) fn add(set: &mut [u64], coverage: &Coverage) {
 /// How many probes a set lacks.
 pub(super) fn count_fresh(set: &[u64], coverage: &Coverage) -> u32 {
     coverage.iter().map(|(word, bits)| (bits & !set[*word as usize]).count_ones()).sum()
+}
+
+/// The probes that are in any of some sets, and those that are in more than one.
+pub(super) fn once_and_twice<'a>(words: usize, sets: impl Iterator<Item = &'a Coverage>) -> (Vec<u64>, Vec<u64>) {
+    let (mut once, mut twice) = (vec![0_u64; words], vec![0_u64; words]);
+    for (word, bits) in sets.flatten() {
+        let word = *word as usize;
+        twice[word] |= once[word] & bits;
+        once[word] |= bits;
+    }
+    (once, twice)
 }
 
 /// The planes that cross a box; false where one of them has all of the box outside.

@@ -1,6 +1,6 @@
 //! Better groups, a few at a time: their parts are merged anew, with what the other groups cover known.
 //!
-//! Greedy merging knows nothing of what comes later; parts of two or three groups that are merged again while all others stay
+//! Greedy merging knows nothing of what comes later; parts of two groups that are merged again while all others stay
 //! often find better company ("ruin and recreate": Schrimpf, Schneider, Stamm-Wilbrandt, Dueck 2000).
 
 use rayon::prelude::*;
@@ -14,33 +14,32 @@ use super::search::{Group, Search};
 const NEAREST: usize = 6;
 /// Most parts that are merged anew at once.
 const MOST_PARTS: usize = 100;
-/// Most parts of all sets in one round: those whose hulls are emptiest go first.
+/// Most parts of all pairs in one round: those whose hulls are emptiest go first.
 const MOST_WORK: usize = 1500;
 
-/// Merges sets of `size` neighbouring groups anew as long as that pays, those that hold a group which changed since `since`; tells whether any was
-/// replaced.
-pub(super) fn regroup(search: &Search, groups: &mut [Group], clock: &mut Clock, size: usize, since: u64) -> bool {
-    let mut sets = sets_of_neighbours(groups, size);
-    sets.retain(|set| set.iter().any(|group| clock.is_changed(*group, since)));
-    limit_work(search, groups, &mut sets);
+/// Merges pairs of neighbouring groups anew where that pays, those of which one changed after `since`; tells whether any was replaced.
+pub(super) fn regroup(search: &Search, groups: &mut [Group], clock: &mut Clock, since: u64) -> bool {
+    let mut pairs = neighbours(groups);
+    pairs.retain(|pair| pair.iter().any(|group| clock.is_changed(*group, since)));
+    limit_work(search, groups, &mut pairs);
     let view: &[Group] = groups;
-    let mut found: Vec<(f64, usize, Vec<Group>)> = sets
+    let mut found: Vec<(f64, usize, Vec<Group>)> = pairs
         .par_iter()
         .enumerate()
-        .filter_map(|(number, set)| {
-            let (gain, new) = try_set(search, view, set)?;
+        .filter_map(|(number, pair)| {
+            let (gain, new) = try_pair(search, view, pair)?;
             Some((gain, number, new))
         })
         .collect();
     found.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
     let mut applied: Vec<usize> = Vec::new();
     for (_, number, new) in found {
-        let set = &sets[number];
+        let pair = &pairs[number];
         let touches = |a: &usize, b: &usize| groups[*a].hull.bounds.touches(&groups[*b].hull.bounds);
-        if set.iter().any(|group| applied.iter().any(|done| done == group || touches(done, group))) {
+        if pair.iter().any(|group| applied.iter().any(|done| done == group || touches(done, group))) {
             continue;
         }
-        for (place, group) in set.iter().zip(new) {
+        for (place, group) in pair.iter().zip(new) {
             groups[*place] = group;
             clock.touch(*place);
             applied.push(*place);
@@ -49,11 +48,11 @@ pub(super) fn regroup(search: &Search, groups: &mut [Group], clock: &mut Clock, 
     !applied.is_empty()
 }
 
-/// Leaves so many sets as can be looked at in reasonable time, in their order: those where there is most to gain.
-fn limit_work(search: &Search, groups: &[Group], sets: &mut Vec<Vec<usize>>) {
-    let parts = |set: &[usize]| set.iter().map(|group| groups[*group].parts.len()).sum::<usize>();
-    sets.retain(|set| (set.len() + 1..=MOST_PARTS).contains(&parts(set)));
-    if sets.iter().map(|set| parts(set)).sum::<usize>() <= MOST_WORK {
+/// Leaves so many pairs as can be looked at in reasonable time, in their order: those where there is most to gain.
+fn limit_work(search: &Search, groups: &[Group], pairs: &mut Vec<[usize; 2]>) {
+    let parts = |pair: &[usize; 2]| pair.iter().map(|group| groups[*group].parts.len()).sum::<usize>();
+    pairs.retain(|pair| (pair.len() + 1..=MOST_PARTS).contains(&parts(pair)));
+    if pairs.iter().map(parts).sum::<usize>() <= MOST_WORK {
         return;
     }
     let empty = |group: &Group| {
@@ -61,20 +60,20 @@ fn limit_work(search: &Search, groups: &[Group], sets: &mut Vec<Vec<usize>>) {
         (group.hull.volume - filled).max(0.0)
     };
     let empty: Vec<f64> = groups.iter().map(empty).collect();
-    let gain = |set: &[usize]| set.iter().map(|group| empty[*group]).sum::<f64>() / parts(set) as f64;
-    let mut ordered: Vec<(f64, Vec<usize>)> = std::mem::take(sets).into_iter().map(|set| (gain(&set), set)).collect();
-    ordered.sort_by(|a, b| b.0.total_cmp(&a.0).then_with(|| a.1.cmp(&b.1)));
+    let gain = |pair: &[usize; 2]| pair.iter().map(|group| empty[*group]).sum::<f64>() / parts(pair) as f64;
+    pairs.sort_by(|a, b| gain(b).total_cmp(&gain(a)).then_with(|| a.cmp(b)));
     let mut work = 0;
-    sets.extend(ordered.into_iter().map(|(_, set)| set).take_while(|set| {
-        work += parts(set);
+    let within = pairs.iter().take_while(|pair| {
+        work += parts(pair);
         work <= MOST_WORK
-    }));
-    sets.sort_unstable();
+    });
+    pairs.truncate(within.count());
+    pairs.sort_unstable();
 }
 
-/// Sets of groups that are near each other.
-fn sets_of_neighbours(groups: &[Group], size: usize) -> Vec<Vec<usize>> {
-    let mut sets: Vec<Vec<usize>> = Vec::new();
+/// Pairs of groups that are near each other.
+fn neighbours(groups: &[Group]) -> Vec<[usize; 2]> {
+    let mut pairs: Vec<[usize; 2]> = Vec::new();
     for (place, group) in groups.iter().enumerate() {
         let own = &group.hull.bounds;
         let reach = |other: &usize| {
@@ -85,29 +84,22 @@ fn sets_of_neighbours(groups: &[Group], size: usize) -> Vec<Vec<usize>> {
         near.sort_by(|a, b| reach(a).total_cmp(&reach(b)).then(a.cmp(b)));
         near.truncate(NEAREST);
         near.retain(|other| groups[*other].hull.bounds.touches(own));
-        for (k, first) in near.iter().enumerate() {
-            if size == 2 {
-                sets.push(vec![place, *first]);
-            } else {
-                sets.extend(near[k + 1..].iter().map(|second| vec![place, *first, *second]));
-            }
-        }
+        pairs.extend(near.into_iter().map(|other| [place.min(other), place.max(other)]));
     }
-    sets.iter_mut().for_each(|set| set.sort_unstable());
-    sets.sort_unstable();
-    sets.dedup();
-    sets
+    pairs.sort_unstable();
+    pairs.dedup();
+    pairs
 }
 
-/// The parts of a set of groups merged anew into as many, and what that gains; `None` for nothing.
-fn try_set(search: &Search, groups: &[Group], set: &[usize]) -> Option<(f64, Vec<Group>)> {
-    let parts: Vec<u32> = set.iter().flat_map(|place| groups[*place].parts.iter().copied()).collect();
+/// The parts of a pair of groups merged anew into two, and what that gains; `None` for nothing.
+fn try_pair(search: &Search, groups: &[Group], pair: &[usize; 2]) -> Option<(f64, Vec<Group>)> {
+    let parts: Vec<u32> = pair.iter().flat_map(|place| groups[*place].parts.iter().copied()).collect();
     let mut covered = vec![0_u64; search.probes.words()];
-    let others = groups.iter().enumerate().filter(|(place, _)| !set.contains(place));
+    let others = groups.iter().enumerate().filter(|(place, _)| !pair.contains(place));
     others.for_each(|(_, group)| add(&mut covered, &group.hull.coverage));
-    let before = cost(search, &covered, set.iter().map(|place| &groups[*place]));
+    let before = cost(search, &covered, pair.iter().map(|place| &groups[*place]));
     let mut merger = Merger::new(search, parts.into_iter().map(|part| search.single(part)).collect(), covered.clone());
-    while merger.count() > set.len() {
+    while merger.count() > pair.len() {
         merger.step()?;
         // it becomes no less
         if search.cost(merger.count_fresh(&covered), 0.0) >= before {
@@ -116,7 +108,7 @@ fn try_set(search: &Search, groups: &[Group], set: &[usize]) -> Option<(f64, Vec
     }
     let new = merger.into_groups();
     let gain = before - cost(search, &covered, new.iter());
-    (new.len() == set.len() && gain > search.least_gain()).then_some((gain, new))
+    (new.len() == pair.len() && gain > search.least_gain()).then_some((gain, new))
 }
 
 /// What groups cost where other probes are covered already.

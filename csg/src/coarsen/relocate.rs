@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::hull::Hull;
-use super::probes::{add, count_fresh};
+use super::probes::{add, count_fresh, once_and_twice};
 use super::search::{Group, Search};
 
 /// A part may go to the groups whose boxes it touches, and to at least so many of the nearest.
@@ -110,13 +110,7 @@ fn is_open(search: &Search, groups: &[Group], clock: &Clock, from: usize, part: 
 
 /// For each group the probes that the others cover.
 fn covered_by_others(search: &Search, groups: &[Group]) -> Vec<Vec<u64>> {
-    let mut once = vec![0_u64; search.probes.words()];
-    let mut twice = once.clone();
-    for (word, bits) in groups.iter().flat_map(|group| &group.hull.coverage) {
-        let word = *word as usize;
-        twice[word] |= once[word] & bits;
-        once[word] |= bits;
-    }
+    let (once, twice) = once_and_twice(search.probes.words(), groups.iter().map(|group| &group.hull.coverage));
     let others = |group: &Group| {
         let mut others = once.clone();
         for (word, bits) in &group.hull.coverage {
@@ -143,7 +137,7 @@ fn best_move(search: &Search, groups: &[Group], others: &[u64], from: usize, par
     let mut best: Option<(f64, usize, Hull)> = None;
     for to in targets(search, groups, from, part) {
         let target = &groups[to];
-        let is_held = target.hull.holds_box_and(&own.bounds, &own.corners);
+        let is_held = target.hull.holds(&own.bounds, &own.corners);
         let joined = if is_held { Some(target.hull.clone()) } else { search.joined(&target.hull, search.hull(part)) };
         let Some(joined) = joined else { continue };
         let added = count_fresh(&covered, &joined.coverage);

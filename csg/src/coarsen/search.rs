@@ -5,28 +5,25 @@ use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::CoarsenOptions;
+use super::clear::Clear;
 use super::hull::Hull;
 use super::part::{Part, built};
 use super::probes::Probes;
-use crate::boxes::Boxes;
 
 /// What a volume that is covered twice costs, where one that is added costs 1: of covers that add the same, the one whose cells overlap
 /// less is better, and hulls that are smaller leave more choice.
 const OVERLAP: f64 = 1.0 / 64.0;
 /// So far, relative to the size, a cell may seem to reach into a region that is kept clear.
 const TOUCHING: f64 = 1e-9;
-
 /// So many hulls of two parts are kept, some kilobytes each.
-const MOST_PAIRS: usize = 10_000;
+pub(super) const MOST_PAIRS: usize = 10_000;
 
 /// Parts, and what holds for every group of them.
 #[derive(Debug)]
 pub(super) struct Search<'a> {
     pub(super) parts: &'a [Part],
     pub(super) probes: &'a Probes,
-    /// Convex regions that no cell may grow into.
-    pub(super) clear: &'a [Part],
-    clear_boxes: Boxes,
+    clear: &'a Clear,
     by_material: bool,
     hulls: &'a Hulls,
 }
@@ -46,9 +43,9 @@ impl Hulls {
         Self { singles: parts.par_iter().map(hull).collect(), pairs: FxHashMap::default() }
     }
 
-    /// Keeps hulls of two parts, as far as they are not too many.
-    pub(super) fn keep(&mut self, pairs: impl Iterator<Item = ([u32; 2], Hull)>) {
-        self.pairs.extend(pairs.take(MOST_PAIRS));
+    /// Keeps hulls of two parts.
+    pub(super) fn keep(&mut self, pairs: Vec<([u32; 2], Hull)>) {
+        self.pairs.extend(pairs);
     }
 }
 
@@ -64,11 +61,10 @@ impl<'a> Search<'a> {
         parts: &'a [Part],
         hulls: &'a Hulls,
         probes: &'a Probes,
-        clear: &'a [Part],
+        clear: &'a Clear,
         options: &CoarsenOptions,
     ) -> Self {
-        let clear_boxes = Boxes::new(clear.iter().map(|part| part.bounds).collect());
-        Self { parts, probes, clear, clear_boxes, by_material: options.by_material, hulls }
+        Self { parts, probes, clear, by_material: options.by_material, hulls }
     }
 
     /// The group of one part.
@@ -123,11 +119,8 @@ impl<'a> Search<'a> {
         if self.clear.is_empty() {
             return true;
         }
-        let mut near = Vec::new();
-        self.clear_boxes.touching(&hull.bounds, &mut near);
         let margin = TOUCHING * hull.size();
-        near.iter().all(|region| {
-            let region = &self.clear[*region as usize];
+        self.clear.near(&hull.bounds).all(|region| {
             let shrunk =
                 hull.planes.iter().filter_map(|(normal, offset)| HalfSpace::new(*normal, offset - margin).ok());
             built(region.half_spaces.iter().copied().chain(shrunk)).is_empty()

@@ -3,61 +3,34 @@
 //! Cells may overlap. What another cell holds as well, a cell need not: the hull of the rest is smaller. Each step leaves the union
 //! of the cells around the solid, exactly: the rest is what the solid has outside of all other cells, as exact convex pieces.
 
-use planecut_kernel::{DVec3, HalfSpace};
+use planecut_kernel::DVec3;
 use rayon::prelude::*;
 
 use super::CoarsenError;
+use super::clear::Clear;
 use super::enclose::{all_hold, enclose};
-use super::part::{Part, bounds_of, built};
-use super::probes::{Coverage, Probes, count_fresh, unit_planes};
+use super::part::Part;
+use super::probes::{Coverage, Probes, count_fresh, once_and_twice, unit_planes};
 use super::subtract::{shares_interior, subtract};
-use crate::bounds::Bounds;
 use crate::boxes::Boxes;
-use crate::brush::{Brush, MaterialId};
 
 /// A cell must become smaller by this part of its volume, or it stays as it is.
 const SAME: f64 = 1.0 - 1e-6;
 /// A corner that lies outside by less than this part of the size may lie within.
 const NEARLY: f64 = 1e-9;
 
-/// A cell of the result.
-#[derive(Debug, Clone)]
-pub(super) struct Body {
-    pub(super) half_spaces: Vec<HalfSpace>,
-    pub(super) corners: Vec<DVec3>,
-    pub(super) bounds: Bounds,
-    pub(super) volume: f64,
-    pub(super) material: MaterialId,
-}
-
-impl Body {
-    pub(super) fn new(half_spaces: Vec<HalfSpace>, material: MaterialId) -> Result<Self, CoarsenError> {
-        let polytope = built(half_spaces.iter().copied());
-        let volume = polytope.measures().ok_or(CoarsenError::Unbounded)?.volume;
-        let (corners, _) = polytope.to_mesh();
-        let bounds = bounds_of(&corners);
-        Ok(Self { half_spaces, corners, bounds, volume, material })
-    }
-
-    /// The body as a brush.
-    pub(super) fn brush(&self) -> Brush {
-        Brush::from_half_spaces(self.half_spaces.iter().copied(), self.material)
-    }
-}
-
 /// The parts of the solid, and what its cells must keep.
 pub(super) struct Shrinking<'a> {
     pub(super) parts: &'a [Part],
     pub(super) boxes: &'a Boxes,
-    pub(super) clear: &'a [Part],
-    pub(super) clear_boxes: &'a Boxes,
+    pub(super) clear: &'a Clear,
     pub(super) by_material: bool,
 }
 
 impl Shrinking<'_> {
     /// Draws cells in, those that add most first, in so many rounds; cells that hold nothing alone are dropped. Cells that add nothing alone,
     /// as far as probes can tell, stay as they are.
-    pub(super) fn shrink(&self, bodies: &mut Vec<Body>, probes: &Probes, rounds: usize) -> Result<(), CoarsenError> {
+    pub(super) fn shrink(&self, bodies: &mut Vec<Part>, probes: &Probes, rounds: usize) -> Result<(), CoarsenError> {
         let mut is_new = vec![true; bodies.len()];
         for _ in 0..rounds {
             let adds = added_alone(bodies, probes);
@@ -71,7 +44,7 @@ impl Shrinking<'_> {
                 if !(0..bodies.len()).any(|k| (was_new[k] || is_new[k]) && bodies[k].bounds.touches(own)) {
                     continue;
                 }
-                let others: Vec<&Body> = self.others(bodies, &is_dropped, place);
+                let others: Vec<&Part> = self.others(bodies, &is_dropped, place);
                 if !others.iter().any(|other| other.bounds.touches(&bodies[place].bounds)) {
                     continue;
                 }
@@ -82,9 +55,8 @@ impl Shrinking<'_> {
                     continue;
                 }
                 let pieces: Vec<&Part> = pieces.iter().collect();
-                let half_spaces = enclose(&pieces, self.clear, self.clear_boxes)?;
-                let smaller = Body::new(half_spaces, bodies[place].material)?;
-                if smaller.volume < bodies[place].volume * SAME {
+                let smaller = Part::of_cell(enclose(&pieces, self.clear)?, bodies[place].material)?;
+                if smaller.volume() < bodies[place].volume() * SAME {
                     bodies[place] = smaller;
                     is_new[place] = true;
                     any = true;
@@ -101,7 +73,7 @@ impl Shrinking<'_> {
         Ok(())
     }
 
-    fn others<'b>(&self, bodies: &'b [Body], is_dropped: &[bool], place: usize) -> Vec<&'b Body> {
+    fn others<'b>(&self, bodies: &'b [Part], is_dropped: &[bool], place: usize) -> Vec<&'b Part> {
         let own = &bodies[place];
         let others = bodies.iter().enumerate().filter(|(other, _)| *other != place && !is_dropped[*other]);
         let others = others.map(|(_, other)| other);
@@ -109,7 +81,7 @@ impl Shrinking<'_> {
     }
 
     /// What a cell holds of the solid and no other cell does, as convex pieces; `None` where others hold nothing of its parts.
-    fn held_alone(&self, own: &Body, others: &[&Body]) -> Result<Option<Vec<Part>>, CoarsenError> {
+    fn held_alone(&self, own: &Part, others: &[&Part]) -> Result<Option<Vec<Part>>, CoarsenError> {
         let mut near = Vec::new();
         self.boxes.touching(&own.bounds, &mut near);
         let near = near.into_iter().map(|part| &self.parts[part as usize]);
@@ -125,12 +97,12 @@ impl Shrinking<'_> {
 }
 
 /// What no cell holds of a part, as convex pieces; `None` for all of it.
-fn left_of(part: &Part, cells: &[&Body]) -> Result<Option<Vec<Part>>, CoarsenError> {
-    let near: Vec<&&Body> = cells.iter().filter(|cell| cell.bounds.touches(&part.bounds)).collect();
+fn left_of(part: &Part, cells: &[&Part]) -> Result<Option<Vec<Part>>, CoarsenError> {
+    let near: Vec<&Part> = cells.iter().copied().filter(|cell| cell.bounds.touches(&part.bounds)).collect();
     if near.iter().any(|cell| holds_part(cell, part)) {
         return Ok(Some(Vec::new()));
     }
-    let mut cutting: Vec<&&Body> =
+    let mut cutting: Vec<&Part> =
         near.into_iter().filter(|cell| shares_interior(&part.polytope, &cell.half_spaces)).collect();
     let points = part.points.iter().filter(|point| !cells.iter().any(|cell| all_hold(&cell.half_spaces, **point)));
     let points: Vec<DVec3> = points.copied().collect();
@@ -138,10 +110,9 @@ fn left_of(part: &Part, cells: &[&Body]) -> Result<Option<Vec<Part>>, CoarsenErr
         return Ok((points.len() < part.points.len()).then(|| vec![Part { points, ..part.clone() }]));
     }
     // what holds most of it goes first, and leaves less to the others
-    let held = |cell: &Body| part.corners.iter().filter(|corner| nearly_holds(cell, **corner, part)).count();
+    let held = |cell: &Part| part.corners.iter().filter(|corner| nearly_holds(cell, **corner, part)).count();
     cutting.sort_by_cached_key(|cell| std::cmp::Reverse(held(cell)));
-    let others: Vec<_> = cutting.iter().map(|cell| (cell.half_spaces.as_slice(), &cell.bounds)).collect();
-    let rest = subtract(&part.polytope, &others);
+    let rest = subtract(&part.polytope, &cutting);
     let pieces = rest.into_iter().filter_map(|piece| Part::of_polytope(piece, part.material).transpose());
     let mut pieces: Vec<Part> = pieces.collect::<Result<_, _>>()?;
     match pieces.first_mut() {
@@ -154,27 +125,21 @@ fn left_of(part: &Part, cells: &[&Body]) -> Result<Option<Vec<Part>>, CoarsenErr
 }
 
 /// How many probes each cell alone covers.
-fn added_alone(bodies: &[Body], probes: &Probes) -> Vec<u32> {
+fn added_alone(bodies: &[Part], probes: &Probes) -> Vec<u32> {
     let coverage: Vec<Coverage> =
         bodies.par_iter().map(|body| probes.within(&unit_planes(&body.half_spaces), &body.bounds)).collect();
-    let mut once = vec![0_u64; probes.words()];
-    let mut twice = once.clone();
-    for (word, bits) in coverage.iter().flatten() {
-        let word = *word as usize;
-        twice[word] |= once[word] & bits;
-        once[word] |= bits;
-    }
+    let (_, twice) = once_and_twice(probes.words(), coverage.iter());
     coverage.iter().map(|own| count_fresh(&twice, own)).collect()
 }
 
 /// Whether a cell holds all of a part, exactly.
-fn holds_part(body: &Body, part: &Part) -> bool {
+fn holds_part(body: &Part, part: &Part) -> bool {
     part.corners.iter().all(|corner| nearly_holds(body, *corner, part))
         && body.half_spaces.iter().all(|plane| part.is_within(plane))
 }
 
 /// Whether a cell holds a corner of a part, or would but for rounding.
-fn nearly_holds(body: &Body, corner: DVec3, part: &Part) -> bool {
-    let margin = NEARLY * (part.bounds.max - part.bounds.min).length();
+fn nearly_holds(body: &Part, corner: DVec3, part: &Part) -> bool {
+    let margin = NEARLY * part.size();
     body.half_spaces.iter().all(|plane| plane.signed_distance(corner) <= margin)
 }

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use planecut_kernel::{AddPlaneResult, DVec3, HalfSpace, IncrementalPolytope};
 
-use super::part::bounds_of;
+use super::part::{Part, bounds_of};
 use crate::bounds::Bounds;
 
 /// Corners of planes whose unit normals have a smaller determinant are not taken in floating point,
@@ -12,11 +12,8 @@ const SINGULAR: f64 = 1e-6;
 /// others with so much room, relative to the size.
 const ROOM: f64 = 1e-8;
 
-/// A convex body to take away, and its box.
-pub(super) type Other<'a> = (&'a [HalfSpace], &'a Bounds);
-
 /// The pieces of a body outside of others. None has interior in common with another.
-pub(super) fn subtract(body: &IncrementalPolytope, others: &[Other]) -> Vec<IncrementalPolytope> {
+pub(super) fn subtract(body: &IncrementalPolytope, others: &[&Part]) -> Vec<IncrementalPolytope> {
     let mut left = Vec::new();
     let _: ControlFlow<()> = for_each_left(body, others, |piece| {
         left.push(piece);
@@ -28,15 +25,15 @@ pub(super) fn subtract(body: &IncrementalPolytope, others: &[Other]) -> Vec<Incr
 /// Visits the pieces of a body outside of others, one after another as they are found, until told to stop.
 pub(super) fn for_each_left<B>(
     body: &IncrementalPolytope,
-    others: &[Other],
+    others: &[&Part],
     mut visit: impl FnMut(IncrementalPolytope) -> ControlFlow<B>,
 ) -> ControlFlow<B> {
     // pieces, and the first of the others that they were not held against
     let mut waiting = vec![(body.clone(), bounds_of(&body.to_mesh().0), 0)];
     let mut pieces = Vec::new();
     while let Some((piece, bounds, first)) = waiting.pop() {
-        let cut = (first..others.len()).filter(|other| others[*other].1.touches(&bounds));
-        let cut = cut.into_iter().find_map(|other| Some((other, cutting(&piece, others[other].0)?)));
+        let cut = (first..others.len()).filter(|other| others[*other].bounds.touches(&bounds));
+        let cut = cut.into_iter().find_map(|other| Some((other, cutting(&piece, &others[other].half_spaces)?)));
         match cut {
             Some((other, planes)) => {
                 peel(piece, &planes, &mut pieces);

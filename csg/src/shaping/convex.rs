@@ -4,11 +4,11 @@ use planecut_kernel::sign::Row;
 use planecut_kernel::{DVec3, HalfSpace, IncrementalPolytope, PlaneIdx, meet};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use crate::brush::{Brush, Material, MaterialId, Model};
-use crate::evaluate::{EvaluateError, Evaluation, evaluate};
+use crate::brush::Brush;
+use crate::evaluate::{EvaluateError, Evaluation, evaluate_shape};
 use crate::primitives::ShapeError;
 use crate::solid::{Cell, Solid};
-use crate::tree::{Operation, Tree, TreeNode};
+use crate::tree::Tree;
 
 /// Vertices nearer to each other than this part of a body's size are one: where many planes were meant to meet.
 const MERGED: f64 = 1.0 / (1u64 << 36) as f64;
@@ -144,16 +144,6 @@ fn build(half_spaces: &[HalfSpace]) -> IncrementalPolytope {
     polytope
 }
 
-/// Whether a tree is the union of its brushes.
-pub(super) fn is_union(tree: &Tree) -> bool {
-    tree.nodes().iter().all(|node| match node {
-        TreeNode::Leaf => true,
-        TreeNode::Operation { operation: Operation::Union, .. } => true,
-        TreeNode::Operation { operation: Operation::Complement, .. } => false,
-        TreeNode::Operation { operands, .. } => *operands == 1,
-    })
-}
-
 /// The brushes of a union that have an interior.
 pub(super) fn parts_of_union(tree: &Tree) -> Result<Vec<(&Brush, Convex)>, ShapeError> {
     let parts = tree.brushes().iter().map(|brush| Ok(Convex::of_brush(brush)?.map(|convex| (brush, convex))));
@@ -162,8 +152,7 @@ pub(super) fn parts_of_union(tree: &Tree) -> Result<Vec<(&Brush, Convex)>, Shape
 
 /// The mesh of a tree, whatever its materials.
 pub(super) fn evaluated(tree: &Tree) -> Result<Evaluation, ShapeError> {
-    let tree = tree.clone().with_material(MaterialId(0));
-    evaluate(&Model { materials: vec![Material::named("any")], tree }).map_err(|error| match error {
+    evaluate_shape(tree.clone()).map_err(|error| match error {
         EvaluateError::Unbounded => ShapeError::Unbounded,
         other => ShapeError::Evaluate(other),
     })

@@ -2,7 +2,7 @@
 
 use planecut_kernel::{DVec3, HalfSpace, HullError};
 
-use super::convex::{Convex, evaluated, is_union, parts_of_union, wide_faces};
+use super::convex::{Convex, evaluated, parts_of_union, wide_faces};
 use crate::brush::{Brush, MaterialId};
 use crate::known_planes::{KnownPlanes, compare};
 use crate::primitives::ShapeError;
@@ -29,7 +29,7 @@ pub fn hull_with_points(operands: &[Tree], points: &[DVec3], material: MaterialI
     let mut bodies: Vec<(&Brush, Convex)> = Vec::new();
     let mut corners: Vec<DVec3> = points.to_vec();
     for operand in operands {
-        if is_union(operand) {
+        if operand.is_union() {
             bodies.extend(parts_of_union(operand)?);
         } else {
             corners.extend(evaluated(operand)?.mesh.positions);

@@ -8,7 +8,7 @@
 use planecut_kernel::sign::{Row, Sign, orient3};
 use planecut_kernel::{DVec3, HalfSpace, direction_across, line_direction};
 
-use super::convex::{Convex, Edge, is_union, parts_of_union, wide_faces};
+use super::convex::{Convex, Edge, parts_of_union, wide_faces};
 use crate::brush::{Brush, MaterialId};
 use crate::primitives::ShapeError;
 use crate::primitives::parameter::pieces;
@@ -33,7 +33,7 @@ pub fn minkowski(a: &Tree, b: &Tree, material: MaterialId) -> Result<Tree, Shape
 }
 
 fn convex_parts(tree: &Tree) -> Result<Vec<Gauss>, ShapeError> {
-    let parts = if is_union(tree) {
+    let parts = if tree.is_union() {
         parts_of_union(tree)?.into_iter().map(|(_, body)| body).collect()
     } else {
         super::convex::cells(tree)?
