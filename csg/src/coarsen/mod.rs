@@ -51,8 +51,8 @@ use shrink::Shrinking;
 const PROBES: (usize, usize, usize) = (1 << 14, 1 << 17, 64);
 /// Fewest and most rounds in which parts are moved and groups merged anew, and what the number of parts times that of rounds is about.
 const ROUNDS: (usize, usize, usize) = (2, 8, 2000);
-/// Rounds in which cells are drawn in.
-const SHRINKING: usize = 3;
+/// So much work is put into merging groups anew: the squares of how many parts are merged at once, summed up.
+const REGROUPING: usize = 40_000;
 /// A point this far outside of a part, relative to the size of all, may belong to it.
 const ROUNDING: f64 = 1e-9;
 
@@ -211,7 +211,7 @@ impl Coarsener {
             by_material: self.options.by_material,
         };
         if groups.len() < self.free.len() {
-            shrinking.shrink(&mut bodies, &self.probes, SHRINKING)?;
+            shrinking.shrink(&mut bodies, &self.probes)?;
         }
         self.finished(bodies, exact_merges)
     }
@@ -318,12 +318,13 @@ impl Coarsener {
 fn better(search: &Search, groups: &mut [Group]) {
     let mut clock = Clock::new(groups.len(), search.parts.len());
     let mut regrouped = 0;
-    let (fewest, most, work) = ROUNDS;
-    let rounds = (work / search.parts.len()).clamp(fewest, most);
+    let mut work = REGROUPING;
+    let (fewest, most, moved) = ROUNDS;
+    let rounds = (moved / search.parts.len()).clamp(fewest, most);
     for _ in 0..rounds {
         relocate(search, groups, &mut clock, rounds);
         let now = clock.now();
-        let is_new = regroup(search, groups, &mut clock, regrouped);
+        let is_new = regroup(search, groups, &mut clock, regrouped, &mut work);
         regrouped = now;
         if !is_new {
             break;

@@ -14,14 +14,14 @@ use super::search::{Group, Search};
 const NEAREST: usize = 6;
 /// Most parts that are merged anew at once.
 const MOST_PARTS: usize = 100;
-/// Most parts of all pairs in one round: those whose hulls are emptiest go first.
-const MOST_WORK: usize = 1500;
 
 /// Merges pairs of neighbouring groups anew where that pays, those of which one changed after `since`; tells whether any was replaced.
-pub(super) fn regroup(search: &Search, groups: &mut [Group], clock: &mut Clock, since: u64) -> bool {
+/// It takes no more than half of the work that may be done, which is what merging the parts of each pair takes: about the square of how
+/// many they are.
+pub(super) fn regroup(search: &Search, groups: &mut [Group], clock: &mut Clock, since: u64, work: &mut usize) -> bool {
     let mut pairs = neighbours(groups);
     pairs.retain(|pair| pair.iter().any(|group| clock.is_changed(*group, since)));
-    limit_work(search, groups, &mut pairs);
+    *work -= limit_work(search, groups, &mut pairs, *work / 2);
     let view: &[Group] = groups;
     let mut found: Vec<(f64, usize, Vec<Group>)> = pairs
         .par_iter()
@@ -48,27 +48,35 @@ pub(super) fn regroup(search: &Search, groups: &mut [Group], clock: &mut Clock, 
     !applied.is_empty()
 }
 
-/// Leaves so many pairs as can be looked at in reasonable time, in their order: those where there is most to gain.
-fn limit_work(search: &Search, groups: &[Group], pairs: &mut Vec<[usize; 2]>) {
+/// Leaves so many pairs as the work that may be done suffices for, in their order: those where there is most to gain. Returns the work.
+fn limit_work(search: &Search, groups: &[Group], pairs: &mut Vec<[usize; 2]>, most: usize) -> usize {
     let parts = |pair: &[usize; 2]| pair.iter().map(|group| groups[*group].parts.len()).sum::<usize>();
+    let work = |pair: &[usize; 2]| parts(pair).pow(2);
     pairs.retain(|pair| (pair.len() + 1..=MOST_PARTS).contains(&parts(pair)));
-    if pairs.iter().map(parts).sum::<usize>() <= MOST_WORK {
-        return;
+    let all = pairs.iter().map(work).sum::<usize>();
+    if all <= most {
+        return all;
     }
     let empty = |group: &Group| {
         let filled: f64 = group.parts.iter().map(|part| search.hull(*part).volume).sum();
         (group.hull.volume - filled).max(0.0)
     };
     let empty: Vec<f64> = groups.iter().map(empty).collect();
-    let gain = |pair: &[usize; 2]| pair.iter().map(|group| empty[*group]).sum::<f64>() / parts(pair) as f64;
+    let gain = |pair: &[usize; 2]| pair.iter().map(|group| empty[*group]).sum::<f64>() / work(pair) as f64;
     pairs.sort_by(|a, b| gain(b).total_cmp(&gain(a)).then_with(|| a.cmp(b)));
-    let mut work = 0;
-    let within = pairs.iter().take_while(|pair| {
-        work += parts(pair);
-        work <= MOST_WORK
-    });
-    pairs.truncate(within.count());
+    let mut done = 0;
+    let mut is_within = |pair: &&[usize; 2]| {
+        let with = done + work(pair);
+        let is_within = with <= most;
+        if is_within {
+            done = with;
+        }
+        is_within
+    };
+    let count = pairs.iter().take_while(|pair| is_within(pair)).count();
+    pairs.truncate(count);
     pairs.sort_unstable();
+    done
 }
 
 /// Pairs of groups that are near each other.

@@ -12,7 +12,7 @@ use super::probes::Probes;
 
 /// What a volume that is covered twice costs, where one that is added costs 1: of covers that add the same, the one whose cells overlap
 /// less is better, and hulls that are smaller leave more choice.
-const OVERLAP: f64 = 1.0 / 64.0;
+const OVERLAP: f64 = 1.0 / 8.0;
 /// So far, relative to the size, a cell may seem to reach into a region that is kept clear.
 const TOUCHING: f64 = 1e-9;
 /// So many hulls of two parts are kept, some kilobytes each.

@@ -28,48 +28,33 @@ pub(super) struct Shrinking<'a> {
 }
 
 impl Shrinking<'_> {
-    /// Draws cells in, those that add most first, in so many rounds; cells that hold nothing alone are dropped. Cells that add nothing alone,
-    /// as far as probes can tell, stay as they are.
-    pub(super) fn shrink(&self, bodies: &mut Vec<Part>, probes: &Probes, rounds: usize) -> Result<(), CoarsenError> {
-        let mut is_new = vec![true; bodies.len()];
-        for _ in 0..rounds {
-            let adds = added_alone(bodies, probes);
-            let mut order: Vec<usize> = (0..bodies.len()).filter(|place| adds[*place] > 0).collect();
-            order.sort_by(|a, b| adds[*b].cmp(&adds[*a]).then(a.cmp(b)));
-            let mut is_dropped = vec![false; bodies.len()];
-            let mut any = false;
-            let was_new = std::mem::replace(&mut is_new, vec![false; bodies.len()]);
-            for place in order {
-                let own = &bodies[place].bounds;
-                if !(0..bodies.len()).any(|k| (was_new[k] || is_new[k]) && bodies[k].bounds.touches(own)) {
-                    continue;
-                }
-                let others: Vec<&Part> = self.others(bodies, &is_dropped, place);
-                if !others.iter().any(|other| other.bounds.touches(&bodies[place].bounds)) {
-                    continue;
-                }
-                let Some(pieces) = self.held_alone(&bodies[place], &others)? else { continue };
-                if pieces.is_empty() {
-                    is_dropped[place] = true;
-                    any = true;
-                    continue;
-                }
-                let pieces: Vec<&Part> = pieces.iter().collect();
-                let smaller = Part::of_cell(enclose(&pieces, self.clear)?, bodies[place].material)?;
-                if smaller.volume() < bodies[place].volume() * SAME {
-                    bodies[place] = smaller;
-                    is_new[place] = true;
-                    any = true;
-                }
+    /// Draws cells in, those that add most first; cells that hold nothing alone are dropped. Cells that add nothing alone, as far as probes
+    /// can tell, stay as they are.
+    ///
+    /// Once is enough: as others are drawn in, what a cell alone holds becomes no less.
+    pub(super) fn shrink(&self, bodies: &mut Vec<Part>, probes: &Probes) -> Result<(), CoarsenError> {
+        let adds = added_alone(bodies, probes);
+        let mut order: Vec<usize> = (0..bodies.len()).filter(|place| adds[*place] > 0).collect();
+        order.sort_by(|a, b| adds[*b].cmp(&adds[*a]).then(a.cmp(b)));
+        let mut is_dropped = vec![false; bodies.len()];
+        for place in order {
+            let others: Vec<&Part> = self.others(bodies, &is_dropped, place);
+            if !others.iter().any(|other| other.bounds.touches(&bodies[place].bounds)) {
+                continue;
             }
-            let kept: Vec<usize> = (0..bodies.len()).filter(|place| !is_dropped[*place]).collect();
-            is_new = kept.iter().map(|place| is_new[*place]).collect();
-            let mut dropped = is_dropped.iter();
-            bodies.retain(|_| !dropped.next().is_some_and(|is_dropped| *is_dropped));
-            if !any {
-                break;
+            let Some(pieces) = self.held_alone(&bodies[place], &others)? else { continue };
+            if pieces.is_empty() {
+                is_dropped[place] = true;
+                continue;
+            }
+            let pieces: Vec<&Part> = pieces.iter().collect();
+            let smaller = Part::of_cell(enclose(&pieces, self.clear)?, bodies[place].material)?;
+            if smaller.volume() < bodies[place].volume() * SAME {
+                bodies[place] = smaller;
             }
         }
+        let mut dropped = is_dropped.iter();
+        bodies.retain(|_| !dropped.next().is_some_and(|is_dropped| *is_dropped));
         Ok(())
     }
 
