@@ -9,7 +9,7 @@ use super::clear::Clear;
 use super::enclose::enclose;
 use super::hull::Hull;
 use super::merge::{Merge, Merger};
-use super::part::{Part, built};
+use super::part::{Part, built, most};
 use super::search::Search;
 use super::subtract::for_each_left;
 
@@ -28,16 +28,17 @@ pub(super) fn merge_freely(search: &Search) -> Result<Vec<Part>, CoarsenError> {
     let mut merger = Merger::new(search, groups, vec![0; search.probes.words()]);
     // what the groups are by now: fewer bodies than parts, and larger
     let mut bodies: Vec<Option<Part>> = search.parts.iter().cloned().map(Some).collect();
-    while let Some(Merge { kept, gone }) = merger.step_where(|pair, hull| adds_nothing(&bodies, pair, hull)) {
+    while let Some((Merge { kept, gone }, hull)) = merger.step_freely(|pair, hull| exact_hull(&bodies, pair, hull)) {
         let members = std::iter::once(&kept).chain(&gone).filter_map(|place| bodies[*place as usize].take());
-        bodies[kept as usize] = Some(merged(&members.collect::<Vec<_>>())?);
+        bodies[kept as usize] = Some(merged(hull, &members.collect::<Vec<_>>())?);
     }
     Ok(bodies.into_iter().flatten().collect())
 }
 
-/// Whether the solid holds the hull of two bodies.
-fn adds_nothing(bodies: &[Option<Part>], pair: [u32; 2], hull: &Hull) -> bool {
-    let [Some(a), Some(b)] = pair.map(|place| bodies[place as usize].as_ref()) else { return false };
+/// The hull of two bodies, exactly; `None` where the solid does not hold it.
+fn exact_hull(bodies: &[Option<Part>], pair: [u32; 2], hull: &Hull) -> Option<Vec<HalfSpace>> {
+    let [a, b] = pair.map(|place| bodies[place as usize].as_ref());
+    let (a, b) = (a?, b?);
     let is_other = |place: &usize| !pair.contains(&(*place as u32));
     let others = (0..bodies.len()).filter(is_other).filter_map(|place| bodies[place].as_ref());
     // both first, and then what may fill most of the rest
@@ -48,16 +49,19 @@ fn adds_nothing(bodies: &[Option<Part>], pair: [u32; 2], hull: &Hull) -> bool {
     });
     let filling: Vec<&Part> = [a, b].into_iter().chain(near).collect();
     if !is_filled_between(a, b, &filling, TOUCHING * hull.size()) {
-        return false;
+        return None;
     }
-    let Ok(half_spaces) = enclose(&[a, b], &Clear::default()) else { return false };
-    is_filled(&half_spaces, &filling, NOTHING * hull.volume)
+    // within the solid nothing is to stay clear
+    let half_spaces = enclose(&[a, b], &Clear::default()).ok()?;
+    is_filled(&half_spaces, &filling, NOTHING * hull.volume).then_some(half_spaces)
 }
 
-/// One part for some.
-fn merged(members: &[Part]) -> Result<Part, CoarsenError> {
-    // within the solid nothing is to stay clear
-    let part = Part::around(&members.iter().collect::<Vec<_>>(), &Clear::default())?;
+/// One part for some; the hull is that of the first two.
+fn merged(hull: Vec<HalfSpace>, members: &[Part]) -> Result<Part, CoarsenError> {
+    let material = most(members.iter().map(|member| (member.material, member.volume())));
+    let hull =
+        if let [_, _] = members { hull } else { enclose(&members.iter().collect::<Vec<_>>(), &Clear::default())? };
+    let part = Part::of_cell(hull, material)?;
     let points = members.iter().flat_map(|member| &member.points).copied();
     // the hull holds them, but by what it is made of, not by what it is
     let points = points.filter(|point| !part.polytope.contains(*point)).collect();

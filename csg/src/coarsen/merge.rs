@@ -1,8 +1,10 @@
 //! Greedy merging: of all pairs of neighbours always the one that costs least.
 
+use planecut_kernel::HalfSpace;
 use rayon::prelude::*;
 
 use super::hull::Hull;
+use super::pairs::{Pair, Pairs};
 use super::probes::{add, count_fresh};
 use super::search::{Group, Search};
 use crate::bounds::Bounds;
@@ -13,19 +15,7 @@ const NEIGHBOURS: usize = 12;
 /// A group that took others in keeps so many of their neighbours.
 const PARTNERS: usize = 32;
 /// So many pairs are asked for their answers at the same time.
-const ASKED: usize = 8;
-
-/// Two groups, by place, and their hull.
-#[derive(Debug, Clone)]
-struct Pair {
-    places: [u32; 2],
-    hull: Hull,
-    /// How many probes it covers that nothing else does.
-    fresh: u32,
-    cost: f64,
-    /// Whether it fulfils what was asked of it.
-    answer: Option<bool>,
-}
+const ASKED: usize = 4;
 
 /// A group took others in.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -39,7 +29,7 @@ pub(super) struct Merge {
 pub(super) struct Merger<'a> {
     search: &'a Search<'a>,
     groups: Vec<Option<Group>>,
-    pairs: Vec<Pair>,
+    pairs: Pairs,
     /// The probes that are covered, by these groups or by others.
     covered: Vec<u64>,
     count: usize,
@@ -50,9 +40,9 @@ impl<'a> Merger<'a> {
     pub(super) fn new(search: &'a Search<'a>, groups: Vec<Group>, mut covered: Vec<u64>) -> Self {
         groups.iter().for_each(|group| add(&mut covered, &group.hull.coverage));
         let count = groups.len();
-        let mut merger =
-            Self { search, groups: groups.into_iter().map(Some).collect(), pairs: Vec::new(), covered, count };
-        merger.pairs = merger.pairs_of(&merger.neighbours());
+        let groups = groups.into_iter().map(Some).collect();
+        let mut merger = Self { search, groups, pairs: Pairs::new(count), covered, count };
+        merger.find_pairs(&merger.neighbours());
         merger
     }
 
@@ -85,46 +75,38 @@ impl<'a> Merger<'a> {
     pub(super) fn step(&mut self) -> Option<Merge> {
         if self.pairs.is_empty() {
             // groups that are far apart are no neighbours until nothing else is left
-            self.pairs = self.pairs_of(&self.all_pairs());
+            self.find_pairs(&self.all_pairs());
         }
-        let best = (0..self.pairs.len()).min_by(|a, b| self.compare(*a, *b))?;
+        let best = self.pairs.pop()?;
         Some(self.merge(best))
     }
 
-    /// The same for the pair of least cost among those that cover no new probe and fulfil a condition, which is asked of the places of
-    /// both and their hull, once; pairs of these that do not fulfil it are dropped.
-    pub(super) fn step_where(&mut self, condition: impl Fn([u32; 2], &Hull) -> bool + Sync) -> Option<Merge> {
+    /// The same for the pair of least cost among those that cover no new probe and of which the exact hull can be had: that is asked of the
+    /// places of both and their hull. Pairs of which it cannot are dropped.
+    pub(super) fn step_freely(
+        &mut self,
+        exact: impl Fn([u32; 2], &Hull) -> Option<Vec<HalfSpace>> + Sync,
+    ) -> Option<(Merge, Vec<HalfSpace>)> {
         loop {
-            let free = || (0..self.pairs.len()).filter(|k| self.pairs[*k].fresh == 0);
-            let best = free().min_by(|a, b| self.compare(*a, *b))?;
-            match self.pairs[best].answer {
-                Some(true) => return Some(self.merge(best)),
-                Some(false) => {
-                    self.pairs.swap_remove(best);
-                }
-                None => {
-                    let mut open: Vec<usize> = free().filter(|k| self.pairs[*k].answer.is_none()).collect();
-                    if open.len() > ASKED {
-                        open.select_nth_unstable_by(ASKED - 1, |a, b| self.compare(*a, *b));
-                        open.truncate(ASKED);
-                    }
-                    let ask = |k: &usize| condition(self.pairs[*k].places, &self.pairs[*k].hull);
-                    let answers: Vec<bool> = open.par_iter().with_max_len(1).map(ask).collect();
-                    for (k, answer) in open.into_iter().zip(answers) {
-                        self.pairs[k].answer = Some(answer);
-                    }
-                }
+            let mut best = self.pairs.pop()?;
+            if let Some(half_spaces) = best.free.take() {
+                return Some((self.merge(best), half_spaces));
             }
+            let (mut asked, mut known) = (vec![best], Vec::new());
+            while asked.len() < ASKED
+                && let Some(pair) = self.pairs.pop()
+            {
+                if pair.free.is_some() { known.push(pair) } else { asked.push(pair) }
+            }
+            asked.retain(|pair| pair.fresh == 0);
+            asked.par_iter_mut().with_max_len(1).for_each(|pair| pair.free = exact(pair.places, &pair.hull));
+            let answered = asked.into_iter().filter(|pair| pair.free.is_some());
+            answered.chain(known).for_each(|pair| self.pairs.insert(pair));
         }
     }
 
-    fn compare(&self, a: usize, b: usize) -> std::cmp::Ordering {
-        let (a, b) = (&self.pairs[a], &self.pairs[b]);
-        a.cost.total_cmp(&b.cost).then_with(|| a.places.cmp(&b.places))
-    }
-
-    fn merge(&mut self, pair: usize) -> Merge {
-        let Pair { places: [kept, other], hull, .. } = self.pairs.swap_remove(pair);
+    fn merge(&mut self, pair: Pair) -> Merge {
+        let Pair { places: [kept, other], hull, .. } = pair;
         let mut gone = vec![other];
         gone.extend((0..self.groups.len() as u32).filter(|place| ![kept, other].contains(place)).filter(|place| {
             let within = |group: &Group| {
@@ -144,12 +126,7 @@ impl<'a> Merger<'a> {
         self.groups[kept as usize] = Some(Group { parts, hull });
 
         let is_changed = |place: u32| place == kept || gone.contains(&place);
-        let mut partners: Vec<u32> = Vec::new();
-        self.pairs.retain(|pair| {
-            let [a, b] = pair.places.map(is_changed);
-            partners.extend([(a, pair.places[1]), (b, pair.places[0])].into_iter().filter(|p| p.0).map(|p| p.1));
-            !a && !b
-        });
+        let mut partners: Vec<u32> = gone.iter().chain([&kept]).flat_map(|place| self.pairs.take_of(*place)).collect();
         partners.retain(|place| !is_changed(*place));
         partners.sort_unstable();
         partners.dedup();
@@ -165,15 +142,17 @@ impl<'a> Merger<'a> {
         let (covered, search) = (&self.covered, self.search);
         let groups = &self.groups;
         let volume = |place: u32| groups[place as usize].as_ref().map_or(0.0, |group| group.hull.volume);
-        let open = |pair: &&mut Pair| adds && pair.fresh > 0 && pair.hull.bounds.touches(&bounds);
-        self.pairs.par_iter_mut().with_min_len(64).filter(open).for_each(|pair| {
-            let own = pair.hull.volume - volume(pair.places[0]) - volume(pair.places[1]);
-            pair.fresh = count_fresh(covered, &pair.hull.coverage);
-            pair.cost = search.cost(pair.fresh, own);
-        });
+        if adds {
+            self.pairs.update(|pair| {
+                if pair.fresh > 0 && pair.hull.bounds.touches(&bounds) {
+                    let own = pair.hull.volume - volume(pair.places[0]) - volume(pair.places[1]);
+                    pair.fresh = count_fresh(covered, &pair.hull.coverage);
+                    pair.cost = search.cost(pair.fresh, own);
+                }
+            });
+        }
         let new: Vec<[u32; 2]> = partners.into_iter().map(|place| [place.min(kept), place.max(kept)]).collect();
-        let new = self.pairs_of(&new);
-        self.pairs.extend(new);
+        self.find_pairs(&new);
         Merge { kept, gone }
     }
 
@@ -220,8 +199,8 @@ impl<'a> Merger<'a> {
         pairs
     }
 
-    /// The pairs of some that may be merged.
-    fn pairs_of(&self, places: &[[u32; 2]]) -> Vec<Pair> {
+    /// Adds those of some pairs that may be merged.
+    fn find_pairs(&mut self, places: &[[u32; 2]]) {
         let pair = |places: &[u32; 2]| {
             let [a, b] = places.map(|place| self.groups[place as usize].as_ref());
             let (a, b) = (a?, b?);
@@ -231,10 +210,11 @@ impl<'a> Merger<'a> {
             let hull = self.search.joined_groups(a, b)?;
             let own = hull.volume - a.hull.volume - b.hull.volume;
             let fresh = count_fresh(&self.covered, &hull.coverage);
-            Some(Pair { places: *places, fresh, cost: self.search.cost(fresh, own), hull, answer: None })
+            Some(Pair { places: *places, fresh, cost: self.search.cost(fresh, own), hull, free: None })
         };
         // what a thread takes at once is worth the switch
-        places.par_iter().with_min_len(4).filter_map(pair).collect()
+        let found: Vec<Pair> = places.par_iter().with_min_len(4).filter_map(pair).collect();
+        found.into_iter().for_each(|pair| self.pairs.insert(pair));
     }
 }
 

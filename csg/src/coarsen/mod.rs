@@ -5,7 +5,7 @@
 //!
 //! - `part`: a convex part; `hull`, `probes`: hulls in floating point, and the points that say how much they add; `search`: what every
 //!   group must fulfil; `clear`: where nothing may grow.
-//! - `free` merges what adds nothing, `merge` what adds least; `relocate` and `regroup` better the groups.
+//! - `free` merges what adds nothing, `merge` what adds least, with `pairs`; `relocate` and `regroup` better the groups.
 //! - `enclose` makes exact bodies of them, `shrink` draws these in where they overlap, with `subtract`; `limits` sees to engines' caps.
 //! - `inner`: cells within the solid.
 //!
@@ -19,6 +19,7 @@ mod inner;
 mod limits;
 mod merge;
 mod options;
+mod pairs;
 mod part;
 mod probes;
 mod regroup;
@@ -330,6 +331,8 @@ fn better(search: &Search, groups: &mut [Group]) {
             break;
         }
     }
+    let mut clock = Clock::new(groups.len(), search.parts.len());
+    relocate(&search.last(), groups, &mut clock, rounds);
 }
 
 /// The convex parts of a tree's solid: the brushes of a union, else disjoint cells.

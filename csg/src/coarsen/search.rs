@@ -13,6 +13,8 @@ use super::probes::Probes;
 /// What a volume that is covered twice costs, where one that is added costs 1: of covers that add the same, the one whose cells overlap
 /// less is better, and hulls that are smaller leave more choice.
 const OVERLAP: f64 = 1.0 / 8.0;
+/// The same where nothing is left but to better what there is.
+const LAST_OVERLAP: f64 = 1.0 / 64.0;
 /// So far, relative to the size, a cell may seem to reach into a region that is kept clear.
 const TOUCHING: f64 = 1e-9;
 /// So many hulls of two parts are kept, some kilobytes each.
@@ -26,6 +28,7 @@ pub(super) struct Search<'a> {
     clear: &'a Clear,
     by_material: bool,
     hulls: &'a Hulls,
+    overlap: f64,
 }
 
 /// Hulls that are asked for often.
@@ -64,7 +67,12 @@ impl<'a> Search<'a> {
         clear: &'a Clear,
         options: &CoarsenOptions,
     ) -> Self {
-        Self { parts, probes, clear, by_material: options.by_material, hulls }
+        Self { parts, probes, clear, by_material: options.by_material, hulls, overlap: OVERLAP }
+    }
+
+    /// The same with overlaps of less weight.
+    pub(super) fn last(&self) -> Self {
+        Self { overlap: LAST_OVERLAP, ..*self }
     }
 
     /// The group of one part.
@@ -106,7 +114,7 @@ impl<'a> Search<'a> {
 
     /// What hulls cost that cover so many probes which nothing else covers.
     pub(super) fn cost(&self, fresh: u32, volume: f64) -> f64 {
-        self.probes.volume(fresh) + OVERLAP * volume
+        self.probes.volume(fresh) + self.overlap * volume
     }
 
     /// The least difference in cost that is worth a change.
