@@ -37,7 +37,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let solid = Solid::from_tree(&import.model.tree);
     let meshes = solid.cell_meshes(&import.model.materials)?;
     let names: Vec<String> = (0..meshes.len()).map(|number| format!("cell {number}")).collect();
-    let parts: Vec<Part<'_>> = names.iter().zip(&meshes).map(|(name, mesh)| Part { name, mesh }).collect();
+    let parts: Vec<Part<'_>> = names.iter().zip(&meshes).map(|(name, mesh)| Part::new(name, mesh)).collect();
     let path = folder.join(format!("{name}.cells.glb"));
     write_atomic(&path, &encode_parts(&parts, Format::Glb, &options)?)?;
     println!("{}: {} cells, volume {:?}", path.display(), parts.len(), solid.volume());

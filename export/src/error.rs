@@ -8,7 +8,7 @@ use std::path::PathBuf;
 #[non_exhaustive]
 pub enum ExportError {
     /// The file name ends in something that no writer makes.
-    #[error("unknown output format '.{extension}', expected .glb, .gltf, .obj or .stl")]
+    #[error("unknown output format '.{extension}', expected .glb, .gltf, .obj, .stl, .3mf or .ply")]
     UnknownFormat {
         /// The ending as given, without the dot.
         extension: String,
@@ -19,6 +19,15 @@ pub enum ExportError {
     /// The scale is not a positive number that single precision can hold.
     #[error("scale is {0}, expected a positive number between 1e-30 and 1e30")]
     Scale(f64),
+    /// The crease angle is not an angle between two normals.
+    #[error("crease angle is {0}, expected 0 to 180 degrees")]
+    CreaseAngle(f64),
+    /// The size of a texture is not a positive number that single precision can hold.
+    #[error("texture size is {0}, expected a positive number between 1e-30 and 1e30")]
+    TextureSize(f64),
+    /// Tangents follow from texture coordinates.
+    #[error("found tangents without texture coordinates, expected a texture mapping beside them")]
+    TangentsWithoutTexture,
     /// A coordinate does not fit the single precision that the format stores.
     #[error("coordinate {value} of vertex {vertex} is beyond single precision, which the format stores")]
     CoordinateRange {
@@ -52,6 +61,9 @@ pub enum ExportError {
         /// What the library said.
         message: String,
     },
+    /// What is written to takes no more.
+    #[error("cannot write: {0}")]
+    Io(#[from] io::Error),
     /// The file system refused.
     #[error("cannot write {}: {source}", .path.display())]
     Write {

@@ -1,59 +1,124 @@
 //! Files that appear under their names only when complete.
 
 use std::fs::{self, File, OpenOptions};
-use std::io::{self, Write};
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::process;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use crate::ExportError;
 
-/// Writes `bytes` to `path`, completely or not at all.
+/// Bytes that are handed to the system at once.
+const BUFFER: usize = 1 << 16;
+
+/// A file that appears under its name only when it is complete.
 ///
-/// The bytes go to a temporary file in the same folder, which is then renamed. An existing file keeps its permissions; a
-/// symbolic link stays and its target is replaced. Pipes and devices cannot be replaced and are written directly. The
-/// rename guards against errors and killed processes, not against power loss.
+/// What is written goes to a temporary file in the same folder, which [`AtomicFile::commit`] renames; until then, and when it is
+/// dropped before, an older file under the name is untouched. An existing file keeps its permissions; a symbolic link stays and its
+/// target is replaced. Pipes and devices cannot be replaced and are written directly. The rename guards against errors and killed
+/// processes, not against power loss.
+#[derive(Debug)]
+pub struct AtomicFile {
+    path: PathBuf,
+    writer: BufWriter<File>,
+    /// None for pipes and devices.
+    replacing: Option<Replacing>,
+}
+
+/// What a complete file replaces.
+#[derive(Debug)]
+struct Replacing {
+    temporary: Temporary,
+    target: PathBuf,
+    permissions: Option<fs::Permissions>,
+}
+
+impl AtomicFile {
+    /// Begins a file.
+    ///
+    /// # Errors
+    /// [`ExportError::Write`] names the file when it is a folder or write-protected, or its folder is missing or closed to us.
+    pub fn create(path: impl AsRef<Path>) -> Result<Self, ExportError> {
+        let path = path.as_ref().to_owned();
+        match begin(&path) {
+            Ok((file, replacing)) => Ok(Self { writer: BufWriter::with_capacity(BUFFER, file), path, replacing }),
+            Err(source) => Err(ExportError::Write { path, source }),
+        }
+    }
+
+    /// Ends the file and gives it its name.
+    ///
+    /// # Errors
+    /// [`ExportError::Write`] names the file when the disk is full. The temporary file is gone by then.
+    pub fn commit(self) -> Result<(), ExportError> {
+        let Self { path, writer, replacing } = self;
+        end(writer, replacing).map_err(|source| ExportError::Write { path, source })
+    }
+
+    /// The name that the file will have.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+}
+
+impl Write for AtomicFile {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.writer.write(bytes)
+    }
+
+    fn write_all(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.writer.write_all(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.writer.flush()
+    }
+}
+
+/// Writes `bytes` to `path`, completely or not at all: see [`AtomicFile`].
 ///
 /// # Errors
 /// [`ExportError::Write`] names the file when it is a folder or write-protected, its folder is missing or closed to us,
 /// or the disk is full. The temporary file is gone by then, and an older file under the name is untouched.
 pub fn write_atomic(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), ExportError> {
-    let path = path.as_ref();
-    write_with(path, |file| file.write_all(bytes))
-        .map_err(|source| ExportError::Write { path: path.to_owned(), source })
+    let mut file = AtomicFile::create(path)?;
+    match file.write_all(bytes) {
+        Ok(()) => file.commit(),
+        Err(source) => Err(ExportError::Write { path: file.path, source }),
+    }
 }
 
-fn write_with(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<()> {
+fn begin(path: &Path) -> io::Result<(File, Option<Replacing>)> {
     let existing = match fs::metadata(path) {
         Ok(metadata) => Some(metadata),
         Err(error) if error.kind() == io::ErrorKind::NotFound => None,
         Err(error) => return Err(error),
     };
-    match existing {
-        None => replace(path, None, write),
-        Some(metadata) if metadata.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
-        Some(metadata) if !metadata.is_file() => write(&mut OpenOptions::new().write(true).open(path)?),
-        Some(metadata) if metadata.permissions().readonly() => Err(io::ErrorKind::PermissionDenied.into()),
-        Some(metadata) => replace(&fs::canonicalize(path)?, Some(metadata.permissions()), write),
-    }
+    let (target, permissions) = match existing {
+        None => (path.to_owned(), None),
+        Some(metadata) if metadata.is_dir() => return Err(io::ErrorKind::IsADirectory.into()),
+        Some(metadata) if !metadata.is_file() => return Ok((OpenOptions::new().write(true).open(path)?, None)),
+        Some(metadata) if metadata.permissions().readonly() => return Err(io::ErrorKind::PermissionDenied.into()),
+        Some(metadata) => (fs::canonicalize(path)?, Some(metadata.permissions())),
+    };
+    let (file, temporary) = Temporary::beside(&target)?;
+    Ok((file, Some(Replacing { temporary, target, permissions })))
 }
 
-fn replace(
-    target: &Path,
-    permissions: Option<fs::Permissions>,
-    write: impl FnOnce(&mut File) -> io::Result<()>,
-) -> io::Result<()> {
-    let (mut file, temporary) = Temporary::beside(target)?;
-    write(&mut file)?;
+fn end(writer: BufWriter<File>, replacing: Option<Replacing>) -> io::Result<()> {
+    let file = writer.into_inner().map_err(io::IntoInnerError::into_error)?;
+    let Some(Replacing { temporary, target, permissions }) = replacing else { return Ok(()) };
     if let Some(permissions) = permissions {
         file.set_permissions(permissions)?;
     }
     // Closed before the rename: some systems do not rename open files.
     drop(file);
-    temporary.rename(target)
+    temporary.rename(&target)
 }
 
 /// A file that is removed again unless it is renamed.
+#[derive(Debug)]
 struct Temporary {
     path: PathBuf,
     renamed: bool,
@@ -111,11 +176,11 @@ mod tests {
         let folder = tempfile::tempdir().expect("folder");
         let path = folder.path().join("out.stl");
         write_atomic(&path, b"old").expect("written");
-        let result = write_with(&path, |file| {
-            file.write_all(b"ne")?;
-            Err(io::ErrorKind::StorageFull.into())
-        });
-        assert_eq!(result.expect_err("full").kind(), io::ErrorKind::StorageFull);
+        let mut file = AtomicFile::create(&path).expect("begun");
+        file.write_all(b"ne").expect("written");
+        file.flush().expect("written");
+        assert_eq!(names(folder.path()).len(), 2, "a temporary file is there");
+        drop(file);
         assert_eq!(fs::read(&path).expect("readable"), b"old");
         assert_eq!(names(folder.path()), ["out.stl"]);
     }

@@ -1,19 +1,23 @@
 //! The formats, and the one door to their writers.
 
+use std::io::Write;
 use std::path::Path;
 
-use planecut_csg::Mesh;
+use planecut_csg::{FaceSource, Mesh};
 
 use crate::check::check_mesh;
-use crate::{ExportError, glb, obj, stl};
+use crate::options::ExportOptions;
+use crate::{ExportError, glb, obj, ply, stl, threemf};
 
 /// A mesh file format, with what it keeps of a [`Mesh`].
 ///
 /// | | precision | index topology | materials | up |
 /// |---|---|---|---|---|
-/// | glTF | `f32` around the mesh's centre | in `EXT_mesh_manifold` | name and colour | Y, by the root node's rotation |
-/// | OBJ | `f64`, exact | yes | name | Z |
+/// | glTF | `f32` around the mesh's centre | in `EXT_mesh_manifold` | all | Y, by the root node's rotation |
+/// | OBJ | `f64`, exact | yes | name; all in the MTL file | Z |
 /// | STL | `f32` | no: a reader merges equal corners | no | Z |
+/// | 3MF | `f64`, exact | yes | name and colour | Z |
+/// | PLY | `f64`, exact | yes, unless normals or texture coordinates are asked for | colour | Z |
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Format {
     /// Binary glTF 2.0, one self-contained file.
@@ -22,13 +26,17 @@ pub enum Format {
     Gltf,
     /// Wavefront OBJ, text.
     Obj,
-    /// Binary STL.
+    /// STL, binary or text.
     Stl,
+    /// 3D Manufacturing Format, a package of XML.
+    ThreeMf,
+    /// Stanford polygon format, binary or text.
+    Ply,
 }
 
 impl Format {
     /// All formats, in the order in which they are documented.
-    pub const ALL: [Self; 4] = [Self::Glb, Self::Gltf, Self::Obj, Self::Stl];
+    pub const ALL: [Self; 6] = [Self::Glb, Self::Gltf, Self::Obj, Self::Stl, Self::ThreeMf, Self::Ply];
 
     /// The usual file name ending, without the dot.
     pub fn extension(self) -> &'static str {
@@ -37,6 +45,8 @@ impl Format {
             Self::Gltf => "gltf",
             Self::Obj => "obj",
             Self::Stl => "stl",
+            Self::ThreeMf => "3mf",
+            Self::Ply => "ply",
         }
     }
 
@@ -60,24 +70,6 @@ impl Format {
     }
 }
 
-/// How to write a mesh.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ExportOptions {
-    /// Factor from the input's units to those of the file: 1 keeps them, 0.0254 turns inches into metres.
-    ///
-    /// glTF carries it as the root node's scale, the other formats multiply the coordinates.
-    pub scale: f64,
-    /// Says of each part that it is a convex collider: in glTF by `{"collider": "convex"}` in the extras of its node. Other formats have no
-    /// place for it.
-    pub convex_colliders: bool,
-}
-
-impl Default for ExportOptions {
-    fn default() -> Self {
-        Self { scale: 1.0, convex_colliders: false }
-    }
-}
-
 /// One named mesh of a file that holds several, such as a convex cell of a decomposition.
 #[derive(Debug, Clone, Copy)]
 pub struct Part<'a> {
@@ -85,6 +77,16 @@ pub struct Part<'a> {
     pub name: &'a str,
     /// The mesh, in the same coordinates as all others.
     pub mesh: &'a Mesh,
+    /// Where the faces of each material come from, where that is known: as long as the mesh's materials, or empty.
+    pub sources: &'a [FaceSource],
+}
+
+impl<'a> Part<'a> {
+    /// A mesh of which no sources are known.
+    #[must_use]
+    pub fn new(name: &'a str, mesh: &'a Mesh) -> Self {
+        Self { name, mesh, sources: &[] }
+    }
 }
 
 /// Writes one mesh as a file of the given format.
@@ -93,27 +95,51 @@ pub struct Part<'a> {
 /// [`ExportError`] when an index of the mesh is out of range, a number is not finite or does not fit the format's
 /// precision, or `options.scale` is unusable.
 pub fn encode(mesh: &Mesh, format: Format, options: &ExportOptions) -> Result<Vec<u8>, ExportError> {
-    encode_parts(&[Part { name: "solid", mesh }], format, options)
+    encode_parts(&[Part::new("solid", mesh)], format, options)
 }
 
-/// Writes several meshes as one file: a mesh node each in glTF, an object each in OBJ, one list of triangles in STL.
+/// Writes several meshes as one file: a mesh node each in glTF, an object each in OBJ and 3MF, one list of triangles in STL and PLY.
 ///
 /// # Errors
 /// As for [`encode`].
 pub fn encode_parts(parts: &[Part<'_>], format: Format, options: &ExportOptions) -> Result<Vec<u8>, ExportError> {
-    // NaN fails this comparison as well. The bounds keep the scale and its inverse normal in single precision.
-    if !(1e-30..=1e30).contains(&options.scale) {
-        return Err(ExportError::Scale(options.scale));
-    }
+    let mut bytes = Vec::new();
+    write_parts(parts, format, options, &mut bytes)?;
+    Ok(bytes)
+}
+
+/// The same to a writer, piece by piece: the file is never in memory as a whole.
+///
+/// # Errors
+/// As for [`encode`], and [`ExportError::Io`] where the writer takes no more; what it took by then is no whole file
+/// ([`AtomicFile`](crate::AtomicFile) guards against that).
+pub fn write_parts(
+    parts: &[Part<'_>],
+    format: Format,
+    options: &ExportOptions,
+    out: &mut dyn Write,
+) -> Result<(), ExportError> {
+    options.check()?;
     for part in parts {
         check_mesh(part.mesh)?;
+        check_sources(part)?;
     }
     match format {
-        Format::Glb => glb::encode_glb(parts, options),
-        Format::Gltf => glb::encode_gltf(parts, options),
-        Format::Obj => Ok(obj::encode_obj(parts, options)),
-        Format::Stl => stl::encode_stl(parts, options),
+        Format::Glb => glb::write_glb(parts, options, out),
+        Format::Gltf => glb::write_gltf(parts, options, out),
+        Format::Obj => obj::write_obj(parts, options, out),
+        Format::Stl => stl::write_stl(parts, options, out),
+        Format::ThreeMf => threemf::write_3mf(parts, options, out),
+        Format::Ply => ply::write_ply(parts, options, out),
     }
+}
+
+fn check_sources(part: &Part<'_>) -> Result<(), ExportError> {
+    let (sources, materials) = (part.sources.len(), part.mesh.materials.len());
+    if sources == 0 || sources == materials {
+        return Ok(());
+    }
+    Err(ExportError::InvalidMesh(format!("{materials} materials but {sources} sources, expected as many")))
 }
 
 #[cfg(test)]

@@ -1,8 +1,8 @@
 //! Mesh writers and rendered previews.
 //!
-//! - [`encode`] turns a [`planecut_csg::Mesh`] into the bytes of a `.glb`, `.gltf`, `.obj` or `.stl` file; [`encode_parts`]
-//!   does so for several named meshes in one file. [`Format`] says what each format keeps of the mesh.
-//! - [`write_atomic`] puts bytes under a file name, completely or not at all.
+//! - [`encode`] turns a [`planecut_csg::Mesh`] into the bytes of a mesh file ([`Format`]); [`encode_parts`]
+//!   does so for several named meshes in one file, and [`write_parts`] piece by piece. [`Format`] says what each format keeps of the mesh.
+//! - [`AtomicFile`] and [`write_atomic`] put bytes under a file name, completely or not at all.
 //! - [`render_preview`] draws a mesh as a PNG picture.
 //!
 //! Every writer gives the same bytes for the same input, whatever the number of threads.
@@ -11,18 +11,26 @@
 
 mod check;
 mod color;
+mod decimal;
 mod error;
 mod file;
 mod format;
 mod glb;
+mod library;
 mod obj;
+mod options;
+mod ply;
 mod preview;
 mod single_precision;
 mod stl;
+mod surface;
+mod threemf;
 mod topology;
 
 pub use color::distinct_color;
 pub use error::ExportError;
-pub use file::write_atomic;
-pub use format::{ExportOptions, Format, Part, encode, encode_parts};
+pub use file::{AtomicFile, write_atomic};
+pub use format::{Format, Part, encode, encode_parts, write_parts};
+pub use obj::write_mtl;
+pub use options::{ExportOptions, Projection, Shading, TextureMapping, Unit};
 pub use preview::{MAX_IMAGE_SIDE, PreviewOptions, PreviewStyle, RgbImage, render_preview, render_rgb};

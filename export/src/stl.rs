@@ -1,9 +1,10 @@
-//! Binary STL: a flat list of triangles in single precision.
+//! STL: a flat list of triangles in single precision, binary or as text.
 //!
 //! Corners are repeated for every triangle, so readers merge equal ones. Vertices that the weld has split on purpose fall
 //! together there: use glTF or OBJ where topology matters. Edges too short for single precision are contracted.
 
 use std::borrow::Cow;
+use std::io::{self, Write};
 
 use glam::DVec3;
 use planecut_csg::Mesh;
@@ -12,56 +13,81 @@ use crate::single_precision::without_lost_edges;
 use crate::{ExportError, ExportOptions, Part};
 
 const HEADER_BYTES: usize = 80;
-const TRIANGLE_BYTES: usize = 50;
 
-/// Encodes the triangles of all parts, Z-up, in the order of the meshes.
-pub(crate) fn encode_stl(parts: &[Part<'_>], options: &ExportOptions) -> Result<Vec<u8>, ExportError> {
+/// Writes the triangles of all parts, Z-up, in the order of the meshes.
+pub(crate) fn write_stl(parts: &[Part<'_>], options: &ExportOptions, out: &mut dyn Write) -> Result<(), ExportError> {
     let meshes: Vec<Cow<'_, Mesh>> = parts
         .iter()
         .map(|part| without_lost_edges(part.mesh, |position| (position * options.scale).as_vec3()))
         .collect();
+    meshes.iter().try_for_each(|mesh| check_range(&mesh.positions, options.scale))?;
+    if options.text {
+        write_text(parts, &meshes, options.scale, out)
+    } else {
+        write_binary(&meshes, options.scale, out)
+    }
+}
+
+fn write_binary(meshes: &[Cow<'_, Mesh>], scale: f64, out: &mut dyn Write) -> Result<(), ExportError> {
     let triangles: usize = meshes.iter().map(|mesh| mesh.triangles.len()).sum();
     let count =
         u32::try_from(triangles).map_err(|_| ExportError::TooLarge { what: format!("{triangles} triangles") })?;
-    let mut bytes = Vec::with_capacity(HEADER_BYTES + 4 + TRIANGLE_BYTES * triangles);
     // Must not begin with "solid": readers would take the file for a text one.
-    bytes.extend_from_slice(concat!("binary STL, planecut ", env!("CARGO_PKG_VERSION"), ", Z up").as_bytes());
-    bytes.resize(HEADER_BYTES, 0);
-    bytes.extend_from_slice(&count.to_le_bytes());
-    for mesh in &meshes {
-        push_triangles(&mut bytes, mesh, options.scale)?;
-    }
-    Ok(bytes)
-}
-
-fn push_triangles(bytes: &mut Vec<u8>, mesh: &Mesh, scale: f64) -> Result<(), ExportError> {
-    let points = single_precision(&mesh.positions, scale)?;
-    for (corners, &face) in mesh.triangles.iter().zip(&mesh.triangle_faces) {
-        push_vector(bytes, mesh.faces[face as usize].normal.normalize().as_vec3().to_array());
-        for &corner in corners {
-            push_vector(bytes, points[corner as usize]);
+    let title = concat!("binary STL, planecut ", env!("CARGO_PKG_VERSION"), ", Z up").as_bytes();
+    out.write_all(title)?;
+    out.write_all(&[0; HEADER_BYTES][title.len()..])?;
+    out.write_all(&count.to_le_bytes())?;
+    for mesh in meshes {
+        for triangle in 0..mesh.triangles.len() {
+            for vector in vectors(mesh, triangle, scale) {
+                vector.iter().try_for_each(|value| out.write_all(&value.to_le_bytes()))?;
+            }
+            out.write_all(&[0, 0])?;
         }
-        bytes.extend_from_slice(&[0, 0]);
     }
     Ok(())
 }
 
-fn push_vector(bytes: &mut Vec<u8>, vector: [f32; 3]) {
-    for value in vector {
-        // Adding zero turns -0 into 0: some readers compare corners by their bits.
-        bytes.extend_from_slice(&(value + 0.0).to_le_bytes());
+fn write_text(
+    parts: &[Part<'_>],
+    meshes: &[Cow<'_, Mesh>],
+    scale: f64,
+    out: &mut dyn Write,
+) -> Result<(), ExportError> {
+    for (part, mesh) in parts.iter().zip(meshes) {
+        // a name ends with its line
+        let name: String = part.name.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+        writeln!(out, "solid {name}")?;
+        for triangle in 0..mesh.triangles.len() {
+            let [normal, a, b, c] = vectors(mesh, triangle, scale);
+            write_line("facet normal", normal, out)?;
+            out.write_all(b"outer loop\n")?;
+            [a, b, c].into_iter().try_for_each(|corner| write_line("vertex", corner, out))?;
+            out.write_all(b"endloop\nendfacet\n")?;
+        }
+        writeln!(out, "endsolid {name}")?;
     }
+    Ok(())
 }
 
-fn single_precision(positions: &[DVec3], scale: f64) -> Result<Vec<[f32; 3]>, ExportError> {
-    let convert = |(vertex, &position): (usize, &DVec3)| {
-        let scaled = position * scale;
-        let single = scaled.as_vec3();
-        if single.is_finite() {
-            return Ok(single.to_array());
+fn write_line(word: &str, [x, y, z]: [f32; 3], out: &mut dyn Write) -> io::Result<()> {
+    writeln!(out, "{word} {x} {y} {z}")
+}
+
+/// The normal and the corners of a triangle.
+fn vectors(mesh: &Mesh, triangle: usize, scale: f64) -> [[f32; 3]; 4] {
+    let normal = mesh.faces[mesh.triangle_faces[triangle] as usize].normal.normalize();
+    let [a, b, c] = mesh.triangles[triangle].map(|corner| mesh.positions[corner as usize] * scale);
+    // Adding zero turns -0 into 0: some readers compare corners by their bits.
+    [normal, a, b, c].map(|vector| (vector.as_vec3() + glam::Vec3::ZERO).to_array())
+}
+
+fn check_range(positions: &[DVec3], scale: f64) -> Result<(), ExportError> {
+    match positions.iter().position(|position| !(*position * scale).as_vec3().is_finite()) {
+        Some(vertex) => {
+            let scaled = positions[vertex] * scale;
+            Err(ExportError::CoordinateRange { vertex, value: scaled[scaled.abs().max_position()] })
         }
-        let value = scaled[scaled.abs().max_position()];
-        Err(ExportError::CoordinateRange { vertex, value })
-    };
-    positions.iter().enumerate().map(convert).collect()
+        None => Ok(()),
+    }
 }

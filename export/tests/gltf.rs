@@ -194,14 +194,56 @@ fn manifold_indices(glb: &[u8], mesh: usize) -> Option<Vec<u32>> {
     Some(all)
 }
 
+/// A position as single precision holds it, relative to a point.
+fn single(position: DVec3, origin: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|k| f64::from((position[k] - origin[k]) as f32 + 0.0))
+}
+
+/// The positions of the only mesh of a file, and the translation of its node.
+fn read_positions(glb: &[u8]) -> (Vec<[f64; 3]>, [f64; 3]) {
+    let Gltf { document, blob } = Gltf::from_slice(glb).expect("valid");
+    let blob = blob.expect("a buffer");
+    let raw = gltf::Glb::from_slice(glb).expect("a GLB");
+    let json: serde_json::Value = serde_json::from_slice(&raw.json).expect("JSON");
+    let translation = [0, 1, 2].map(|k| json["nodes"][1]["translation"][k].as_f64().expect("a number"));
+    let primitive = document.meshes().next().expect("a mesh").primitives().next().expect("a primitive");
+    let positions = primitive.reader(|_| Some(&blob)).read_positions().expect("positions");
+    (positions.map(|position| position.map(f64::from)).collect(), translation)
+}
+
+/// A triangle's positions, the least one first, and its corners in the same turn.
+fn turned(mut corners: [u32; 3], position: impl Fn(u32) -> [f64; 3]) -> ([[u64; 3]; 3], [u32; 3]) {
+    let key = |corner: u32| position(corner).map(f64::to_bits);
+    let first = (0..3).min_by_key(|k| key(corners[*k])).expect("three");
+    corners.rotate_left(first);
+    (corners.map(key), corners)
+}
+
 #[test]
 fn the_manifold_extension_restores_the_meshes_own_indices() {
     for mesh in [common::cube_with_hole(), common::random_boxes(40, 3), common::random_boxes(3_000, 4)] {
         let glb = encode(&mesh, Format::Glb, &ExportOptions::default()).expect("encoded");
         let found = manifold_indices(&glb, 0).expect("a manifold");
-        let mut order: Vec<usize> = (0..mesh.triangles.len()).collect();
-        order.sort_by_key(|&t| mesh.faces[mesh.triangle_faces[t] as usize].material);
-        let expected: Vec<u32> = order.iter().flat_map(|&t| mesh.triangles[t]).collect();
+        // Triangles come in another order; no two of a solid have the same corners in the same turn.
+        let (read, translation) = read_positions(&glb);
+        let own: BTreeMap<[[u64; 3]; 3], [u32; 3]> = mesh
+            .triangles
+            .iter()
+            .map(|corners| turned(*corners, |corner| single(mesh.positions[corner as usize], translation)))
+            .collect();
+        assert_eq!(own.len(), mesh.triangles.len());
+        let expected: Vec<u32> = found
+            .chunks(3)
+            .flat_map(|corners| {
+                let corners = [corners[0], corners[1], corners[2]];
+                let (key, in_file) = turned(corners, |corner| read[corner as usize]);
+                // the same turn for both
+                let first = in_file.iter().position(|corner| *corner == corners[0]).expect("a corner");
+                let mut own = own[&key];
+                own.rotate_left(first);
+                own
+            })
+            .collect();
         // Equal up to renaming vertices: the renaming must be one to one.
         let forward: BTreeMap<_, _> = expected.iter().zip(&found).collect();
         let backward: BTreeMap<_, _> = found.iter().zip(&expected).collect();
@@ -236,7 +278,7 @@ fn parts_become_named_nodes_and_share_materials() {
         .chain([Mesh::default(), common::cube_with_hole()])
         .collect();
     let names: Vec<String> = (0..meshes.len()).map(|i| format!("cell {i}")).collect();
-    let parts: Vec<_> = meshes.iter().zip(&names).map(|(mesh, name)| Part { name, mesh }).collect();
+    let parts: Vec<_> = meshes.iter().zip(&names).map(|(mesh, name)| Part::new(name, mesh)).collect();
     let glb = encode_parts(&parts, Format::Glb, &ExportOptions::default()).expect("encoded");
     let seen = read(&glb);
     for (seen, mesh) in seen.iter().zip(&meshes) {

@@ -57,7 +57,7 @@ fn obj_keeps_every_bit_and_every_index() {
 #[test]
 fn obj_scales_and_numbers_parts_on() {
     let meshes = [common::cube_with_hole(), common::random_boxes(3, 2)];
-    let parts = [Part { name: "a b", mesh: &meshes[0] }, Part { name: "", mesh: &meshes[1] }];
+    let parts = [Part::new("a b", &meshes[0]), Part::new("", &meshes[1])];
     let obj = read_obj(
         &encode_parts(&parts, Format::Obj, &ExportOptions { scale: 0.5, ..ExportOptions::default() }).expect("encoded"),
     );

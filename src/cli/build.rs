@@ -64,7 +64,7 @@ impl<'a> Plan<'a> {
         let options = ExportOptions { scale: self.args.output.scale, ..ExportOptions::default() };
         let mut outputs = match cells {
             Some(cells) => encode(&cells.parts(), &self.meshes, &options)?,
-            None => encode(&[Part { name: "solid", mesh: &solved.mesh }], &self.meshes, &options)?,
+            None => encode(&[Part::new("solid", &solved.mesh)], &self.meshes, &options)?,
         };
         let encoding = begin.elapsed();
         if let Some(target) = &self.preview {

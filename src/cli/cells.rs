@@ -49,7 +49,7 @@ impl Cells {
 
     /// One part for each cell.
     pub(crate) fn parts(&self) -> Vec<Part<'_>> {
-        self.names.iter().zip(&self.meshes).map(|(name, mesh)| Part { name, mesh }).collect()
+        self.names.iter().zip(&self.meshes).map(|(name, mesh)| Part::new(name, mesh)).collect()
     }
 
     /// The counts of all meshes together.

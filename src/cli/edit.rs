@@ -97,7 +97,7 @@ impl<'a> Plan<'a> {
         let begin = Instant::now();
         progress.stage("encoding");
         let options = ExportOptions { scale: self.args.output.scale, ..ExportOptions::default() };
-        let outputs = encode(&[Part { name: "solid", mesh: &solved.mesh }], &self.meshes, &options)?;
+        let outputs = encode(&[Part::new("solid", &solved.mesh)], &self.meshes, &options)?;
         Ok(Product { solved, outputs, encoding: begin.elapsed() })
     }
 }

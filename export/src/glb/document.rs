@@ -2,78 +2,136 @@
 
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_1_SQRT_2;
+use std::io::{self, Write};
 
 use gltf_json::accessor::{ComponentType, GenericComponentType, IndexComponentType, Type, sparse};
 use gltf_json::buffer::{Stride, Target, View};
+use gltf_json::extensions::buffer::{Buffer as BufferExtensions, View as ViewExtensions};
 use gltf_json::extensions::mesh::Mesh as MeshExtensions;
+use gltf_json::extras::RawValue;
 use gltf_json::material::{PbrBaseColorFactor, PbrMetallicRoughness, StrengthFactor};
 use gltf_json::mesh::{Mode, Primitive, Semantic};
 use gltf_json::validation::{Checked, USize64};
 use gltf_json::{Accessor, Asset, Buffer, Index, Material, Mesh, Node, Root, Scene};
-use planecut_csg::{MaterialId, Mesh as InputMesh};
+use planecut_csg::Material as InputMaterial;
+use rayon::prelude::*;
 use rustc_hash::FxHashMap;
+use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::buffer::{IndexWidth, Offsets, Sections};
-use super::geometry::Geometry;
+use super::geometry::{Geometry, Run};
+use super::packed::Packed;
+use super::repeats::Repeats;
+use super::sections::{Kind, Section, Width};
 use crate::color::material_color;
-use crate::{ExportError, ExportOptions, Part};
+use crate::{ExportError, ExportOptions, Part, Unit};
 
 /// Name of the extension that says that a mesh is a closed, oriented 2-manifold, and which split vertices are one.
 ///
 /// <https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Vendor/EXT_mesh_manifold>
 const MESH_MANIFOLD: &str = "EXT_mesh_manifold";
 
+/// Names of the extensions that say that positions are on a grid, and that buffers are packed.
+const QUANTIZATION: &str = "KHR_mesh_quantization";
+const MESHOPT: &str = "EXT_meshopt_compression";
+
+/// Arrays begin at multiples of so many bytes, more than any component has.
+const ALIGNED: usize = 4;
+
 /// What a material is where it does not say: matt and no metal.
 const METALLIC: f32 = 0.0;
 const ROUGHNESS: f32 = 0.9;
 
-/// A glTF document under construction. The root node has index 0, the parts' nodes follow.
-pub(super) struct Document {
+/// A glTF document and the arrays that it describes. The root node has index 0, the parts' nodes follow.
+pub(super) struct Document<'a> {
     root: Root,
-    /// Translation of each part's node, kept apart because the JSON types of the library are single precision.
-    translations: Vec<[f64; 3]>,
+    options: ExportOptions,
+    meshes: Vec<Geometry<'a>>,
+    sections: Vec<Section>,
+    /// For each section its packed form, where packing is asked for.
+    packed: Vec<Packed>,
+    /// Translation and scale of each part's node, kept apart because the JSON types of the library are single precision.
+    places: Vec<([f64; 3], Option<f64>)>,
     materials: FxHashMap<(String, [u32; 5]), Index<Material>>,
 }
 
-/// The views that the accessors of a mesh look through.
-struct Views {
-    positions: Index<View>,
-    normals: Index<View>,
-    indices: Index<View>,
-    /// Places and vertices to merge; none when no mesh has any.
-    merges: Option<(Index<View>, Index<View>)>,
-    vertex_width: IndexWidth,
-    place_width: IndexWidth,
-}
-
-impl Document {
-    /// Describes `parts`, and packs their arrays into the buffer that is returned beside. A part without triangles becomes
-    /// a node without a mesh, since glTF forbids empty arrays.
-    pub(super) fn build(parts: &[Part<'_>]) -> Result<(Self, Vec<u8>), ExportError> {
-        let meshes = parts.iter().map(|part| Geometry::new(part.mesh)).collect::<Result<Vec<_>, _>>()?;
-        let mut sections = Sections::for_meshes(&meshes);
-        let offsets: Vec<Offsets> = meshes.iter().map(|mesh| sections.push(mesh)).collect();
-        let mut document = Self { root: new_root(), translations: Vec::new(), materials: FxHashMap::default() };
-        let mut bin = Vec::new();
-        let views = (!sections.indices.is_empty()).then(|| document.push_views(&sections, &mut bin));
-        drop(sections);
+impl<'a> Document<'a> {
+    /// Describes `parts`. A part without triangles becomes a node without a mesh, since glTF forbids empty arrays; parts that are alike
+    /// share a mesh.
+    pub(super) fn build(parts: &[Part<'a>], options: &ExportOptions) -> Result<Self, ExportError> {
+        let repeats = if options.source_ids { Repeats::none(parts.len()) } else { Repeats::of(parts) };
+        let firsts: Vec<&Part<'a>> = repeats.firsts().iter().map(|part| &parts[*part]).collect();
+        let mut meshes: Vec<Geometry<'a>> =
+            firsts.par_iter().map(|part| Geometry::new(part, options)).collect::<Result<_, _>>()?;
+        if options.meshopt {
+            Packed::turn_triangles(&mut meshes)?;
+        }
+        meshes.par_iter_mut().for_each(Geometry::find_merges);
+        let sections = Section::of(&meshes, options.quantize);
+        let packed = if options.meshopt {
+            sections.par_iter().map(|section| Packed::of(section, &meshes)).collect::<Result<_, _>>()?
+        } else {
+            Vec::new()
+        };
+        let mut document = Self {
+            root: new_root(),
+            options: options.clone(),
+            meshes: Vec::new(),
+            sections,
+            packed,
+            places: Vec::new(),
+            materials: FxHashMap::default(),
+        };
+        let views = document.push_views();
         document.root.nodes.push(node("planecut root"));
-        for ((part, mesh), offsets) in parts.iter().zip(&meshes).zip(&offsets) {
-            let mut node = node(part.name);
-            if let Some(views) = views.as_ref().filter(|_| !mesh.indices.is_empty()) {
-                node.mesh = Some(document.push_mesh(part, mesh, views, offsets));
-            }
-            document.translations.push(mesh.origin.to_array());
+        let described: Vec<Option<Index<Mesh>>> = (0..meshes.len())
+            .map(|number| {
+                let is_empty = meshes[number].vertices.corners.is_empty();
+                (!is_empty).then(|| document.push_mesh(firsts[number].name, number, &meshes[number], &views))
+            })
+            .collect();
+        for (part, repeat) in parts.iter().zip(repeats.iter()) {
+            let mesh = &meshes[repeat.first];
+            let node = Node { mesh: described[repeat.first], ..node(part.name) };
+            document.places.push(((mesh.origin + repeat.moved).to_array(), mesh.step));
             document.root.nodes.push(node);
         }
         let children: Vec<_> = (1..document.root.nodes.len()).map(|child| Index::new(child as u32)).collect();
         document.root.nodes[0].children = (!children.is_empty()).then_some(children);
-        Ok((document, bin))
+        document.meshes = meshes;
+        document.name_extensions();
+        Ok(document)
+    }
+
+    /// How long the buffer is.
+    pub(super) fn buffer_bytes(&self) -> usize {
+        let long = |(number, section): (usize, &Section)| match self.packed.get(number) {
+            Some(packed) => packed.bytes.len(),
+            None => section.bytes(),
+        };
+        self.sections.iter().enumerate().map(|section| long(section).next_multiple_of(ALIGNED)).sum()
+    }
+
+    /// Writes the buffer.
+    pub(super) fn write_buffer(&self, out: &mut dyn Write) -> io::Result<()> {
+        for (number, section) in self.sections.iter().enumerate() {
+            let long = match self.packed.get(number) {
+                Some(packed) => {
+                    out.write_all(&packed.bytes)?;
+                    packed.bytes.len()
+                }
+                None => {
+                    section.write(&self.meshes, out)?;
+                    section.bytes()
+                }
+            };
+            out.write_all(&[0; ALIGNED][..long.next_multiple_of(ALIGNED) - long])?;
+        }
+        Ok(())
     }
 
     /// The document as JSON bytes; `uri` is that of the buffer when it is not a GLB chunk.
-    pub(super) fn to_json(&self, options: &ExportOptions, uri: Option<String>) -> Result<Vec<u8>, ExportError> {
+    pub(super) fn to_json(&self, uri: Option<&str>) -> Result<Vec<u8>, ExportError> {
         let failed = |error: serde_json::Error| ExportError::Encode { format: "glTF", message: error.to_string() };
         // Through text, so that single-precision numbers keep their short decimals.
         let text = serde_json::to_vec(&self.root).map_err(failed)?;
@@ -81,11 +139,16 @@ impl Document {
         // The transforms in double precision: readers that compute in it then get the exact frame.
         // A quarter turn about X takes Z-up to Y-up.
         json["nodes"][0]["rotation"] = json!([-FRAC_1_SQRT_2, 0.0, 0.0, FRAC_1_SQRT_2]);
-        json["nodes"][0]["scale"] = json!(vec![options.scale; 3]);
-        for (part, translation) in self.translations.iter().enumerate() {
-            json["nodes"][part + 1]["translation"] = json!(translation);
-            if options.convex_colliders {
-                json["nodes"][part + 1]["extras"] = json!({"collider": "convex"});
+        let scale = self.options.scale * self.options.unit.map_or(1.0, Unit::meters);
+        json["nodes"][0]["scale"] = json!(vec![scale; 3]);
+        for (part, (translation, step)) in self.places.iter().enumerate() {
+            let node = &mut json["nodes"][part + 1];
+            node["translation"] = json!(translation);
+            if let Some(step) = step {
+                node["scale"] = json!(vec![step; 3]);
+            }
+            if self.options.convex_colliders {
+                node["extras"] = json!({"collider": "convex"});
             }
         }
         if let Some(uri) = uri {
@@ -94,69 +157,145 @@ impl Document {
         serde_json::to_vec(&json).map_err(failed)
     }
 
-    fn push_views(&mut self, sections: &Sections, bin: &mut Vec<u8>) -> Views {
-        let mut push = |bytes: &[u8], stride, target| {
-            // Accessors must start at multiples of their component's size; 4 fits all.
-            bin.resize(bin.len().next_multiple_of(4), 0);
-            let view = View {
-                buffer: Index::new(0),
-                byte_length: USize64::from(bytes.len()),
-                byte_offset: Some(USize64::from(bin.len())),
-                byte_stride: stride,
-                name: None,
-                target,
-                extensions: None,
-                extras: None,
+    /// Describes sections: in the buffer where they are, or, packed, in one that nobody sees, with where they really are beside it.
+    fn push_views(&mut self) -> Vec<Index<View>> {
+        let is_packed = !self.packed.is_empty();
+        let (mut plain_end, mut packed_end) = (0, 0);
+        let mut views = Vec::new();
+        for (number, section) in self.sections.iter().enumerate() {
+            let target = match section.kind {
+                Kind::Indices(_) => Some(Target::ElementArrayBuffer),
+                kind => kind.is_attribute().then_some(Target::ArrayBuffer),
             };
-            bin.extend_from_slice(bytes);
-            self.root.push(view)
-        };
-        let vertices = Some(Checked::Valid(Target::ArrayBuffer));
-        let positions = push(&sections.positions, Some(Stride(12)), vertices);
-        let normals = push(&sections.normals, Some(Stride(12)), vertices);
-        let indices = push(&sections.indices, None, Some(Checked::Valid(Target::ElementArrayBuffer)));
-        let merges = (!sections.merge_places.is_empty())
-            .then(|| (push(&sections.merge_places, None, None), push(&sections.merge_vertices, None, None)));
-        // A GLB chunk ends at a multiple of four, and so may the buffer in it.
-        bin.resize(bin.len().next_multiple_of(4), 0);
-        self.root.buffers.push(Buffer {
-            byte_length: USize64::from(bin.len()),
+            let packed = self.packed.get(number).map(|packed| {
+                let mut extension = json!({
+                    "buffer": 0, "byteOffset": packed_end, "byteLength": packed.bytes.len(),
+                    "byteStride": section.stride, "count": section.count(), "mode": packed.mode,
+                });
+                if packed_end == 0
+                    && let Some(fields) = extension.as_object_mut()
+                {
+                    fields.remove("byteOffset");
+                }
+                packed_end += packed.bytes.len().next_multiple_of(ALIGNED);
+                extension
+            });
+            views.push(View {
+                buffer: Index::new(u32::from(is_packed)),
+                byte_length: USize64::from(section.bytes()),
+                byte_offset: Some(USize64::from(plain_end)),
+                byte_stride: section.kind.is_attribute().then_some(Stride(section.stride)),
+                name: None,
+                target: target.map(Checked::Valid),
+                extensions: packed.map(|value| ViewExtensions { others: extension(MESHOPT, value) }),
+                extras: None,
+            });
+            plain_end += section.bytes().next_multiple_of(ALIGNED);
+        }
+        if self.sections.is_empty() {
+            return Vec::new();
+        }
+        let buffer = |bytes: usize| Buffer {
+            byte_length: USize64::from(bytes),
             name: None,
             uri: None,
             extensions: None,
             extras: None,
-        });
-        let (vertex_width, place_width) = (sections.vertex_width, sections.place_width);
-        Views { positions, normals, indices, merges, vertex_width, place_width }
+        };
+        self.root.buffers.push(buffer(self.buffer_bytes()));
+        if is_packed {
+            let fallback = BufferExtensions { others: extension(MESHOPT, json!({"fallback": true})) };
+            self.root.buffers.push(Buffer { extensions: Some(fallback), ..buffer(plain_end) });
+        }
+        views.into_iter().map(|view| self.root.push(view)).collect()
     }
 
-    fn push_mesh(&mut self, part: &Part<'_>, mesh: &Geometry, views: &Views, offsets: &Offsets) -> Index<Mesh> {
-        let vertices = mesh.positions.len();
-        let (min, max) = bounds(&mesh.positions);
-        let mut positions = vectors(views.positions, offsets.positions, vertices);
-        (positions.min, positions.max) = (Some(json!(min)), Some(json!(max)));
-        let positions = self.root.push(positions);
-        let normals = self.root.push(vectors(views.normals, offsets.normals, vertices));
+    /// Describes a mesh, which has a number.
+    fn push_mesh(&mut self, called: &str, number: usize, mesh: &Geometry, views: &[Index<View>]) -> Index<Mesh> {
+        let attributes = self.push_attributes(number, mesh, views);
+        let indices = self.array(Kind::indices(mesh), number, views);
         let mut primitives = Vec::with_capacity(mesh.runs.len());
-        for (material, run) in &mesh.runs {
-            let offset = offsets.indices + views.vertex_width.bytes() * run.start;
-            let indices = self.root.push(scalars(views.indices, offset, run.len(), views.vertex_width));
-            let attributes = [(Semantic::Positions, positions), (Semantic::Normals, normals)];
-            let material = self.material(part.mesh, *material);
-            primitives.push(primitive(&attributes, indices, Some(material)));
+        for run in &mesh.runs {
+            let indices = self.root.push(indices.part(run.corners.start, run.corners.len()));
+            let material = self.material(&mesh.mesh.materials[run.material as usize]);
+            primitives
+                .push(Primitive { extras: sources(run), ..primitive(attributes.clone(), indices, Some(material)) });
         }
         let manifold = mesh.merges.as_ref().map(|merges| {
-            let all = scalars(views.indices, offsets.indices, mesh.indices.len(), views.vertex_width);
-            self.manifold_extension(positions, all, merges.len(), views, offsets)
+            let positions = attributes.iter().find(|(semantic, _)| *semantic == Semantic::Positions);
+            let positions: Vec<_> = positions.cloned().into_iter().collect();
+            self.manifold_extension(positions, indices.whole(), merges.len(), (number, mesh), views)
         });
         self.root.push(Mesh {
-            extensions: manifold.map(|value| MeshExtensions {
-                others: serde_json::Map::from_iter([(MESH_MANIFOLD.to_owned(), value)]),
-            }),
+            extensions: manifold.map(|value| MeshExtensions { others: extension(MESH_MANIFOLD, value) }),
             extras: None,
-            name: name(part.name),
+            name: name(called),
             primitives,
             weights: None,
+        })
+    }
+
+    fn push_attributes(
+        &mut self,
+        number: usize,
+        mesh: &Geometry,
+        views: &[Index<View>],
+    ) -> Vec<(Semantic, Index<Accessor>)> {
+        let kinds = [
+            (Semantic::Positions, Kind::Positions, Type::Vec3),
+            (Semantic::Normals, Kind::Normals, Type::Vec3),
+            (Semantic::Tangents, Kind::Tangents, Type::Vec4),
+            (Semantic::TexCoords(0), Kind::Texture, Type::Vec2),
+            (Semantic::Colors(0), Kind::Colors, Type::Vec4),
+        ];
+        let quantized = self.options.quantize;
+        let mut attributes = Vec::new();
+        for (semantic, kind, type_) in kinds {
+            let Some(array) = self.find_array(kind, number, views) else { continue };
+            let (component, normalized) = match (kind, quantized) {
+                (Kind::Positions, true) => (ComponentType::I16, false),
+                (Kind::Normals | Kind::Tangents, true) => (ComponentType::I8, true),
+                (Kind::Colors, true) => (ComponentType::U8, true),
+                (Kind::Colors, false) => (ComponentType::U16, true),
+                _ => (ComponentType::F32, false),
+            };
+            let mut accessor = Accessor {
+                component_type: Checked::Valid(GenericComponentType(component)),
+                type_: Checked::Valid(type_),
+                normalized,
+                ..array.whole()
+            };
+            if kind == Kind::Positions {
+                let (min, max) = bounds(mesh);
+                (accessor.min, accessor.max) = (Some(min), Some(max));
+            }
+            attributes.push((semantic, self.root.push(accessor)));
+        }
+        attributes
+    }
+
+    /// The array of a mesh; an empty one where it has none.
+    fn array(&self, kind: Kind, mesh: usize, views: &[Index<View>]) -> Array {
+        let nothing = Array { view: Index::new(0), start: 0, count: 0, stride: 1, component: ComponentType::U16 };
+        self.find_array(kind, mesh, views).unwrap_or(nothing)
+    }
+
+    fn find_array(&self, kind: Kind, mesh: usize, views: &[Index<View>]) -> Option<Array> {
+        let place = self.sections.iter().position(|section| section.kind == kind)?;
+        let section = &self.sections[place];
+        let (start, end) = (section.starts[mesh], section.starts[mesh + 1]);
+        let component = match kind {
+            Kind::Indices(Width::U16) | Kind::MergePlaces(Width::U16) | Kind::MergeVertices(Width::U16) => {
+                ComponentType::U16
+            }
+            _ => ComponentType::U32,
+        };
+        (end > start).then(|| Array {
+            view: views[place],
+            start,
+            count: end - start,
+            stride: section.stride,
+            component,
         })
     }
 
@@ -164,38 +303,37 @@ impl Document {
     /// split vertices replaced by sparse values; the two merge accessors repeat these, as the extension demands.
     fn manifold_extension(
         &mut self,
-        positions: Index<Accessor>,
+        positions: Vec<(Semantic, Index<Accessor>)>,
         mut indices: Accessor,
         merges: usize,
-        views: &Views,
-        offsets: &Offsets,
+        (number, mesh): (usize, &Geometry),
+        views: &[Index<View>],
     ) -> Value {
-        if self.root.extensions_used.is_empty() {
-            self.root.extensions_used.push(MESH_MANIFOLD.to_owned());
-        }
-        let merge_views = views.merges.filter(|_| merges > 0);
-        indices.sparse = merge_views.map(|views_| sparse_merges(views_, merges, views, offsets));
+        let merged = (merges > 0).then(|| {
+            let places = self.array(Kind::merge_places(mesh), number, views);
+            (places, self.array(Kind::merge_vertices(mesh), number, views))
+        });
+        indices.sparse = merged.as_ref().map(|(places, vertices)| sparse_merges(places, vertices));
         let indices = self.root.push(indices);
-        let mut extension = json!({"manifoldPrimitive": primitive(&[(Semantic::Positions, positions)], indices, None)});
-        if let Some((places, vertices)) = merge_views {
-            let places = scalars(places, offsets.merge_places, merges, views.place_width);
-            let vertices = scalars(vertices, offsets.merge_vertices, merges, views.vertex_width);
-            extension["mergeIndices"] = self.root.push(places).value().into();
-            extension["mergeValues"] = self.root.push(vertices).value().into();
+        let mut extension = json!({"manifoldPrimitive": primitive(positions, indices, None)});
+        if let Some((places, vertices)) = merged {
+            extension["mergeIndices"] = self.root.push(places.whole()).value().into();
+            extension["mergeValues"] = self.root.push(vertices.whole()).value().into();
         }
         extension
     }
 
-    /// The glTF material for one of the mesh's; parts share those that are equal.
-    fn material(&mut self, mesh: &InputMesh, id: MaterialId) -> Index<Material> {
-        let material = &mesh.materials[id.0 as usize];
-        let [r, g, b] = material_color(material);
+    /// The glTF material for one of a mesh's; meshes share those that are equal. Where vertices have the colours, it is white.
+    fn material(&mut self, material: &InputMaterial) -> Index<Material> {
+        let white = self.options.vertex_colors;
+        let [r, g, b] = if white { [1.0; 3] } else { material_color(material) };
+        let called = if white { "" } else { material.name.as_str() };
         let metallic = share(material.metallic).unwrap_or(METALLIC);
         let roughness = share(material.roughness).unwrap_or(ROUGHNESS);
-        let key = (material.name.clone(), [r, g, b, metallic, roughness].map(f32::to_bits));
+        let key = (called.to_owned(), [r, g, b, metallic, roughness].map(f32::to_bits));
         *self.materials.entry(key).or_insert_with(|| {
             self.root.push(Material {
-                name: name(&material.name),
+                name: name(called),
                 pbr_metallic_roughness: PbrMetallicRoughness {
                     base_color_factor: PbrBaseColorFactor([r, g, b, 1.0]),
                     metallic_factor: StrengthFactor(metallic),
@@ -206,6 +344,76 @@ impl Document {
             })
         })
     }
+
+    fn name_extensions(&mut self) {
+        let has_meshes = !self.sections.is_empty();
+        let mut name = |extension: &str, is_required: bool| {
+            self.root.extensions_used.push(extension.to_owned());
+            if is_required {
+                self.root.extensions_required.push(extension.to_owned());
+            }
+        };
+        if self.meshes.iter().any(|mesh| !mesh.vertices.corners.is_empty() && mesh.merges.is_some()) {
+            name(MESH_MANIFOLD, false);
+        }
+        if self.options.quantize && has_meshes {
+            name(QUANTIZATION, true);
+        }
+        if !self.packed.is_empty() {
+            name(MESHOPT, true);
+        }
+    }
+}
+
+/// An array within a view.
+struct Array {
+    view: Index<View>,
+    /// Its first element.
+    start: usize,
+    count: usize,
+    /// Bytes of an element.
+    stride: usize,
+    component: ComponentType,
+}
+
+impl Array {
+    /// All of it, as scalars.
+    fn whole(&self) -> Accessor {
+        self.part(0, self.count)
+    }
+
+    /// Some of its elements, as scalars.
+    fn part(&self, start: usize, count: usize) -> Accessor {
+        Accessor {
+            buffer_view: Some(self.view),
+            byte_offset: Some(self.offset(start)),
+            count: USize64::from(count),
+            component_type: Checked::Valid(GenericComponentType(self.component)),
+            extensions: None,
+            extras: None,
+            type_: Checked::Valid(Type::Scalar),
+            min: None,
+            max: None,
+            name: None,
+            normalized: false,
+            sparse: None,
+        }
+    }
+
+    /// Where an element lies in the view.
+    fn offset(&self, element: usize) -> USize64 {
+        USize64::from((self.start + element) * self.stride)
+    }
+}
+
+/// What the triangles of a primitive come from: `{"faces": [[triangles, brush, plane], …]}`.
+fn sources(run: &Run) -> Option<Box<RawValue>> {
+    let faces = json!({"faces": run.sources});
+    (!run.sources.is_empty()).then(|| RawValue::from_string(faces.to_string()).ok()).flatten()
+}
+
+fn extension(name: &str, value: Value) -> serde_json::Map<String, Value> {
+    serde_json::Map::from_iter([(name.to_owned(), value)])
 }
 
 /// A factor from 0 to 1; none where it is not a number.
@@ -233,12 +441,12 @@ fn node(called: &str) -> Node {
 }
 
 fn primitive(
-    attributes: &[(Semantic, Index<Accessor>)],
+    attributes: Vec<(Semantic, Index<Accessor>)>,
     indices: Index<Accessor>,
     material: Option<Index<Material>>,
 ) -> Primitive {
     Primitive {
-        attributes: BTreeMap::from_iter(attributes.iter().map(|(key, at)| (Checked::Valid(key.clone()), *at))),
+        attributes: BTreeMap::from_iter(attributes.into_iter().map(|(key, at)| (Checked::Valid(key), at))),
         extensions: None,
         extras: None,
         indices: Some(indices),
@@ -248,56 +456,19 @@ fn primitive(
     }
 }
 
-fn accessor(view: Index<View>, offset: usize, count: usize, component: ComponentType, type_: Type) -> Accessor {
-    Accessor {
-        buffer_view: Some(view),
-        byte_offset: Some(USize64::from(offset)),
-        count: USize64::from(count),
-        component_type: Checked::Valid(GenericComponentType(component)),
-        extensions: None,
-        extras: None,
-        type_: Checked::Valid(type_),
-        min: None,
-        max: None,
-        name: None,
-        normalized: false,
-        sparse: None,
-    }
-}
-
-fn vectors(view: Index<View>, offset: usize, count: usize) -> Accessor {
-    accessor(view, offset, count, ComponentType::F32, Type::Vec3)
-}
-
-fn scalars(view: Index<View>, offset: usize, count: usize, width: IndexWidth) -> Accessor {
-    accessor(view, offset, count, component(width), Type::Scalar)
-}
-
-fn component(width: IndexWidth) -> ComponentType {
-    match width {
-        IndexWidth::U16 => ComponentType::U16,
-        IndexWidth::U32 => ComponentType::U32,
-    }
-}
-
-fn sparse_merges(
-    (places, vertices): (Index<View>, Index<View>),
-    count: usize,
-    views: &Views,
-    offsets: &Offsets,
-) -> sparse::Sparse {
+fn sparse_merges(places: &Array, vertices: &Array) -> sparse::Sparse {
     sparse::Sparse {
-        count: USize64::from(count),
+        count: USize64::from(places.count),
         indices: sparse::Indices {
-            buffer_view: places,
-            byte_offset: USize64::from(offsets.merge_places),
-            component_type: Checked::Valid(IndexComponentType(component(views.place_width))),
+            buffer_view: places.view,
+            byte_offset: places.offset(0),
+            component_type: Checked::Valid(IndexComponentType(places.component)),
             extensions: None,
             extras: None,
         },
         values: sparse::Values {
-            buffer_view: vertices,
-            byte_offset: USize64::from(offsets.merge_vertices),
+            buffer_view: vertices.view,
+            byte_offset: vertices.offset(0),
             extensions: None,
             extras: None,
         },
@@ -306,10 +477,22 @@ fn sparse_merges(
     }
 }
 
-fn bounds(positions: &[[f32; 3]]) -> ([f32; 3], [f32; 3]) {
-    let start = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
-    positions.iter().fold(start, |(min, max), position| {
-        let axis = |i: usize| position[i];
-        (std::array::from_fn(|i| min[i].min(axis(i))), std::array::from_fn(|i| max[i].max(axis(i))))
-    })
+/// The least and greatest coordinates as they are stored.
+fn bounds(mesh: &Geometry) -> (Value, Value) {
+    fn of<T: Copy + PartialOrd + Serialize>(positions: impl Iterator<Item = [T; 3]>) -> (Value, Value) {
+        let wider = |(min, max): ([T; 3], [T; 3]), position: [T; 3]| {
+            let pick = |other: [T; 3], is_better: fn(&T, &T) -> bool| {
+                std::array::from_fn(|k| if is_better(&position[k], &other[k]) { position[k] } else { other[k] })
+            };
+            (pick(min, T::lt), pick(max, T::gt))
+        };
+        let bounds =
+            positions.fold(None, |bounds, position| Some(wider(bounds.unwrap_or((position, position)), position)));
+        bounds.map_or((Value::Null, Value::Null), |(min, max)| (json!(min), json!(max)))
+    }
+    let vertices = 0..mesh.vertices.origins.len();
+    match mesh.step {
+        Some(step) => of(vertices.map(|vertex| mesh.grid_position(vertex, step))),
+        None => of(vertices.map(|vertex| mesh.position(vertex))),
+    }
 }

@@ -1,141 +1,182 @@
-//! A mesh as a renderer wants it: vertices split so that each face has its own flat normal.
+//! A mesh as glTF stores it: split vertices near an origin, primitives by material, and which vertices are one.
 
+use std::borrow::Cow;
 use std::ops::Range;
 
-use glam::DVec3;
-use planecut_csg::{MaterialId, Mesh};
+use glam::{DVec3, I16Vec3};
+use planecut_csg::Mesh;
+use rayon::prelude::*;
 
 use super::origin::choose_origin;
-use crate::ExportError;
+use super::tangents::tangents;
 use crate::single_precision::without_lost_edges;
+use crate::surface::{Looks, Texture, Vertices};
 use crate::topology::is_oriented_manifold;
+use crate::{ExportError, ExportOptions, Part};
 
-/// Marks a mesh vertex that no triangle has used yet.
+/// Marks a vertex that no triangle has used yet.
 const NONE: u32 = u32::MAX;
+/// The farthest that a position of 16 bits reaches.
+const REACH: f64 = i16::MAX as f64;
 
 /// Vertex and index arrays of one mesh, with what is needed to undo the splitting.
-pub(super) struct Geometry {
-    /// The point that `positions` are relative to; exact in single precision.
+pub(super) struct Geometry<'a> {
+    /// The point that positions are relative to; exact in single precision.
     pub(super) origin: DVec3,
-    /// One per split vertex.
-    pub(super) positions: Vec<[f32; 3]>,
-    /// Unit normals, as many as positions.
-    pub(super) normals: Vec<[f32; 3]>,
-    /// Corners of the triangles, grouped by material.
-    pub(super) indices: Vec<u32>,
-    /// The part of `indices` that each used material has.
-    pub(super) runs: Vec<(MaterialId, Range<usize>)>,
-    /// For a closed, oriented 2-manifold: pairs `(place in indices, vertex)` in rising order, which turn `indices` into
+    /// Of the grid that positions lie on, a power of two; none where they are in single precision.
+    pub(super) step: Option<f64>,
+    /// Without edges that are lost where positions are rounded.
+    pub(super) mesh: Cow<'a, Mesh>,
+    pub(super) vertices: Vertices,
+    /// Tangents and their handedness; empty unless asked for.
+    pub(super) tangents: Vec<[f32; 4]>,
+    /// Triangles of one material.
+    pub(super) runs: Vec<Run>,
+    /// For a closed, oriented 2-manifold: pairs `(place among the corners, vertex)` in rising order, which turn the corners into
     /// the manifold's own. `None` for any other mesh.
     pub(super) merges: Option<Vec<(u32, u32)>>,
 }
 
-impl Geometry {
-    /// Splits the vertices of a checked mesh. Edges that single precision cannot hold are contracted; triangles that name a
+/// A primitive of a mesh.
+pub(super) struct Run {
+    /// The material; of several that look alike the first.
+    pub(super) material: u32,
+    /// Its corners.
+    pub(super) corners: Range<usize>,
+    /// How many of its triangles, in order, come from which face of which brush, where that was asked for.
+    pub(super) sources: Vec<[u32; 3]>,
+}
+
+impl<'a> Geometry<'a> {
+    /// The arrays of a checked part. Edges whose ends are rounded to one place are contracted; triangles that name a
     /// vertex twice have no area by construction and are left out.
-    pub(super) fn new(mesh: &Mesh) -> Result<Self, ExportError> {
-        let origin = choose_origin(&mesh.positions);
-        let mesh = &*without_lost_edges(mesh, |position| (position - origin).as_vec3());
-        let order = triangles_by_material(mesh);
-        let points = relative_positions(&mesh.positions, origin)?;
-        let mut splitter = Splitter::new(points, 3 * order.len());
-        let mut runs: Vec<(MaterialId, Range<usize>)> = Vec::new();
-        for &triangle in &order {
-            let face = mesh.triangle_faces[triangle as usize];
-            let material = mesh.faces[face as usize].material;
-            let start = splitter.indices.len();
-            splitter.push(mesh.triangles[triangle as usize], face, mesh.faces[face as usize].normal);
-            match runs.last_mut() {
-                Some((last, range)) if *last == material => range.end += 3,
-                _ => runs.push((material, start..start + 3)),
-            }
+    pub(super) fn new(part: &Part<'a>, options: &ExportOptions) -> Result<Self, ExportError> {
+        let origin = choose_origin(&part.mesh.positions);
+        let step = options.quantize.then(|| grid_step(&part.mesh.positions, origin));
+        let mesh = without_lost_edges(part.mesh, |position| match step {
+            Some(step) => on_grid(position, origin, step).as_vec3(),
+            None => (position - origin).as_vec3(),
+        });
+        check_range(&mesh.positions, origin)?;
+        let looks = Looks::of(&mesh.materials);
+        let mut triangles: Vec<u32> = (0..)
+            .zip(&mesh.triangles)
+            .filter(|(_, [a, b, c])| a != b && b != c && c != a)
+            .map(|(triangle, _)| triangle)
+            .collect();
+        let look = |triangle: &u32| looks.of_face(&mesh, mesh.triangle_faces[*triangle as usize]);
+        triangles.sort_by_key(look);
+        let texture = options.texture.map(|mapping| Texture::new(mapping, part.sources));
+        let mut vertices = Vertices::of(&mesh, &triangles, texture.as_ref(), options);
+        if vertices.corners.len() >= NONE as usize {
+            // numbers of vertices and of places among the corners must hold in 32 bits, with one value to spare
+            let what = format!("{} triangle corners in a glTF mesh", vertices.corners.len());
+            return Err(ExportError::TooLarge { what });
         }
-        splitter.check_size()?;
-        let manifold: Vec<_> = order.iter().map(|&triangle| mesh.triangles[triangle as usize]).collect();
-        let merges = is_oriented_manifold(&manifold).then(|| splitter.merges(&manifold));
-        let Splitter { positions, normals, indices, .. } = splitter;
-        Ok(Self { origin, positions, normals, indices, runs, merges })
+        let mut runs = Vec::new();
+        for triangles in triangles.chunk_by(|a, b| look(a) == look(b)) {
+            let start = runs.last().map_or(0, |run: &Run| run.corners.end);
+            let corners = start..start + 3 * triangles.len();
+            let sources = if options.source_ids { sources_of(part, &mesh, triangles) } else { Vec::new() };
+            runs.push(Run { material: look(&triangles[0]), corners, sources });
+        }
+        if !options.source_ids {
+            order_for_caches(&mut vertices, &runs);
+        }
+        let mut geometry = Self { origin, step, mesh, vertices, tangents: Vec::new(), runs, merges: None };
+        if options.tangents {
+            geometry.tangents = tangents(&mut geometry.vertices, &geometry.mesh.positions, origin);
+        }
+        Ok(geometry)
     }
-}
 
-/// Numbers of the triangles with three different corners, ordered by material, then as in the mesh.
-fn triangles_by_material(mesh: &Mesh) -> Vec<u32> {
-    let mut order: Vec<u32> = (0..)
-        .zip(&mesh.triangles)
-        .filter(|(_, [a, b, c])| a != b && b != c && c != a)
-        .map(|(triangle, _)| triangle)
-        .collect();
-    order.sort_by_key(|&triangle| mesh.faces[mesh.triangle_faces[triangle as usize] as usize].material);
-    order
-}
-
-fn relative_positions(positions: &[DVec3], origin: DVec3) -> Result<Vec<[f32; 3]>, ExportError> {
-    let convert = |(vertex, &position): (usize, &DVec3)| {
-        let relative = position - origin;
+    /// A position in single precision, relative to the origin.
+    pub(super) fn position(&self, vertex: usize) -> [f32; 3] {
+        let position = self.mesh.positions[self.vertices.origins[vertex] as usize];
         // Adding zero turns -0 into 0, which some JSON readers do not tell from it in the bounds.
-        let single = relative.as_vec3() + glam::Vec3::ZERO;
-        if single.is_finite() {
-            return Ok(single.to_array());
+        ((position - self.origin).as_vec3() + glam::Vec3::ZERO).to_array()
+    }
+
+    /// A position on the grid.
+    pub(super) fn grid_position(&self, vertex: usize, step: f64) -> [i16; 3] {
+        let position = self.mesh.positions[self.vertices.origins[vertex] as usize];
+        on_grid(position, self.origin, step).to_array()
+    }
+
+    /// Finds which vertices are one, once the corners have their order.
+    pub(super) fn find_merges(&mut self) {
+        self.merges = self.merged();
+    }
+
+    fn merged(&self) -> Option<Vec<(u32, u32)>> {
+        let Vertices { origins, corners, .. } = &self.vertices;
+        let (triangles, _) = corners.as_chunks::<3>();
+        let own: Vec<[u32; 3]> =
+            triangles.iter().map(|corners| corners.map(|corner| origins[corner as usize])).collect();
+        if !is_oriented_manifold(&own) {
+            return None;
         }
-        Err(ExportError::CoordinateRange { vertex, value: relative[relative.abs().max_position()] })
+        // the first copy of a vertex stands for it
+        let mut first = vec![NONE; self.mesh.positions.len()];
+        for (copy, origin) in (0..).zip(origins) {
+            let first = &mut first[*origin as usize];
+            *first = copy.min(*first);
+        }
+        let merged =
+            (0..).zip(corners).map(|(place, corner)| (place, *corner, first[origins[*corner as usize] as usize]));
+        Some(merged.filter(|(_, corner, merged)| corner != merged).map(|(place, _, merged)| (place, merged)).collect())
+    }
+}
+
+/// The step of the finest grid of a power of two on which positions have 16 bits.
+fn grid_step(positions: &[DVec3], origin: DVec3) -> f64 {
+    let reach = positions.iter().map(|position| (*position - origin).abs().max_element()).fold(0.0, f64::max);
+    let finest = reach / REACH;
+    if finest.is_normal() && finest.is_finite() { finest.log2().ceil().exp2() } else { 1.0 }
+}
+
+fn on_grid(position: DVec3, origin: DVec3, step: f64) -> I16Vec3 {
+    ((position - origin) / step).round().as_i16vec3()
+}
+
+fn check_range(positions: &[DVec3], origin: DVec3) -> Result<(), ExportError> {
+    let relative = |position: &DVec3| *position - origin;
+    match positions.iter().position(|position| !relative(position).as_vec3().is_finite()) {
+        Some(vertex) => {
+            let relative = relative(&positions[vertex]);
+            Err(ExportError::CoordinateRange { vertex, value: relative[relative.abs().max_position()] })
+        }
+        None => Ok(()),
+    }
+}
+
+/// How many triangles, in their order, come from which face of which brush.
+fn sources_of(part: &Part<'_>, mesh: &Mesh, triangles: &[u32]) -> Vec<[u32; 3]> {
+    let source = |triangle: &u32| {
+        let face = mesh.triangle_faces[*triangle as usize];
+        let source = part.sources.get(mesh.faces[face as usize].material.0 as usize)?;
+        Some([source.brush, source.plane])
     };
-    positions.iter().enumerate().map(convert).collect()
+    let runs = triangles.chunk_by(|a, b| source(a) == source(b));
+    runs.filter_map(|run| source(&run[0]).map(|[brush, plane]| [run.len() as u32, brush, plane])).collect()
 }
 
-/// Gives each mesh vertex one copy per face that uses it.
-struct Splitter {
-    /// Single-precision position of each mesh vertex.
-    points: Vec<[f32; 3]>,
-    /// For each mesh vertex the face of its latest copy, and the copy. Triangles of a face follow one another, so
-    /// looking back by one face suffices.
-    latest: Vec<(u32, u32)>,
-    /// For each mesh vertex its first copy, which stands for it in the manifold.
-    first: Vec<u32>,
-    positions: Vec<[f32; 3]>,
-    normals: Vec<[f32; 3]>,
-    indices: Vec<u32>,
-}
-
-impl Splitter {
-    fn new(points: Vec<[f32; 3]>, corners: usize) -> Self {
-        let vertices = points.len();
-        Self {
-            points,
-            latest: vec![(NONE, NONE); vertices],
-            first: vec![NONE; vertices],
-            positions: Vec::with_capacity(corners),
-            normals: Vec::with_capacity(corners),
-            indices: Vec::with_capacity(corners),
-        }
+/// Puts the triangles of each run into an order that suits the caches of graphics cards, and vertices into that of their use.
+fn order_for_caches(vertices: &mut Vertices, runs: &[Run]) {
+    let mut rest = vertices.corners.as_mut_slice();
+    let mut parts = Vec::with_capacity(runs.len());
+    for run in runs {
+        let (part, after) = rest.split_at_mut(run.corners.len());
+        parts.push(part);
+        rest = after;
     }
-
-    fn push(&mut self, corners: [u32; 3], face: u32, normal: DVec3) {
-        for corner in corners {
-            let vertex = corner as usize;
-            if self.latest[vertex].0 != face {
-                let copy = self.positions.len() as u32;
-                self.latest[vertex] = (face, copy);
-                if self.first[vertex] == NONE {
-                    self.first[vertex] = copy;
-                }
-                self.positions.push(self.points[vertex]);
-                self.normals.push(normal.normalize().as_vec3().to_array());
-            }
-            self.indices.push(self.latest[vertex].1);
-        }
-    }
-
-    /// Numbers of vertices and of places in the index list must hold in 32 bits, with one value to spare.
-    fn check_size(&self) -> Result<(), ExportError> {
-        if self.indices.len() < NONE as usize {
-            return Ok(());
-        }
-        Err(ExportError::TooLarge { what: format!("{} triangle corners in a glTF mesh", self.indices.len()) })
-    }
-
-    fn merges(&self, manifold: &[[u32; 3]]) -> Vec<(u32, u32)> {
-        let corners = manifold.iter().flatten().map(|&corner| self.first[corner as usize]);
-        let places = (0..).zip(self.indices.iter().zip(corners));
-        places.filter(|(_, (split, merged))| *split != merged).map(|(place, (_, merged))| (place, merged)).collect()
-    }
+    parts.into_par_iter().for_each(|corners| {
+        // numbers of its own, so that a run takes no more room than it needs
+        let first = corners.iter().min().copied().unwrap_or(0);
+        let count = corners.iter().max().map_or(0, |last| last - first + 1);
+        corners.iter_mut().for_each(|corner| *corner -= first);
+        meshopt::optimize_vertex_cache_in_place(corners, count as usize);
+        corners.iter_mut().for_each(|corner| *corner += first);
+    });
+    vertices.renumber();
 }

@@ -1,43 +1,76 @@
 //! glTF 2.0, binary and as JSON.
 //!
 //! The scene is one root node, which turns Z-up into glTF's Y-up and carries the scale, with a mesh node for each part.
-//! Every mesh node is translated to a point near the part's centre, so that single-precision positions are small.
+//! Every mesh node is translated to a point near the part's centre, so that single-precision positions are small. Parts that are alike share
+//! a mesh.
 //!
-//! Way of a mesh through this folder: [`origin`] chooses the translation, [`geometry`] splits vertices for flat normals and
-//! remembers which belong together, [`buffer`] packs the arrays, [`document`] describes them in JSON.
+//! Way of a mesh through this folder: [`repeats`] finds parts that are alike, [`origin`] chooses the translation, [`geometry`] splits vertices
+//! and remembers which belong together, with [`tangents`] where they are asked for; [`sections`] lays out the arrays, [`packed`] compresses them,
+//! [`document`] describes them in JSON. Arrays are written as they are made: the file is never in memory as a whole.
 
 mod base64;
-mod buffer;
 mod document;
 mod geometry;
 mod origin;
+mod packed;
+mod repeats;
+mod sections;
+mod tangents;
 
-use std::borrow::Cow;
+use std::io::Write;
 
-use gltf::binary::{Glb, Header};
-
+use self::base64::Base64Writer;
 use self::document::Document;
 use crate::{ExportError, ExportOptions, Part};
 
-/// Encodes the parts as binary glTF.
-pub(crate) fn encode_glb(parts: &[Part<'_>], options: &ExportOptions) -> Result<Vec<u8>, ExportError> {
-    let (document, bin) = Document::build(parts)?;
-    let json = document.to_json(options, None)?;
-    // 12 bytes of file header, 8 for each chunk, up to 3 of padding after each.
-    let length = u32::try_from(json.len() + bin.len() + 34)
-        .map_err(|_| ExportError::TooLarge { what: format!("{} bytes of geometry in a GLB", bin.len()) })?;
-    let glb = Glb {
-        // The library computes the length that it writes; this one is only required to be there.
-        header: Header { magic: *b"glTF", version: 2, length },
-        json: Cow::Owned(json),
-        bin: (!bin.is_empty()).then_some(Cow::Owned(bin)),
-    };
-    glb.to_vec().map_err(|error| ExportError::Encode { format: "GLB", message: error.to_string() })
+/// What a GLB begins with, and its version.
+const MAGIC: [u8; 4] = *b"glTF";
+const VERSION: u32 = 2;
+/// Stands for the buffer in JSON until that is written.
+const BUFFER: &str = "planecut:buffer";
+
+/// Writes the parts as binary glTF.
+pub(crate) fn write_glb(parts: &[Part<'_>], options: &ExportOptions, out: &mut dyn Write) -> Result<(), ExportError> {
+    let document = Document::build(parts, options)?;
+    let mut json = document.to_json(None)?;
+    json.resize(json.len().next_multiple_of(4), b' ');
+    let bin = document.buffer_bytes();
+    // 12 bytes of file header, 8 for each chunk
+    let length = 12 + 8 + json.len() + if bin > 0 { 8 + bin } else { 0 };
+    let length = u32::try_from(length)
+        .map_err(|_| ExportError::TooLarge { what: format!("{bin} bytes of geometry in a GLB") })?;
+    out.write_all(&MAGIC)?;
+    out.write_all(&VERSION.to_le_bytes())?;
+    out.write_all(&length.to_le_bytes())?;
+    out.write_all(&(json.len() as u32).to_le_bytes())?;
+    out.write_all(b"JSON")?;
+    out.write_all(&json)?;
+    if bin > 0 {
+        out.write_all(&(bin as u32).to_le_bytes())?;
+        out.write_all(b"BIN\0")?;
+        document.write_buffer(out)?;
+    }
+    Ok(())
 }
 
-/// Encodes the parts as glTF JSON with the buffer in a data URI.
-pub(crate) fn encode_gltf(parts: &[Part<'_>], options: &ExportOptions) -> Result<Vec<u8>, ExportError> {
-    let (document, bin) = Document::build(parts)?;
-    let uri = (!bin.is_empty()).then(|| base64::data_uri(&bin));
-    document.to_json(options, uri)
+/// Writes the parts as glTF JSON with the buffer in a data URI.
+pub(crate) fn write_gltf(parts: &[Part<'_>], options: &ExportOptions, out: &mut dyn Write) -> Result<(), ExportError> {
+    let document = Document::build(parts, options)?;
+    if document.buffer_bytes() == 0 {
+        return Ok(out.write_all(&document.to_json(None)?)?);
+    }
+    let json = document.to_json(Some(BUFFER))?;
+    // quotes in names are escaped, so these stand in the buffer's object alone
+    let field = format!("\"uri\":\"{BUFFER}\"");
+    let Some(place) = json.windows(field.len()).position(|bytes| bytes == field.as_bytes()) else {
+        return Err(ExportError::Encode { format: "glTF", message: "no place for the buffer".to_owned() });
+    };
+    let (before, after) = (&json[..place], &json[place + field.len()..]);
+    out.write_all(before)?;
+    out.write_all(b"\"uri\":\"data:application/octet-stream;base64,")?;
+    let mut base64 = Base64Writer::new(out);
+    document.write_buffer(&mut base64)?;
+    base64.finish()?;
+    out.write_all(b"\"")?;
+    Ok(out.write_all(after)?)
 }

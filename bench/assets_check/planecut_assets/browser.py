@@ -1,0 +1,102 @@
+"""three.js in headless Chromium: what it makes of glTF files, and pictures as planecut's previews see them."""
+
+import json
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+
+from .assets import PLAIN, Asset, Written
+from .gltf_file import GltfFile
+from .measure import Surface, Volume, compare
+from .meshes import check_count
+from .setting import SIZE, Setting
+from .silhouette import Silhouette, background_of, compare_masks, mask_of_screenshot, masks_of_preview
+
+_PROGRAM = Path(__file__).resolve().parents[1] / "javascript" / "view.js"
+
+VIEW = ("-62", "32")
+"""Azimuth and elevation of planecut's previews unless others are asked for."""
+
+BAR = 0.98
+"""The least intersection over union of two masks, or else all that they differ in must lie along their edges."""
+
+SLIVERS = 1e-9
+"""The part of the area whose normals may be off: triangles so thin that rounding decides which way they face."""
+
+TIMEOUT = 3600
+"""Seconds for all files together."""
+
+
+@dataclass(frozen=True)
+class Shown:
+    """What three.js found in a file."""
+
+    where: str
+    variant: str
+    bytes: int
+    facts: dict
+    volume: Volume
+    silhouette: Silhouette | None
+
+
+def show_all(setting: Setting, chromium: str, written: list[Written], empty: Path) -> list[Shown]:
+    """All GLB files and what they look like; what is amiss goes to `setting`."""
+    shown, background = [], background_of(empty)
+    jobs = [(inputs, asset) for inputs in written for asset in inputs.assets if asset.ending == "glb"]
+    for (inputs, asset), answer in zip(jobs, _answers(chromium, [asset for _, asset in jobs])):
+        for said in answer["said"]:
+            setting.fail(asset.where, f"three.js says: {said}")
+        if "error" in answer:
+            setting.fail(asset.where, f"three.js: {answer['error']}")
+            continue
+        facts = answer["facts"]
+        silhouette = None
+        if facts["triangles"] > 0:
+            ours, undecided = masks_of_preview(inputs.preview, background)
+            silhouette = compare_masks(ours, mask_of_screenshot(_picture(asset)), undecided)
+        found = Surface(facts["volume"], facts["area"], _extent(facts))
+        step = GltfFile.read(asset.path).half_step()
+        volume = compare(asset.where, "three.js", found, asset.report, step)
+        check_count(setting, asset, "three.js", facts["triangles"], step)
+        one = Shown(asset.where, asset.variant, asset.path.stat().st_size, facts, volume, silhouette)
+        _check(setting, asset, one)
+        shown.append(one)
+    if len(shown) < len(jobs) and not setting.failures:
+        setting.fail("three.js", f"{len(shown)} answers for {len(jobs)} files")
+    return shown
+
+
+def _check(setting: Setting, asset: Asset, shown: Shown) -> None:
+    facts, expected = shown.facts, asset.report["mesh"]["triangles"]
+    if shown.volume.amiss:
+        setting.fail(asset.where, shown.volume)
+    if expected and "normal" not in facts["attributes"]:
+        setting.fail(asset.where, "three.js finds no normals")
+    if facts["normals_against"] > SLIVERS:
+        part = facts["normals_against"]
+        setting.fail(asset.where, f"normals on {part:.1e} of the area look away from the side that triangles face")
+    seen = shown.silhouette
+    if seen and seen.overlap < BAR and seen.strays > 0:
+        setting.fail(asset.where, f"three.js draws another silhouette: {seen}")
+    materials = asset.report["model"]["materials"]
+    if asset.variant == PLAIN and expected and not 1 <= len(facts["materials"]) <= max(materials, 1):
+        setting.fail(asset.where, f"three.js finds {len(facts['materials'])} materials, planecut reports {materials}")
+
+
+def _answers(chromium: str, assets: list[Asset]) -> list[dict]:
+    jobs = [json.dumps({"path": str(asset.path), "picture": str(_picture(asset))}) for asset in assets]
+    command = ["node", _PROGRAM, chromium, "{}x{}".format(*SIZE), *VIEW]
+    done = subprocess.run(
+        command, input="\n".join(jobs), capture_output=True, text=True, timeout=TIMEOUT, check=False
+    )
+    if done.returncode != 0:
+        raise RuntimeError(f"{_PROGRAM.name} ended with exit status {done.returncode}: {done.stderr[-500:]}")
+    return [json.loads(line) for line in done.stdout.splitlines()]
+
+
+def _picture(asset: Asset) -> Path:
+    return asset.path.with_name(asset.path.name + ".three.png")
+
+
+def _extent(facts: dict) -> float:
+    return max((abs(value) for corner in facts["box"] or () for value in corner), default=0.0)

@@ -1,0 +1,64 @@
+//! Numbers as text.
+
+use std::io::{self, Write};
+
+use glam::DVec3;
+
+/// Writes the shortest decimal that reads back as `value`.
+pub(crate) fn write_decimal(value: f64, out: &mut dyn Write) -> io::Result<()> {
+    // Grid coordinates are the common case, and an integer is several times faster to print.
+    if value.fract() == 0.0 && value.abs() < 1e15 {
+        if value < 0.0 {
+            out.write_all(b"-")?;
+        }
+        write_digits(value.abs() as u64, out)
+    } else if (1e-5..1e17).contains(&value.abs()) {
+        write!(out, "{value}")
+    } else {
+        write!(out, "{value:e}")
+    }
+}
+
+/// Writes the coordinates of a point, each after a space.
+pub(crate) fn write_point(point: DVec3, out: &mut dyn Write) -> io::Result<()> {
+    point.to_array().into_iter().try_for_each(|value| {
+        out.write_all(b" ")?;
+        write_decimal(value, out)
+    })
+}
+
+/// Writes an integer.
+pub(crate) fn write_digits(mut value: u64, out: &mut dyn Write) -> io::Result<()> {
+    let mut digits = [b'0'; 20];
+    let mut start = digits.len();
+    loop {
+        start -= 1;
+        digits[start] = b'0' + (value % 10) as u8;
+        value /= 10;
+        if value == 0 {
+            break;
+        }
+    }
+    out.write_all(&digits[start..])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn decimals_read_back_as_the_same_number() {
+        let mut state = 0x9e37_79b9_7f4a_7c15_u64;
+        let random = std::iter::repeat_with(|| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            f64::from_bits(state ^ (state >> 29))
+        });
+        let chosen = [0.0, 1.0, -1.0, 0.1, -2.5, 1e15, -1e15, 999_999_999_999_999.0, 1e17, 1e-5, 5e-324, f64::MAX];
+        for value in chosen.into_iter().chain(random.take(10_000)).filter(|v| v.is_finite()) {
+            let mut text = Vec::new();
+            write_decimal(value, &mut text).expect("written");
+            let text = String::from_utf8(text).expect("ASCII");
+            assert_eq!(text.parse::<f64>().expect("a number").to_bits(), value.to_bits(), "{text}");
+        }
+    }
+}
