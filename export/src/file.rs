@@ -1,7 +1,7 @@
 //! Files that appear under their names only when complete.
 
 use std::fs::{self, File, OpenOptions};
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter, Seek, Write};
 use std::path::{Path, PathBuf};
 use std::process;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -13,7 +13,7 @@ const BUFFER: usize = 1 << 16;
 
 /// A file that appears under its name only when it is complete.
 ///
-/// What is written goes to a temporary file in the same folder, which [`AtomicFile::commit`] renames; until then, and when it is
+/// What is written goes to a temporary file in the same folder, on Linux one without a name, which [`AtomicFile::commit`] renames; until then, and when it is
 /// dropped before, an older file under the name is untouched. An existing file keeps its permissions; a symbolic link stays and its
 /// target is replaced. Pipes and devices cannot be replaced and are written directly. The rename guards against errors and killed
 /// processes, not against power loss.
@@ -112,30 +112,35 @@ fn end(writer: BufWriter<File>, replacing: Option<Replacing>) -> io::Result<()> 
     if let Some(permissions) = permissions {
         file.set_permissions(permissions)?;
     }
-    // Closed before the rename: some systems do not rename open files.
-    drop(file);
-    temporary.rename(&target)
+    temporary.rename(file, &target)
 }
 
-/// A file that is removed again unless it is renamed.
+/// A file that is gone unless it is renamed: one without a name where the system has such, which not even a killed process leaves behind.
 #[derive(Debug)]
 struct Temporary {
     path: PathBuf,
-    renamed: bool,
+    is_named: bool,
 }
 
 impl Temporary {
-    /// Creates a new file in the folder of `target`, hidden and named after it.
+    /// Creates a new file in the folder of `target`.
     fn beside(target: &Path) -> io::Result<(File, Self)> {
-        static COUNTER: AtomicU32 = AtomicU32::new(0);
         let name = target.file_name().ok_or(io::ErrorKind::InvalidFilename)?;
+        let path = hidden_name(target);
+        debug_assert_ne!(path.file_name(), Some(name));
+        if let Some(file) = unnamed::file_beside(target) {
+            return Ok((file, Self { path, is_named: false }));
+        }
+        let (file, path) = Self::named(target)?;
+        Ok((file, Self { path, is_named: true }))
+    }
+
+    /// A new file with a hidden name.
+    fn named(target: &Path) -> io::Result<(File, PathBuf)> {
         loop {
-            // A fixed-length name: the target's own may be as long as the file system allows.
-            let number = COUNTER.fetch_add(1, Ordering::Relaxed);
-            let path = target.with_file_name(format!(".planecut-{}-{number}.tmp", process::id()));
-            debug_assert_ne!(path.file_name(), Some(name));
+            let path = hidden_name(target);
             match OpenOptions::new().write(true).create_new(true).open(&path) {
-                Ok(file) => return Ok((file, Self { path, renamed: false })),
+                Ok(file) => return Ok((file, path)),
                 // Left by a killed process that had our number: never overwrite, take the next.
                 Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
                 Err(error) => return Err(error),
@@ -143,19 +148,91 @@ impl Temporary {
         }
     }
 
-    fn rename(mut self, target: &Path) -> io::Result<()> {
+    /// Gives the file, which is complete, the name of `target`.
+    fn rename(mut self, file: File, target: &Path) -> io::Result<()> {
+        while !self.is_named {
+            match unnamed::name(&file, &self.path) {
+                Ok(()) => self.is_named = true,
+                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => self.path = hidden_name(target),
+                Err(_) => self.copy(&file, target)?,
+            }
+        }
+        // Closed before the rename: some systems do not rename open files.
+        drop(file);
         fs::rename(&self.path, target)?;
-        self.renamed = true;
+        self.is_named = false;
         Ok(())
+    }
+
+    /// Copies a file without a name to one that has one.
+    fn copy(&mut self, mut file: &File, target: &Path) -> io::Result<()> {
+        let (mut named, path) = Self::named(target)?;
+        (self.path, self.is_named) = (path, true);
+        file.rewind()?;
+        io::copy(&mut file, &mut named)?;
+        named.set_permissions(file.metadata()?.permissions())
     }
 }
 
 impl Drop for Temporary {
     fn drop(&mut self) {
-        if !self.renamed {
+        if self.is_named {
             // Nothing more can be done about a failure here; the first error is the one to report.
             let _ = fs::remove_file(&self.path);
         }
+    }
+}
+
+/// A name in the folder of `target`, of a fixed length: the target's own may be as long as the file system allows.
+fn hidden_name(target: &Path) -> PathBuf {
+    static COUNTER: AtomicU32 = AtomicU32::new(0);
+    let number = COUNTER.fetch_add(1, Ordering::Relaxed);
+    target.with_file_name(format!(".planecut-{}-{number}.tmp", process::id()))
+}
+
+/// Files without names.
+#[cfg(target_os = "linux")]
+mod unnamed {
+    use std::fs::File;
+    use std::io;
+    use std::os::fd::AsRawFd;
+    use std::path::Path;
+
+    use rustix::fs::{AtFlags, CWD, Mode, OFlags, linkat, open};
+
+    /// Where open files have names.
+    const OPEN_FILES: &str = "/proc/self/fd";
+
+    /// A new file in the folder of another; `None` where the file system has no files without names.
+    pub(super) fn file_beside(target: &Path) -> Option<File> {
+        let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        if !Path::new(OPEN_FILES).exists() {
+            return None;
+        }
+        let file = open(folder, OFlags::TMPFILE | OFlags::RDWR | OFlags::CLOEXEC, Mode::from_raw_mode(0o666)).ok()?;
+        Some(File::from(file))
+    }
+
+    /// Names a file that has no name.
+    pub(super) fn name(file: &File, path: &Path) -> io::Result<()> {
+        let open_file = format!("{OPEN_FILES}/{}", file.as_raw_fd());
+        Ok(linkat(CWD, open_file, CWD, path, AtFlags::SYMLINK_FOLLOW)?)
+    }
+}
+
+/// Files without names: there are none here.
+#[cfg(not(target_os = "linux"))]
+mod unnamed {
+    use std::fs::File;
+    use std::io;
+    use std::path::Path;
+
+    pub(super) fn file_beside(_: &Path) -> Option<File> {
+        None
+    }
+
+    pub(super) fn name(_: &File, _: &Path) -> io::Result<()> {
+        Err(io::ErrorKind::Unsupported.into())
     }
 }
 
@@ -179,9 +256,26 @@ mod tests {
         let mut file = AtomicFile::create(&path).expect("begun");
         file.write_all(b"ne").expect("written");
         file.flush().expect("written");
-        assert_eq!(names(folder.path()).len(), 2, "a temporary file is there");
         drop(file);
         assert_eq!(fs::read(&path).expect("readable"), b"old");
+        assert_eq!(names(folder.path()), ["out.stl"]);
+    }
+
+    #[test]
+    fn a_copy_takes_the_place_of_a_name_that_cannot_be_given() {
+        let folder = tempfile::tempdir().expect("folder");
+        let path = folder.path().join("out.stl");
+        let (mut file, mut temporary) = Temporary::beside(&path).expect("begun");
+        if temporary.is_named {
+            // no files without names here
+            return;
+        }
+        file.write_all(b"bytes").expect("written");
+        assert!(names(folder.path()).is_empty());
+        temporary.copy(&file, &path).expect("copied");
+        assert_eq!(names(folder.path()).len(), 1);
+        temporary.rename(file, &path).expect("renamed");
+        assert_eq!(fs::read(&path).expect("readable"), b"bytes");
         assert_eq!(names(folder.path()), ["out.stl"]);
     }
 

@@ -11,6 +11,7 @@ use planecut::import::map::MapOptions;
 use planecut::import::model::ModelOptions;
 use planecut::import::scad::ScadOptions;
 
+use super::asset_args::AssetArgs;
 use super::error::CliError;
 use super::input::{Input, InputKind};
 use super::terminal;
@@ -51,6 +52,9 @@ pub(crate) struct BuildArgs {
     /// Write the convex cells of the solid, one mesh each, instead of its skin
     #[arg(long)]
     pub(crate) cells: bool,
+    /// Write each part that has a name of its own as a solid of its own, instead of their union
+    #[arg(long, conflicts_with = "cells")]
+    pub(crate) parts: bool,
     #[command(flatten)]
     pub(crate) picture: PictureArgs,
     #[command(flatten)]
@@ -62,11 +66,11 @@ pub(crate) struct BuildArgs {
 /// Where meshes and the report go.
 #[derive(Debug, Args)]
 pub(crate) struct OutputArgs {
-    /// Mesh to write, by its ending .glb, .gltf, .obj or .stl; may be given several times; `-` is standard output. Of `coarsen` a name with
+    /// Mesh to write, by its ending .glb, .gltf, .obj, .stl, .3mf or .ply; may be given several times; `-` is standard output. Of `coarsen` a name with
     /// `{}` is a file for each cell, `{}` standing for its number
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1)]
     pub(crate) outputs: Vec<PathBuf>,
-    /// Format of `-o -`: glb, gltf, obj or stl
+    /// Format of `-o -`: glb, gltf, obj, stl, 3mf or ply
     #[arg(long, value_name = "FORMAT", value_parser = parse_format)]
     pub(crate) format: Option<Format>,
     /// Factor from the input's units to those of the meshes
@@ -75,6 +79,8 @@ pub(crate) struct OutputArgs {
     /// Also write counts, measures and times as JSON
     #[arg(long, value_name = "JSON")]
     pub(crate) report: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) assets: AssetArgs,
 }
 
 /// A picture beside the meshes.

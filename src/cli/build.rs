@@ -2,13 +2,13 @@
 
 use std::time::Instant;
 
-use planecut::export::{ExportOptions, Part};
+use planecut::export::Part;
 
 use super::args::BuildArgs;
-use super::cells::Cells;
 use super::error::CliError;
 use super::input::{Input, InputKind};
 use super::output::{MeshTarget, Target, check_targets};
+use super::pieces::Pieces;
 use super::product::{Product, draw, encode, produce};
 use super::progress::Progress;
 use super::report::milliseconds;
@@ -24,7 +24,7 @@ struct Plan<'a> {
     report: Option<Target>,
 }
 
-/// Runs the command: everything is encoded in memory before the first file is written.
+/// Runs the command: everything is complete before the first file gets its name.
 ///
 /// # Errors
 /// Any [`CliError`] but those of `check`.
@@ -46,26 +46,29 @@ impl<'a> Plan<'a> {
             preview: args.picture.preview.as_deref().map(Target::picture).transpose()?,
             report: args.output.report.as_deref().map(Target::new),
         };
-        let meshes = plan.meshes.iter().map(|mesh| &mesh.target);
-        check_targets(plan.input.file(), meshes.chain(&plan.preview).chain(&plan.report))?;
+        let meshes: Vec<Target> = plan.meshes.iter().flat_map(MeshTarget::targets).collect();
+        check_targets(plan.input.file(), meshes.iter().chain(&plan.preview).chain(&plan.report))?;
         Ok(plan)
     }
 
     fn carry_out(&self, progress: &Progress) -> Result<Product, CliError> {
-        let mut solved = solve(&self.input, self.kind, &self.args.reading, progress)?;
-        let cells = if self.args.cells {
+        let assets = &self.args.output.assets;
+        let splits_by_face = assets.splits_by_face();
+        let mut solved = solve(&self.input, self.kind, &self.args.reading, splits_by_face, progress)?;
+        let pieces = if self.args.cells {
             progress.stage("cutting cells");
-            Some(Cells::new(&self.input, self.kind, &mut solved)?)
+            Some(Pieces::cells(&self.input, self.kind, &mut solved)?)
+        } else if self.args.parts {
+            Some(Pieces::parts(&self.input, self.kind, &mut solved)?)
         } else {
             None
         };
         let begin = Instant::now();
         progress.stage("encoding");
-        let options = ExportOptions { scale: self.args.output.scale, ..ExportOptions::default() };
-        let mut outputs = match cells {
-            Some(cells) => encode(&cells.parts(), &self.meshes, &options)?,
-            None => encode(&[Part::new("solid", &solved.mesh)], &self.meshes, &options)?,
-        };
+        let options = assets.options(self.args.output.scale);
+        let solid = Part { name: "solid", mesh: &solved.mesh, sources: &solved.sources };
+        let parts = pieces.as_ref().map_or_else(|| vec![solid], |pieces| pieces.as_parts(&solved.sources));
+        let mut outputs = encode(&parts, &self.meshes, &options)?;
         let encoding = begin.elapsed();
         if let Some(target) = &self.preview {
             let drawing = Instant::now();

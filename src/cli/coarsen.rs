@@ -7,19 +7,19 @@ use planecut::csg::coarsen::{CoarsenOptions, Coarsened, Coarsener};
 use planecut::csg::{Brush, EvaluateError, Material, MaterialId, Mesh, Model, Tree, evaluate};
 use planecut::export::{ExportOptions, distinct_color};
 use planecut::import::Warning;
-use planecut::import::mesh::read_parts;
+use planecut::import::mesh::{MeshImport, read_parts};
 use planecut::kernel::DVec3;
 use rayon::prelude::*;
 
 use super::args::CoarsenArgs;
-use super::cells::{Cells, NUMBER, bounded_tree};
 use super::error::CliError;
 use super::input::{Input, InputKind};
-use super::output::{MeshTarget, Target, check_targets};
-use super::product::{Encoded, Product, draw, encode, produce};
+use super::output::{MeshTarget, Output, Target, check_targets};
+use super::pieces::{NUMBER, Pieces, bounded_tree};
+use super::product::{Product, draw, encode, produce};
 use super::progress::Progress;
 use super::report::{CoarsenPart, milliseconds};
-use super::solve::{Solved, read, solve_read};
+use super::solve::{Read, Solved, read, solve_read};
 
 /// What is to be written where.
 struct Plan<'a> {
@@ -35,7 +35,7 @@ struct Plan<'a> {
     report: Option<Target>,
 }
 
-/// Runs the command: everything is encoded in memory before the first file is written.
+/// Runs the command: everything is complete before the first file gets its name.
 ///
 /// # Errors
 /// Any [`CliError`] but those of `check` and `edit`.
@@ -79,9 +79,9 @@ impl<'a> Plan<'a> {
     fn carry_out(&self, progress: &Progress) -> Result<Product, CliError> {
         let begin = Instant::now();
         progress.stage("reading");
-        let (model, warnings, points) = self.read()?;
+        let (read, points) = self.read()?;
         let clear = self.read_clear()?;
-        let mut solved = solve_read(&self.input, self.kind, (model, warnings), begin.elapsed(), progress)?;
+        let mut solved = solve_read(&self.input, self.kind, read, begin.elapsed(), progress)?;
         progress.stage("coarsening");
         let begin = Instant::now();
         let coarsened = self.coarsen(&solved, &points, &self.args.limits.options(clear))?;
@@ -101,24 +101,24 @@ impl<'a> Plan<'a> {
             solved.report.time_ms.preview = milliseconds(drawing.elapsed());
         }
         // the names of single cells are known by now
-        self.check(&outputs.iter().map(|(target, _)| target).collect::<Vec<_>>())?;
+        self.check(&outputs.iter().map(Output::target).collect::<Vec<_>>())?;
         Ok(Product { solved, outputs, encoding })
     }
 
     /// The model, and the points that its cells must hold.
-    fn read(&self) -> Result<(Model, Vec<Warning>, Vec<DVec3>), CliError> {
+    fn read(&self) -> Result<(Read, Vec<DVec3>), CliError> {
         if let InputKind::Mesh(format) = self.kind {
             let parts = read_parts(&self.input.read()?, format, &self.input.name())?;
-            return Ok((parts.import.model, parts.import.warnings, parts.points));
+            let MeshImport { model, warnings, .. } = parts.import;
+            return Ok((Read { model, warnings, ..Read::default() }, parts.points));
         }
-        let (model, warnings) = read(&self.input, self.kind, &self.args.reading)?;
-        Ok((model, warnings, Vec::new()))
+        Ok((read(&self.input, self.kind, &self.args.reading)?, Vec::new()))
     }
 
     /// The union of what is to be kept clear.
     fn read_clear(&self) -> Result<Option<Tree>, CliError> {
         let tree =
-            |(input, kind): &(Input, InputKind)| Ok(read(input, *kind, &self.args.reading.of_any_kind())?.0.tree);
+            |(input, kind): &(Input, InputKind)| Ok(read(input, *kind, &self.args.reading.of_any_kind())?.model.tree);
         let trees: Vec<Tree> = self.clear.iter().map(tree).collect::<Result<_, CliError>>()?;
         Ok((!trees.is_empty()).then(|| Tree::union(trees)))
     }
@@ -130,7 +130,7 @@ impl<'a> Plan<'a> {
     }
 
     /// The mesh of each cell.
-    fn cells(&self, coarsened: &Coarsened, solved: &Solved) -> Result<Cells, CliError> {
+    fn cells(&self, coarsened: &Coarsened, solved: &Solved) -> Result<Pieces, CliError> {
         let mesh = |cell: &Brush| -> Result<Mesh, EvaluateError> {
             let model = Model { materials: solved.model.materials.clone(), tree: cell.clone().into() };
             Ok(evaluate(&model)?.mesh)
@@ -139,11 +139,11 @@ impl<'a> Plan<'a> {
         let mut meshes = meshes.map_err(|source| CliError::of_evaluation(&self.input.path, source))?;
         // what is thinner than rounding has none
         meshes.retain(|mesh| !mesh.triangles.is_empty());
-        Ok(Cells::named(meshes, &self.args.name))
+        Ok(Pieces::named(meshes, &self.args.name))
     }
 
     /// Tells the report and, where cells could not become so few, warns.
-    fn tell(&self, solved: &mut Solved, coarsened: &Coarsened, cells: &Cells, time: Duration) {
+    fn tell(&self, solved: &mut Solved, coarsened: &Coarsened, cells: &Pieces, time: Duration) {
         solved.report.set_coarsen(CoarsenPart::new(coarsened, time), cells.measured());
         if let Some(asked) = self.args.limits.max_cells.filter(|asked| coarsened.cells.len() > *asked) {
             let found = coarsened.cells.len();
@@ -155,9 +155,10 @@ impl<'a> Plan<'a> {
         }
     }
 
-    fn encode(&self, cells: &Cells) -> Result<Vec<Encoded>, CliError> {
-        let options = ExportOptions { scale: self.args.output.scale, convex_colliders: true };
-        let parts = cells.parts();
+    fn encode(&self, cells: &Pieces) -> Result<Vec<Output>, CliError> {
+        let options =
+            ExportOptions { convex_colliders: true, ..self.args.output.assets.options(self.args.output.scale) };
+        let parts = cells.as_parts(&[]);
         let mut outputs = encode(&parts, &self.meshes, &options)?;
         for mesh in &self.patterns {
             let pattern = pattern_of(mesh).unwrap_or_default();

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use planecut::csg::{EditError, LiveModel, Mesh, evaluate_with};
-use planecut::export::{ExportOptions, Part};
+use planecut::export::Part;
 use planecut::import::edits::{EditsImport, read_edits};
 
 use super::args::EditArgs;
@@ -14,7 +14,7 @@ use super::output::{MeshTarget, Target, check_targets};
 use super::product::{Product, encode, produce};
 use super::progress::Progress;
 use super::report::{EditPart, milliseconds};
-use super::solve::{read, solve_read, unbounded_of};
+use super::solve::{Read, read, solve_read, unbounded_of};
 
 /// What is to be written where.
 struct Plan<'a> {
@@ -25,7 +25,7 @@ struct Plan<'a> {
     report: Option<Target>,
 }
 
-/// Runs the command: everything is encoded in memory before the first file is written.
+/// Runs the command: everything is complete before the first file gets its name.
 ///
 /// # Errors
 /// Any [`CliError`] but those of `check`.
@@ -46,8 +46,9 @@ impl<'a> Plan<'a> {
             meshes: MeshTarget::resolve_all(&args.output.outputs, args.output.format)?,
             report: args.output.report.as_deref().map(Target::new),
         };
+        let meshes: Vec<Target> = plan.meshes.iter().flat_map(MeshTarget::targets).collect();
         for file in [plan.input.file(), Some(args.edits.as_path())] {
-            check_targets(file, plan.meshes.iter().map(|mesh| &mesh.target).chain(&plan.report))?;
+            check_targets(file, meshes.iter().chain(&plan.report))?;
         }
         Ok(plan)
     }
@@ -55,7 +56,7 @@ impl<'a> Plan<'a> {
     fn carry_out(&self, progress: &Progress) -> Result<Product, CliError> {
         let begin = Instant::now();
         progress.stage("reading");
-        let (model, warnings) = read(&self.input, self.kind, &self.args.reading)?;
+        let Read { model, warnings, .. } = read(&self.input, self.kind, &self.args.reading)?;
         let text = Input::plain(&self.args.edits).read()?;
         let EditsImport { edits, materials } =
             read_edits(&text, &self.args.edits.display().to_string(), &model.materials)?;
@@ -85,7 +86,8 @@ impl<'a> Plan<'a> {
             }
         }
         let mesh = mesh_of(&live, &self.args.edits, 0)?;
-        let mut solved = solve_read(&self.input, self.kind, (live.to_model(), warnings), import_time, progress)?;
+        let read = Read { model: live.to_model(), warnings, ..Read::default() };
+        let mut solved = solve_read(&self.input, self.kind, read, import_time, progress)?;
         check_same(&mesh, &solved.mesh, &self.args.edits, 0)?;
         solved.report.set_edit(EditPart {
             edits: times.len(),
@@ -96,7 +98,7 @@ impl<'a> Plan<'a> {
         });
         let begin = Instant::now();
         progress.stage("encoding");
-        let options = ExportOptions { scale: self.args.output.scale, ..ExportOptions::default() };
+        let options = self.args.output.assets.options(self.args.output.scale);
         let outputs = encode(&[Part::new("solid", &solved.mesh)], &self.meshes, &options)?;
         Ok(Product { solved, outputs, encoding: begin.elapsed() })
     }

@@ -13,7 +13,7 @@ use super::input::{Input, InputKind};
 use super::pool::on_threads;
 use super::progress::Progress;
 use super::report::{Report, milliseconds};
-use super::solve::{solve, solve_read};
+use super::solve::{Read, solve, solve_read};
 use super::terminal;
 
 /// Runs the command. What makes a solid is evaluated; of a mesh, counts are those of the file.
@@ -28,7 +28,7 @@ pub(crate) fn run(args: &InfoArgs) -> Result<(), CliError> {
     let (mut report, warnings) = on_threads(args.common.threads, || match kind {
         InputKind::Mesh(format) => report_on_mesh(&input, format, &progress),
         kind => {
-            let solved = solve(&input, kind, &args.reading, &progress)?;
+            let solved = solve(&input, kind, &args.reading, None, &progress)?;
             Ok((solved.report, solved.warnings))
         }
     })?;
@@ -54,7 +54,7 @@ fn report_on_mesh(input: &Input, format: MeshFormat, progress: &Progress) -> Res
     let begin = Instant::now();
     match solid_of_mesh(mesh, format, &input.name()) {
         Ok(import) => {
-            let read = (import.model, import.warnings);
+            let read = Read { model: import.model, warnings: import.warnings, ..Read::default() };
             let solved = solve_read(input, kind, read, reading_time + begin.elapsed(), progress)?;
             report.take_model(solved.report);
             warnings.extend(solved.warnings);

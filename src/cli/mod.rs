@@ -3,8 +3,8 @@
 //! Exit statuses are decided in [`error`] and nowhere else. Every error is one line on standard error.
 
 mod args;
+mod asset_args;
 mod build;
-mod cells;
 mod check;
 mod coarsen;
 mod edit;
@@ -12,6 +12,7 @@ mod error;
 mod info;
 mod input;
 mod output;
+mod pieces;
 mod pool;
 mod product;
 mod progress;

@@ -2,9 +2,10 @@
 
 use std::fmt;
 use std::fs;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use planecut::export::{ExportError, Format, write_atomic};
+use planecut::export::{AtomicFile, ExportError, Format};
 
 use super::error::CliError;
 use super::terminal;
@@ -36,19 +37,83 @@ impl Target {
         }
     }
 
+    /// The last part of a file's name.
+    pub(crate) fn file_name(&self) -> Option<String> {
+        match self {
+            Self::File(path) => Some(path.file_name()?.to_string_lossy().into_owned()),
+            Self::Stdout => None,
+        }
+    }
+
     /// Puts `bytes` there: a file appears under its name only when it is complete.
     ///
     /// # Errors
     /// [`CliError::Write`] or [`CliError::Stdout`] where the system refuses.
     pub(crate) fn write(&self, bytes: &[u8]) -> Result<(), CliError> {
-        let Self::File(path) = self else { return terminal::print_bytes(bytes) };
+        self.begin(|out| Ok(out.write_all(bytes)?))?.commit()
+    }
+
+    /// Has something written there, piece by piece. A file gets its name with [`Output::commit`], and is gone without it; what is for standard
+    /// output waits for it in memory.
+    ///
+    /// # Errors
+    /// [`CliError::Write`] where the system refuses, [`CliError::Encode`] for what `write` gives.
+    pub(crate) fn begin(
+        &self,
+        write: impl FnOnce(&mut dyn Write) -> Result<(), ExportError>,
+    ) -> Result<Output, CliError> {
+        let failed = |error| self.error_of(error);
+        let Self::File(path) = self else {
+            let mut bytes = Vec::new();
+            write(&mut bytes).map_err(failed)?;
+            return Ok(Output { target: self.clone(), content: Content::Waiting(bytes) });
+        };
         if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
             fs::create_dir_all(folder).map_err(|source| CliError::Write { path: path.clone(), source })?;
         }
-        write_atomic(path, bytes).map_err(|error| match error {
-            ExportError::Write { path, source } => CliError::Write { path, source },
-            source => CliError::Encode { output: self.to_string(), source },
-        })
+        let mut file = AtomicFile::create(path).map_err(failed)?;
+        write(&mut file).map_err(failed)?;
+        Ok(Output { target: self.clone(), content: Content::File(file) })
+    }
+
+    fn error_of(&self, error: ExportError) -> CliError {
+        match (error, self) {
+            (ExportError::Write { path, source }, _) => CliError::Write { path, source },
+            (ExportError::Io(source), Self::File(path)) => CliError::Write { path: path.clone(), source },
+            (source, _) => CliError::Encode { output: self.to_string(), source },
+        }
+    }
+}
+
+/// Something that was written, but has no name yet.
+#[derive(Debug)]
+pub(crate) struct Output {
+    target: Target,
+    content: Content,
+}
+
+#[derive(Debug)]
+enum Content {
+    File(AtomicFile),
+    /// For standard output.
+    Waiting(Vec<u8>),
+}
+
+impl Output {
+    /// Where it goes.
+    pub(crate) fn target(&self) -> &Target {
+        &self.target
+    }
+
+    /// Gives it its name, or hands it to standard output.
+    ///
+    /// # Errors
+    /// [`CliError::Write`] or [`CliError::Stdout`] where the system refuses.
+    pub(crate) fn commit(self) -> Result<(), CliError> {
+        match self.content {
+            Content::File(file) => file.commit().map_err(|error| self.target.error_of(error)),
+            Content::Waiting(bytes) => terminal::print_bytes(&bytes),
+        }
     }
 }
 
@@ -69,6 +134,19 @@ pub(crate) struct MeshTarget {
 }
 
 impl MeshTarget {
+    /// Where the materials of an OBJ file go: a file of the same name but for its ending. Standard output has none.
+    pub(crate) fn library(&self) -> Option<Target> {
+        match &self.target {
+            Target::File(path) if self.format == Format::Obj => Some(Target::File(path.with_extension("mtl"))),
+            _ => None,
+        }
+    }
+
+    /// All that is written: the mesh, and its materials where they have a file of their own.
+    pub(crate) fn targets(&self) -> impl Iterator<Item = Target> {
+        std::iter::once(self.target.clone()).chain(self.library())
+    }
+
     /// The place and format of `-o` arguments; `stdout_format` is that of `-`.
     ///
     /// # Errors
@@ -82,7 +160,10 @@ impl MeshTarget {
             },
             target => match Format::from_path(path) {
                 Ok(format) => Ok(Self { target, format }),
-                Err(_) => Err(CliError::Ending { path: path.clone(), expected: "`.glb`, `.gltf`, `.obj` or `.stl`" }),
+                Err(_) => Err(CliError::Ending {
+                    path: path.clone(),
+                    expected: "`.glb`, `.gltf`, `.obj`, `.stl`, `.3mf` or `.ply`",
+                }),
             },
         };
         let targets: Vec<Self> = paths.iter().map(resolve).collect::<Result<_, _>>()?;

@@ -1,44 +1,39 @@
-//! What `build`, `edit` and `coarsen` make: all of it is there before the first file is written.
+//! What `build`, `edit` and `coarsen` make: all of it is complete before the first file gets its name.
 
 use std::time::{Duration, Instant};
 
 use planecut::csg::Mesh;
-use planecut::export::{ExportOptions, Part, PreviewOptions, encode_parts, render_preview};
+use planecut::export::{ExportOptions, Part, PreviewOptions, render_preview, write_mtl, write_parts};
 
 use super::args::CommonArgs;
 use super::error::CliError;
 use super::input::Input;
-use super::output::{MeshTarget, Target};
+use super::output::{MeshTarget, Output, Target};
 use super::pool::on_threads;
 use super::progress::Progress;
 use super::report::milliseconds;
 use super::solve::Solved;
 use super::terminal;
 
-/// An output that is complete in memory.
-pub(crate) type Encoded = (Target, Vec<u8>);
-
-/// What is there before the first file is written.
+/// What is there before the first file gets its name.
 pub(crate) struct Product {
     pub(crate) solved: Solved,
-    pub(crate) outputs: Vec<Encoded>,
+    pub(crate) outputs: Vec<Output>,
     /// How long the meshes took to encode.
     pub(crate) encoding: Duration,
 }
 
 impl Product {
-    /// Prints the warnings about an input and writes all outputs, the report last; `begin` is when the work began.
+    /// Prints the warnings about an input and commits all outputs, the report last; `begin` is when the work began.
     ///
     /// # Errors
     /// [`CliError::Write`] or [`CliError::Stdout`] where the system refuses.
-    fn write(mut self, input: &str, is_quiet: bool, report: Option<&Target>, begin: Instant) -> Result<(), CliError> {
+    fn commit(mut self, input: &str, is_quiet: bool, report: Option<&Target>, begin: Instant) -> Result<(), CliError> {
         if !is_quiet {
             terminal::print_warnings(input, &self.solved.warnings);
         }
         let writing = Instant::now();
-        for (target, bytes) in &self.outputs {
-            target.write(bytes)?;
-        }
+        self.outputs.into_iter().try_for_each(Output::commit)?;
         if let Some(target) = report {
             let report = &mut self.solved.report;
             report.time_ms.export = milliseconds(self.encoding + writing.elapsed());
@@ -64,32 +59,36 @@ pub(crate) fn produce(
     let progress = Progress::start(common.quiet);
     let product = on_threads(common.threads, || work(&progress))?;
     drop(progress);
-    product.write(&input.name(), common.quiet, report, begin)
+    product.commit(&input.name(), common.quiet, report, begin)
 }
 
 /// Draws a mesh for a place.
 ///
 /// # Errors
-/// [`CliError::Encode`].
-pub(crate) fn draw(mesh: &Mesh, target: &Target, options: &PreviewOptions) -> Result<Encoded, CliError> {
-    match render_preview(mesh, options) {
-        Ok(picture) => Ok((target.clone(), picture)),
-        Err(source) => Err(CliError::Encode { output: target.to_string(), source }),
-    }
+/// [`CliError::Encode`], [`CliError::Write`].
+pub(crate) fn draw(mesh: &Mesh, target: &Target, options: &PreviewOptions) -> Result<Output, CliError> {
+    target.begin(|out| Ok(out.write_all(&render_preview(mesh, options)?)?))
 }
 
-/// Encodes parts for each of some places.
+/// Writes parts to each of some places; an OBJ file has its materials beside it.
 ///
 /// # Errors
-/// [`CliError::Encode`].
+/// [`CliError::Encode`], [`CliError::Write`].
 pub(crate) fn encode(
     parts: &[Part<'_>],
     meshes: &[MeshTarget],
     options: &ExportOptions,
-) -> Result<Vec<Encoded>, CliError> {
-    let encode_one = |MeshTarget { target, format }: &MeshTarget| match encode_parts(parts, *format, options) {
-        Ok(bytes) => Ok((target.clone(), bytes)),
-        Err(source) => Err(CliError::Encode { output: target.to_string(), source }),
-    };
-    meshes.iter().map(encode_one).collect()
+) -> Result<Vec<Output>, CliError> {
+    let mut outputs = Vec::with_capacity(meshes.len());
+    for mesh in meshes {
+        // colliders are not seen
+        let library = mesh.library().filter(|_| !options.convex_colliders);
+        let material_library = library.as_ref().and_then(Target::file_name);
+        let options = ExportOptions { material_library, ..options.clone() };
+        outputs.push(mesh.target.begin(|out| write_parts(parts, mesh.format, &options, out))?);
+        if let Some(library) = library {
+            outputs.push(library.begin(|out| write_mtl(parts, out))?);
+        }
+    }
+    Ok(outputs)
 }

@@ -20,8 +20,8 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), CliError> {
     let target = Target::picture(&args.output)?;
     check_targets(input.file(), [&target].into_iter())?;
     let progress = Progress::start(args.common.quiet);
-    let (solved, (target, picture)) = on_threads(args.common.threads, || {
-        let solved = solve(&input, kind, &args.reading, &progress)?;
+    let (solved, picture) = on_threads(args.common.threads, || {
+        let solved = solve(&input, kind, &args.reading, None, &progress)?;
         progress.stage("drawing");
         let picture = draw(&solved.mesh, &target, &args.size.preview(args.style))?;
         Ok((solved, picture))
@@ -30,5 +30,5 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), CliError> {
     if !args.common.quiet {
         terminal::print_warnings(&input.name(), &solved.warnings);
     }
-    target.write(&picture)
+    picture.commit()
 }

@@ -65,6 +65,18 @@ impl Report {
         }
     }
 
+    /// Says what of the solid's parts is written.
+    pub(crate) fn set_parts(&mut self, mesh: MeshPart) {
+        self.mesh = mesh;
+    }
+
+    /// Says how many materials the input has.
+    pub(crate) fn set_materials(&mut self, materials: usize) {
+        if let Some(model) = &mut self.model {
+            model.materials = materials;
+        }
+    }
+
     /// The report on a mesh that was read from a file of the given format.
     pub(crate) fn of_mesh(input: String, format: &'static str, topology: &TopologyReport) -> Self {
         let Measures { volume, area, centroid, min, max } = topology.measures;

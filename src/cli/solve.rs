@@ -3,9 +3,9 @@
 use std::time::{Duration, Instant};
 
 use planecut::csg::check::check_topology;
-use planecut::csg::{Evaluation, Mesh, Model, ModelSummary, UnboundedBrushes, evaluate_with};
+use planecut::csg::{Evaluation, FaceSource, Mesh, Model, ModelSummary, TextureAxes, UnboundedBrushes, evaluate_with};
 use planecut::import::Warning;
-use planecut::import::map::read_map;
+use planecut::import::map::{MapImport, read_map};
 use planecut::import::mesh::read_solid;
 use planecut::import::model::read_model;
 use planecut::import::scad::read_scad;
@@ -18,8 +18,10 @@ use super::report::{MeshPart, Report, milliseconds};
 
 /// The solid of a model.
 pub(crate) struct Solved {
-    /// What was read.
+    /// What was read; where sources are known, each face of a brush has a material of its source.
     pub(crate) model: Model,
+    /// Where the faces of each material come from, where that was asked for.
+    pub(crate) sources: Vec<FaceSource>,
     /// The boundary of its solid.
     pub(crate) mesh: Mesh,
     /// Numbers of the brushes that are not bounded.
@@ -30,7 +32,8 @@ pub(crate) struct Solved {
     pub(crate) warnings: Vec<Warning>,
 }
 
-/// Reads an input and evaluates its tree on the current thread pool.
+/// Reads an input and evaluates its tree on the current thread pool. Faces of different sources stay apart where that is asked for: those of each face
+/// of a brush, or those whose textures lie differently.
 ///
 /// # Errors
 /// [`CliError`] for unusable input, [`CliError::Evaluate`] for a solid without a mesh, [`CliError::Bug`] for a bug.
@@ -38,12 +41,20 @@ pub(crate) fn solve(
     input: &Input,
     kind: InputKind,
     reading: &ReadingArgs,
+    splits_by_face: Option<bool>,
     progress: &Progress,
 ) -> Result<Solved, CliError> {
     let begin = Instant::now();
     progress.stage("reading");
-    let read = read(input, kind, reading)?;
-    solve_read(input, kind, read, begin.elapsed(), progress)
+    let mut read = read(input, kind, reading)?;
+    let materials = read.model.materials.len();
+    let mut sources = Vec::new();
+    if let Some(by_face) = splits_by_face {
+        (read.model, sources) = read.model.split_by_source(&read.textures, by_face);
+    }
+    let mut solved = solve_read(input, kind, read, begin.elapsed(), progress)?;
+    solved.report.set_materials(materials);
+    Ok(Solved { sources, ..solved })
 }
 
 /// The same for what was read of an input, and how long that took.
@@ -53,7 +64,7 @@ pub(crate) fn solve(
 pub(crate) fn solve_read(
     input: &Input,
     kind: InputKind,
-    (model, mut warnings): (Model, Vec<Warning>),
+    Read { model, mut warnings, .. }: Read,
     import_time: Duration,
     progress: &Progress,
 ) -> Result<Solved, CliError> {
@@ -70,23 +81,39 @@ pub(crate) fn solve_read(
     let mut report = Report::of_model(input.given(), kind.name(), model.materials.len(), &evaluation, mesh);
     report.time_ms.import = milliseconds(import_time);
     report.warnings = warnings.iter().map(ToString::to_string).collect();
-    Ok(Solved { model, mesh: evaluation.mesh, unbounded: evaluation.model.unbounded, report, warnings })
+    Ok(Solved {
+        model,
+        sources: Vec::new(),
+        mesh: evaluation.mesh,
+        unbounded: evaluation.model.unbounded,
+        report,
+        warnings,
+    })
+}
+
+/// What was read of an input.
+#[derive(Default)]
+pub(crate) struct Read {
+    pub(crate) model: Model,
+    pub(crate) warnings: Vec<Warning>,
+    /// For each brush how the textures of its faces lie, where the input says it.
+    pub(crate) textures: Vec<Vec<Option<TextureAxes>>>,
 }
 
 /// Reads an input.
 ///
 /// # Errors
 /// [`CliError`] for unusable input.
-pub(crate) fn read(input: &Input, kind: InputKind, reading: &ReadingArgs) -> Result<(Model, Vec<Warning>), CliError> {
+pub(crate) fn read(input: &Input, kind: InputKind, reading: &ReadingArgs) -> Result<Read, CliError> {
     let bytes = input.read()?;
-    Ok(match kind {
+    let (model, warnings) = match kind {
         InputKind::Json => {
             let import = read_model(&bytes, &input.name(), &reading.model_options())?;
             (import.model, import.warnings)
         }
         InputKind::Map => {
-            let import = read_map(&bytes, &input.name(), &reading.map_options())?;
-            (import.model, import.warnings)
+            let MapImport { model, warnings, textures, .. } = read_map(&bytes, &input.name(), &reading.map_options())?;
+            return Ok(Read { model, warnings, textures });
         }
         InputKind::Csg => {
             let import = read_scad(&bytes, &input.name(), &reading.scad_options(input))?;
@@ -96,7 +123,8 @@ pub(crate) fn read(input: &Input, kind: InputKind, reading: &ReadingArgs) -> Res
             let import = read_solid(&bytes, format, &input.name())?;
             (import.model, import.warnings)
         }
-    })
+    };
+    Ok(Read { model, warnings, ..Read::default() })
 }
 
 fn evaluate_model(input: &Input, kind: InputKind, model: &Model) -> Result<Evaluation, CliError> {

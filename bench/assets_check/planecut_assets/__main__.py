@@ -6,10 +6,12 @@ import shutil
 import sys
 import tempfile
 import time
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 from . import machine
-from .assets import Formats, Written, write_assets
+from .assets import MODELS, Asset, Formats, Written, write_assets
 from .browser import show_all
 from .figures import measure_million, measure_sizes
 from .inputs import all_inputs, write_empty
@@ -86,28 +88,32 @@ def _read_again(setting: Setting, inputs: Written, openscad: str | None) -> list
     begin, amiss = time.perf_counter(), len(setting.failures)
     volumes = []
     for asset in inputs.assets:
-        checks = [lambda: check_round_trip(setting, asset, openscad)]
-        if asset.ending not in ("map", "csg"):
-            checks = [lambda: check_mesh(setting, asset)]
-        if asset.ending == "3mf":
-            checks.append(lambda: check_package(setting, asset))
-        for check in checks:
+        for check in _checks(asset, openscad):
             try:
-                volumes += check()
+                volumes += check(setting, asset)
             # Whatever a reader throws at a file is a finding.
-            except Exception as error:  # noqa: BLE001
+            except Exception as error:
                 setting.fail(asset.where, f"{type(error).__name__}: {error}")
     triangles = inputs.assets[0].report["mesh"]["triangles"]
     verdict = "ok" if len(setting.failures) == amiss else "AMISS"
     seconds = time.perf_counter() - begin
-    print(f"{inputs.input.name:<52} {triangles:>8} triangles {len(volumes):>3} volumes {seconds:6.1f} s {verdict}", flush=True)
+    print(
+        f"{inputs.input.name:<52} {triangles:>8} triangles {len(volumes):>3} volumes {seconds:6.1f} s {verdict}",
+        flush=True,
+    )
     return volumes
+
+
+def _checks(asset: Asset, openscad: str | None) -> list[Callable[[Setting, Asset], list[Volume]]]:
+    """What a file goes through."""
+    if asset.ending in MODELS:
+        return [partial(check_round_trip, openscad=openscad)]
+    return [check_mesh, check_package] if asset.ending == "3mf" else [check_mesh]
 
 
 def _empty_preview(setting: Setting) -> Path:
     picture = setting.scratch / "empty.png"
-    drawing = ("--preview", picture, "--preview-size", "{}x{}".format(*SIZE))
-    setting.planecut.build(write_empty(setting.scratch), [setting.scratch / "empty.obj"], *drawing)
+    setting.planecut.render(write_empty(setting.scratch), picture, SIZE)
     return picture
 
 
@@ -125,7 +131,9 @@ def _arguments() -> argparse.Namespace:
     amount.add_argument("--full", action="store_true", help="all inputs, however large, and OpenSCAD on large trees")
     add("--data", type=Path, default=_PROJECT.parent / "shared/data", help="folder of the inputs (default %(default)s)")
     add("--planecut", type=Path, required=True, help="the program to check (default: built by bench/assets)")
-    add("--variant", action="append", default=[], metavar="OPTIONS", help="also write GLB with these options of `build`")
+    add(
+        "--variant", action="append", default=[], metavar="OPTIONS", help="also write GLB with these options of `build`"
+    )
     add("--json", type=Path, help="writes all that was found")
     add("--markdown", type=Path, help="writes the page")
     add("--pictures", type=Path, metavar="FOLDER", help="keeps previews and screenshots")

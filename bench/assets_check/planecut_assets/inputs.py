@@ -5,7 +5,7 @@ import math
 from dataclasses import dataclass
 from pathlib import Path
 
-LARGE = 500_000
+LARGE = 700_000
 """Bytes of an input above which it is left to full runs."""
 
 TREES = 30
@@ -29,7 +29,7 @@ def all_inputs(project: Path, data: Path, quick: bool, full: bool) -> list[Input
     maps = _of_size(data / "map", "*.map", full)
     trees = _of_size(data / "csg", "*.csg", full)
     numbers = (QUICK, QUICK, QUICK) if quick else (math.inf, math.inf, math.inf if full else TREES)
-    kinds = [_spread(files, number) for files, number in zip((examples, maps, trees), numbers)]
+    kinds = [_spread(files, number) for files, number in zip((examples, maps, trees), numbers, strict=True)]
     return [Input(f"{path.parent.name}/{path.name}", path) for kind in kinds for path in kind]
 
 

@@ -48,15 +48,18 @@ class Volume:
         return not abs(self.difference) <= self.allowed
 
     def __str__(self) -> str:
-        return f"{self.by} finds the volume {self.found:.9g}, off by {self.difference:.1e} where {self.allowed:.1e} may be"
+        return (
+            f"{self.by} finds the volume {self.found:.9g}, off by {self.difference:.1e} where {self.allowed:.1e} may be"
+        )
 
 
 def compare(where: str, by: str, found: Surface, report: dict, half_step: float) -> Volume:
     """The volume beside that of the report.
 
-    `half_step` is the farthest that writing moves a coordinate. A vertex then moves by √3 times that at most, and the volume
-    changes by no more than the surface's area times the way (the terms of second order are far below the rounding of
-    sums). So a file in single precision is good to area · √3 · largest coordinate · 2⁻²⁴, however large or thin the solid.
+    `half_step` is the farthest that writing moves a coordinate. A vertex then moves by √3 times that at most, and the
+    volume changes by no more than the surface's area times the way (the terms of second order are far below the
+    rounding of sums). So a file in single precision is good to area · √3 · largest coordinate · 2⁻²⁴, however large or
+    thin the solid is.
     """
     expected = report["mesh"]["volume"]
     allowed = found.area * np.sqrt(3.0) * (half_step + ROUNDING * found.extent) + ROUNDING * abs(expected)

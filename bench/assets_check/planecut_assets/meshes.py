@@ -1,12 +1,16 @@
 """Meshes read again by trimesh, and taken for solids by manifold3d."""
 
+import re
+import subprocess
+import warnings
+from io import BytesIO
 from pathlib import Path
 
 import manifold3d
 import numpy as np
 import trimesh
 
-from .assets import Asset
+from .assets import PLAIN, Asset
 from .gltf_file import GltfFile
 from .measure import Surface, Volume, compare
 from .setting import Setting
@@ -14,21 +18,31 @@ from .setting import Setting
 SINGLE = 2.0**-24
 """How far rounding to single precision moves a number, relative to it."""
 
-KEEPS_TOPOLOGY = ("obj", "ply", "3mf", "glb", "gltf")
-"""Formats that tell which vertices are one; glTF does by `EXT_mesh_manifold`, which trimesh does not know."""
+TIMEOUT = 300
+"""Seconds for unpacking a file."""
+
+_UNPACK = Path(__file__).resolve().parents[1] / "javascript" / "unpack.js"
 
 
 def check_mesh(setting: Setting, asset: Asset) -> list[Volume]:
     """Reads the file with both; what is amiss goes to `setting`."""
-    gltf = GltfFile.read(asset.path) if asset.ending in ("glb", "gltf") else None
-    if gltf and gltf.compressed:
+    if asset.report["mesh"]["triangles"] == 0 and asset.ending == "3mf":
+        # trimesh takes no 3MF without an object.
         return []
-    vertices, triangles = _read(asset.path)
+    path, gltf = asset.path, None
+    if asset.ending in ("glb", "gltf"):
+        gltf = GltfFile.read(path)
+        if gltf.compressed:
+            path = _unpacked(path)
+            gltf = GltfFile.read(path)
+    vertices, triangles = _read(path)
     found = Surface.of(vertices, triangles)
     step = gltf.half_step() if gltf else _half_step(asset, found.extent)
     check_count(setting, asset, "trimesh", len(triangles), step)
     volumes = [compare(asset.where, "trimesh", found, asset.report, step)]
-    if asset.ending in KEEPS_TOPOLOGY and len(triangles) > 0:
+    if asset.keeps_topology and len(triangles) > 0:
+        if asset.ending == "obj":
+            vertices, triangles = _read_bare_obj(path)
         if not gltf and not trimesh.Trimesh(vertices, triangles, process=False).is_watertight:
             setting.fail(asset.where, "trimesh finds it not watertight")
         parts = _parts_of_gltf(gltf) if gltf else [manifold3d.Mesh64(vertices, triangles.astype(np.uint64))]
@@ -50,20 +64,28 @@ def check_count(setting: Setting, asset: Asset, reader: str, triangles: int, hal
     if triangles > expected or (triangles < expected and half_step == 0.0):
         setting.fail(asset.where, f"{reader} finds {triangles} triangles, planecut reports {expected}")
     elif triangles < expected:
-        setting.note(f"{asset.where}: {reader} finds {triangles} triangles; {expected - triangles} are lost in rounding")
+        way = "" if asset.variant == PLAIN else f" ({asset.variant})"
+        lost = expected - triangles
+        setting.note(
+            f"{asset.input}{way}: {lost} of {expected} triangles are not written where coordinates are rounded"
+        )
 
 
-def _read(path: Path) -> tuple[np.ndarray, np.ndarray]:
+def _read(file: Path | BytesIO, ending: str = "") -> tuple[np.ndarray, np.ndarray]:
     """All triangles, where they are in the world, with the vertices as the file has them.
 
     trimesh makes a mesh of each material's triangles, with all vertices of the file; these are taken once.
     """
-    keep = {"process": False}
-    if path.suffix == ".obj":
+    ending = ending or Path(str(file)).suffix[1:]
+    keep: dict = {"process": False, "file_type": ending}
+    if ending == "obj":
         keep |= {"maintain_order": True, "group_material": False, "skip_materials": True}
-    scene = trimesh.load_scene(path, **keep)
-    vertices, triangles = {}, [np.zeros((0, 3), int)]
-    count = 0
+    with warnings.catch_warnings():
+        # What trimesh says of texture coordinates of vertices that no triangle of a material uses.
+        warnings.simplefilter("ignore", RuntimeWarning)
+        scene = trimesh.load_scene(file, **keep)
+    vertices: dict[bytes, tuple[int, np.ndarray]] = {}
+    triangles, count = [np.zeros((0, 3), int)], 0
     for node in scene.graph.nodes_geometry:
         matrix, name = scene.graph[node]
         part = scene.geometry[name]
@@ -74,12 +96,24 @@ def _read(path: Path) -> tuple[np.ndarray, np.ndarray]:
     return np.concatenate([np.zeros((0, 3))] + [placed for _, placed in vertices.values()]), np.concatenate(triangles)
 
 
+def _read_bare_obj(path: Path) -> tuple[np.ndarray, np.ndarray]:
+    """Without texture coordinates and normals: trimesh makes several vertices of one that has several of these."""
+    lines = (line for line in path.read_bytes().splitlines() if not line.startswith((b"vt ", b"vn ")))
+    return _read(BytesIO(re.sub(rb"(?m)(?<= )(\d+)/[\d/]*", rb"\1", b"\n".join(lines))), "obj")
+
+
+def _unpacked(path: Path) -> Path:
+    """The GLB file with its buffer unpacked by the decoder that three.js has."""
+    unpacked = path.with_suffix(".unpacked.glb")
+    subprocess.run(["node", str(_UNPACK), str(path), str(unpacked)], check=True, timeout=TIMEOUT)
+    return unpacked
+
+
 def _half_step(asset: Asset, extent: float) -> float:
-    """OBJ has the shortest decimals that read back as the same number; PLY says; STL and readers of 3MF are in single precision."""
-    if asset.ending == "ply":
-        head = asset.path.read_bytes()[:2000].partition(b"end_header")[0]
-        return 0.0 if b"property double x" in head else extent * SINGLE
-    return 0.0 if asset.ending == "obj" else extent * SINGLE
+    """OBJ and 3MF have decimals that read back as the same number; PLY says what it has; STL has single precision."""
+    head = asset.path.read_bytes()[:2000].partition(b"end_header")[0]
+    double = asset.ending in ("obj", "3mf") or (asset.ending == "ply" and b"property double x" in head)
+    return 0.0 if double else extent * SINGLE
 
 
 def _parts_of_gltf(gltf: GltfFile) -> list[manifold3d.Mesh64]:

@@ -40,8 +40,11 @@ def check_package(setting: Setting, asset: Asset) -> list[Volume]:
 def package_faults(path: Path) -> list[str]:
     """What the core specification forbids."""
     with zipfile.ZipFile(path) as package:
-        faults = [f"{entry.filename}: compressed in a way that packages must not be" for entry in package.infolist()
-                  if entry.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED) or entry.flag_bits & 1]
+        faults = [
+            f"{entry.filename}: compressed in a way that packages must not be"
+            for entry in package.infolist()
+            if entry.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED) or entry.flag_bits & 1
+        ]
         if package.testzip():
             faults.append(f"{package.testzip()}: damaged")
         missing = {"[Content_Types].xml", "_rels/.rels", MODEL} - set(package.namelist())
@@ -51,7 +54,11 @@ def package_faults(path: Path) -> list[str]:
             ElementTree.fromstring(package.read(name)) for name in ("[Content_Types].xml", "_rels/.rels", MODEL)
         )
     faults += _type_faults(types)
-    starts = [relation.get("Target") for relation in relations.iter(RELATIONS + "Relationship") if relation.get("Type") == START]
+    starts = [
+        relation.get("Target")
+        for relation in relations.iter(RELATIONS + "Relationship")
+        if relation.get("Type") == START
+    ]
     if starts != ["/" + MODEL]:
         faults.append(f"_rels/.rels starts at {starts}, not at /{MODEL}")
     return faults + _model_faults(model)
@@ -60,7 +67,11 @@ def package_faults(path: Path) -> list[str]:
 def _type_faults(types: ElementTree.Element) -> list[str]:
     defaults = {entry.get("Extension", "").lower(): entry.get("ContentType") for entry in types.iter(TYPES + "Default")}
     expected = {"rels": RELATIONS_TYPE, "model": MODEL_TYPE}
-    return [f"[Content_Types].xml: .{ending} is {defaults.get(ending)}" for ending, kind in expected.items() if defaults.get(ending) != kind]
+    return [
+        f"[Content_Types].xml: .{ending} is {defaults.get(ending)}"
+        for ending, kind in expected.items()
+        if defaults.get(ending) != kind
+    ]
 
 
 def _model_faults(model: ElementTree.Element) -> list[str]:
@@ -73,7 +84,11 @@ def _model_faults(model: ElementTree.Element) -> list[str]:
     if resources is None or model.find(CORE + "build") is None:
         return [*faults, "the model lacks <resources> or <build>"]
     identifiers = Counter(resource.get("id", "") for resource in resources)
-    faults += [f"resource id {name!r}" for name, count in identifiers.items() if count > 1 or not re.fullmatch("[1-9][0-9]*", name)]
+    faults += [
+        f"resource id {name!r}"
+        for name, count in identifiers.items()
+        if count > 1 or not re.fullmatch("[1-9][0-9]*", name)
+    ]
     materials = {group.get("id"): len(group) for group in resources.iter(CORE + "basematerials")}
     for base in resources.iter(CORE + "base"):
         if not base.get("name") or not COLOR.fullmatch(base.get("displaycolor", "")):
@@ -104,7 +119,11 @@ def _object_faults(entry: ElementTree.Element, materials: dict[str | None, int])
     if uses.max() > 1 or not np.array_equal(edges, np.unique(ends[:, ::-1], axis=0)):
         faults.append("an edge is not between two triangles that run along it in opposite directions")
     named = [(triangle.get("pid", entry.get("pid")), triangle.get("p1", entry.get("pindex"))) for triangle in triangles]
-    unknown = {(group, number) for group, number in named if group is not None and not 0 <= int(number or 0) < materials.get(group, 0)}
+    unknown = {
+        (group, number)
+        for group, number in named
+        if group is not None and not 0 <= int(number or 0) < materials.get(group, 0)
+    }
     return faults + [f"material {number} of group {group} is not there" for group, number in sorted(unknown, key=str)]
 
 

@@ -6,6 +6,7 @@ from pathlib import Path
 from .browser import Shown
 from .measure import Volume
 from .results import Results
+from .silhouette import Silhouette
 
 _TEMPLATE = Path(__file__).resolve().parents[1] / "page.template.md"
 
@@ -23,8 +24,12 @@ def summary(results: Results) -> str:
     """The tables of the page, one after another."""
     parts = _parts(results)
     titles = {
-        "codes": "glTF validator", "volumes": "volumes", "shown": "three.js", "silhouettes": "silhouettes",
-        "sizes": "sizes", "million": "a million triangles",
+        "codes": "glTF validator",
+        "volumes": "volumes",
+        "shown": "three.js",
+        "silhouettes": "silhouettes",
+        "sizes": "sizes",
+        "million": "a million triangles",
     }
     return "\n\n".join(f"{title}\n{parts[name]}" for name, title in titles.items())
 
@@ -50,7 +55,11 @@ def _codes(results: Results) -> str:
         [code.severity, f"`{code.code}`", code.message, str(code.count), str(code.files), code.example]
         for code in results.codes
     ]
-    return _table(["severity", "code", "the first of them", "messages", "files", "for one"], rows, left=3) if rows else "No messages at all."
+    return (
+        _table(["severity", "code", "the first of them", "messages", "files", "for one"], rows, left=3)
+        if rows
+        else "No messages at all."
+    )
 
 
 def _volumes(volumes: list[Volume]) -> str:
@@ -83,13 +92,16 @@ def _shown(shown: list[Shown]) -> str:
 
 
 def _silhouettes(shown: list[Shown]) -> str:
-    rows = [
-        [one.where, str(one.facts["triangles"]), f"{one.silhouette.overlap:.4f}"]
-        + [str(number) for number in (one.silhouette.strays, one.silhouette.pixels, one.silhouette.undecided)]
-        for one in shown
-        if one.silhouette
-    ]
-    return _table(["file", "triangles", "overlap", "strays", "pixels", "undecided"], rows, left=1)
+    """A row for each input: the plain file in full, of the other ways the least overlap."""
+    inputs: dict[str, list[Silhouette]] = defaultdict(list)
+    for one in shown:
+        if one.silhouette:
+            inputs[one.input].append(one.silhouette)
+    rows = []
+    for name, (first, *others) in inputs.items():
+        least = f"{min(other.overlap for other in others):.4f}" if others else ""
+        rows.append([name, f"{first.overlap:.4f}", str(first.strays), str(first.pixels), least])
+    return _table(["input", "overlap", "strays", "pixels", "least of others"], rows, left=1)
 
 
 def _sizes(results: Results) -> str:

@@ -2,6 +2,7 @@
 
 import json
 import os
+import resource
 import subprocess
 import tempfile
 import time
@@ -17,7 +18,7 @@ CUBE = {"planecut": 1, "model": {"box": {"min": [0, 0, 0], "max": [1, 1, 1]}}}
 class Refused(Exception):
     """The arguments or the input are none that planecut takes (exit status 2), or it cannot do the job (1)."""
 
-    def __init__(self, status: int, message: str):
+    def __init__(self, status: int, message: str) -> None:
         super().__init__(f"exit status {status}: {message}")
         self.status = status
 
@@ -38,7 +39,7 @@ class Planecut:
     binary: Path
 
     def run(self, *words: str | Path) -> Run:
-        """Raises `Refused` where the exit status is 1 or 2, and `RuntimeError` where it is none that planecut promises."""
+        """Raises `Refused` where the exit status is 1 or 2, `RuntimeError` where it is none that planecut promises."""
         begin = time.perf_counter()
         with tempfile.TemporaryFile("w+") as out, tempfile.TemporaryFile("w+") as err:
             process = subprocess.Popen([str(word) for word in (self.binary, *words)], stdout=out, stderr=err)
@@ -60,6 +61,10 @@ class Planecut:
         run = self.run("build", source, *named, "--report", report, "--quiet", *options)
         return json.loads(report.read_text(encoding="utf-8")), run
 
+    def render(self, source: Path, picture: Path, size: tuple[int, int]) -> None:
+        """A picture as previews are."""
+        self.run("render", source, "-o", picture, "--size", "{}x{}".format(*size), "--quiet")
+
     def info(self, source: Path) -> dict:
         """The report of `info`."""
         return json.loads(self.run("info", source, "--quiet").said)
@@ -78,7 +83,7 @@ class Planecut:
         return True
 
 
-def _wait(process: subprocess.Popen) -> tuple[int, "os.struct_rusage"]:
+def _wait(process: subprocess.Popen) -> tuple[int, resource.struct_rusage]:
     """The exit status and what the process took; ends it where it hangs."""
     deadline = time.monotonic() + TIMEOUT
     pause = 0.001

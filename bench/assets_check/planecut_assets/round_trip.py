@@ -18,7 +18,7 @@ TIMEOUT = 120
 """Seconds that OpenSCAD is given for a tree; ten times as many in full runs."""
 
 OPENSCAD_GRID = 1e-9
-"""Part of the largest coordinate by which OpenSCAD may move a corner: it computes with the decimals of a tree as doubles."""
+"""Part of the largest coordinate by which OpenSCAD may move a corner; it merges corners that are nearly one."""
 
 
 def check_round_trip(setting: Setting, asset: Asset, openscad: str | None) -> list[Volume]:
@@ -49,7 +49,7 @@ def _by_planecut(planecut: Planecut, asset: Asset) -> Volume:
 def _by_openscad(setting: Setting, asset: Asset, openscad: str) -> Volume | None:
     """Through binary STL: all other formats of OpenSCAD have six digits."""
     mesh = asset.path.with_name(asset.path.name + ".openscad.stl")
-    command = [openscad, "--export-format", "binstl", "-o", mesh, asset.path]
+    command = [openscad, "--export-format", "binstl", "-o", str(mesh), str(asset.path)]
     seconds = TIMEOUT * (10 if setting.full else 1)
     try:
         done = subprocess.run(command, capture_output=True, text=True, timeout=seconds, check=False)

@@ -26,9 +26,10 @@ class Setting:
         print(f"FAIL {self.failures[-1]}", flush=True)
 
     def note(self, message: str) -> None:
-        """Something that was left out."""
-        self.notes.append(_line(message))
-        print(f"note: {self.notes[-1]}", flush=True)
+        """Something that was left out; said once."""
+        if (line := _line(message)) not in self.notes:
+            self.notes.append(line)
+            print(f"note: {line}", flush=True)
 
     def program(self, names: tuple[str, ...], package: str, use: str) -> str | None:
         """The first of the programs that is here; a note where there is none."""

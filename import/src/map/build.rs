@@ -78,9 +78,15 @@ impl<'a> Builder<'a> {
         }
         let line = self.lines.line_of(brush.offset);
         let mut faces = Vec::with_capacity(brush.faces.len());
+        let mut textures = Vec::with_capacity(brush.faces.len());
         for face in &brush.faces {
             match face.plane {
-                Ok(half_space) => faces.push(BrushFace { half_space, material: self.material(&text(&face.texture)) }),
+                Ok(half_space) => {
+                    let normal = half_space.normal();
+                    let scale = normal.abs().max_element();
+                    textures.push(face.alignment.and_then(|alignment| alignment.axes((normal / scale).normalize())));
+                    faces.push(BrushFace { half_space, material: self.material(&text(&face.texture)) });
+                }
                 Err(PlaneError::NoArea) => self.faces_left_out.add(self.lines.line_of(face.offset)),
                 Err(PlaneError::OutOfRange(source)) => {
                     let line = self.lines.line_of(face.offset);
@@ -92,6 +98,7 @@ impl<'a> Builder<'a> {
         if faces.is_empty() {
             self.brushes_left_out.add(line);
         } else {
+            self.import.textures.push(textures);
             self.brushes.push(Brush { faces, name: name.map(str::to_owned), line, ..Brush::default() });
         }
         Ok(())

@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use glam::{DVec2, DVec3};
 use planecut_kernel::HalfSpace;
 use winnow::Parser;
 use winnow::combinator::delimited;
@@ -10,6 +11,7 @@ use winnow::token::any;
 
 use super::error::{Found, SyntaxError};
 use super::plane::{self, PlaneError, Point};
+use super::texture::Alignment;
 use super::token::{Input, Parsed, is_delimiter, name, number, peek, punctuation, quoted, word};
 
 /// An entity, or a brush that stands outside any.
@@ -38,6 +40,8 @@ pub(super) struct Face<'a> {
     pub(super) offset: usize,
     pub(super) plane: Result<HalfSpace, PlaneError>,
     pub(super) texture: Cow<'a, [u8]>,
+    /// How the texture lies; not known of brush primitives.
+    pub(super) alignment: Option<Alignment>,
 }
 
 /// A primitive that is not read.
@@ -161,16 +165,23 @@ fn face<'a>(input: &mut Input<'a>, has_matrix: bool) -> Parsed<Face<'a>> {
         delimited(punctuation(b'(', "`(`"), rows, punctuation(b')', "`)`")).parse_next(input)?;
     }
     let texture = name(input)?;
-    let layout = if has_matrix {
-        Layout::Matrix
+    let (layout, axes) = if has_matrix {
+        (Layout::Matrix, None)
     } else if peek(input)? == Some(b'[') {
-        (axis, axis).void().parse_next(input)?;
-        Layout::Axes
+        (Layout::Axes, Some((axis, axis).parse_next(input)?))
     } else {
-        Layout::Plain
+        (Layout::Plain, None)
     };
-    values(input, offset, layout)?;
-    Ok(Face { offset, plane: plane::half_space(&points), texture })
+    let values = values(input, offset, layout)?;
+    let alignment = match (layout, axes) {
+        (Layout::Axes, Some((u, v))) => Some(Alignment::Axes { u, v, scale: DVec2::new(values[1], values[2]) }),
+        (Layout::Plain, _) => {
+            let [x, y, degrees, wide, high, ..] = values;
+            Some(Alignment::Plain { shift: DVec2::new(x, y), degrees, scale: DVec2::new(wide, high) })
+        }
+        _ => None,
+    };
+    Ok(Face { offset, plane: plane::half_space(&points), texture, alignment })
 }
 
 /// `( x y z )`.
@@ -180,8 +191,9 @@ fn triple(input: &mut Input<'_>) -> Parsed<Point> {
 }
 
 /// `[ x y z offset ]`.
-fn axis(input: &mut Input<'_>) -> Parsed<()> {
-    let numbers = (number, number, number, number).void();
+fn axis(input: &mut Input<'_>) -> Parsed<(DVec3, f64)> {
+    let numbers = (number, number, number, number);
+    let numbers = numbers.map(|(x, y, z, offset)| (DVec3::new(x.to_f64(), y.to_f64(), z.to_f64()), offset.to_f64()));
     delimited(punctuation(b'[', "`[`"), numbers, punctuation(b']', "`]`")).parse_next(input)
 }
 
@@ -207,16 +219,20 @@ impl Layout {
     }
 }
 
-/// The numbers at the end of a face, counted and dropped; `face` is where the face begins.
-fn values(input: &mut Input<'_>, face: usize, layout: Layout) -> Parsed<()> {
+/// The numbers at the end of a face, counted, and the first of them; `face` is where the face begins.
+fn values(input: &mut Input<'_>, face: usize, layout: Layout) -> Parsed<[f64; 5]> {
+    let mut first = [0.0; 5];
     let mut count = 0;
     while peek(input)?.is_some_and(|byte| !is_delimiter(byte)) {
-        number(input)?;
+        let number = number(input)?;
+        if let Some(value) = first.get_mut(count) {
+            *value = number.to_f64();
+        }
         count += 1;
     }
     let (accepted, expected) = layout.counts();
     if accepted.contains(&count) {
-        return Ok(());
+        return Ok(first);
     }
     Err(SyntaxError { offset: face, found: Found::Values(count), expected, opened: None })
 }

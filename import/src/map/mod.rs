@@ -24,9 +24,10 @@ mod error;
 mod glob;
 mod grammar;
 mod plane;
+mod texture;
 mod token;
 
-use planecut_csg::Model;
+use planecut_csg::{Model, TextureAxes};
 use winnow::stream::LocatingSlice;
 
 pub use error::MapError;
@@ -57,6 +58,9 @@ pub struct MapImport {
     /// The brushes, in the order of the file; a brush outside the world is named `classname #entity`, entities being
     /// counted from 0.
     pub model: Model,
+    /// For each brush how the textures of its faces lie, in texels; not known of faces of brush primitives (`brushDef`), whose matrices count in
+    /// sizes of pictures that are not at hand.
+    pub textures: Vec<Vec<Option<TextureAxes>>>,
     /// Entities in the file, skipped ones included.
     pub entities: usize,
     /// Brushes in the file, those included that were skipped or left out.

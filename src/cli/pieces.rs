@@ -1,32 +1,32 @@
-//! The convex cells of a solid, for `--cells` and `coarsen`.
+//! What is written as several meshes: the convex cells of a solid (`--cells`, `coarsen`), or its named parts (`--parts`).
 
 use std::borrow::Cow;
 use std::time::Instant;
 
 use planecut::csg::check::check_topology;
-use planecut::csg::{EvaluateError, Mesh, Model, Solid, Tree};
+use planecut::csg::{EvaluateError, FaceSource, Mesh, Model, Solid, Tree, evaluate_with};
 use planecut::export::Part;
 
 use super::error::CliError;
 use super::input::{Input, InputKind};
 use super::report::{MeshPart, milliseconds};
-use super::solve::Solved;
+use super::solve::{Solved, unbounded_of};
 
 /// What stands for a number in names.
 pub(crate) const NUMBER: &str = "{}";
 
-/// Convex cells, as meshes.
-pub(crate) struct Cells {
+/// Meshes with names.
+pub(crate) struct Pieces {
     meshes: Vec<Mesh>,
     names: Vec<String>,
 }
 
-impl Cells {
-    /// Takes the solid apart, and tells the report.
+impl Pieces {
+    /// The convex cells of a solid; the report is told.
     ///
     /// # Errors
     /// [`CliError::Evaluate`] for an unbounded solid, [`CliError::Bug`] for a bug.
-    pub(crate) fn new(input: &Input, kind: InputKind, solved: &mut Solved) -> Result<Self, CliError> {
+    pub(crate) fn cells(input: &Input, kind: InputKind, solved: &mut Solved) -> Result<Self, CliError> {
         let begin = Instant::now();
         let solid = Solid::from_tree(&bounded_tree(kind, solved));
         let mut meshes = solid
@@ -41,15 +41,38 @@ impl Cells {
         Ok(cells)
     }
 
+    /// The named parts of a solid, each evaluated by itself; the report is told of their meshes.
+    ///
+    /// # Errors
+    /// [`CliError::Evaluate`] for an unbounded part, [`CliError::Bug`] for a bug.
+    pub(crate) fn parts(input: &Input, kind: InputKind, solved: &mut Solved) -> Result<Self, CliError> {
+        let begin = Instant::now();
+        let trees = bounded_tree(kind, solved).into_owned().into_named_parts();
+        let (mut meshes, mut names) = (Vec::new(), Vec::new());
+        for (name, tree) in trees {
+            let model = Model { materials: solved.model.materials.clone(), tree };
+            let part = evaluate_with(&model, unbounded_of(kind))
+                .map_err(|source| CliError::of_evaluation(&input.path, source))?;
+            if !part.mesh.triangles.is_empty() {
+                meshes.push(part.mesh);
+                names.push(name.unwrap_or_else(|| "solid".to_owned()));
+            }
+        }
+        let parts = Self { meshes, names };
+        solved.report.set_parts(parts.measured());
+        solved.report.time_ms.evaluate += milliseconds(begin.elapsed());
+        Ok(parts)
+    }
+
     /// Meshes whose names are a pattern with their numbers for `{}`.
     pub(crate) fn named(meshes: Vec<Mesh>, pattern: &str) -> Self {
         let names = (0..meshes.len()).map(|number| pattern.replace(NUMBER, &number.to_string())).collect();
         Self { meshes, names }
     }
 
-    /// One part for each cell.
-    pub(crate) fn parts(&self) -> Vec<Part<'_>> {
-        self.names.iter().zip(&self.meshes).map(|(name, mesh)| Part::new(name, mesh)).collect()
+    /// The same as writers want it; `sources` are those of the faces' materials.
+    pub(crate) fn as_parts<'a>(&'a self, sources: &'a [FaceSource]) -> Vec<Part<'a>> {
+        self.names.iter().zip(&self.meshes).map(|(name, mesh)| Part { name, mesh, sources }).collect()
     }
 
     /// The counts of all meshes together.

@@ -1,0 +1,103 @@
+//! What may be asked of the meshes that are written. The doc comments here are the help texts.
+
+use clap::{Args, ValueEnum};
+use planecut::export::{ExportOptions, Projection, Shading, TextureMapping, Unit};
+
+/// What is wanted of meshes, as far as formats have a place for it.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Options for meshes")]
+pub(crate) struct AssetArgs {
+    /// What the lengths are in: glTF is scaled to metres, 3MF names it
+    #[arg(long, value_enum, value_name = "UNIT")]
+    unit: Option<UnitName>,
+    /// Text instead of binary: STL, PLY
+    #[arg(long)]
+    text: bool,
+    /// Smooth normals across edges of no more than so many degrees, instead of flat faces: glTF, OBJ, PLY
+    #[arg(long, value_name = "DEGREES")]
+    smooth: Option<f64>,
+    /// Texture coordinates: as a map says, by the nearest side of a box, or from above: glTF, OBJ, PLY
+    #[arg(long, value_enum, value_name = "HOW")]
+    uv: Option<Uv>,
+    /// So long is a texture: in texels for faces of a map (64), else in units of the input (1)
+    #[arg(long, value_name = "LENGTH", requires = "uv")]
+    uv_size: Option<f64>,
+    /// Tangents, for normal maps: glTF
+    #[arg(long, requires = "uv")]
+    tangents: bool,
+    /// Colours of vertices instead of materials: glTF
+    #[arg(long)]
+    vertex_colors: bool,
+    /// Numbers of brush and plane for each face, in extras: glTF
+    #[arg(long)]
+    ids: bool,
+    /// Positions in 16 bits, normals in 8: glTF (KHR_mesh_quantization)
+    #[arg(long)]
+    quantize: bool,
+    /// Packed buffers: glTF (EXT_meshopt_compression)
+    #[arg(long)]
+    meshopt: bool,
+}
+
+/// A unit of length by name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum UnitName {
+    Um,
+    Mm,
+    Cm,
+    In,
+    Ft,
+    M,
+}
+
+/// Where texture coordinates come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Uv {
+    /// As the faces of a map say; box where nothing is said
+    Source,
+    /// By the side of a box that a face is nearest to
+    Box,
+    /// Along z
+    Planar,
+}
+
+impl AssetArgs {
+    /// The same as the library wants it.
+    pub(crate) fn options(&self, scale: f64) -> ExportOptions {
+        let unit = |unit| match unit {
+            UnitName::Um => Unit::Micron,
+            UnitName::Mm => Unit::Millimeter,
+            UnitName::Cm => Unit::Centimeter,
+            UnitName::In => Unit::Inch,
+            UnitName::Ft => Unit::Foot,
+            UnitName::M => Unit::Meter,
+        };
+        let texture = self.uv.map(|uv| {
+            let (projection, size) = match uv {
+                Uv::Source => (Projection::Source, 64.0),
+                Uv::Box => (Projection::Box, 1.0),
+                Uv::Planar => (Projection::Planar, 1.0),
+            };
+            TextureMapping { projection, size: self.uv_size.unwrap_or(size) }
+        });
+        ExportOptions {
+            scale,
+            unit: self.unit.map(unit),
+            text: self.text,
+            shading: self.smooth.map_or(Shading::Flat, |crease| Shading::Smooth { crease }),
+            texture,
+            tangents: self.tangents,
+            vertex_colors: self.vertex_colors,
+            source_ids: self.ids,
+            quantize: self.quantize,
+            meshopt: self.meshopt,
+            ..ExportOptions::default()
+        }
+    }
+
+    /// Whether faces of different sources must stay apart; `Some(true)` for each face of a brush by itself.
+    pub(crate) fn splits_by_face(&self) -> Option<bool> {
+        let by_texture = (self.uv == Some(Uv::Source)).then_some(false);
+        if self.ids { Some(true) } else { by_texture }
+    }
+}
