@@ -14,6 +14,7 @@ use planecut::import::scad::ScadOptions;
 use super::asset_args::AssetArgs;
 use super::error::CliError;
 use super::input::{Input, InputKind};
+use super::output::MeshTarget;
 use super::terminal;
 
 /// Convex-CSG modeling kernel: exact half-spaces in, watertight meshes out.
@@ -81,6 +82,16 @@ pub(crate) struct OutputArgs {
     pub(crate) report: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) assets: AssetArgs,
+}
+
+impl OutputArgs {
+    /// The places of meshes.
+    ///
+    /// # Errors
+    /// As [`MeshTarget::resolve_all`].
+    pub(crate) fn targets(&self) -> Result<Vec<MeshTarget>, CliError> {
+        MeshTarget::resolve_all(&self.outputs, self.format, self.assets.mtl)
+    }
 }
 
 /// A picture beside the meshes.

@@ -10,6 +10,9 @@ pub(crate) struct AssetArgs {
     /// What the lengths are in: glTF is scaled to metres, 3MF names it
     #[arg(long, value_enum, value_name = "UNIT")]
     unit: Option<UnitName>,
+    /// Write the materials of each OBJ file beside it, with the ending .mtl
+    #[arg(long)]
+    pub(crate) mtl: bool,
     /// Text instead of binary: STL, PLY
     #[arg(long)]
     text: bool,

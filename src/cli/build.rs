@@ -42,7 +42,7 @@ impl<'a> Plan<'a> {
             args,
             input,
             kind,
-            meshes: MeshTarget::resolve_all(&args.output.outputs, args.output.format)?,
+            meshes: args.output.targets()?,
             preview: args.picture.preview.as_deref().map(Target::picture).transpose()?,
             report: args.output.report.as_deref().map(Target::new),
         };

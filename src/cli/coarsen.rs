@@ -49,7 +49,7 @@ impl<'a> Plan<'a> {
     fn resolve(args: &'a CoarsenArgs) -> Result<Self, CliError> {
         let (input, kind) = Input::resolve_any(&args.input, args.reading.input_format)?;
         args.reading.check(kind)?;
-        let targets = MeshTarget::resolve_all(&args.output.outputs, args.output.format)?;
+        let targets = args.output.targets()?;
         let (patterns, meshes) = targets.into_iter().partition(|mesh| pattern_of(mesh).is_some());
         let clear = |path: &PathBuf| Input::resolve_any(path, None);
         let plan = Self {
@@ -62,7 +62,8 @@ impl<'a> Plan<'a> {
             preview: args.picture.preview.as_deref().map(Target::picture).transpose()?,
             report: args.output.report.as_deref().map(Target::new),
         };
-        plan.check(&plan.meshes.iter().map(|mesh| &mesh.target).chain(&plan.preview).collect::<Vec<_>>())?;
+        let meshes: Vec<Target> = plan.meshes.iter().flat_map(MeshTarget::targets).collect();
+        plan.check(&meshes.iter().chain(&plan.preview).collect::<Vec<_>>())?;
         Ok(plan)
     }
 
@@ -164,7 +165,7 @@ impl<'a> Plan<'a> {
             let pattern = pattern_of(mesh).unwrap_or_default();
             for (number, part) in parts.iter().enumerate() {
                 let target = Target::File(PathBuf::from(pattern.replace(NUMBER, &number.to_string())));
-                outputs.extend(encode(&[*part], &[MeshTarget { target, format: mesh.format }], &options)?);
+                outputs.extend(encode(&[*part], &[MeshTarget::alone(target, mesh.format)], &options)?);
             }
         }
         Ok(outputs)

@@ -43,7 +43,7 @@ impl<'a> Plan<'a> {
             args,
             input,
             kind,
-            meshes: MeshTarget::resolve_all(&args.output.outputs, args.output.format)?,
+            meshes: args.output.targets()?,
             report: args.output.report.as_deref().map(Target::new),
         };
         let meshes: Vec<Target> = plan.meshes.iter().flat_map(MeshTarget::targets).collect();

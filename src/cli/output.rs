@@ -131,13 +131,22 @@ impl fmt::Display for Target {
 pub(crate) struct MeshTarget {
     pub(crate) target: Target,
     pub(crate) format: Format,
+    /// Whether materials go to a file of their own, where the format has such.
+    has_library: bool,
 }
 
 impl MeshTarget {
+    /// A place of its own, without a file of materials.
+    pub(crate) fn alone(target: Target, format: Format) -> Self {
+        Self { target, format, has_library: false }
+    }
+
     /// Where the materials of an OBJ file go: a file of the same name but for its ending. Standard output has none.
     pub(crate) fn library(&self) -> Option<Target> {
         match &self.target {
-            Target::File(path) if self.format == Format::Obj => Some(Target::File(path.with_extension("mtl"))),
+            Target::File(path) if self.has_library && self.format == Format::Obj => {
+                Some(Target::File(path.with_extension("mtl")))
+            }
             _ => None,
         }
     }
@@ -147,19 +156,24 @@ impl MeshTarget {
         std::iter::once(self.target.clone()).chain(self.library())
     }
 
-    /// The place and format of `-o` arguments; `stdout_format` is that of `-`.
+    /// The place and format of `-o` arguments; `stdout_format` is that of `-`, `has_library`
+    /// whether OBJ files have their materials beside them.
     ///
     /// # Errors
     /// [`CliError::Ending`] for a name whose ending is not that of a mesh, [`CliError::Usage`] for `-` without a format or
     /// a format without `-`.
-    pub(crate) fn resolve_all(paths: &[PathBuf], stdout_format: Option<Format>) -> Result<Vec<Self>, CliError> {
+    pub(crate) fn resolve_all(
+        paths: &[PathBuf],
+        stdout_format: Option<Format>,
+        has_library: bool,
+    ) -> Result<Vec<Self>, CliError> {
         let resolve = |path: &PathBuf| match Target::new(path) {
             Target::Stdout => match stdout_format {
-                Some(format) => Ok(Self { target: Target::Stdout, format }),
+                Some(format) => Ok(Self::alone(Target::Stdout, format)),
                 None => Err(CliError::Usage("found -o - without a format, expected --format beside it".to_owned())),
             },
             target => match Format::from_path(path) {
-                Ok(format) => Ok(Self { target, format }),
+                Ok(format) => Ok(Self { target, format, has_library }),
                 Err(_) => Err(CliError::Ending {
                     path: path.clone(),
                     expected: "`.glb`, `.gltf`, `.obj`, `.stl`, `.3mf` or `.ply`",

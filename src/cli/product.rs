@@ -70,7 +70,7 @@ pub(crate) fn draw(mesh: &Mesh, target: &Target, options: &PreviewOptions) -> Re
     target.begin(|out| Ok(out.write_all(&render_preview(mesh, options)?)?))
 }
 
-/// Writes parts to each of some places; an OBJ file has its materials beside it.
+/// Writes parts to each of some places, and materials beside an OBJ file where that is asked for.
 ///
 /// # Errors
 /// [`CliError::Encode`], [`CliError::Write`].
@@ -81,8 +81,7 @@ pub(crate) fn encode(
 ) -> Result<Vec<Output>, CliError> {
     let mut outputs = Vec::with_capacity(meshes.len());
     for mesh in meshes {
-        // colliders are not seen
-        let library = mesh.library().filter(|_| !options.convex_colliders);
+        let library = mesh.library();
         let material_library = library.as_ref().and_then(Target::file_name);
         let options = ExportOptions { material_library, ..options.clone() };
         outputs.push(mesh.target.begin(|out| write_parts(parts, mesh.format, &options, out))?);

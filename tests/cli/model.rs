@@ -161,7 +161,7 @@ fn cells_are_written_one_by_one() {
     assert_eq!((&report["mesh"]["watertight"], &report["mesh"]["manifold"]), (&json!(true), &json!(true)));
     let gltf: Value =
         serde_json::from_slice(&std::fs::read(folder.path().join("c.gltf")).expect("there")).expect("JSON");
-    assert_eq!(gltf["meshes"].as_array().map(Vec::len), Some(4));
+    assert_eq!(gltf["meshes"].as_array().map(Vec::len), Some(3), "two of the four are alike but for their place");
     assert_eq!(gltf["nodes"].as_array().map(Vec::len), Some(5), "a root and one for each cell");
     let obj = std::fs::read_to_string(folder.path().join("c.obj")).expect("there");
     assert_eq!(obj.lines().filter(|line| line.starts_with("o ")).count(), 4);
