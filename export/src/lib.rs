@@ -2,6 +2,8 @@
 //!
 //! - [`encode`] turns a [`planecut_csg::Mesh`] into the bytes of a `.glb`, `.gltf`, `.obj` or `.stl` file; [`encode_parts`]
 //!   does so for several named meshes in one file. [`Format`] says what each format keeps of the mesh.
+//! - [`write_brushes`] puts convex bodies back into formats that editors open: a Quake map, or OpenSCAD's evaluated tree
+//!   ([`BrushFormat`]).
 //! - [`write_atomic`] puts bytes under a file name, completely or not at all.
 //! - [`render_preview`] draws a mesh as a PNG picture.
 //!
@@ -9,6 +11,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+mod brushes;
 mod check;
 mod color;
 mod error;
@@ -19,8 +22,10 @@ mod obj;
 mod preview;
 mod single_precision;
 mod stl;
+mod text;
 mod topology;
 
+pub use brushes::{BrushFormat, write_brushes};
 pub use color::distinct_color;
 pub use error::ExportError;
 pub use file::write_atomic;
