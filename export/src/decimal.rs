@@ -42,6 +42,19 @@ pub(crate) fn write_digits(mut value: u64, out: &mut dyn Write) -> io::Result<()
     out.write_all(&digits[start..])
 }
 
+/// Why appending to bytes cannot fail.
+const APPENDS: &str = "a byte vector takes every write";
+
+/// [`write_decimal`] to bytes in memory.
+pub(crate) fn push_decimal(text: &mut Vec<u8>, value: f64) {
+    write_decimal(value, text).expect(APPENDS);
+}
+
+/// [`write_digits`] to bytes in memory.
+pub(crate) fn push_digits(text: &mut Vec<u8>, value: u64) {
+    write_digits(value, text).expect(APPENDS);
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -13,6 +13,38 @@ pub enum ExportError {
         /// The ending as given, without the dot.
         extension: String,
     },
+    /// The file name ends in something that no writer of convex bodies makes.
+    #[error("unknown format of convex bodies '.{extension}', expected .map or .csg")]
+    UnknownBrushFormat {
+        /// The ending as given, without the dot.
+        extension: String,
+    },
+    /// A brush reaches infinity.
+    #[error("brush {brush} (counted from 0) is unbounded, expected bounded convex bodies")]
+    Unbounded {
+        /// Its place among the brushes, from 0.
+        brush: usize,
+    },
+    /// A face of a brush names a material that is not there.
+    #[error("brush {brush} (counted from 0) names material {material}, found {count} materials")]
+    UnknownMaterial {
+        /// Its place among the brushes, from 0.
+        brush: usize,
+        /// The number of the material.
+        material: u32,
+        /// How many materials there are.
+        count: usize,
+    },
+    /// A brush reaches farther out than a file of convex bodies can say.
+    #[error(
+        "brush {brush} (counted from 0) has a corner at {value:e} after scaling, expected coordinates within ±1e30"
+    )]
+    BrushRange {
+        /// Its place among the brushes, from 0.
+        brush: usize,
+        /// The coordinate after scaling.
+        value: f64,
+    },
     /// The mesh refers to something that it does not hold, or holds a value that is not a number.
     #[error("invalid mesh: {0}")]
     InvalidMesh(String),

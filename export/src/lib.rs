@@ -2,6 +2,8 @@
 //!
 //! - [`encode`] turns a [`planecut_csg::Mesh`] into the bytes of a mesh file ([`Format`]); [`encode_parts`]
 //!   does so for several named meshes in one file, and [`write_parts`] piece by piece. [`Format`] says what each format keeps of the mesh.
+//! - [`write_brushes`] puts convex bodies back into formats that editors open: a Quake map, or OpenSCAD's evaluated tree
+//!   ([`BrushFormat`]).
 //! - [`AtomicFile`] and [`write_atomic`] put bytes under a file name, completely or not at all.
 //! - [`render_preview`] draws a mesh as a PNG picture.
 //!
@@ -9,6 +11,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+mod brushes;
 mod check;
 mod color;
 mod decimal;
@@ -27,6 +30,7 @@ mod surface;
 mod threemf;
 mod topology;
 
+pub use brushes::{BrushFormat, write_brushes};
 pub use color::distinct_color;
 pub use error::ExportError;
 pub use file::{AtomicFile, write_atomic};

@@ -23,14 +23,7 @@ impl<'a> Library<'a> {
         let mut materials: Vec<(String, &Material)> = Vec::new();
         let mut place_of = |material: &'a Material| {
             *known.entry((material.name.as_str(), looks(material))).or_insert_with(|| {
-                let wanted = name(&material.name);
-                let mut own = wanted.clone();
-                let mut copy = 2;
-                while !taken.insert(own.clone()) {
-                    own = format!("{wanted}_{copy}");
-                    copy += 1;
-                }
-                materials.push((own, material));
+                materials.push((unique(name(&material.name), &mut taken), material));
                 materials.len() as u32 - 1
             })
         };
@@ -47,6 +40,23 @@ impl<'a> Library<'a> {
     pub(crate) fn place(&self, part: usize, parts: &[Part<'_>], face: u32) -> u32 {
         self.places[part][parts[part].mesh.faces[face as usize].material.0 as usize]
     }
+}
+
+/// A name for each material, each one once: what `name` makes of the material's own, numbered where that is taken.
+pub(crate) fn unique_names(materials: &[Material], name: impl Fn(&str) -> String) -> Vec<String> {
+    let mut taken = FxHashSet::default();
+    materials.iter().map(|material| unique(name(&material.name), &mut taken)).collect()
+}
+
+/// The name, numbered where it is taken.
+fn unique(wanted: String, taken: &mut FxHashSet<String>) -> String {
+    let mut name = wanted.clone();
+    let mut copy = 2;
+    while !taken.insert(name.clone()) {
+        name = format!("{wanted}_{copy}");
+        copy += 1;
+    }
+    name
 }
 
 #[cfg(test)]

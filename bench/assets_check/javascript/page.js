@@ -17,7 +17,7 @@ globalThis.show = async (options) => {
   scene.traverse((object) => object.isMesh && meshes.push(object));
   const points = worldPoints(meshes);
   draw(scene, usedPoints(meshes, points), options);
-  const facts = { meshes: meshes.length, ...surfaceFacts(meshes, points), ...contents(meshes) };
+  const facts = { meshes: meshes.length, ...surfaceFacts(meshes, points, options.sliver), ...contents(meshes) };
   meshes.forEach((mesh) => mesh.geometry.dispose());
   return facts;
 };
@@ -74,9 +74,9 @@ function draw(scene, points, options) {
 
 /**
  * Triangles, enclosed volume, bounds, and the part of the area whose corners' normals look away from the side that the
- * triangle's winding says is outside.
+ * triangle's winding says is outside; triangles of no more than the height of a sliver may face either way.
  */
-function surfaceFacts(meshes, points) {
+function surfaceFacts(meshes, points, sliver) {
   let [triangles, volume, area, against] = [0, 0, 0, 0];
   const box = bounds(usedPoints(meshes, points));
   const middle = box[0].map((low, axis) => (low + box[1][axis]) / 2);
@@ -96,7 +96,8 @@ function surfaceFacts(meshes, points) {
         normal.fromBufferAttribute(normals, corners[i + k]).applyMatrix3(toWorld);
         return normal.x * cross.x - normal.z * cross.y + normal.y * cross.z <= 0;
       };
-      if (normals && size > 0 && [0, 1, 2].some(looksAway)) against += size;
+      const longest = Math.max(...[0, 1, 2].map((k) => at[k].distanceTo(at[(k + 1) % 3])));
+      if (normals && 2 * size > sliver * longest && [0, 1, 2].some(looksAway)) against += size;
     }
   });
   return { triangles, volume, area, box: triangles ? box : null, normals_against: area ? against / area : 0 };

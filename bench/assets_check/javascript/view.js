@@ -2,7 +2,7 @@
 //
 //   node view.js CHROMIUM WIDTHxHEIGHT AZIMUTH ELEVATION
 //
-// Jobs on standard input, one a line: {"path": …, "picture": PNG or null}. For each a line of JSON with the path and either
+// Jobs on standard input, one a line: {"path": …, "picture": PNG, "sliver": height}. For each a line of JSON with the path and either
 // what three.js found ("facts") or what went wrong ("error"), and what the page said on its console ("said").
 
 import { createServer } from "node:http";
@@ -57,14 +57,15 @@ await page.goto(`${origin}/page.html`);
 await page.waitForFunction(() => globalThis.show !== undefined);
 
 for await (const line of createInterface({ input: process.stdin })) {
-  const { path, picture } = JSON.parse(line);
+  const { path, picture, sliver } = JSON.parse(line);
   [asset, said] = [path, []];
   const answer = { path };
   try {
     // The number keeps the browser from taking another asset from its cache.
-    const options = { url: `/asset/${Date.now()}${extname(path)}`, width, height, azimuth: +azimuth, elevation: +elevation };
+    const url = `/asset/${Date.now()}${extname(path)}`;
+    const options = { url, sliver, width, height, azimuth: +azimuth, elevation: +elevation };
     answer.facts = await page.evaluate((options) => globalThis.show(options), options);
-    if (picture) await page.screenshot({ path: picture, omitBackground: true });
+    await page.screenshot({ path: picture, omitBackground: true });
   } catch (error) {
     answer.error = String(error).split("\n")[0];
   }

@@ -1,6 +1,7 @@
 """three.js in headless Chromium: what it makes of glTF files, and pictures as planecut's previews see them."""
 
 import json
+import math
 import subprocess
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,14 +21,12 @@ VIEW = ("-62", "32")
 ATTRIBUTES = {"--uv": "uv", "--tangents": "tangent", "--vertex-colors": "color"}
 """What an option gives, as three.js names it."""
 
-BAR = 0.98
-"""The least intersection over union of two masks, or else all that they differ in must lie along their edges."""
-
 STRAYS = 1e-4
-"""The part of the pixels that may be away from the edges: lattices have many edges, some of them within one pixel."""
+"""The part of the pixels that may lie away from the edges of the other mask.
 
-SLIVERS = 1e-7
-"""The part of the area whose normals may be off: triangles so thin that rounding decides which way they face."""
+On `bracket.json` a camera off by one degree strays by 3 times that (elevation) or 30 times (azimuth). The overlap tells
+less: it is 0.99 then, and 0.83 for a model of wires a pixel wide where all is well.
+"""
 
 TIMEOUT = 3600
 """Seconds for all files together."""
@@ -80,11 +79,11 @@ def _check(setting: Setting, asset: Asset, shown: Shown) -> None:
     missing = [name for name in asked if expected and name not in facts["attributes"]]
     if missing:
         setting.fail(asset.where, f"three.js finds no {', '.join(missing)} on all meshes")
-    if facts["normals_against"] > SLIVERS:
+    if facts["normals_against"] > 0.0:
         part = facts["normals_against"]
         setting.fail(asset.where, f"normals on {part:.1e} of the area look away from the side that triangles face")
     seen = shown.silhouette
-    if seen and seen.overlap < BAR and seen.strays > STRAYS * seen.pixels:
+    if seen and seen.strays > STRAYS * seen.pixels:
         setting.fail(asset.where, f"three.js draws another silhouette: {seen}")
     materials = asset.report["model"]["materials"]
     if asset.variant == PLAIN and expected and not 1 <= len(facts["materials"]) <= max(materials, 1):
@@ -92,12 +91,18 @@ def _check(setting: Setting, asset: Asset, shown: Shown) -> None:
 
 
 def _answers(chromium: str, assets: list[Asset]) -> list[dict]:
-    jobs = [json.dumps({"path": str(asset.path), "picture": str(_picture(asset))}) for asset in assets]
+    jobs = [json.dumps(_job(asset)) for asset in assets]
     command = ["node", str(_PROGRAM), chromium, "{}x{}".format(*SIZE), *VIEW]
     done = subprocess.run(command, input="\n".join(jobs), capture_output=True, text=True, timeout=TIMEOUT, check=False)
     if done.returncode != 0:
         raise RuntimeError(f"{_PROGRAM.name} ended with exit status {done.returncode}: {done.stderr[-500:]}")
     return [json.loads(line) for line in done.stdout.splitlines()]
+
+
+def _job(asset: Asset) -> dict:
+    """A triangle that is turned over by rounding is no higher than what two points may move towards one another."""
+    sliver = 2.0 * math.sqrt(3.0) * GltfFile.read(asset.path).half_step()
+    return {"path": str(asset.path), "picture": str(_picture(asset)), "sliver": sliver}
 
 
 def _picture(asset: Asset) -> Path:

@@ -1,7 +1,7 @@
 //! `polyhedron`: a solid of given corners and faces.
 
 use planecut_csg::MaterialId;
-use planecut_csg::polyhedron::{PolyhedronError, PolyhedronOptions, Precision, polyhedron};
+use planecut_csg::polyhedron::{Polyhedron, PolyhedronError, PolyhedronOptions, Precision, polyhedron};
 use planecut_kernel::DVec3;
 use rustc_hash::FxHashMap;
 
@@ -15,6 +15,9 @@ use crate::mesh::merge::PositionMerger;
 /// Significant digits of the numbers that OpenSCAD writes.
 const DIGITS: u32 = 6;
 
+/// Surfaces of more facets are not tried as they stand: convex ones are smaller.
+const MAX_TRIED: usize = 1000;
+
 /// Corners, and of each face their numbers, counter-clockwise seen from outside.
 type Surface = (Vec<DVec3>, Vec<Vec<u32>>);
 
@@ -27,8 +30,7 @@ pub(super) fn body(node: &Node<'_>, material: MaterialId) -> Result<(Body, Optio
     if facets.is_empty() {
         return Ok((Body::default(), None));
     }
-    let options = PolyhedronOptions { precision: Precision::Digits(DIGITS) };
-    match polyhedron(&points, &facets, &[material], &options) {
+    match solid(&points, &facets, material) {
         Ok(solid) => {
             let message =
                 solid.is_turned.then(|| "a polyhedron whose faces are all turned around is turned back".to_owned());
@@ -38,6 +40,23 @@ pub(super) fn body(node: &Node<'_>, material: MaterialId) -> Result<(Body, Optio
         Err(PolyhedronError::NoVolume) => Ok((Body::default(), None)),
         Err(error) => Err(error.to_string()),
     }
+}
+
+/// The solid within a surface whose corners are known as OpenSCAD writes them. Where one has more digits than that, something
+/// else wrote the tree, which had reason to write them; and what is convex with planar faces as it stands is meant so.
+fn solid(points: &[DVec3], facets: &[Vec<u32>], material: MaterialId) -> Result<Polyhedron, PolyhedronError> {
+    let known_to = |precision| polyhedron(points, facets, &[material], &PolyhedronOptions { precision });
+    let is_short = |v: f64| format!("{v:.*e}", DIGITS as usize - 1).parse() == Ok(v);
+    if !points.iter().flat_map(|point| point.to_array()).all(is_short) {
+        return known_to(Precision::Double);
+    }
+    if facets.len() <= MAX_TRIED {
+        let exactly = known_to(Precision::Double);
+        if exactly.as_ref().is_ok_and(|solid| solid.cells.len() == 1 && solid.bent_facets == 0) {
+            return exactly;
+        }
+    }
+    known_to(Precision::Digits(DIGITS))
 }
 
 fn surface(node: &Node<'_>) -> Result<Surface, String> {
