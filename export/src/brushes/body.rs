@@ -61,7 +61,8 @@ impl Body {
             widest = widest.max(polytope.face_area(plane).unwrap_or(0.0));
         }
         let all = || faces.iter().flat_map(|face| &face.corners);
-        let far = all().flat_map(|corner| corner.to_array()).find(|value| !(value.abs() <= MAX_COORDINATE));
+        let far =
+            all().flat_map(|corner| corner.to_array()).find(|value| value.is_nan() || value.abs() > MAX_COORDINATE);
         if let Some(value) = far {
             return Err(ExportError::BrushRange { brush: number, value });
         }

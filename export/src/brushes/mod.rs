@@ -25,6 +25,9 @@ use body::Body;
 /// |---|---|---|---|
 /// | map | exact where decimals of six places can say them, else by points rounded to `f64` | name, of each face | `classname #n`: an entity of its own |
 /// | OpenSCAD | by corners rounded to `f64` | colour, of each body | no |
+///
+/// OpenSCAD rounds corners to a grid of `2^-20` (about `1e-6`) when it combines bodies, whatever is written; bodies that are
+/// needles on that grid are left out of its files. A scale can make details larger.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum BrushFormat {
     /// A Quake-family map in the Valve 220 format, which the editors for these games open.

@@ -15,17 +15,18 @@ const LEAST_RELATIVE: [f64; 2] = [1.0 / (1u64 << 30) as f64, 1.0 / (1u64 << 16) 
 
 /// Three points of a face's plane, counter-clockwise seen from outside and not on one line.
 ///
-/// Corners are preferred, and grids of few places. Where neither says the plane exactly, three corners do as well as
-/// rounding allows, unless the face is so narrow that its plane would tilt: then points farther apart are sought.
+/// Points of a grid of few places are preferred, corners among them. Where these do not say the plane exactly, three corners do
+/// as well as rounding allows, unless the face is so narrow that its plane would tilt: then points farther apart are sought.
 pub(super) fn three_points(body: &Body, face: &BodyFace) -> [DVec3; 3] {
-    exact(body, face).or_else(|| corners(body, face)).unwrap_or_else(|| apart(body, face))
+    let rounded = || along_axis(body, face).or_else(|| corners(body, face)).unwrap_or_else(|| apart(body, face));
+    exact(body, face).unwrap_or_else(rounded)
 }
 
 /// Points on a decimal grid, where the plane holds three that are not far away.
 fn exact(body: &Body, face: &BodyFace) -> Option<[DVec3; 3]> {
     let plane = IntegerPlane::new(face.normal, face.offset)?;
     let farthest = 4.0 * (body.reach + body.size);
-    let middle = face.corners.iter().sum::<DVec3>() / face.corners.len() as f64;
+    let (middle, _) = around(body, face);
     (0..=MAX_PLACES).find_map(|places| {
         let lattice = plane.lattice(places)?;
         let corners: Vec<DVec3> = face.corners.iter().filter_map(|corner| lattice.at(*corner)).collect();
@@ -37,17 +38,43 @@ fn exact(body: &Body, face: &BodyFace) -> Option<[DVec3; 3]> {
     })
 }
 
+/// Of a plane that is parallel to one axis, as the walls of an extrusion are: two points side by side along the axis, so that
+/// it stays parallel.
+fn along_axis(body: &Body, face: &BodyFace) -> Option<[DVec3; 3]> {
+    let axis = (0..3).find(|axis| face.normal[*axis] == 0.0)?;
+    let across = DVec3::AXES[axis].cross(face.normal.normalize());
+    let by_place = |a: &&DVec3, b: &&DVec3| a.dot(across).total_cmp(&b.dot(across));
+    let [mut first, mut last] = [*face.corners.iter().min_by(by_place)?, *face.corners.iter().max_by(by_place)?];
+    if (last - first).dot(across) < least_height(body) {
+        let (middle, radius) = around(body, face);
+        [first, last] = [middle - radius * across, middle + radius * across].map(|point| onto_plane(point, face));
+    }
+    let mut beside = first;
+    beside[axis] += (last - first).length();
+    // seen from outside, the axis is a quarter turn counter-clockwise from the way across
+    Some([first, last, beside])
+}
+
 /// Corners, where these are far enough apart.
 fn corners(body: &Body, face: &BodyFace) -> Option<[DVec3; 3]> {
-    let least = (LEAST_HEIGHT * body.size).max(LEAST_RELATIVE[0] * body.reach);
-    largest_triangle(&face.corners).filter(|points| height(points) >= least)
+    largest_triangle(&face.corners).filter(|points| height(points) >= least_height(body))
+}
+
+/// The least height of a triangle that leaves a plane in its place.
+fn least_height(body: &Body) -> f64 {
+    (LEAST_HEIGHT * body.size).max(LEAST_RELATIVE[0] * body.reach)
+}
+
+/// The middle of a face, and how far around it points may well be.
+fn around(body: &Body, face: &BodyFace) -> (DVec3, f64) {
+    let middle = face.corners.iter().sum::<DVec3>() / face.corners.len() as f64;
+    (middle, (0.5 * body.size).max(LEAST_RELATIVE[1] * body.reach))
 }
 
 /// Points around the face that are as far apart as the body is wide.
 fn apart(body: &Body, face: &BodyFace) -> [DVec3; 3] {
     let normal = face.normal.normalize();
-    let radius = (0.5 * body.size).max(LEAST_RELATIVE[1] * body.reach);
-    let middle = face.corners.iter().sum::<DVec3>() / face.corners.len() as f64;
+    let (middle, radius) = around(body, face);
     let (u, v) = normal.any_orthonormal_pair();
     [0.0, 1.0, 2.0].map(|turn: f64| {
         let (sine, cosine) = (turn * std::f64::consts::TAU / 3.0).sin_cos();

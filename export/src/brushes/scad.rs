@@ -1,10 +1,10 @@
 //! OpenSCAD's evaluated trees.
 //!
-//! Bodies are written as the exact hulls of their rounded corners, cut into triangles. OpenSCAD asks of a `polyhedron` that its
-//! faces are planar and that it is closed; before it combines bodies it rounds all corners to a grid of `2^-20`, asks whether the
-//! body is convex to within a tenth of a degree, and if so takes the hull of its corners. A triangle is planar wherever its
-//! corners are moved to, and a hull is convex. So a `hull()` around each `polyhedron` would say nothing more, and cost those who
-//! only look at the bodies another hull.
+//! Each body is `hull() { polyhedron(…); }`, the polyhedron being the exact hull of the rounded corners, cut into triangles: what is
+//! looked at is right with and without the `hull()`, whoever reads it. OpenSCAD itself rounds corners to a grid of `2^-20` before it
+//! combines bodies. There a thin polyhedron may fold onto itself, and then the whole union fails, with nothing shown at all. What
+//! comes from a `hull()` OpenSCAD knows to be convex: it takes the hull of the rounded corners, and drops it where that is flat.
+//! Triangles stay planar wherever their corners are moved to; faces of more corners, rounded, are not planar to begin with.
 //!
 //! Source: OpenSCAD 2021.01, `cgalutils.cc`, and its behaviour.
 
@@ -65,6 +65,10 @@ fn color(material: &Material) -> Vec<u8> {
     text
 }
 
+/// A body is left out if its corners are this near to one line: on OpenSCAD's grid of `2^-20` they may all be on it, and the hull of
+/// such points ends OpenSCAD. Rounding and merging moves each by less than two steps.
+const NEEDLE: f64 = 4.0 / (1u64 << 20) as f64;
+
 /// One line with a body; `None` where its corners, rounded, span no space.
 fn encode(body: &Body) -> Option<Vec<u8>> {
     let mut points: Vec<DVec3> = Vec::new();
@@ -72,9 +76,12 @@ fn encode(body: &Body) -> Option<Vec<u8>> {
     for corner in body.faces.iter().flat_map(|face| &face.corners) {
         known.entry((*corner + 0.0).to_array().map(f64::to_bits)).or_insert_with(|| points.push(*corner));
     }
+    if is_needle(&points) {
+        return None;
+    }
     let triangles = hull_triangles(&points).ok()?;
     let mut text = Vec::with_capacity(64 * points.len() + 16 * triangles.len());
-    text.extend_from_slice(b"\t\tpolyhedron(points = [");
+    text.extend_from_slice(b"\t\thull() { polyhedron(points = [");
     let mut numbers = vec![None; points.len()];
     let mut count = 0;
     for corner in triangles.as_flattened() {
@@ -91,8 +98,19 @@ fn encode(body: &Body) -> Option<Vec<u8>> {
         let corners = [c, b, a].map(|corner| numbers[*corner as usize].unwrap_or_default());
         push_list(&mut text, place == 0, corners, push_digits);
     }
-    text.extend_from_slice(b"], convexity = 1);\n");
+    text.extend_from_slice(b"], convexity = 1); }\n");
     Some(text)
+}
+
+/// Whether points are all near to a line through two that are about as far apart as any.
+fn is_needle(points: &[DVec3]) -> bool {
+    let farthest = |from: DVec3| {
+        let distance = |point: &&DVec3| point.distance_squared(from);
+        points.iter().max_by(|a, b| distance(a).total_cmp(&distance(b))).copied().unwrap_or(from)
+    };
+    let start = farthest(points[0]);
+    let along = (farthest(start) - start).normalize_or_zero();
+    points.iter().all(|point| (point - start).reject_from_normalized(along).length() <= NEEDLE)
 }
 
 fn push_list<T>(text: &mut Vec<u8>, is_first: bool, values: [T; 3], push: impl Fn(&mut Vec<u8>, T)) {
