@@ -3,6 +3,7 @@
 use std::ops::{BitAnd, BitOr, BitXor, Not, Sub};
 
 use crate::brush::{Brush, MaterialId};
+use crate::solid::Solid;
 use crate::transform::{Transform, TransformError};
 
 /// A regularised set operation: what is left of a result without interior is nothing.
@@ -178,6 +179,16 @@ impl Tree {
             TreeNode::Operation { operation: Operation::Complement, .. } => false,
             TreeNode::Operation { operands, .. } => *operands == 1,
         })
+    }
+
+    /// Convex bodies whose union is the same solid: the brushes of a union as they are, those of any other tree as disjoint cells.
+    #[must_use]
+    pub fn into_convex_union(self) -> Vec<Brush> {
+        if self.is_union() {
+            return self.into_brushes();
+        }
+        let solid = Solid::from_tree(&self);
+        solid.cells().map(|cell| solid.brush_of(cell)).collect()
     }
 
     /// The parts of a union by the names of their brushes: an operand whose brushes have one name is a part, as are single brushes of one

@@ -23,7 +23,7 @@ impl<'a> Library<'a> {
         let mut materials: Vec<(String, &Material)> = Vec::new();
         let mut place_of = |material: &'a Material| {
             *known.entry((material.name.as_str(), looks(material))).or_insert_with(|| {
-                materials.push((unique(name(&material.name), &mut taken), material));
+                materials.push((unique(&name(&material.name), &mut taken), material));
                 materials.len() as u32 - 1
             })
         };
@@ -45,12 +45,12 @@ impl<'a> Library<'a> {
 /// A name for each material, each one once: what `name` makes of the material's own, numbered where that is taken.
 pub(crate) fn unique_names(materials: &[Material], name: impl Fn(&str) -> String) -> Vec<String> {
     let mut taken = FxHashSet::default();
-    materials.iter().map(|material| unique(name(&material.name), &mut taken)).collect()
+    materials.iter().map(|material| unique(&name(&material.name), &mut taken)).collect()
 }
 
 /// The name, numbered where it is taken.
-fn unique(wanted: String, taken: &mut FxHashSet<String>) -> String {
-    let mut name = wanted.clone();
+fn unique(wanted: &str, taken: &mut FxHashSet<String>) -> String {
+    let mut name = wanted.to_owned();
     let mut copy = 2;
     while !taken.insert(name.clone()) {
         name = format!("{wanted}_{copy}");

@@ -6,7 +6,7 @@ use clap::error::ErrorKind;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use planecut::csg::Tree;
 use planecut::csg::coarsen::{CoarsenOptions, LEAST_MAX_FACES, LEAST_MAX_VERTICES, Side};
-use planecut::export::{Format, MAX_IMAGE_SIDE, PreviewOptions, PreviewStyle};
+use planecut::export::{MAX_IMAGE_SIDE, PreviewOptions, PreviewStyle};
 use planecut::import::map::MapOptions;
 use planecut::import::model::ModelOptions;
 use planecut::import::scad::ScadOptions;
@@ -14,7 +14,7 @@ use planecut::import::scad::ScadOptions;
 use super::asset_args::AssetArgs;
 use super::error::CliError;
 use super::input::{Input, InputKind};
-use super::output::MeshTarget;
+use super::output::{MeshTarget, OutputFormat};
 use super::terminal;
 
 /// Convex-CSG modeling kernel: exact half-spaces in, watertight meshes out.
@@ -67,13 +67,13 @@ pub(crate) struct BuildArgs {
 /// Where meshes and the report go.
 #[derive(Debug, Args)]
 pub(crate) struct OutputArgs {
-    /// Mesh to write, by its ending .glb, .gltf, .obj, .stl, .3mf or .ply; may be given several times; `-` is standard output. Of `coarsen` a name with
+    /// Mesh to write, by its ending .glb, .gltf, .obj, .stl, .3mf or .ply, or convex bodies, .map or .csg; may be given several times; `-` is standard output. Of `coarsen` a name with
     /// `{}` is a file for each cell, `{}` standing for its number
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1)]
     pub(crate) outputs: Vec<PathBuf>,
-    /// Format of `-o -`: glb, gltf, obj, stl, 3mf or ply
+    /// Format of `-o -`: glb, gltf, obj, stl, 3mf, ply, map or csg
     #[arg(long, value_name = "FORMAT", value_parser = parse_format)]
-    pub(crate) format: Option<Format>,
+    pub(crate) format: Option<OutputFormat>,
     /// Factor from the input's units to those of the meshes
     #[arg(long, value_name = "S", default_value_t = 1.0, value_parser = parse_scale)]
     pub(crate) scale: f64,
@@ -410,8 +410,8 @@ fn in_one_line(message: &str) -> String {
     told.map(|(_, text)| text).collect::<Vec<_>>().join("; ")
 }
 
-fn parse_format(text: &str) -> Result<Format, String> {
-    Format::from_extension(text).map_err(|_| "expected glb, gltf, obj or stl".to_owned())
+fn parse_format(text: &str) -> Result<OutputFormat, String> {
+    OutputFormat::from_extension(text).ok_or_else(|| "expected glb, gltf, obj, stl, 3mf, ply, map or csg".to_owned())
 }
 
 fn parse_scale(text: &str) -> Result<f64, String> {

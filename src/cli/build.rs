@@ -8,8 +8,8 @@ use super::args::BuildArgs;
 use super::error::CliError;
 use super::input::{Input, InputKind};
 use super::output::{MeshTarget, Target, check_targets};
-use super::pieces::Pieces;
-use super::product::{Product, draw, encode, produce};
+use super::pieces::{Pieces, brushes};
+use super::product::{Contents, Product, draw, encode, produce};
 use super::progress::Progress;
 use super::report::milliseconds;
 use super::solve::solve;
@@ -68,7 +68,9 @@ impl<'a> Plan<'a> {
         let options = assets.options(self.args.output.scale);
         let solid = Part { name: "solid", mesh: &solved.mesh, sources: &solved.sources };
         let parts = pieces.as_ref().map_or_else(|| vec![solid], |pieces| pieces.as_parts(&solved.sources));
-        let mut outputs = encode(&parts, &self.meshes, &options)?;
+        let brushes = || brushes(self.kind, &solved);
+        let contents = Contents { parts: &parts, materials: &solved.model.materials, brushes: &brushes };
+        let mut outputs = encode(&contents, &self.meshes, &options)?;
         let encoding = begin.elapsed();
         if let Some(target) = &self.preview {
             let drawing = Instant::now();

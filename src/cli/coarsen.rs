@@ -16,7 +16,7 @@ use super::error::CliError;
 use super::input::{Input, InputKind};
 use super::output::{MeshTarget, Output, Target, check_targets};
 use super::pieces::{NUMBER, Pieces, bounded_tree};
-use super::product::{Product, draw, encode, produce};
+use super::product::{Contents, Product, draw, encode, produce};
 use super::progress::Progress;
 use super::report::{CoarsenPart, milliseconds};
 use super::solve::{Read, Solved, read, solve_read};
@@ -92,7 +92,7 @@ impl<'a> Plan<'a> {
         solved.report.time_ms.evaluate += milliseconds(begin.elapsed());
         let begin = Instant::now();
         progress.stage("encoding");
-        let mut outputs = self.encode(&cells)?;
+        let mut outputs = self.encode(&cells, &coarsened, &solved)?;
         let encoding = begin.elapsed();
         if let Some(target) = &self.preview {
             let drawing = Instant::now();
@@ -156,16 +156,20 @@ impl<'a> Plan<'a> {
         }
     }
 
-    fn encode(&self, cells: &Pieces) -> Result<Vec<Output>, CliError> {
+    fn encode(&self, cells: &Pieces, coarsened: &Coarsened, solved: &Solved) -> Result<Vec<Output>, CliError> {
         let options =
             ExportOptions { convex_colliders: true, ..self.args.output.assets.options(self.args.output.scale) };
         let parts = cells.as_parts(&[]);
-        let mut outputs = encode(&parts, &self.meshes, &options)?;
+        let materials = &solved.model.materials;
+        let contents = Contents { parts: &parts, materials, brushes: &|| coarsened.cells.clone() };
+        let mut outputs = encode(&contents, &self.meshes, &options)?;
         for mesh in &self.patterns {
             let pattern = pattern_of(mesh).unwrap_or_default();
             for (number, part) in parts.iter().enumerate() {
                 let target = Target::File(PathBuf::from(pattern.replace(NUMBER, &number.to_string())));
-                outputs.extend(encode(&[*part], &[MeshTarget::alone(target, mesh.format)], &options)?);
+                let brushes = || coarsened.cells.get(number).cloned().into_iter().collect();
+                let contents = Contents { parts: &[*part], materials, brushes: &brushes };
+                outputs.extend(encode(&contents, &[MeshTarget::alone(target, mesh.format)], &options)?);
             }
         }
         Ok(outputs)

@@ -11,7 +11,8 @@ use super::args::EditArgs;
 use super::error::CliError;
 use super::input::{Input, InputKind};
 use super::output::{MeshTarget, Target, check_targets};
-use super::product::{Product, encode, produce};
+use super::pieces::brushes;
+use super::product::{Contents, Product, encode, produce};
 use super::progress::Progress;
 use super::report::{EditPart, milliseconds};
 use super::solve::{Read, read, solve_read, unbounded_of};
@@ -99,7 +100,12 @@ impl<'a> Plan<'a> {
         let begin = Instant::now();
         progress.stage("encoding");
         let options = self.args.output.assets.options(self.args.output.scale);
-        let outputs = encode(&[Part::new("solid", &solved.mesh)], &self.meshes, &options)?;
+        let contents = Contents {
+            parts: &[Part::new("solid", &solved.mesh)],
+            materials: &solved.model.materials,
+            brushes: &|| brushes(self.kind, &solved),
+        };
+        let outputs = encode(&contents, &self.meshes, &options)?;
         Ok(Product { solved, outputs, encoding: begin.elapsed() })
     }
 }

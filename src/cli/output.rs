@@ -5,7 +5,7 @@ use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use planecut::export::{AtomicFile, ExportError, Format};
+use planecut::export::{AtomicFile, BrushFormat, ExportError, Format};
 
 use super::error::CliError;
 use super::terminal;
@@ -126,25 +126,45 @@ impl fmt::Display for Target {
     }
 }
 
-/// A mesh to write.
+/// What a file holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum OutputFormat {
+    /// Triangles.
+    Mesh(Format),
+    /// Convex bodies.
+    Brushes(BrushFormat),
+}
+
+impl OutputFormat {
+    /// The endings that there are, for errors.
+    const ENDINGS: &'static str = "`.glb`, `.gltf`, `.obj`, `.stl`, `.3mf`, `.ply`, `.map` or `.csg`";
+
+    /// The format of an ending, without the dot.
+    pub(crate) fn from_extension(extension: &str) -> Option<Self> {
+        let brushes = || BrushFormat::from_extension(extension).ok().map(Self::Brushes);
+        Format::from_extension(extension).ok().map(Self::Mesh).or_else(brushes)
+    }
+}
+
+/// A mesh, or convex bodies, to write.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct MeshTarget {
     pub(crate) target: Target,
-    pub(crate) format: Format,
+    pub(crate) format: OutputFormat,
     /// Whether materials go to a file of their own, where the format has such.
     has_library: bool,
 }
 
 impl MeshTarget {
     /// A place of its own, without a file of materials.
-    pub(crate) fn alone(target: Target, format: Format) -> Self {
+    pub(crate) fn alone(target: Target, format: OutputFormat) -> Self {
         Self { target, format, has_library: false }
     }
 
     /// Where the materials of an OBJ file go: a file of the same name but for its ending. Standard output has none.
     pub(crate) fn library(&self) -> Option<Target> {
         match &self.target {
-            Target::File(path) if self.has_library && self.format == Format::Obj => {
+            Target::File(path) if self.has_library && self.format == OutputFormat::Mesh(Format::Obj) => {
                 Some(Target::File(path.with_extension("mtl")))
             }
             _ => None,
@@ -164,7 +184,7 @@ impl MeshTarget {
     /// a format without `-`.
     pub(crate) fn resolve_all(
         paths: &[PathBuf],
-        stdout_format: Option<Format>,
+        stdout_format: Option<OutputFormat>,
         has_library: bool,
     ) -> Result<Vec<Self>, CliError> {
         let resolve = |path: &PathBuf| match Target::new(path) {
@@ -172,13 +192,13 @@ impl MeshTarget {
                 Some(format) => Ok(Self::alone(Target::Stdout, format)),
                 None => Err(CliError::Usage("found -o - without a format, expected --format beside it".to_owned())),
             },
-            target => match Format::from_path(path) {
-                Ok(format) => Ok(Self { target, format, has_library }),
-                Err(_) => Err(CliError::Ending {
-                    path: path.clone(),
-                    expected: "`.glb`, `.gltf`, `.obj`, `.stl`, `.3mf` or `.ply`",
-                }),
-            },
+            target => {
+                let ending = path.extension().unwrap_or_default().to_string_lossy();
+                match OutputFormat::from_extension(&ending) {
+                    Some(format) => Ok(Self { target, format, has_library }),
+                    None => Err(CliError::Ending { path: path.clone(), expected: OutputFormat::ENDINGS }),
+                }
+            }
         };
         let targets: Vec<Self> = paths.iter().map(resolve).collect::<Result<_, _>>()?;
         if stdout_format.is_some() && !targets.iter().any(|mesh| mesh.target == Target::Stdout) {

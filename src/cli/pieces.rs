@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::time::Instant;
 
 use planecut::csg::check::check_topology;
-use planecut::csg::{EvaluateError, FaceSource, Mesh, Model, Solid, Tree, evaluate_with};
+use planecut::csg::{Brush, EvaluateError, FaceSource, Mesh, Model, Solid, Tree, evaluate_with};
 use planecut::export::Part;
 
 use super::error::CliError;
@@ -86,6 +86,11 @@ impl Pieces {
         }
         MeshPart::of_solid(&check_topology(&positions, &triangles), faces)
     }
+}
+
+/// The solid as convex bodies: the brushes of a union as they are, else disjoint cells.
+pub(crate) fn brushes(kind: InputKind, solved: &Solved) -> Vec<Brush> {
+    bounded_tree(kind, solved).into_owned().into_convex_union()
 }
 
 /// The tree of an input, of a map without what is not bounded.

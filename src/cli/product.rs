@@ -1,14 +1,15 @@
 //! What `build`, `edit` and `coarsen` make: all of it is complete before the first file gets its name.
 
+use std::cell::LazyCell;
 use std::time::{Duration, Instant};
 
-use planecut::csg::Mesh;
-use planecut::export::{ExportOptions, Part, PreviewOptions, render_preview, write_mtl, write_parts};
+use planecut::csg::{Brush, Material, Mesh};
+use planecut::export::{ExportOptions, Part, PreviewOptions, render_preview, write_brushes, write_mtl, write_parts};
 
 use super::args::CommonArgs;
 use super::error::CliError;
 use super::input::Input;
-use super::output::{MeshTarget, Output, Target};
+use super::output::{MeshTarget, Output, OutputFormat, Target};
 use super::pool::on_threads;
 use super::progress::Progress;
 use super::report::milliseconds;
@@ -70,23 +71,35 @@ pub(crate) fn draw(mesh: &Mesh, target: &Target, options: &PreviewOptions) -> Re
     target.begin(|out| Ok(out.write_all(&render_preview(mesh, options)?)?))
 }
 
-/// Writes parts to each of some places, and materials beside an OBJ file where that is asked for.
+/// What may be written of a solid.
+pub(crate) struct Contents<'a> {
+    pub(crate) parts: &'a [Part<'a>],
+    pub(crate) materials: &'a [Material],
+    /// Convex bodies, where they are asked for.
+    pub(crate) brushes: &'a dyn Fn() -> Vec<Brush>,
+}
+
+/// Writes what there is to each of some places, and materials beside an OBJ file where that is asked for.
 ///
 /// # Errors
 /// [`CliError::Encode`], [`CliError::Write`].
 pub(crate) fn encode(
-    parts: &[Part<'_>],
-    meshes: &[MeshTarget],
+    contents: &Contents<'_>,
+    places: &[MeshTarget],
     options: &ExportOptions,
 ) -> Result<Vec<Output>, CliError> {
-    let mut outputs = Vec::with_capacity(meshes.len());
-    for mesh in meshes {
-        let library = mesh.library();
+    let mut outputs = Vec::with_capacity(places.len());
+    let brushes = LazyCell::new(|| (contents.brushes)());
+    for place in places {
+        let library = place.library();
         let material_library = library.as_ref().and_then(Target::file_name);
         let options = ExportOptions { material_library, ..options.clone() };
-        outputs.push(mesh.target.begin(|out| write_parts(parts, mesh.format, &options, out))?);
+        outputs.push(place.target.begin(|out| match place.format {
+            OutputFormat::Mesh(format) => write_parts(contents.parts, format, &options, out),
+            OutputFormat::Brushes(format) => write_brushes(&brushes, contents.materials, format, options.scale, out),
+        })?);
         if let Some(library) = library {
-            outputs.push(library.begin(|out| write_mtl(parts, out))?);
+            outputs.push(library.begin(|out| write_mtl(contents.parts, out))?);
         }
     }
     Ok(outputs)

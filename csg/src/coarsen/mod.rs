@@ -34,9 +34,8 @@ pub use options::{CoarsenError, CoarsenOptions, LEAST_MAX_FACES, LEAST_MAX_VERTI
 
 use crate::bounds::Bounds;
 use crate::boxes::Boxes;
-use crate::brush::{Brush, BrushFace};
+use crate::brush::Brush;
 use crate::evaluate::evaluate_shape;
-use crate::solid::{Cell, CellPlane, Solid};
 use crate::tree::Tree;
 use clear::Clear;
 use limits::Limits;
@@ -337,17 +336,8 @@ fn better(search: &Search, groups: &mut [Group]) {
 
 /// The convex parts of a tree's solid: the brushes of a union, else disjoint cells.
 fn parts_of(tree: &Tree) -> Result<Vec<Part>, CoarsenError> {
-    if tree.is_union() {
-        return tree.brushes().iter().filter_map(|brush| Part::of_brush(brush).transpose()).collect();
-    }
-    let solid = Solid::from_tree(tree);
-    solid.cells().filter_map(|cell| Part::of_brush(&brush_of_cell(&solid, cell)).transpose()).collect()
-}
-
-fn brush_of_cell(solid: &Solid, cell: &Cell) -> Brush {
-    let face =
-        |plane: &CellPlane| BrushFace { half_space: *solid.table().half_space(plane.plane), material: plane.material };
-    Brush { faces: cell.planes().map(|(_, plane)| face(plane)).collect(), ..Brush::default() }
+    let brushes = tree.clone().into_convex_union();
+    brushes.iter().filter_map(|brush| Part::of_brush(brush).transpose()).collect()
 }
 
 /// The part, loosened as far as its points ask for it.

@@ -39,7 +39,7 @@ pub(crate) use join::joined;
 pub use ray::RayHit;
 use sources::Sources;
 
-use crate::brush::Brush;
+use crate::brush::{Brush, BrushFace};
 use crate::plane_table::PlaneTable;
 use crate::tree::Tree;
 
@@ -131,6 +131,14 @@ impl Solid {
     /// The cells. One that a plane which was added cuts away is left out.
     pub fn cells(&self) -> impl Iterator<Item = &Cell> + Clone {
         self.cells.iter().filter(|cell| !cell.is_empty())
+    }
+
+    /// A cell as a brush: its planes with their materials.
+    #[must_use]
+    pub fn brush_of(&self, cell: &Cell) -> Brush {
+        let face =
+            |plane: &CellPlane| BrushFace { half_space: *self.table.half_space(plane.plane), material: plane.material };
+        Brush { faces: cell.planes().map(|(_, plane)| face(plane)).collect(), ..Brush::default() }
     }
 
     /// The cells whose boxes fulfil a condition which holds for a box wherever it holds for one within.

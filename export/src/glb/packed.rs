@@ -26,8 +26,9 @@ impl Packed {
         for width in [Width::U16, Width::U32] {
             let Some(section) = Section::of_kind(Kind::Indices(width), meshes, false) else { continue };
             let numbers = section.numbers(meshes);
-            let packed = meshopt::encode_index_buffer(&numbers, span(&numbers)).map_err(failed)?;
-            let turned: Vec<u32> = meshopt::decode_index_buffer(&packed, numbers.len()).map_err(failed)?;
+            let packed = meshopt::encode_index_buffer(&numbers, span(&numbers)).map_err(|error| failed(&error))?;
+            let turned: Vec<u32> =
+                meshopt::decode_index_buffer(&packed, numbers.len()).map_err(|error| failed(&error))?;
             let mut rest = turned.as_slice();
             for mesh in meshes.iter_mut().filter(|mesh| Kind::indices(mesh) == section.kind) {
                 let (own, after) = rest.split_at(mesh.vertices.corners.len());
@@ -43,11 +44,11 @@ impl Packed {
             kind if kind.is_attribute() => (attributes(section, meshes)?, "ATTRIBUTES"),
             Kind::Indices(_) => {
                 let numbers = section.numbers(meshes);
-                (meshopt::encode_index_buffer(&numbers, span(&numbers)).map_err(failed)?, "TRIANGLES")
+                (meshopt::encode_index_buffer(&numbers, span(&numbers)).map_err(|error| failed(&error))?, "TRIANGLES")
             }
             _ => {
                 let numbers = section.numbers(meshes);
-                (meshopt::encode_index_sequence(&numbers, span(&numbers)).map_err(failed)?, "INDICES")
+                (meshopt::encode_index_sequence(&numbers, span(&numbers)).map_err(|error| failed(&error))?, "INDICES")
             }
         };
         Ok(Self { bytes, mode })
@@ -72,9 +73,9 @@ fn attributes(section: &Section, meshes: &[Geometry]) -> Result<Vec<u8>, ExportE
 
 fn encoded<const STRIDE: usize>(plain: &[u8]) -> Result<Vec<u8>, ExportError> {
     let (elements, _) = plain.as_chunks::<STRIDE>();
-    meshopt::encode_vertex_buffer_level(elements, LEVEL, Some(VERTEX_VERSION)).map_err(failed)
+    meshopt::encode_vertex_buffer_level(elements, LEVEL, Some(VERTEX_VERSION)).map_err(|error| failed(&error))
 }
 
-fn failed(error: meshopt::Error) -> ExportError {
+fn failed(error: &meshopt::Error) -> ExportError {
     ExportError::Encode { format: "EXT_meshopt_compression", message: error.to_string() }
 }
