@@ -1,6 +1,7 @@
 //! The program as its users run it: arguments, exit statuses, files and what they hold.
 #![forbid(unsafe_code)]
 
+mod assets;
 mod check;
 mod coarsen;
 mod damaged;

@@ -26,15 +26,20 @@ fn comes_back(models: impl Iterator<Item = PathBuf>) {
     let folder = folder();
     for model in models {
         let name = model.file_stem().expect("a name").to_string_lossy().into_owned();
-        let outputs = ["obj", "stl", "glb"].map(|ending| folder.path().join(format!("{name}.{ending}")));
+        let endings = ["obj", "stl", "glb", "ply", "map", "csg"];
+        let outputs = endings.map(|ending| folder.path().join(format!("{name}.{ending}")));
         let original = build(&model, &outputs);
         let volume = original["solid"]["volume"].as_f64().expect("a volume");
         for output in outputs {
             let ending = output.extension().expect("an ending").to_string_lossy().into_owned();
             let back = build(&output, &[folder.path().join("back.stl")]);
-            // decimals of OBJ have all digits, the others are of single precision
-            let tolerance = if ending == "obj" { 1e-12 } else { 1e-6 };
+            // STL and glTF are in single precision, the others have all digits
+            let tolerance = if ["stl", "glb"].contains(&ending.as_str()) { 1e-6 } else { 1e-12 };
             assert!(agree(&back["solid"]["volume"], volume, tolerance), "{name}.{ending}: {volume}, {back}");
+            if ["map", "csg"].contains(&ending.as_str()) {
+                // where convex bodies touch by rounding alone, their union may have walls of nothing
+                continue;
+            }
             for figure in ["components", "genus", "watertight", "manifold"] {
                 assert_eq!(back["mesh"][figure], original["mesh"][figure], "{name}.{ending}: {figure}");
             }
