@@ -3,6 +3,8 @@
 use clap::{Args, ValueEnum};
 use planecut::export::{ExportOptions, Projection, Shading, TextureMapping, Unit};
 
+use super::error::CliError;
+
 /// What is wanted of meshes, as far as formats have a place for it.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Options for meshes")]
@@ -95,6 +97,20 @@ impl AssetArgs {
             quantize: self.quantize,
             meshopt: self.meshopt,
             ..ExportOptions::default()
+        }
+    }
+
+    /// Sees that nothing is asked for that needs the faces of the input as they are.
+    ///
+    /// # Errors
+    /// [`CliError::Usage`].
+    pub(crate) fn check_without_sources(&self) -> Result<(), CliError> {
+        match self.splits_by_face() {
+            Some(_) => {
+                let found = if self.ids { "--ids" } else { "--uv source" };
+                Err(CliError::Usage(format!("found {found} with another command, expected it with build")))
+            }
+            None => Ok(()),
         }
     }
 

@@ -49,6 +49,7 @@ impl<'a> Plan<'a> {
     fn resolve(args: &'a CoarsenArgs) -> Result<Self, CliError> {
         let (input, kind) = Input::resolve_any(&args.input, args.reading.input_format)?;
         args.reading.check(kind)?;
+        args.output.assets.check_without_sources()?;
         let targets = args.output.targets()?;
         let (patterns, meshes) = targets.into_iter().partition(|mesh| pattern_of(mesh).is_some());
         let clear = |path: &PathBuf| Input::resolve_any(path, None);

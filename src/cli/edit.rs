@@ -40,6 +40,7 @@ impl<'a> Plan<'a> {
     fn resolve(args: &'a EditArgs) -> Result<Self, CliError> {
         let (input, kind) = Input::resolve_any(&args.input, args.reading.input_format)?;
         args.reading.check(kind)?;
+        args.output.assets.check_without_sources()?;
         let plan = Self {
             args,
             input,

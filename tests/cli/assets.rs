@@ -74,6 +74,10 @@ fn options_reach_the_file() {
         let refused = run(folder.path(), &format!("build c.json -o d.glb {refused}"));
         assert!(refused.status != 0 && refused.stderr.starts_with("error: "), "{}", refused.stderr);
     }
+    for refused in ["--ids", "--uv source"] {
+        let run = run(folder.path(), &format!("coarsen c.json -o d.glb {refused}"));
+        run.expect_error(2, "expected it with build");
+    }
     assert!(!folder.path().join("d.glb").exists());
 }
 
