@@ -115,7 +115,7 @@ fn packed_buffers_hold_what_the_others_do() {
         }
         let manifolds = |json: &Value, bin: &[u8]| -> Vec<Vec<[u32; 3]>> {
             let meshes = json["meshes"].as_array().expect("meshes").iter();
-            meshes.map(|mesh| turned(merged(json, bin, mesh))).collect()
+            meshes.map(|mesh| turned(&merged(json, bin, mesh))).collect()
         };
         assert!(manifolds(&plain_json, &plain_bin) == manifolds(&json, &bin));
     }
@@ -141,7 +141,7 @@ fn merged(json: &Value, bin: &[u8], mesh: &Value) -> Vec<u32> {
 }
 
 /// Triangles that begin with their least corner.
-fn turned(corners: Vec<u32>) -> Vec<[u32; 3]> {
+fn turned(corners: &[u32]) -> Vec<[u32; 3]> {
     let (triangles, _) = corners.as_chunks::<3>();
     let turn = |mut triangle: [u32; 3]| {
         let first = (0..3).min_by_key(|k| triangle[*k]).expect("three");
