@@ -47,7 +47,7 @@
 //! solid.remove_plane(cut);
 //! assert_eq!(solid.volume(), whole);
 //! let cells = solid.cell_meshes(&model.materials)?;
-//! let parts: Vec<Part> = cells.iter().map(|mesh| Part { name: "cell", mesh }).collect();
+//! let parts: Vec<Part> = cells.iter().map(|mesh| Part::new("cell", mesh)).collect();
 //! encode_parts(&parts, Format::Obj, &ExportOptions::default())?;
 //! # Ok(())
 //! # }
