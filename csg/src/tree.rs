@@ -1,5 +1,6 @@
 //! Trees of set operations over brushes.
 
+use std::borrow::Cow;
 use std::ops::{BitAnd, BitOr, BitXor, Not, Sub};
 
 use crate::brush::{Brush, MaterialId};
@@ -183,12 +184,12 @@ impl Tree {
 
     /// Convex bodies whose union is the same solid: the brushes of a union as they are, those of any other tree as disjoint cells.
     #[must_use]
-    pub fn into_convex_union(self) -> Vec<Brush> {
+    pub fn to_convex_union(&self) -> Cow<'_, [Brush]> {
         if self.is_union() {
-            return self.into_brushes();
+            return Cow::Borrowed(&self.brushes);
         }
-        let solid = Solid::from_tree(&self);
-        solid.cells().map(|cell| solid.brush_of(cell)).collect()
+        let solid = Solid::from_tree(self);
+        Cow::Owned(solid.cells().map(|cell| solid.brush_of(cell)).collect())
     }
 
     /// The parts of a union by the names of their brushes: an operand whose brushes have one name is a part, as are single brushes of one

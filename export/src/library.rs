@@ -1,6 +1,6 @@
 //! The materials of all parts of a file, each once, with a name of its own.
 
-use planecut_csg::Material;
+use planecut_csg::{Material, MaterialId};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::Part;
@@ -36,9 +36,9 @@ impl<'a> Library<'a> {
         &self.materials
     }
 
-    /// The place in the list of the material of a part's face.
-    pub(crate) fn place(&self, part: usize, parts: &[Part<'_>], face: u32) -> u32 {
-        self.places[part][parts[part].mesh.faces[face as usize].material.0 as usize]
+    /// The place in the list of a part's material.
+    pub(crate) fn place(&self, part: usize, material: MaterialId) -> u32 {
+        self.places[part][material.0 as usize]
     }
 }
 

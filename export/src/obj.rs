@@ -10,7 +10,7 @@ use crate::color::{linear_to_srgb, material_color};
 use crate::decimal::{write_decimal, write_digits, write_point};
 use crate::library::Library;
 use crate::options::{ExportOptions, Shading};
-use crate::surface::{Texture, Vertices};
+use crate::surface::Vertices;
 use crate::{ExportError, Part};
 
 /// Writes each part as an object (`o`) with a group (`g`) and `usemtl` for each of its materials, Z-up.
@@ -75,14 +75,13 @@ fn write_part(
         write_point(position * options.scale, out)?;
         out.write_all(b"\n")?;
     }
-    let place = |triangle: &u32| library.place(number, parts, mesh.triangle_faces[*triangle as usize]);
+    let place =
+        |triangle: &u32| library.place(number, mesh.faces[mesh.triangle_faces[*triangle as usize] as usize].material);
     let mut triangles: Vec<u32> = (0..mesh.triangles.len() as u32).collect();
     triangles.sort_by_key(place);
     let is_smooth = options.shading != Shading::Flat;
-    let attributes = (is_smooth || options.texture.is_some()).then(|| {
-        let texture = options.texture.map(|mapping| Texture::new(mapping, sources));
-        Vertices::of(mesh, &triangles, texture.as_ref(), options)
-    });
+    let has_attributes = is_smooth || options.texture.is_some();
+    let attributes = has_attributes.then(|| Vertices::of(mesh, sources, &triangles, options));
     if let Some(vertices) = &attributes {
         write_attributes(vertices, is_smooth, out)?;
     }

@@ -7,7 +7,7 @@ use planecut_csg::Mesh;
 use crate::color::{linear_to_srgb, material_color};
 use crate::decimal::{write_decimal, write_digits};
 use crate::options::{ExportOptions, Shading};
-use crate::surface::{Texture, Vertices};
+use crate::surface::Vertices;
 use crate::{ExportError, Part};
 
 /// Writes the triangles of all parts, Z-up. Vertices are those of the mesh, unless they have normals or texture coordinates: then they are split
@@ -18,9 +18,8 @@ pub(crate) fn write_ply(parts: &[Part<'_>], options: &ExportOptions, out: &mut d
         .iter()
         .map(|part| {
             let triangles: Vec<u32> = (0..part.mesh.triangles.len() as u32).collect();
-            let texture = options.texture.map(|mapping| Texture::new(mapping, part.sources));
-            let is_split = has_normals || texture.is_some();
-            is_split.then(|| Vertices::of(part.mesh, &triangles, texture.as_ref(), options))
+            let is_split = has_normals || options.texture.is_some();
+            is_split.then(|| Vertices::of(part.mesh, part.sources, &triangles, options))
         })
         .collect();
     let vertices =

@@ -93,7 +93,7 @@ fn write_object(
     out: &mut dyn Write,
 ) -> io::Result<()> {
     let mesh = parts[number].mesh;
-    let material = |triangle: usize| library.place(number, parts, mesh.triangle_faces[triangle]);
+    let material = |triangle: usize| library.place(number, mesh.faces[mesh.triangle_faces[triangle] as usize].material);
     // the one of most triangles need not be said again
     let mut counts = vec![0_usize; library.materials().len()];
     (0..mesh.triangles.len()).for_each(|triangle| counts[material(triangle) as usize] += 1);

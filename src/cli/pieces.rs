@@ -90,7 +90,7 @@ impl Pieces {
 
 /// The solid as convex bodies: the brushes of a union as they are, else disjoint cells.
 pub(crate) fn brushes(kind: InputKind, solved: &Solved) -> Vec<Brush> {
-    bounded_tree(kind, solved).into_owned().into_convex_union()
+    bounded_tree(kind, solved).to_convex_union().into_owned()
 }
 
 /// The tree of an input, of a map without what is not bounded.

@@ -336,8 +336,7 @@ fn better(search: &Search, groups: &mut [Group]) {
 
 /// The convex parts of a tree's solid: the brushes of a union, else disjoint cells.
 fn parts_of(tree: &Tree) -> Result<Vec<Part>, CoarsenError> {
-    let brushes = tree.clone().into_convex_union();
-    brushes.iter().filter_map(|brush| Part::of_brush(brush).transpose()).collect()
+    tree.to_convex_union().iter().filter_map(|brush| Part::of_brush(brush).transpose()).collect()
 }
 
 /// The part, loosened as far as its points ask for it.

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use super::origin::choose_origin;
 use super::tangents::tangents;
 use crate::single_precision::without_lost_edges;
-use crate::surface::{Looks, Texture, Vertices};
+use crate::surface::{Looks, Vertices};
 use crate::topology::is_oriented_manifold;
 use crate::{ExportError, ExportOptions, Part};
 
@@ -66,8 +66,7 @@ impl<'a> Geometry<'a> {
             .collect();
         let look = |triangle: &u32| looks.of_face(&mesh, mesh.triangle_faces[*triangle as usize]);
         triangles.sort_by_key(look);
-        let texture = options.texture.map(|mapping| Texture::new(mapping, part.sources));
-        let mut vertices = Vertices::of(&mesh, &triangles, texture.as_ref(), options);
+        let mut vertices = Vertices::of(&mesh, part.sources, &triangles, options);
         if vertices.corners.len() >= NONE as usize {
             // numbers of vertices and of places among the corners must hold in 32 bits, with one value to spare
             let what = format!("{} triangle corners in a glTF mesh", vertices.corners.len());

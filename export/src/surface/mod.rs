@@ -8,14 +8,14 @@ mod smooth;
 mod texture;
 
 use glam::{DVec2, DVec3};
-use planecut_csg::Mesh;
+use planecut_csg::{FaceSource, Mesh};
 use rustc_hash::FxHashMap;
 
 pub(crate) use materials::{Looks, looks};
-pub(crate) use texture::Texture;
 
 use crate::options::{ExportOptions, Shading};
 use smooth::SharedNormals;
+use texture::Texture;
 
 /// Marks a vertex that no triangle has used yet.
 const NONE: u32 = u32::MAX;
@@ -36,8 +36,10 @@ pub(crate) struct Vertices {
 }
 
 impl Vertices {
-    /// The vertices of some triangles of a checked mesh, in the order in which they are used. Triangles of a face follow one another.
-    pub(crate) fn of(mesh: &Mesh, triangles: &[u32], texture: Option<&Texture<'_>>, options: &ExportOptions) -> Self {
+    /// The vertices of some triangles of a checked mesh, in the order in which they are used. Triangles of a face follow one another;
+    /// `sources` are those of the mesh's materials, where they are known.
+    pub(crate) fn of(mesh: &Mesh, sources: &[FaceSource], triangles: &[u32], options: &ExportOptions) -> Self {
+        let texture = options.texture.map(|mapping| Texture::new(mapping, sources));
         let mut splitter = Splitter::new(mesh, texture, options.vertex_colors, 3 * triangles.len());
         match options.shading {
             Shading::Flat => splitter.push_flat(triangles),
@@ -88,13 +90,13 @@ impl Vertices {
 /// Splits vertices.
 struct Splitter<'a> {
     mesh: &'a Mesh,
-    texture: Option<&'a Texture<'a>>,
+    texture: Option<Texture<'a>>,
     has_materials: bool,
     vertices: Vertices,
 }
 
 impl<'a> Splitter<'a> {
-    fn new(mesh: &'a Mesh, texture: Option<&'a Texture<'a>>, has_materials: bool, corners: usize) -> Self {
+    fn new(mesh: &'a Mesh, texture: Option<Texture<'a>>, has_materials: bool, corners: usize) -> Self {
         let vertices = Vertices { corners: Vec::with_capacity(corners), ..Vertices::default() };
         Self { mesh, texture, has_materials, vertices }
     }

@@ -10,23 +10,23 @@ const ROUNDING: f64 = 1e-9;
 
 /// How textures lie on the faces of a mesh.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Texture<'a> {
+pub(super) struct Texture<'a> {
     mapping: TextureMapping,
     sources: &'a [FaceSource],
 }
 
 impl<'a> Texture<'a> {
-    pub(crate) fn new(mapping: TextureMapping, sources: &'a [FaceSource]) -> Self {
+    pub(super) fn new(mapping: TextureMapping, sources: &'a [FaceSource]) -> Self {
         Self { mapping, sources }
     }
 
     /// The coordinates at a point of a face: `u` to the right of the picture, `v` down, from 0 to 1 across it once.
-    pub(crate) fn at(&self, mesh: &Mesh, face: u32, point: DVec3) -> DVec2 {
+    pub(super) fn at(&self, mesh: &Mesh, face: u32, point: DVec3) -> DVec2 {
         self.axes(mesh, face).at(point) / self.mapping.size
     }
 
     /// A number that is the same for faces on which textures lie alike.
-    pub(crate) fn chart(&self, mesh: &Mesh, face: u32) -> u32 {
+    pub(super) fn chart(&self, mesh: &Mesh, face: u32) -> u32 {
         let sides = Side::COUNT;
         let side = || Side::of(mesh.faces[face as usize].normal).number();
         match self.mapping.projection {
