@@ -8,7 +8,7 @@ use std::error::Error;
 use std::time::Instant;
 
 use planecut::csg::{Brush, Material, MaterialId, Model, Tree, evaluate, primitives};
-use planecut::export::{ExportOptions, Format, PreviewOptions, encode, render_preview, write_atomic};
+use planecut::export::{ExportOptions, Format, PreviewOptions, Subject, encode, render, write_atomic};
 use planecut::kernel::DVec3;
 
 const GROUND: MaterialId = MaterialId(0);
@@ -35,7 +35,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     );
     std::fs::create_dir_all("out")?;
     write_atomic("out/town.glb", &encode(&town.mesh, Format::Glb, &ExportOptions::default())?)?;
-    write_atomic("out/town.png", &render_preview(&town.mesh, &PreviewOptions::default())?)?;
+    write_atomic("out/town.png", &render(&Subject::of_mesh(&town.mesh), &PreviewOptions::default())?.to_png()?)?;
     Ok(())
 }
 

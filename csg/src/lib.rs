@@ -31,6 +31,7 @@ pub mod coarsen;
 mod collapse;
 mod contract;
 mod corner;
+mod cutaway;
 mod distinct;
 mod evaluate;
 mod expression;
@@ -58,6 +59,7 @@ pub use blocks::{Block, BlockOptions, BlocksError, BlocksSummary, evaluate_in_bl
 pub use body::Built;
 pub use brush::{Brush, BrushFace, Material, MaterialId, Model};
 pub use contract::{contract_edges, contract_short_edges};
+pub use cutaway::Cutaway;
 pub use evaluate::{
     EvaluateError, Evaluation, ModelSummary, SolidMeasures, StageTimes, UnboundedBrushes, evaluate, evaluate_with,
     summarize,

@@ -45,12 +45,12 @@ fn fnv1a(bytes: &[u8]) -> u64 {
 
 /// The sRGB transfer function (IEC 61966-2-1), display to linear.
 pub(crate) fn srgb_to_linear(value: f32) -> f32 {
-    if value <= 0.040_45 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
+    if value <= 0.040_45 { value / 12.92 } else { libm::powf((value + 0.055) / 1.055, 2.4) }
 }
 
 /// The sRGB transfer function (IEC 61966-2-1), linear to display.
 pub(crate) fn linear_to_srgb(value: f32) -> f32 {
-    if value <= 0.003_130_8 { value * 12.92 } else { 1.055 * value.powf(1.0 / 2.4) - 0.055 }
+    if value <= 0.003_130_8 { value * 12.92 } else { 1.055 * libm::powf(value, 1.0 / 2.4) - 0.055 }
 }
 
 #[cfg(test)]

@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use clap::error::ErrorKind;
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, Parser, Subcommand};
 use planecut::csg::Tree;
 use planecut::csg::coarsen::{CoarsenOptions, LEAST_MAX_FACES, LEAST_MAX_VERTICES, Side};
-use planecut::export::{MAX_IMAGE_SIDE, PreviewOptions, PreviewStyle};
+use planecut::export::{MAX_IMAGE_SIDE, PreviewOptions};
 use planecut::import::map::MapOptions;
 use planecut::import::model::ModelOptions;
 use planecut::import::scad::ScadOptions;
@@ -15,6 +15,7 @@ use super::asset_args::AssetArgs;
 use super::error::CliError;
 use super::input::{Input, InputKind};
 use super::output::{MeshTarget, OutputFormat};
+use super::render::RenderArgs;
 use super::terminal;
 
 /// Convex-CSG modeling kernel: exact half-spaces in, watertight meshes out.
@@ -108,7 +109,7 @@ pub(crate) struct PictureArgs {
 impl PictureArgs {
     /// How to draw it.
     pub(crate) fn options(&self) -> PreviewOptions {
-        self.preview_size.preview(Style::Shaded)
+        self.preview_size.preview()
     }
 }
 
@@ -118,27 +119,6 @@ pub(crate) struct InfoArgs {
     /// The file to look into (.json, .map, .csg, .obj, .stl, .ply, .glb, .gltf); `-` is standard input
     #[arg(value_name = "INPUT")]
     pub(crate) input: PathBuf,
-    #[command(flatten)]
-    pub(crate) reading: ReadingArgs,
-    #[command(flatten)]
-    pub(crate) common: CommonArgs,
-}
-
-/// Arguments of `render`.
-#[derive(Debug, Args)]
-pub(crate) struct RenderArgs {
-    /// The model, map, tree or closed mesh to read (.json, .map, .csg, .obj, .stl, .ply, .glb, .gltf); `-` is standard input
-    #[arg(value_name = "INPUT")]
-    pub(crate) input: PathBuf,
-    /// Picture to write (.png); `-` is standard output
-    #[arg(short, long, value_name = "PICTURE")]
-    pub(crate) output: PathBuf,
-    /// How to draw
-    #[arg(long, value_enum, default_value_t = Style::Shaded)]
-    pub(crate) style: Style,
-    /// Size of the picture in pixels
-    #[arg(long, value_name = "WxH", default_value = "1280x960", value_parser = parse_size)]
-    pub(crate) size: Size,
     #[command(flatten)]
     pub(crate) reading: ReadingArgs,
     #[command(flatten)]
@@ -363,13 +343,6 @@ pub(crate) struct CommonArgs {
     pub(crate) quiet: bool,
 }
 
-/// Looks of a picture.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Style {
-    /// Tinted clay in soft light with shadows
-    Shaded,
-}
-
 /// Width and height of a picture in pixels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Size {
@@ -381,12 +354,15 @@ pub(crate) struct Size {
 const MAX_PIXELS: u64 = 1 << 26;
 
 impl Size {
+    /// Where nothing else is asked for.
+    pub(crate) const DEFAULT: Self = Self { width: 1280, height: 960 };
+
+    /// The same for turntables, which hold many pictures.
+    pub(crate) const TURNTABLE: Self = Self { width: 640, height: 480 };
+
     /// How to draw a picture of this size.
-    pub(crate) fn preview(self, style: Style) -> PreviewOptions {
-        let style = match style {
-            Style::Shaded => PreviewStyle::Shaded,
-        };
-        PreviewOptions { width: self.width, height: self.height, style, ..PreviewOptions::default() }
+    pub(crate) fn preview(self) -> PreviewOptions {
+        PreviewOptions { width: self.width, height: self.height, ..PreviewOptions::default() }
     }
 }
 
@@ -447,7 +423,7 @@ fn parse_thickness(text: &str) -> Result<f64, String> {
     thickness.ok_or_else(|| "expected a number between 0 and 1e30".to_owned())
 }
 
-fn parse_size(text: &str) -> Result<Size, String> {
+pub(crate) fn parse_size(text: &str) -> Result<Size, String> {
     let side = |text: &str| text.parse().ok().filter(|side| (1..=MAX_IMAGE_SIDE).contains(side));
     let size = text.split_once(['x', 'X']).and_then(|(width, height)| Some((side(width)?, side(height)?)));
     match size {

@@ -46,7 +46,7 @@ pub(crate) struct AssetArgs {
 
 /// A unit of length by name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum UnitName {
+pub(crate) enum UnitName {
     Um,
     Mm,
     Cm,
@@ -66,17 +66,23 @@ enum Uv {
     Planar,
 }
 
+impl UnitName {
+    /// The same as the library wants it.
+    pub(crate) fn unit(self) -> Unit {
+        match self {
+            Self::Um => Unit::Micron,
+            Self::Mm => Unit::Millimeter,
+            Self::Cm => Unit::Centimeter,
+            Self::In => Unit::Inch,
+            Self::Ft => Unit::Foot,
+            Self::M => Unit::Meter,
+        }
+    }
+}
+
 impl AssetArgs {
     /// The same as the library wants it.
     pub(crate) fn options(&self, scale: f64) -> ExportOptions {
-        let unit = |unit| match unit {
-            UnitName::Um => Unit::Micron,
-            UnitName::Mm => Unit::Millimeter,
-            UnitName::Cm => Unit::Centimeter,
-            UnitName::In => Unit::Inch,
-            UnitName::Ft => Unit::Foot,
-            UnitName::M => Unit::Meter,
-        };
         let texture = self.uv.map(|uv| {
             let (projection, size) = match uv {
                 Uv::Source => (Projection::Source, 64.0),
@@ -87,7 +93,7 @@ impl AssetArgs {
         });
         ExportOptions {
             scale,
-            unit: self.unit.map(unit),
+            unit: self.unit.map(UnitName::unit),
             text: self.text,
             shading: self.smooth.map_or(Shading::Flat, |crease| Shading::Smooth { crease }),
             texture,

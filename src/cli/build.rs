@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use planecut::export::Part;
+use planecut::export::{Part, Subject};
 
 use super::args::BuildArgs;
 use super::error::CliError;
@@ -75,7 +75,7 @@ impl<'a> Plan<'a> {
         if let Some(target) = &self.preview {
             let drawing = Instant::now();
             progress.stage("drawing");
-            outputs.push(draw(&solved.mesh, target, &self.args.picture.options())?);
+            outputs.push(draw(&Subject::of_mesh(&solved.mesh), target, &self.args.picture.options())?);
             solved.report.time_ms.preview = milliseconds(drawing.elapsed());
         }
         Ok(Product { solved, outputs, encoding })

@@ -99,7 +99,7 @@ impl<'a> Plan<'a> {
             let drawing = Instant::now();
             progress.stage("drawing");
             let union = in_colors(&coarsened).map_err(|source| CliError::of_evaluation(&self.input.path, source))?;
-            outputs.push(draw(&union, target, &self.args.picture.options())?);
+            outputs.push(draw(&union.into(), target, &self.args.picture.options())?);
             solved.report.time_ms.preview = milliseconds(drawing.elapsed());
         }
         // the names of single cells are known by now

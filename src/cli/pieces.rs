@@ -95,9 +95,14 @@ pub(crate) fn brushes(kind: InputKind, solved: &Solved) -> Vec<Brush> {
 
 /// The tree of an input, of a map without what is not bounded.
 pub(crate) fn bounded_tree(kind: InputKind, solved: &Solved) -> Cow<'_, Tree> {
+    bounded_tree_of(kind, &solved.model, &solved.unbounded)
+}
+
+/// The same for a model, given the numbers of its unbounded brushes.
+pub(crate) fn bounded_tree_of<'a>(kind: InputKind, model: &'a Model, unbounded: &[usize]) -> Cow<'a, Tree> {
     match kind {
-        InputKind::Json | InputKind::Csg | InputKind::Mesh(_) => Cow::Borrowed(&solved.model.tree),
-        InputKind::Map => Cow::Owned(without(&solved.model, &solved.unbounded)),
+        InputKind::Json | InputKind::Csg | InputKind::Mesh(_) => Cow::Borrowed(&model.tree),
+        InputKind::Map => Cow::Owned(without(model, unbounded)),
     }
 }
 

@@ -3,8 +3,8 @@
 use std::cell::LazyCell;
 use std::time::{Duration, Instant};
 
-use planecut::csg::{Brush, Material, Mesh};
-use planecut::export::{ExportOptions, Part, PreviewOptions, render_preview, write_brushes, write_mtl, write_parts};
+use planecut::csg::{Brush, Material};
+use planecut::export::{ExportOptions, Part, PreviewOptions, Subject, render, write_brushes, write_mtl, write_parts};
 
 use super::args::CommonArgs;
 use super::error::CliError;
@@ -63,12 +63,12 @@ pub(crate) fn produce(
     product.commit(&input.name(), common.quiet, report, begin)
 }
 
-/// Draws a mesh for a place.
+/// Draws a subject for a place.
 ///
 /// # Errors
 /// [`CliError::Encode`], [`CliError::Write`].
-pub(crate) fn draw(mesh: &Mesh, target: &Target, options: &PreviewOptions) -> Result<Output, CliError> {
-    target.begin(|out| Ok(out.write_all(&render_preview(mesh, options)?)?))
+pub(crate) fn draw(subject: &Subject<'_>, target: &Target, options: &PreviewOptions) -> Result<Output, CliError> {
+    target.begin(|out| Ok(out.write_all(&render(subject, options)?.to_png()?)?))
 }
 
 /// What may be written of a solid.

@@ -1,10 +1,15 @@
-//! A perspective camera that frames a model.
+//! A camera that frames a model.
 //!
 //! Three kinds of coordinates: *world* (the input's units), *view* (x right, y up, z away from the eye, which is the
-//! origin; left-handed; one unit is the model's radius) and *screen* (pixels from the top left corner, with the reciprocal view depth
-//! `w`, which unlike the depth itself is linear across the picture).
+//! origin; left-handed; one unit is the model's radius) and *screen* (pixels from the top left corner, with a nearness).
+//! [`Lens`] knows how the last two correspond.
 
-use glam::{DMat3, DVec3, Vec3};
+use std::f64::consts::{PI, TAU};
+
+use glam::{DMat3, DVec3};
+
+use super::lens::{Lens, ORTHOGRAPHIC_DISTANCE, ScreenPoint};
+use super::options::{CameraKind, PreviewOptions};
 
 /// Tangent of half the view angle along the shorter side of the picture, the longer side gets more.
 const HALF_VIEW_TANGENT: f64 = 0.25;
@@ -15,29 +20,18 @@ const MAX_HALF_VIEW_TANGENT: f64 = 0.7;
 /// Part of the picture that the model may fill each way; the rest is margin.
 const FILL: f64 = 0.88;
 
+/// The same where dimensions stand around the model.
+const FILL_BESIDE_LABELS: f64 = 0.72;
+
 /// Distance from the eye to the nearest vertex, at least, in model radii.
 const MIN_DISTANCE: f64 = 0.1;
 
 /// How often the view is centred; other points can become the outermost ones each time, though hardly any do.
 const CENTERING_STEPS: usize = 2;
 
-/// A vertex on the picture.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct ScreenPoint {
-    /// Pixels from the left edge.
-    pub(super) x: f32,
-    /// Pixels from the top edge.
-    pub(super) y: f32,
-    /// Reciprocal view depth; larger is nearer.
-    pub(super) w: f32,
-}
-
-impl ScreenPoint {
-    /// The same point where a pixel is `factor` samples wide.
-    pub(super) fn magnified(self, factor: f32) -> Self {
-        Self { x: self.x * factor, y: self.y * factor, w: self.w }
-    }
-}
+/// Layers and corners of the rings that stand for a model that turns about the vertical.
+const RINGS: usize = 48;
+const RING_CORNERS: usize = 48;
 
 /// Where the picture is taken from, and how large it is.
 #[derive(Debug, Clone)]
@@ -50,18 +44,14 @@ pub(super) struct Camera {
     axes: DMat3,
     /// The eye in unshifted view coordinates.
     eye: DVec3,
-    /// Half the picture, in pixels.
-    half_size: [f64; 2],
-    /// View units at depth 1 for one pixel.
-    pixel: f64,
+    pub(super) lens: Lens,
 }
 
 impl Camera {
-    /// A camera that looks down at `points` from the given side, so that all of them are on the picture with a margin.
-    /// Angles are in degrees: `azimuth` from the x axis towards the y axis, `elevation` above the horizon.
+    /// A camera that looks at `points` from the side that the options state, so that all of them are on the picture with a margin.
     ///
     /// `None` when the points have no extent.
-    pub(super) fn framing(points: &[DVec3], [azimuth, elevation]: [f64; 2], size: [u32; 2]) -> Option<Self> {
+    pub(super) fn framing(points: &[DVec3], options: &PreviewOptions) -> Option<Self> {
         let first = *points.first()?;
         let (min, max) = points.iter().fold((first, first), |(min, max), &p| (min.min(p), max.max(p)));
         // Halved before subtracting, so that no finite box overflows.
@@ -72,23 +62,48 @@ impl Camera {
         if !per_radius.is_normal() {
             return None;
         }
-        let half_size = size.map(|side| f64::from(side) / 2.0);
-        let short = half_size[0].min(half_size[1]);
-        let long = half_size[0].max(half_size[1]);
-        let pixel = (HALF_VIEW_TANGENT / short).min(MAX_HALF_VIEW_TANGENT / long);
-        let mut camera = Self {
-            center,
-            per_radius,
-            axes: view_axes(azimuth.to_radians(), elevation.clamp(-89.0, 89.0).to_radians()),
-            eye: DVec3::ZERO,
-            half_size,
-            pixel,
-        };
-        camera.eye = camera.framing_eye(points);
-        for _ in 0..CENTERING_STEPS {
-            camera.center_on(points);
+        let half_size = [options.width, options.height].map(|side| f64::from(side) / 2.0);
+        let axes = view_axes(options.azimuth, options.elevation);
+        let lens = Lens::new(options.camera, half_size, 1.0);
+        let mut camera = Self { center, per_radius, axes, eye: DVec3::ZERO, lens };
+        let fill = if options.dimensions { FILL_BESIDE_LABELS } else { FILL };
+        match options.camera {
+            CameraKind::Perspective => camera.frame_in_perspective(points, half_size, fill),
+            CameraKind::Orthographic => camera.frame_in_parallel(points, half_size, fill),
         }
         Some(camera)
+    }
+
+    /// A camera that frames `points` from all sides at once: it may be [turned](Self::turned) about the vertical through their middle.
+    pub(super) fn framing_all_around(points: &[DVec3], options: &PreviewOptions) -> Option<Self> {
+        Self::framing(&rings_around(points), options)
+    }
+
+    /// The same camera looking from another azimuth, in degrees.
+    pub(super) fn turned(&self, azimuth: f64, elevation: f64) -> Self {
+        Self { axes: view_axes(azimuth, elevation), ..self.clone() }
+    }
+
+    fn frame_in_perspective(&mut self, points: &[DVec3], half_size: [f64; 2], fill: f64) {
+        let (short, long) = (half_size[0].min(half_size[1]), half_size[0].max(half_size[1]));
+        let pixel = (HALF_VIEW_TANGENT / short).min(MAX_HALF_VIEW_TANGENT / long);
+        self.lens = Lens::new(CameraKind::Perspective, half_size, pixel);
+        self.eye = self.framing_eye(points, half_size.map(|half| half * pixel * fill));
+        for _ in 0..CENTERING_STEPS {
+            self.center_on(points);
+        }
+    }
+
+    fn frame_in_parallel(&mut self, points: &[DVec3], half_size: [f64; 2], fill: f64) {
+        let first = points.first().map_or(DVec3::ZERO, |&point| self.to_view(point));
+        let seen = points.iter().map(|&point| self.to_view(point));
+        let (min, max) = seen.fold((first, first), |(min, max), p| (min.min(p), max.max(p)));
+        let extent = max - min;
+        let pixel = (extent.x / half_size[0]).max(extent.y / half_size[1]) / (2.0 * fill);
+        // What has no extent across the view is small, not infinitely large.
+        let pixel = pixel.max(1e-3 / half_size[0].max(half_size[1]));
+        self.lens = Lens::new(CameraKind::Orthographic, half_size, pixel);
+        self.eye = ((min + max) * 0.5).with_z(-ORTHOGRAPHIC_DISTANCE);
     }
 
     /// Moves the eye sideways so that what were the outermost points each way are equally far from the middle.
@@ -114,9 +129,9 @@ impl Camera {
         }
     }
 
-    /// The eye that sees all points between four planes through it, tight for at least one of the two pairs.
-    fn framing_eye(&self, points: &[DVec3]) -> DVec3 {
-        let tangents = self.half_size.map(|half| half * self.pixel * FILL);
+    /// The eye that sees all points between four planes through it, which rise by `tangents`; tight for at least one of the two
+    /// pairs.
+    fn framing_eye(&self, points: &[DVec3], tangents: [f64; 2]) -> DVec3 {
         // Largest value of ±x − t·z (and ±y − t·z): the planes' offsets.
         let mut support = [[f64::NEG_INFINITY; 2]; 2];
         let mut nearest = f64::INFINITY;
@@ -144,36 +159,84 @@ impl Camera {
         self.axes.transpose() * world
     }
 
-    /// Screen coordinates of a point in view coordinates.
-    pub(super) fn project(&self, view: DVec3) -> ScreenPoint {
-        let w = 1.0 / view.z;
-        let x = self.half_size[0] + view.x * w / self.pixel;
-        let y = self.half_size[1] - view.y * w / self.pixel;
-        ScreenPoint { x: x as f32, y: y as f32, w: w as f32 }
+    /// Where a world point is seen.
+    pub(super) fn see(&self, world: DVec3) -> ScreenPoint {
+        self.lens.project(self.to_view(world))
     }
 
-    /// View coordinates, at depth 1, of a point on the picture.
-    pub(super) fn ray(&self, x: f32, y: f32) -> Vec3 {
-        let [half_width, half_height] = self.half_size.map(|half| half as f32);
-        let pixel = self.pixel as f32;
-        Vec3::new((x - half_width) * pixel, (half_height - y) * pixel, 1.0)
+    /// World units per unit of view coordinates.
+    pub(super) fn radius(&self) -> f64 {
+        1.0 / self.per_radius
     }
 
-    /// Pixels that a length of one view unit spans at depth 1.
-    pub(super) fn pixels_per_unit(&self) -> f32 {
-        (1.0 / self.pixel) as f32
+    /// Pixels that a world unit across the view spans, at the depth of the model's middle.
+    pub(super) fn pixels_per_world_unit(&self) -> f64 {
+        let depth = self.to_view(self.center).z;
+        f64::from(self.lens.pixels_per_unit(depth as f32)) * self.per_radius
     }
 }
 
+/// World directions of the view axes, as columns; angles in degrees.
 fn view_axes(azimuth: f64, elevation: f64) -> DMat3 {
-    let towards_eye = DVec3::new(elevation.cos() * azimuth.cos(), elevation.cos() * azimuth.sin(), elevation.sin());
-    let right = DVec3::new(-azimuth.sin(), azimuth.cos(), 0.0);
+    // The functions of a crate, not those of the system: pictures are the same on all machines.
+    let (azimuth_sine, azimuth_cosine) = libm::sincos(azimuth.to_radians());
+    let (rise, reach) = libm::sincos(elevation.clamp(-90.0, 90.0).to_radians());
+    let towards_eye = DVec3::new(reach * azimuth_cosine, reach * azimuth_sine, rise);
+    let right = DVec3::new(-azimuth_sine, azimuth_cosine, 0.0);
     DMat3::from_cols(right, towards_eye.cross(right), -towards_eye)
+}
+
+/// Rings that enclose all points however they are turned about the vertical through the middle of their box.
+fn rings_around(points: &[DVec3]) -> Vec<DVec3> {
+    let Some(&first) = points.first() else { return Vec::new() };
+    let (min, max) = points.iter().fold((first, first), |(min, max), &p| (min.min(p), max.max(p)));
+    let middle = min * 0.5 + max * 0.5;
+    let height = (max.z - min.z).max(f64::MIN_POSITIVE);
+    let mut radii = [0.0_f64; RINGS];
+    for point in points {
+        let layer = ((point.z - min.z) / height * RINGS as f64) as usize;
+        let radius = &mut radii[layer.min(RINGS - 1)];
+        *radius = radius.max((*point - middle).truncate().length());
+    }
+    // A ring has corners that lie outside the circle, so that its sides do not cut into it.
+    let beyond = 1.0 / libm::cos(PI / RING_CORNERS as f64);
+    let levels = (0..=RINGS).map(|layer| {
+        let radius = radii[layer.min(RINGS - 1)].max(radii[layer.saturating_sub(1)]);
+        (min.z + height * layer as f64 / RINGS as f64, radius * beyond)
+    });
+    let ring = |(z, radius): (f64, f64)| {
+        (0..RING_CORNERS).map(move |corner| {
+            let (sine, cosine) = libm::sincos(corner as f64 * TAU / RING_CORNERS as f64);
+            DVec3::new(middle.x + radius * cosine, middle.y + radius * sine, z)
+        })
+    };
+    levels.flat_map(ring).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    const KINDS: [CameraKind; 2] = [CameraKind::Perspective, CameraKind::Orthographic];
+
+    fn options(camera: CameraKind, [width, height]: [u32; 2], [azimuth, elevation]: [f64; 2]) -> PreviewOptions {
+        PreviewOptions { camera, width, height, azimuth, elevation, ..PreviewOptions::default() }
+    }
+
+    fn box_corners(half: DVec3, offset: f64) -> Vec<DVec3> {
+        let corner = |i: u32| DVec3::from([0, 1, 2].map(|a| if i >> a & 1 == 1 { 1.0 } else { -1.0 }));
+        (0..8).map(|i| half * (corner(i) + offset)).collect()
+    }
+
+    /// The part of half the picture, each way, that points fill as seen from the middle.
+    fn fill(camera: &Camera, points: &[DVec3], size: [u32; 2]) -> [f64; 2] {
+        points.iter().fold([0.0_f64; 2], |fill, &p| {
+            let seen = camera.see(p);
+            assert!(seen.w > 0.0);
+            let part = |value: f32, side: u32| (f64::from(value) / f64::from(side) * 2.0 - 1.0).abs();
+            [fill[0].max(part(seen.x, size[0])), fill[1].max(part(seen.y, size[1]))]
+        })
+    }
 
     /// Points fill the picture as far as the margin, one way at least, whatever the proportions and the distance.
     #[test]
@@ -181,36 +244,51 @@ mod tests {
         let boxes = [DVec3::ONE, DVec3::new(100.0, 1.0, 1.0), DVec3::new(0.0, 0.0, 5.0), DVec3::new(1e-9, 3e-9, 0.0)];
         for half in boxes.into_iter().chain([DVec3::splat(1e200), DVec3::splat(1e-200)]) {
             for (offset, size) in [(0.0, [1280, 960]), (1e3, [17, 900]), (-1e3, [16_384, 2])] {
-                let corner = |i: u32| DVec3::from([0, 1, 2].map(|a| if i >> a & 1 == 1 { 1.0 } else { -1.0 }));
-                let points: Vec<_> = (0..8).map(|i| half * (corner(i) + offset)).collect();
-                let camera = Camera::framing(&points, [-60.0, 30.0], size).expect("an extent");
-                let fill = points.iter().fold([0.0_f64; 2], |fill, &p| {
-                    let seen = camera.project(camera.to_view(p));
-                    assert!(seen.w > 0.0);
-                    let part = |value: f32, side: u32| (f64::from(value) / f64::from(side) * 2.0 - 1.0).abs();
-                    [fill[0].max(part(seen.x, size[0])), fill[1].max(part(seen.y, size[1]))]
-                });
-                let largest = fill[0].max(fill[1]);
-                assert!(largest < FILL + 0.02, "{half} at {offset}, {size:?}: {fill:?}");
+                for kind in KINDS {
+                    let points = box_corners(half, offset);
+                    let camera = Camera::framing(&points, &options(kind, size, [-60.0, 30.0])).expect("an extent");
+                    let fill = fill(&camera, &points, size);
+                    let largest = fill[0].max(fill[1]);
+                    assert!(largest < FILL + 0.02, "{kind:?} {half} at {offset}, {size:?}: {fill:?}");
+                    let is_tight = largest > FILL - 0.02;
+                    assert!(is_tight || kind == CameraKind::Perspective, "{half} at {offset}, {size:?}: {fill:?}");
+                }
             }
+        }
+    }
+
+    /// A camera that goes around sees all of the model from every side, and at most sides does not waste the picture.
+    #[test]
+    fn a_turning_model_stays_on_the_picture() {
+        let size = [400, 300];
+        for kind in KINDS {
+            let points = box_corners(DVec3::new(3.0, 1.0, 0.5), 2.0);
+            let camera = Camera::framing_all_around(&points, &options(kind, size, [10.0, 25.0])).expect("an extent");
+            let fills: Vec<f64> = (0..36)
+                .map(|step| fill(&camera.turned(f64::from(step) * 10.0, 25.0), &points, size))
+                .map(|[x, y]| x.max(y))
+                .collect();
+            assert!(fills.iter().all(|&part| part < FILL + 0.02), "{kind:?}: {fills:?}");
+            assert!(fills.iter().any(|&part| part > FILL - 0.06), "{kind:?}: {fills:?}");
         }
     }
 
     #[test]
     fn points_without_extent_have_no_camera() {
-        assert!(Camera::framing(&[], [0.0, 0.0], [10, 10]).is_none());
-        assert!(Camera::framing(&[DVec3::ONE; 3], [0.0, 0.0], [10, 10]).is_none());
+        let options = options(CameraKind::Perspective, [10, 10], [0.0, 0.0]);
+        assert!(Camera::framing(&[], &options).is_none());
+        assert!(Camera::framing(&[DVec3::ONE; 3], &options).is_none());
     }
 
+    /// Seen from straight above, x points right and y up, as on a map.
     #[test]
-    fn rays_undo_the_projection() {
-        let points = [DVec3::ZERO, DVec3::new(1.0, 2.0, 3.0)];
-        let camera = Camera::framing(&points, [20.0, 40.0], [300, 200]).expect("an extent");
-        for point in points {
-            let view = camera.to_view(point);
-            let seen = camera.project(view);
-            let back = camera.ray(seen.x, seen.y) / seen.w;
-            assert!(back.distance(view.as_vec3()) < 1e-5);
-        }
+    fn the_view_from_above_is_a_plan() {
+        let points = box_corners(DVec3::ONE, 0.0);
+        let camera =
+            Camera::framing(&points, &options(CameraKind::Orthographic, [100, 100], [-90.0, 90.0])).expect("an extent");
+        let [origin, x, y, z] = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z].map(|point| camera.see(point));
+        assert!(x.x > origin.x + 1.0 && (x.y - origin.y).abs() < 1e-3);
+        assert!(y.y < origin.y - 1.0 && (y.x - origin.x).abs() < 1e-3);
+        assert!((z.place() - origin.place()).length() < 1e-3 && z.w > origin.w);
     }
 }

@@ -1,15 +1,18 @@
 //! The last step: samples, light and lines become pixels.
 
-use glam::Vec3;
+use glam::{Vec3, Vec4};
 use rayon::prelude::*;
 
-use super::edges::{InkBand, Line};
+use super::display::{DisplayTable, row_rounding};
+use super::edges::Line;
+use super::hatch::Hatching;
+use super::ink::{DashLengths, InkBand};
 use super::light::Reaching;
-use super::raster::{NO_FACE, Raster};
+use super::raster::{NO_FACE, Raster, Sides};
 use super::scene::{Scene, Shade};
-use super::style::Look;
+use super::style::{Fill, Look};
 use super::surface::{FLOOR, Surface};
-use crate::color::linear_to_srgb;
+use super::veil::{Veil, VeilFaces};
 
 /// Rows that are composed as one piece of work.
 const BAND_ROWS: usize = 32;
@@ -17,11 +20,16 @@ const BAND_ROWS: usize = 32;
 /// Rows of samples beyond the band's own, which lines on its border are compared with.
 const MARGIN: usize = 2;
 
+/// Opacity of hatching.
+const HATCH_OPACITY: f32 = 0.6;
+
 /// Everything that a picture is made from.
 pub(super) struct Layers<'a> {
     pub(super) scene: &'a Scene<'a>,
     /// Pixels across and down.
     pub(super) size: [usize; 2],
+    /// How large the picture is, compared with the one that widths of lines are stated for.
+    pub(super) scale: f32,
     /// Samples along a pixel.
     pub(super) factor: usize,
     pub(super) surface: &'a Surface,
@@ -29,7 +37,7 @@ pub(super) struct Layers<'a> {
     pub(super) lines: &'a [Line],
 }
 
-/// RGB bytes of a picture that shows the background alone.
+/// RGBA bytes of a picture that shows the background alone.
 pub(super) fn compose_background(look: &Look, [width, height]: [usize; 2]) -> Vec<u8> {
     let display = DisplayTable::new();
     let rows = (0..height).flat_map(|row| {
@@ -39,48 +47,48 @@ pub(super) fn compose_background(look: &Look, [width, height]: [usize; 2]) -> Ve
     rows.flatten().collect()
 }
 
-/// RGB bytes of the picture, row by row.
+/// RGBA bytes of the picture, row by row.
 ///
 /// Samples live only while their band of rows is composed: those of the whole picture would not fit any cache.
 pub(super) fn compose(layers: &Layers<'_>) -> Vec<u8> {
-    let [width, height] = layers.size;
-    let half_width = half_line_width(layers.scene.look.line_width, width.min(height));
-    let lines = lines_by_band(layers.lines, half_width, height);
-    let points: Vec<_> = layers.scene.screen.iter().map(|point| point.magnified(layers.factor as f32)).collect();
-    let triangles = layers.scene.triangles([width * layers.factor, height * layers.factor], &points);
-    let chosen = triangles.by_band(BAND_ROWS * layers.factor, MARGIN);
+    let ([width, height], factor, scene) = (layers.size, layers.factor, layers.scene);
+    let lines = lines_by_band(layers.lines, height);
+    let points: Vec<_> = scene.screen.iter().map(|point| point.magnified(factor as f32)).collect();
+    let triangles = scene.triangles([width * factor, height * factor], &points);
+    let chosen = triangles.by_band(BAND_ROWS * factor, MARGIN, Sides::Front);
+    let veiled = (scene.look.fill == Fill::Translucent).then(|| {
+        (VeilFaces::new(scene, layers.surface), triangles.by_band(BAND_ROWS * factor, 0, Sides::Both))
+    });
     let display = DisplayTable::new();
-    let mut bytes = vec![0; 3 * width * height];
-    let bands = bytes.par_chunks_mut(3 * width * BAND_ROWS).zip(lines.par_iter().zip(&chosen)).enumerate();
-    bands.for_each_init(Raster::default, |samples, (band, (bytes, (lines, chosen)))| {
-        let first_row = band * BAND_ROWS;
-        let [first, end] = [first_row, first_row + bytes.len() / (3 * width)].map(|row| row * layers.factor);
+    let dashes = DashLengths { dash: (9.0 * layers.scale).max(3.0), gap: (6.0 * layers.scale).max(2.5) };
+    let mut bytes = vec![0; 4 * width * height];
+    let bands = bytes.par_chunks_mut(4 * width * BAND_ROWS).zip(lines.par_iter().zip(&chosen)).enumerate();
+    bands.for_each_init(<(Raster, Veil)>::default, |(samples, veil), (number, (bytes, (lines, chosen)))| {
+        let first_row = number * BAND_ROWS;
+        let [first, end] = [first_row, first_row + bytes.len() / (4 * width)].map(|row| row * factor);
         let rows = first.saturating_sub(MARGIN)..(end + MARGIN).min(triangles.size[1]);
         samples.draw_rows(triangles, rows, chosen);
-        let mut ink = vec![0.0; bytes.len() / 3];
-        let mut inked = InkBand { width, first_row, ink: &mut ink, half_width };
-        for &line in lines {
-            inked.draw(&layers.lines[line as usize], samples, layers.factor);
+        if let Some((faces, chosen)) = &veiled {
+            veil.draw_rows(triangles, first..end, &chosen[number], faces);
         }
-        let band = Band { layers, samples };
-        for (y, (bytes, ink)) in bytes.chunks_exact_mut(3 * width).zip(ink.chunks_exact(width)).enumerate() {
+        let mut ink = vec![0.0; bytes.len() / 4];
+        let mut inked = InkBand { width, first_row, ink: &mut ink, dashes };
+        for &line in lines {
+            inked.draw(&layers.lines[line as usize], samples, factor);
+        }
+        let band = Band { layers, samples, veil, hatching: Hatching::new(layers.scale) };
+        for (y, (bytes, ink)) in bytes.chunks_exact_mut(4 * width).zip(ink.chunks_exact(width)).enumerate() {
             band.compose_row(first_row + y, bytes, ink, &display);
         }
     });
     bytes
 }
 
-/// Half the width of lines in pixels, for a picture of this shorter side.
-fn half_line_width(at_960: f32, side: usize) -> f32 {
-    // Thinner lines than this would only look broken.
-    (at_960 * side as f32 / 960.0).max(0.75) / 2.0
-}
-
 /// For each band the lines that may touch it, in their order.
-fn lines_by_band(lines: &[Line], half_width: f32, height: usize) -> Vec<Vec<u32>> {
+fn lines_by_band(lines: &[Line], height: usize) -> Vec<Vec<u32>> {
     let mut bands = vec![Vec::new(); height.div_ceil(BAND_ROWS)];
     for (index, line) in (0..).zip(lines) {
-        let [first, last] = line.rows(half_width).map(|row| row.max(0.0) as usize / BAND_ROWS);
+        let [first, last] = line.rows().map(|row| row.max(0.0) as usize / BAND_ROWS);
         let last = last.min(bands.len() - 1);
         for band in bands.iter_mut().take(last + 1).skip(first) {
             band.push(index);
@@ -93,20 +101,31 @@ fn lines_by_band(lines: &[Line], half_width: f32, height: usize) -> Vec<Vec<u32>
 struct Band<'a> {
     layers: &'a Layers<'a>,
     samples: &'a Raster,
+    veil: &'a Veil,
+    hatching: Hatching,
 }
 
 impl Band<'_> {
     fn compose_row(&self, row: usize, bytes: &mut [u8], ink: &[f32], display: &DisplayTable) {
         let look = &self.layers.scene.look;
         let (backdrop, rounding) = (background(look, row, self.layers.size[1]), row_rounding(row));
-        for (column, (pixel, &ink)) in bytes.chunks_exact_mut(3).zip(ink).enumerate() {
-            let color = self.color([column, row], backdrop);
-            pixel.copy_from_slice(&display.encode(color.lerp(look.ink, ink), rounding));
+        let black = look.lines.ink.extend(1.0);
+        for (column, (pixel, &ink)) in bytes.chunks_exact_mut(4).zip(ink).enumerate() {
+            let (color, hatched) = match look.fill {
+                Fill::Opaque => self.color([column, row], backdrop),
+                Fill::Nothing => (backdrop, 0.0),
+                Fill::Translucent => {
+                    let seen = self.veil.pixel([column, row], self.layers.factor);
+                    (seen + backdrop * (1.0 - seen.w), 0.0)
+                }
+            };
+            let ink = if hatched > ink { hatched } else { ink };
+            pixel.copy_from_slice(&display.encode(color.lerp(black, ink), rounding));
         }
     }
 
-    /// Linear colour of a pixel without lines: the mean of its samples.
-    fn color(&self, at: [usize; 2], backdrop: Vec3) -> Vec3 {
+    /// Colour of a pixel without lines: the mean of its samples, linear and multiplied by its alpha. And the opacity of its hatching.
+    fn color(&self, at: [usize; 2], backdrop: Vec4) -> (Vec4, f32) {
         let (layers, factor) = (self.layers, self.layers.factor);
         let first = (at[1] * factor - self.samples.rows.start) * self.samples.width + at[0] * factor;
         let rows = (0..factor).map(|y| {
@@ -116,25 +135,32 @@ impl Band<'_> {
         let one = self.samples.faces[first];
         if rows.clone().all(|row| row.iter().all(|&face| face == one)) {
             return match layers.scene.shades.get(one as usize) {
-                Some(shade) => layers.lit(*shade, layers.light_at(at, one)),
-                None => layers.shaded_floor(backdrop, layers.light_at(at, NO_FACE)),
+                Some(shade) => (layers.lit(*shade, layers.light_at(at, one)).extend(1.0), self.hatch(at, one)),
+                None => (layers.shaded_floor(backdrop, layers.light_at(at, NO_FACE)), 0.0),
             };
         }
-        let (mut sum, mut empty, mut shown) = (Shade::default(), 0, one);
+        let (mut sum, mut empty, mut shown, mut hatched) = (Shade::default(), 0, one, 0.0);
         for &face in rows.flatten() {
             match layers.scene.shades.get(face as usize) {
                 Some(shade) => {
                     (sum.ambient, sum.direct) = (sum.ambient + shade.ambient, sum.direct + shade.direct);
                     shown = face;
+                    hatched += self.hatch(at, face);
                 }
                 None => empty += 1,
             }
         }
-        let mut color = layers.lit(sum, layers.light_at(at, shown));
+        let samples = factor * factor;
+        let mut color = layers.lit(sum, layers.light_at(at, shown)).extend((samples - empty) as f32);
         if empty > 0 {
             color += layers.shaded_floor(backdrop, layers.light_at(at, NO_FACE)) * empty as f32;
         }
-        color / (factor * factor) as f32
+        (color / samples as f32, hatched / samples as f32)
+    }
+
+    fn hatch(&self, at: [usize; 2], face: u32) -> f32 {
+        let hatch = self.layers.scene.hatch(face);
+        hatch.map_or(0.0, |number| HATCH_OPACITY * self.hatching.coverage(at, number))
     }
 }
 
@@ -171,43 +197,18 @@ impl Layers<'_> {
         shade.ambient * open + shade.direct * light.direct
     }
 
-    /// The background, darkened where the model keeps light from the floor.
-    fn shaded_floor(&self, backdrop: Vec3, light: Reaching) -> Vec3 {
+    /// The background, darkened where the model keeps light from the floor. What is transparent gets black there.
+    fn shaded_floor(&self, backdrop: Vec4, light: Reaching) -> Vec4 {
         let missing = 0.6 * (1.0 - light.direct) + 0.9 * (1.0 - light.ambient);
-        backdrop * (1.0 - self.scene.look.floor * missing.min(1.0))
+        let dark = self.scene.look.floor * missing.min(1.0);
+        backdrop * (1.0 - dark) + Vec4::W * dark
     }
 }
 
-/// Linear background colour of a row.
-fn background(look: &Look, row: usize, height: usize) -> Vec3 {
-    look.background[0].lerp(look.background[1], (row as f32 + 0.5) / height as f32)
-}
-
-/// How a row rounds each channel, from 0 (down) to 1 (up).
-///
-/// Rows differ, so that the steps of a slow gradient leave no visible bands; within a row it is the same everywhere, so
-/// that even colours stay even and compress well.
-fn row_rounding(row: usize) -> [f32; 3] {
-    // Multiples of the golden ratio, modulo one, spread evenly over any run of rows.
-    [0, 1, 2].map(|channel| ((row * 3 + channel) as f32 * 0.618_034).fract())
-}
-
-/// Linear light to display bytes by table: the transfer function itself is too slow for every pixel.
-struct DisplayTable(Vec<f32>);
-
-impl DisplayTable {
-    /// Number of the last entry: fine enough that two neighbouring ones differ by less than one byte value.
-    const LAST: f32 = 16_383.0;
-
-    fn new() -> Self {
-        Self((0..=Self::LAST as u16).map(|step| linear_to_srgb(f32::from(step) / Self::LAST) * 255.0).collect())
-    }
-
-    /// Display bytes of a linear colour; `rounding` is added before fractions are dropped.
-    fn encode(&self, color: Vec3, rounding: [f32; 3]) -> [u8; 3] {
-        let entries = color.clamp(Vec3::ZERO, Vec3::ONE) * Self::LAST + 0.5;
-        // Small enough for a signed conversion, which is the fast one.
-        let byte = |entry: f32, rounding: f32| (self.0[entry as i32 as usize] + rounding) as i32 as u8;
-        [byte(entries.x, rounding[0]), byte(entries.y, rounding[1]), byte(entries.z, rounding[2])]
+/// Linear background colour of a row, multiplied by its alpha.
+fn background(look: &Look, row: usize, height: usize) -> Vec4 {
+    match look.background {
+        Some([top, bottom]) => top.lerp(bottom, (row as f32 + 0.5) / height as f32).extend(1.0),
+        None => Vec4::ZERO,
     }
 }

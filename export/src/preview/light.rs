@@ -26,7 +26,7 @@ pub(super) struct Reaching {
 }
 
 /// All the light there is.
-const OPEN: Reaching = Reaching { ambient: 1.0, direct: 1.0 };
+pub(super) const OPEN: Reaching = Reaching { ambient: 1.0, direct: 1.0 };
 
 /// Light for each cell of the surface, row by row.
 pub(super) fn reaching_light(scene: &Scene<'_>, surface: &Surface) -> Vec<Reaching> {
@@ -62,9 +62,9 @@ fn at_cell(
 ) -> Reaching {
     let index = at[1] * surface.width + at[0];
     let face = surface.faces[index];
-    let point = surface.ray(at) * surface.depth[index];
+    let point = surface.point(at);
     let normal = normal_of(scene, face);
-    let ambient = openness(surface, scene.camera.pixels_per_unit(), at, (point, normal), (turn, shift));
+    let ambient = openness(surface, at, (point, normal), (turn, shift));
     let faces_light = normal.dot(scene.light) > 0.0;
     let direct = if faces_light { shadows.lit(point, normal, turn) } else { 1.0 };
     match scene.floor {
@@ -85,7 +85,7 @@ fn tap_patterns() -> [Pattern; TILE * TILE] {
     const ORDER: [u8; TILE * TILE] = [0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5];
     ORDER.map(|number| {
         let part = f32::from(number) / (TILE * TILE) as f32;
-        let (sine, cosine) = (part * std::f32::consts::TAU).sin_cos();
+        let (sine, cosine) = libm::sincosf(part * std::f32::consts::TAU);
         ([cosine, sine], part)
     })
 }

@@ -24,17 +24,16 @@ const GOLDEN_TURN: [f32; 2] = [-0.737_368_9, 0.675_490_3];
 
 /// The part of the ambient light that a cell gets, 0 to 1.
 ///
-/// `pixels_per_unit` is the width on the picture of one view unit at depth 1. `point` and `normal` are the cell's own, in view coordinates; `turn` is a unit vector that turns the pattern, `shift` moves it
+/// `point` and `normal` are the cell's own, in view coordinates; `turn` is a unit vector that turns the pattern, `shift` moves it
 /// outwards by a part of a step.
 pub(super) fn openness(
     surface: &Surface,
-    pixels_per_unit: f32,
     [column, row]: [usize; 2],
     (point, normal): (Vec3, Vec3),
     (turn, shift): ([f32; 2], f32),
 ) -> f32 {
     let largest = MAX_REACH * surface.width.min(surface.height) as f32;
-    let reach = (RADIUS * pixels_per_unit / (surface.cell as f32 * point.z)).min(largest);
+    let reach = (RADIUS * surface.lens.pixels_per_unit(point.z)).min(largest);
     let [mut cosine, mut sine] = turn;
     let mut taken = 0.0;
     for step in 0..STEPS {
@@ -60,7 +59,7 @@ fn taken_by(surface: &Surface, [x, y]: [f32; 2], point: Vec3, normal: Vec3) -> f
         return 0.0;
     }
     // The depth belongs to the middle of the cell. Where nothing is, it is infinite, and the tests below fail.
-    let towards = surface.ray([column, row]) * surface.depth[row * surface.width + column] - point;
+    let towards = surface.point([column, row]) - point;
     let (square, rise) = (towards.length_squared(), towards.dot(normal));
     if !(rise > 0.0 && square < RADIUS * RADIUS) {
         return 0.0;

@@ -8,7 +8,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::camera::ScreenPoint;
+use super::lens::ScreenPoint;
 
 /// Number of the face at samples that no triangle covers.
 pub(super) const NO_FACE: u32 = u32::MAX;
@@ -25,13 +25,14 @@ pub(super) struct Triangles<'a> {
 }
 
 impl Triangles<'_> {
-    /// For each band of `rows` rows, with `margin` more on both sides, the front triangles that reach it, in order.
-    pub(super) fn by_band(&self, rows: usize, margin: usize) -> Vec<Vec<u32>> {
+    /// For each band of `rows` rows, with `margin` more on both sides, the triangles that reach it, in order: all of them, or those
+    /// that show their front.
+    pub(super) fn by_band(&self, rows: usize, margin: usize, sides: Sides) -> Vec<Vec<u32>> {
         let height = self.size[1];
         let mut bands = vec![Vec::new(); height.div_ceil(rows)];
         for triangle in 0..self.corners.len() as u32 {
             let corners = self.points_of(triangle);
-            if !is_front(corners) {
+            if sides == Sides::Front && !is_front(corners) {
                 continue;
             }
             let [a, b, c] = corners.map(|corner| corner.y);
@@ -46,9 +47,19 @@ impl Triangles<'_> {
         bands
     }
 
-    fn points_of(&self, triangle: u32) -> [ScreenPoint; 3] {
+    /// The corners of a triangle.
+    pub(super) fn points_of(&self, triangle: u32) -> [ScreenPoint; 3] {
         self.corners[triangle as usize].map(|corner| self.points[corner as usize])
     }
+}
+
+/// Which triangles are seen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Sides {
+    /// Those that run counter-clockwise on the picture.
+    Front,
+    /// All.
+    Both,
 }
 
 /// Nearest face and its depth at each sample of some rows, row by row.
@@ -74,7 +85,7 @@ impl Raster {
             band.draw_rows(triangles, first..(first + BAND_ROWS).min(height), chosen);
             band
         };
-        let bands: Vec<Self> = triangles.by_band(BAND_ROWS, 0).par_iter().enumerate().map(draw_band).collect();
+        let bands: Vec<Self> = triangles.by_band(BAND_ROWS, 0, Sides::Front).par_iter().enumerate().map(draw_band).collect();
         let mut whole = Self { width, rows: 0..height, nearness: Vec::new(), faces: Vec::new() };
         whole.nearness.reserve_exact(width * height);
         whole.faces.reserve_exact(width * height);
@@ -119,27 +130,12 @@ impl Raster {
         [0, right, below, below + right].map(|way| (self.nearness[index + way], self.faces[index + way]))
     }
 
-    fn fill(&mut self, mut corners: [ScreenPoint; 3], face: u32) {
-        let plane = Plane::through(corners);
-        corners.sort_by(|a, b| a.y.total_cmp(&b.y));
-        let [top, middle, bottom] = corners;
-        let long = Side::new(top, bottom);
-        for (upper, lower) in [(top, middle), (middle, bottom)] {
-            let short = Side::new(upper, lower);
-            let (start, end) = covered(upper.y.into(), lower.y.into(), self.rows.clone());
-            for row in start..end {
-                let y = row as f64 + 0.5;
-                let (a, b) = (long.x_at(y), short.x_at(y));
-                let (left, right) = covered(a.min(b), a.max(b), 0..self.width);
-                if left < right {
-                    self.fill_span(row, left..right, &plane, face);
-                }
-            }
-        }
+    fn fill(&mut self, corners: [ScreenPoint; 3], face: u32) {
+        let (rows, width) = (self.rows.clone(), self.width);
+        each_span(corners, rows, width, |row, columns, (first, step)| self.fill_span(row, columns, (first, step), face));
     }
 
-    fn fill_span(&mut self, row: usize, columns: Range<usize>, plane: &Plane, face: u32) {
-        let (first, step) = plane.along(row as f64 + 0.5, columns.start as f64 + 0.5, columns.len());
+    fn fill_span(&mut self, row: usize, columns: Range<usize>, (first, step): (f32, f32), face: u32) {
         let start = (row - self.rows.start) * self.width;
         let span = start + columns.start..start + columns.end;
         let samples = self.nearness[span.clone()].iter_mut().zip(&mut self.faces[span]);
@@ -153,13 +149,41 @@ impl Raster {
     }
 }
 
+/// Calls `fill` with each row of a triangle's samples: the row, its columns, and the nearness of the first of them with the step to
+/// the next. Rows and columns are limited to `rows` and `width`.
+#[inline(always)]
+pub(super) fn each_span(
+    mut corners: [ScreenPoint; 3],
+    rows: Range<usize>,
+    width: usize,
+    mut fill: impl FnMut(usize, Range<usize>, (f32, f32)),
+) {
+    let plane = Plane::through(corners);
+    corners.sort_by(|a, b| a.y.total_cmp(&b.y));
+    let [top, middle, bottom] = corners;
+    let long = Side::new(top, bottom);
+    for (upper, lower) in [(top, middle), (middle, bottom)] {
+        let short = Side::new(upper, lower);
+        let (start, end) = covered(upper.y.into(), lower.y.into(), rows.clone());
+        for row in start..end {
+            let y = row as f64 + 0.5;
+            let (a, b) = (long.x_at(y), short.x_at(y));
+            let (left, right) = covered(a.min(b), a.max(b), 0..width);
+            if left < right {
+                let nearness = plane.along(y, left as f64 + 0.5, right - left);
+                fill(row, left..right, nearness);
+            }
+        }
+    }
+}
+
 /// Whether a triangle on the picture shows its front.
 pub(super) fn is_front([a, b, c]: [ScreenPoint; 3]) -> bool {
     signed_area(a, b, c) > 0.0
 }
 
 /// Twice the area, positive for counter-clockwise corners as seen (the y axis points down).
-fn signed_area(a: ScreenPoint, b: ScreenPoint, c: ScreenPoint) -> f64 {
+pub(super) fn signed_area(a: ScreenPoint, b: ScreenPoint, c: ScreenPoint) -> f64 {
     let [ax, ay, bx, by, cx, cy] = [a.x, a.y, b.x, b.y, c.x, c.y].map(f64::from);
     (by - ay) * (cx - ax) - (bx - ax) * (cy - ay)
 }

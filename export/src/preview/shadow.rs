@@ -2,7 +2,7 @@
 
 use glam::{Mat3, Vec3};
 
-use super::camera::ScreenPoint;
+use super::lens::ScreenPoint;
 use super::raster::Raster;
 use super::scene::Scene;
 

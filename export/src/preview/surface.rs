@@ -4,6 +4,7 @@
 
 use glam::Vec3;
 
+use super::lens::Lens;
 use super::raster::{NO_FACE, Raster};
 use super::scene::{Floor, Scene};
 
@@ -21,9 +22,8 @@ pub(super) struct Surface {
     pub(super) height: usize,
     /// Pixels along a cell.
     pub(super) cell: usize,
-    /// View ray through the first cell, and the way from each cell's to the next.
-    first_ray: Vec3,
-    ray_step: f32,
+    /// The picture of the cells.
+    pub(super) lens: Lens,
     /// View depth; infinite where there is nothing.
     pub(super) depth: Vec<f32>,
     /// Number of the face, [`FLOOR`], or [`NO_FACE`].
@@ -37,11 +37,10 @@ impl Surface {
         // Cells at the right and lower edge may reach beyond the picture.
         let size = size.map(|side| side.div_ceil(cell));
         let raster = Raster::draw(scene.triangles(size, &points));
-        let first_ray = scene.camera.ray(cell as f32 / 2.0, cell as f32 / 2.0);
-        let ray_step = cell as f32 / scene.camera.pixels_per_unit();
-        let depth = raster.nearness.iter().map(|nearness| 1.0 / nearness).collect();
+        let lens = scene.camera.lens.with_cells_of(cell);
+        let depth = raster.nearness.iter().map(|&nearness| lens.depth(nearness)).collect();
         let [width, height] = size;
-        let mut surface = Self { width, height, cell, first_ray, ray_step, depth, faces: raster.faces };
+        let mut surface = Self { width, height, cell, lens, depth, faces: raster.faces };
         if let Some(floor) = scene.floor {
             surface.add_floor(floor);
         }
@@ -52,8 +51,9 @@ impl Surface {
         for row in 0..self.height {
             for column in 0..self.width {
                 let index = row * self.width + column;
+                let [x, y] = middle([column, row]);
                 if self.faces[index] == NO_FACE
-                    && let Some(depth) = floor.depth_along(self.ray([column, row]))
+                    && let Some(depth) = floor.depth_along(self.lens.ray(x, y))
                 {
                     (self.depth[index], self.faces[index]) = (depth, FLOOR);
                 }
@@ -61,20 +61,26 @@ impl Surface {
         }
     }
 
-    /// The view ray through the middle of a cell.
-    pub(super) fn ray(&self, [column, row]: [usize; 2]) -> Vec3 {
-        // Signed conversions are the fast ones.
-        let (right, down) = (column as i32 as f32, row as i32 as f32);
-        Vec3::new(self.first_ray.x + self.ray_step * right, self.first_ray.y - self.ray_step * down, 1.0)
+    /// The point that a cell shows, in view coordinates; infinitely far away where there is nothing.
+    pub(super) fn point(&self, at: [usize; 2]) -> Vec3 {
+        let [x, y] = middle(at);
+        self.lens.point(x, y, self.depth[at[1] * self.width + at[0]])
     }
 }
 
+/// The middle of a cell.
+fn middle([column, row]: [usize; 2]) -> [f32; 2] {
+    // Signed conversions are the fast ones.
+    [column as i32 as f32 + 0.5, row as i32 as f32 + 0.5]
+}
+
 impl Floor {
-    /// View depth at which a ray meets the floor, if it does so near the model.
-    fn depth_along(&self, ray: Vec3) -> Option<f32> {
-        let depth = self.center.dot(self.normal) / ray.dot(self.normal);
+    /// View depth at which a line of sight meets the floor, if it does so near the model.
+    fn depth_along(&self, (start, direction): (Vec3, Vec3)) -> Option<f32> {
+        // Directions have a depth of one: what is counted along them is depth.
+        let depth = (self.center - start).dot(self.normal) / direction.dot(self.normal);
         // A ray along the floor has infinite depth, and fails the comparison.
-        (depth > 0.0 && (ray * depth).distance(self.center) < FLOOR_REACH).then_some(depth)
+        (depth > 0.0 && (start + direction * depth).distance(self.center) < FLOOR_REACH).then_some(depth)
     }
 
     /// How much the floor shows of what falls on it at a point: all near the model, nothing far away.

@@ -1,0 +1,113 @@
+//! What pipelines want to know of a picture: how far away the surface is at each pixel, and which face it is.
+
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+use image::{ExtendedColorType, ImageEncoder};
+
+use super::camera::Camera;
+use super::options::PreviewOptions;
+use super::raster::{NO_FACE, Raster, Triangles};
+use super::subject::Subject;
+use crate::ExportError;
+use crate::check::check_mesh;
+
+/// The surface seen at the middle of each pixel, row by row from the top left.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Buffers {
+    /// Width in pixels.
+    pub width: u32,
+    /// Height in pixels.
+    pub height: u32,
+    /// Distances from the plane through the eye across the view, in the units of the model; infinite where there is nothing. Of an
+    /// orthographic picture the plane lies in front of all of the model.
+    pub depth: Vec<f32>,
+    /// Numbers of the faces of the subject's mesh; `None` where there is nothing.
+    pub faces: Vec<Option<u32>>,
+}
+
+/// The depth and the faces of the picture that [`render`](super::render) draws with the same options.
+///
+/// # Errors
+/// As [`render`](super::render).
+pub fn render_buffers(subject: &Subject<'_>, options: &PreviewOptions) -> Result<Buffers, ExportError> {
+    options.check()?;
+    let mesh = subject.as_mesh();
+    check_mesh(mesh)?;
+    let size = options.size();
+    let empty = || Buffers {
+        width: options.width,
+        height: options.height,
+        depth: vec![f32::INFINITY; size[0] * size[1]],
+        faces: vec![None; size[0] * size[1]],
+    };
+    if mesh.triangles.is_empty() {
+        return Ok(empty());
+    }
+    let Some(camera) = Camera::framing(&mesh.positions, options) else { return Ok(empty()) };
+    let points: Vec<_> = mesh.positions.iter().map(|&point| camera.see(point)).collect();
+    let raster = Raster::draw(Triangles { size, points: &points, corners: &mesh.triangles, faces: &mesh.triangle_faces });
+    let radius = camera.radius() as f32;
+    Ok(Buffers {
+        depth: raster.nearness.iter().map(|&nearness| camera.lens.depth(nearness) * radius).collect(),
+        faces: raster.faces.iter().map(|&face| (face != NO_FACE).then_some(face)).collect(),
+        ..empty()
+    })
+}
+
+/// The value of pixels without a surface in pictures of depth.
+const NOTHING: u16 = u16::MAX;
+
+impl Buffers {
+    /// The nearest and the farthest depth; `None` where there is no surface at all.
+    #[must_use]
+    pub fn depth_range(&self) -> Option<[f32; 2]> {
+        let seen = self.depth.iter().copied().filter(|depth| depth.is_finite());
+        let [near, far] =
+            seen.fold([f32::INFINITY, f32::NEG_INFINITY], |[near, far], depth| [near.min(depth), far.max(depth)]);
+        (near <= far).then_some([near, far])
+    }
+
+    /// The depth as a picture of 16-bit greys: 0 is the nearest surface, 65,534 the farthest, linear between them, and 65,535 is nothing.
+    /// The chunks `near` and `far` of text say what those depths are.
+    ///
+    /// # Errors
+    /// [`ExportError::Encode`]; never expected.
+    pub fn depth_png(&self) -> Result<Vec<u8>, ExportError> {
+        let [near, far] = self.depth_range().unwrap_or([0.0, 0.0]);
+        let per_range = f32::from(NOTHING - 1) / (far - near).max(f32::MIN_POSITIVE);
+        let grey = |&depth: &f32| if depth.is_finite() { ((depth - near) * per_range).round() as u16 } else { NOTHING };
+        let bytes: Vec<u8> = self.depth.iter().flat_map(|depth| grey(depth).to_be_bytes()).collect();
+        let mut png = Vec::new();
+        let failed = |error: png::EncodingError| ExportError::Encode { format: "PNG", message: error.to_string() };
+        let mut encoder = png::Encoder::new(&mut png, self.width, self.height);
+        encoder.set_color(png::ColorType::Grayscale);
+        encoder.set_depth(png::BitDepth::Sixteen);
+        for (key, value) in [("near", near), ("far", far)] {
+            encoder.add_text_chunk(key.to_owned(), value.to_string()).map_err(failed)?;
+        }
+        let mut writer = encoder.write_header().map_err(failed)?;
+        writer.write_image_data(&bytes).map_err(failed)?;
+        writer.finish().map_err(failed)?;
+        Ok(png)
+    }
+
+    /// Numbers of faces as a picture of colours: red, green and blue are the bytes of the number plus one, the highest first, and black is
+    /// nothing. `number` tells the number to write for a face of the mesh.
+    ///
+    /// # Errors
+    /// [`ExportError::TooLarge`] where a number plus one needs more than three bytes.
+    pub fn id_png(&self, number: impl Fn(u32) -> u32) -> Result<Vec<u8>, ExportError> {
+        let mut bytes = Vec::with_capacity(self.faces.len() * 3);
+        for face in &self.faces {
+            let value = face.map_or(0, |face| u64::from(number(face)) + 1);
+            if value >= 1 << 24 {
+                return Err(ExportError::TooLarge { what: format!("number {value} of a face, of at most {}", (1 << 24) - 1) });
+            }
+            bytes.extend_from_slice(&(value as u32).to_be_bytes()[1..]);
+        }
+        let mut png = Vec::new();
+        PngEncoder::new_with_quality(&mut png, CompressionType::Level(4), FilterType::Adaptive)
+            .write_image(&bytes, self.width, self.height, ExtendedColorType::Rgb8)
+            .map_err(|error| ExportError::Encode { format: "PNG", message: error.to_string() })?;
+        Ok(png)
+    }
+}
