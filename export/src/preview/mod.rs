@@ -10,12 +10,14 @@ mod compose;
 mod edges;
 mod light;
 mod occlusion;
+mod overlay;
 mod picture;
 mod raster;
 mod scene;
 mod shadow;
 mod style;
 mod surface;
+mod text;
 
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
