@@ -82,6 +82,21 @@ pub enum ExportError {
         /// Height asked for, in pixels.
         height: u32,
     },
+    /// A contact sheet has no room for its tiles, or nothing to show.
+    #[error(
+        "{count} pictures on a sheet of {width}x{height} pixels{}, expected at least 1 and room for all",
+        .columns.map_or(String::new(), |columns| format!(" in {columns} columns"))
+    )]
+    SheetSize {
+        /// Width of the sheet, in pixels.
+        width: u32,
+        /// Height of the sheet, in pixels.
+        height: u32,
+        /// How many pictures there are.
+        count: usize,
+        /// How many were to be side by side, where that was said.
+        columns: Option<u32>,
+    },
     /// A camera angle is not a finite number.
     #[error("camera angle is {0}, expected a finite number of degrees")]
     CameraAngle(f64),

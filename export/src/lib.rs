@@ -37,4 +37,7 @@ pub use file::{AtomicFile, write_atomic};
 pub use format::{Format, Part, encode, encode_parts, write_parts};
 pub use obj::write_mtl;
 pub use options::{ExportOptions, Projection, Shading, TextureMapping, Unit};
-pub use preview::{MAX_IMAGE_SIDE, Picture, PreviewOptions, PreviewStyle, RgbImage, render_preview, render_rgb};
+pub use preview::{
+    MAX_IMAGE_SIDE, Picture, PreviewOptions, PreviewStyle, RgbImage, SheetColors, SheetLayout, Tile, contact_sheet,
+    render_preview, render_rgb, sheet_layout,
+};
