@@ -38,6 +38,6 @@ pub use format::{Format, Part, encode, encode_parts, write_parts};
 pub use obj::write_mtl;
 pub use options::{ExportOptions, Projection, Shading, TextureMapping, Unit};
 pub use preview::{
-    MAX_IMAGE_SIDE, Picture, PreviewOptions, PreviewStyle, RgbImage, SheetColors, SheetLayout, Tile, contact_sheet,
-    render_preview, render_rgb, sheet_layout,
+    AnimationFormat, AnimationWriter, MAX_IMAGE_SIDE, Picture, PreviewOptions, PreviewStyle, RgbImage, SheetColors,
+    SheetLayout, Tile, contact_sheet, render_preview, render_rgb, sheet_layout,
 };

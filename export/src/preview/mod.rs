@@ -5,6 +5,7 @@
 //! [`occlusion`]), [`edges`] finds the lines, and [`mod@compose`] puts all of it together at several samples per pixel.
 //! [`raster`] is the z-buffer that all of these share. Numbers that are a matter of taste are in [`style`].
 
+mod animation;
 mod camera;
 mod compose;
 mod edges;
@@ -24,6 +25,7 @@ use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
 use planecut_csg::Mesh;
 
+pub use self::animation::{AnimationFormat, AnimationWriter};
 use self::camera::Camera;
 use self::compose::{Layers, compose, compose_background};
 use self::edges::feature_lines;
