@@ -37,4 +37,8 @@ pub use file::{AtomicFile, write_atomic};
 pub use format::{Format, Part, encode, encode_parts, write_parts};
 pub use obj::write_mtl;
 pub use options::{ExportOptions, Projection, Shading, TextureMapping, Unit};
-pub use preview::{Background, Buffers, CameraKind, MAX_IMAGE_SIDE, Picture, PreviewOptions, PreviewStyle, Subject, render, render_buffers};
+pub use preview::{
+    AnimationFormat, AnimationWriter, Background, Buffers, CameraKind, MAX_IMAGE_SIDE, Picture, PreviewOptions,
+    PreviewStyle, SheetColors, SheetLayout, Subject, Tile, Turntable, contact_sheet, render, render_buffers,
+    sheet_layout,
+};

@@ -85,6 +85,19 @@ impl Unit {
             Self::Meter => 1.0,
         }
     }
+
+    /// How it is written behind a number.
+    #[must_use]
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Self::Micron => "µm",
+            Self::Millimeter => "mm",
+            Self::Centimeter => "cm",
+            Self::Inch => "in",
+            Self::Foot => "ft",
+            Self::Meter => "m",
+        }
+    }
 }
 
 /// Which way the normals of vertices point.

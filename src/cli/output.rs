@@ -5,7 +5,7 @@ use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use planecut::export::{AtomicFile, BrushFormat, ExportError, Format};
+use planecut::export::{AnimationFormat, AtomicFile, BrushFormat, ExportError, Format};
 
 use super::error::CliError;
 use super::terminal;
@@ -81,6 +81,33 @@ impl Target {
             (ExportError::Write { path, source }, _) => CliError::Write { path, source },
             (ExportError::Io(source), Self::File(path)) => CliError::Write { path: path.clone(), source },
             (source, _) => CliError::Encode { output: self.to_string(), source },
+        }
+    }
+}
+
+/// What a picture is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum PictureFormat {
+    /// One picture.
+    Png,
+    /// Several, one after another.
+    Animation(AnimationFormat),
+}
+
+impl PictureFormat {
+    /// The place and the format of a picture; standard output gets PNG.
+    ///
+    /// # Errors
+    /// [`CliError::Ending`] where the name is not that of a picture.
+    pub(crate) fn resolve(path: &Path) -> Result<(Target, Self), CliError> {
+        match AnimationFormat::from_path(path) {
+            Ok(format) => Ok((Target::new(path), Self::Animation(format))),
+            Err(_) => match Target::picture(path) {
+                Err(CliError::Ending { path, .. }) => {
+                    Err(CliError::Ending { path, expected: "`.png`, `.gif` or `.apng`" })
+                }
+                target => Ok((target?, Self::Png)),
+            },
         }
     }
 }

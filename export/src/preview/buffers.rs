@@ -44,7 +44,8 @@ pub fn render_buffers(subject: &Subject<'_>, options: &PreviewOptions) -> Result
     }
     let Some(camera) = Camera::framing(&mesh.positions, options) else { return Ok(empty()) };
     let points: Vec<_> = mesh.positions.iter().map(|&point| camera.see(point)).collect();
-    let raster = Raster::draw(Triangles { size, points: &points, corners: &mesh.triangles, faces: &mesh.triangle_faces });
+    let raster =
+        Raster::draw(Triangles { size, points: &points, corners: &mesh.triangles, faces: &mesh.triangle_faces });
     let radius = camera.radius() as f32;
     Ok(Buffers {
         depth: raster.nearness.iter().map(|&nearness| camera.lens.depth(nearness) * radius).collect(),
@@ -100,7 +101,9 @@ impl Buffers {
         for face in &self.faces {
             let value = face.map_or(0, |face| u64::from(number(face)) + 1);
             if value >= 1 << 24 {
-                return Err(ExportError::TooLarge { what: format!("number {value} of a face, of at most {}", (1 << 24) - 1) });
+                return Err(ExportError::TooLarge {
+                    what: format!("number {value} of a face, of at most {}", (1 << 24) - 1),
+                });
             }
             bytes.extend_from_slice(&(value as u32).to_be_bytes()[1..]);
         }

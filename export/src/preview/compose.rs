@@ -56,9 +56,8 @@ pub(super) fn compose(layers: &Layers<'_>) -> Vec<u8> {
     let points: Vec<_> = scene.screen.iter().map(|point| point.magnified(factor as f32)).collect();
     let triangles = scene.triangles([width * factor, height * factor], &points);
     let chosen = triangles.by_band(BAND_ROWS * factor, MARGIN, Sides::Front);
-    let veiled = (scene.look.fill == Fill::Translucent).then(|| {
-        (VeilFaces::new(scene, layers.surface), triangles.by_band(BAND_ROWS * factor, 0, Sides::Both))
-    });
+    let veiled = (scene.look.fill == Fill::Translucent)
+        .then(|| (VeilFaces::new(scene, layers.surface), triangles.by_band(BAND_ROWS * factor, 0, Sides::Both)));
     let display = DisplayTable::new();
     let dashes = DashLengths { dash: (9.0 * layers.scale).max(3.0), gap: (6.0 * layers.scale).max(2.5) };
     let mut bytes = vec![0; 4 * width * height];

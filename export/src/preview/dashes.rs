@@ -45,8 +45,7 @@ pub(super) fn dash_runs(edges: &[[u32; 2]], points: &[ScreenPoint]) -> Vec<DashR
                 let length = distance(points, to, next);
                 let starts_here = edges[edge as usize][0] == to;
                 let at_first_end = if starts_here { travelled } else { travelled + sign * length };
-                runs[edge as usize] =
-                    Some(DashRun { start: at_first_end, is_forward: starts_here == (sign > 0.0) });
+                runs[edge as usize] = Some(DashRun { start: at_first_end, is_forward: starts_here == (sign > 0.0) });
                 travelled += sign * length;
                 (from, to) = (to, next);
             }

@@ -30,8 +30,8 @@ impl Hatching {
     /// The part of a pixel that lines cover, for a hatching of this number.
     pub(super) fn coverage(self, [column, row]: [usize; 2], number: u32) -> f32 {
         let [a, b] = NORMALS[number as usize % NORMALS.len()];
-        // Materials beyond the number of directions have lines farther apart.
-        let spacing = self.spacing * (1.0 + 0.4 * (number as usize / NORMALS.len()) as f32);
+        // Materials beyond the number of directions have lines farther apart, as far as that helps.
+        let spacing = self.spacing * (1.0 + 0.35 * (number as usize / NORMALS.len() % 3) as f32);
         let along = (column as f32 + 0.5) * a + (row as f32 + 0.5) * b;
         let distance = (along.rem_euclid(spacing) - spacing / 2.0).abs();
         (self.half_width + 0.5 - distance).clamp(0.0, 1.0)

@@ -6,6 +6,7 @@
 //! per pixel: [`ink`] of lines, [`hatch`] on cuts, [`veil`] of surfaces that are seen through, and [`display`] makes bytes of it.
 //! [`raster`] is the z-buffer that all of these share, [`lens`] the projection. Numbers that are a matter of taste are in [`style`].
 
+mod animation;
 mod buffers;
 mod camera;
 mod compose;
@@ -14,31 +15,40 @@ mod display;
 mod edges;
 mod hatch;
 mod ink;
+mod labels;
 mod lens;
 mod light;
 mod occlusion;
 mod options;
+mod overlay;
 mod picture;
 mod raster;
 mod scene;
 mod shadow;
+mod sheet;
 mod style;
 mod subject;
 mod surface;
+mod text;
+mod turntable;
 mod veil;
 
+pub use self::animation::{AnimationFormat, AnimationWriter};
 pub use self::buffers::{Buffers, render_buffers};
 use self::camera::Camera;
 use self::compose::{Layers, compose, compose_background};
 use self::edges::feature_lines;
+use self::labels::draw_labels;
 use self::light::{OPEN, reaching_light};
-pub use self::picture::Picture;
 pub use self::options::{Background, CameraKind, MAX_IMAGE_SIDE, PreviewOptions};
+pub use self::picture::Picture;
 use self::scene::Scene;
+pub use self::sheet::{SheetColors, SheetLayout, Tile, contact_sheet, sheet_layout};
 pub use self::style::PreviewStyle;
 use self::style::{Fill, Look};
 pub use self::subject::Subject;
 use self::surface::Surface;
+pub use self::turntable::Turntable;
 use crate::ExportError;
 use crate::check::check_mesh;
 
@@ -54,20 +64,22 @@ pub fn render(subject: &Subject<'_>, options: &PreviewOptions) -> Result<Picture
     options.check()?;
     let mesh = subject.as_mesh();
     check_mesh(mesh)?;
-    let framed =
-        if mesh.triangles.is_empty() { None } else { Camera::framing(&mesh.positions, options) };
-    Ok(draw(subject, framed, options))
+    let framed = if mesh.triangles.is_empty() { None } else { Camera::framing(&mesh.positions, options) };
+    draw(subject, framed, options)
 }
 
-/// Draws what a camera sees.
-fn draw(subject: &Subject<'_>, camera: Option<Camera>, options: &PreviewOptions) -> Picture {
+/// Draws what a camera sees, and what is written beside it.
+fn draw(subject: &Subject<'_>, camera: Option<Camera>, options: &PreviewOptions) -> Result<Picture, ExportError> {
     let look = Look::new(options.style, options.background);
     let size = options.size();
-    let pixels = match camera {
-        Some(camera) => draw_scene(&Scene::new(subject, camera, look), size),
-        None => compose_background(&look, size),
+    let [width, height] = [options.width, options.height];
+    let Some(camera) = camera else {
+        return Ok(Picture { width, height, pixels: compose_background(&look, size) });
     };
-    Picture { width: options.width, height: options.height, pixels }
+    let scene = Scene::new(subject, camera, look);
+    let mut picture = Picture { width, height, pixels: draw_scene(&scene, size) };
+    draw_labels(&mut picture, &scene, options)?;
+    Ok(picture)
 }
 
 fn draw_scene(scene: &Scene<'_>, size: [usize; 2]) -> Vec<u8> {
@@ -77,8 +89,7 @@ fn draw_scene(scene: &Scene<'_>, size: [usize; 2]) -> Vec<u8> {
         Fill::Opaque => reaching_light(scene, &surface),
         Fill::Translucent | Fill::Nothing => vec![OPEN; surface.width * surface.height],
     };
-    // Widths of lines are stated for a picture whose shorter side is 960 pixels.
-    let scale = size[0].min(size[1]) as f32 / 960.0;
+    let scale = scale_of(size);
     let lines = feature_lines(scene, scale);
     let factor = samples_along_pixel(pixels);
     compose(&Layers { scene, size, scale, factor, surface: &surface, light: &light, lines: &lines })
@@ -92,4 +103,9 @@ fn pixels_along_cell(pixels: usize) -> usize {
 /// Samples along each side of a pixel: more for small pictures, where they cost little.
 fn samples_along_pixel(pixels: usize) -> usize {
     if pixels <= 500_000 { 4 } else { 2 }
+}
+
+/// How large a picture is, compared with one whose shorter side is 960 pixels: widths of lines and sizes of text are stated for that.
+fn scale_of(size: [usize; 2]) -> f32 {
+    size[0].min(size[1]) as f32 / 960.0
 }

@@ -85,7 +85,8 @@ impl Raster {
             band.draw_rows(triangles, first..(first + BAND_ROWS).min(height), chosen);
             band
         };
-        let bands: Vec<Self> = triangles.by_band(BAND_ROWS, 0, Sides::Front).par_iter().enumerate().map(draw_band).collect();
+        let bands: Vec<Self> =
+            triangles.by_band(BAND_ROWS, 0, Sides::Front).par_iter().enumerate().map(draw_band).collect();
         let mut whole = Self { width, rows: 0..height, nearness: Vec::new(), faces: Vec::new() };
         whole.nearness.reserve_exact(width * height);
         whole.faces.reserve_exact(width * height);
@@ -132,7 +133,9 @@ impl Raster {
 
     fn fill(&mut self, corners: [ScreenPoint; 3], face: u32) {
         let (rows, width) = (self.rows.clone(), self.width);
-        each_span(corners, rows, width, |row, columns, (first, step)| self.fill_span(row, columns, (first, step), face));
+        each_span(corners, rows, width, |row, columns, (first, step)| {
+            self.fill_span(row, columns, (first, step), face)
+        });
     }
 
     fn fill_span(&mut self, row: usize, columns: Range<usize>, (first, step): (f32, f32), face: u32) {

@@ -59,16 +59,21 @@ impl<'a> Scene<'a> {
         let up = to_view(DVec3::Z);
         let lights = Lights::new(up);
         let hatches = subject.hatches();
-        let colors: Vec<Vec3> = mesh.materials.iter().map(|material| {
-            let tint = if material.color.is_some() { look.stated_tint } else { look.tint };
-            look.clay.lerp(Vec3::from(material_color(material)), tint)
-        }).collect();
+        let colors: Vec<Vec3> = mesh
+            .materials
+            .iter()
+            .map(|material| {
+                let tint = if material.color.is_some() { look.stated_tint } else { look.tint };
+                look.clay.lerp(Vec3::from(material_color(material)), tint)
+            })
+            .collect();
         let shade = |(face, &normal): (&planecut_csg::MeshFace, &Vec3)| {
             let material = face.material.0 as usize;
             // Both sides of what is seen through are lit as if they faced the eye.
             let normal = if look.fill == Fill::Translucent && normal.z > 0.0 { -normal } else { normal };
             // Where a body is cut, its inside is paler than its skin.
-            let color = if hatches[material].is_some() { colors[material].lerp(look.clay, 0.35) } else { colors[material] };
+            let color =
+                if hatches[material].is_some() { colors[material].lerp(look.clay, 0.35) } else { colors[material] };
             lights.shade(&look, color, normal)
         };
         let shades = mesh.faces.iter().zip(&normals).map(shade).collect();
@@ -112,7 +117,8 @@ impl Lights {
         // The fill light comes from the right, where the key light does not reach.
         let fill_part = 0.5 + 0.5 * normal.dot(Vec3::X);
         let rim_part = normal.dot(self.rim).max(0.0);
-        let ambient = look.bounce.lerp(look.sky, sky_part) + look.fill_light * fill_part + look.rim * rim_part * rim_part;
+        let ambient =
+            look.bounce.lerp(look.sky, sky_part) + look.fill_light * fill_part + look.rim * rim_part * rim_part;
         let direct = look.key * normal.dot(self.key).max(0.0);
         Shade { ambient: color * ambient, direct: color * direct }
     }

@@ -72,7 +72,13 @@ pub(super) struct Veil {
 
 impl Veil {
     /// Draws the chosen triangles, whichever side they show. What was held before is dropped, only the memory is used again.
-    pub(super) fn draw_rows(&mut self, triangles: Triangles<'_>, rows: Range<usize>, chosen: &[u32], faces: &VeilFaces) {
+    pub(super) fn draw_rows(
+        &mut self,
+        triangles: Triangles<'_>,
+        rows: Range<usize>,
+        chosen: &[u32],
+        faces: &VeilFaces,
+    ) {
         self.width = triangles.size[0];
         let samples = self.width * rows.len();
         self.rows = rows;
@@ -110,4 +116,3 @@ impl Veil {
         mean / (factor * factor) as f32
     }
 }
-

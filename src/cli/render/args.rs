@@ -283,9 +283,11 @@ fn parse_view(text: &str) -> Result<View, String> {
         "iso" => view(-45.0, (1.0_f64 / 3.0).sqrt().asin().to_degrees()),
         _ => match numbers(text).as_deref() {
             Some(&[azimuth, elevation]) if elevation.abs() <= 90.0 => view(azimuth, elevation),
-            _ => Err("expected front, back, left, right, top, bottom, iso, or AZIMUTH,ELEVATION in degrees, the elevation \
+            _ => Err(
+                "expected front, back, left, right, top, bottom, iso, or AZIMUTH,ELEVATION in degrees, the elevation \
                       from -90 to 90"
-                .to_owned()),
+                    .to_owned(),
+            ),
         },
     }
 }

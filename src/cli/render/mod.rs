@@ -3,29 +3,39 @@
 mod args;
 mod subject;
 
-pub(crate) use self::args::RenderArgs;
-use self::args::IdKind;
-use self::subject::{Drawn, subject};
 use std::path::PathBuf;
 
+use planecut::export::{
+    AnimationFormat, AnimationWriter, Background, PreviewOptions, SheetColors, Tile, Turntable, contact_sheet, render,
+    render_buffers, sheet_layout,
+};
+use planecut::import::Warning;
+
+use self::args::IdKind;
+pub(crate) use self::args::RenderArgs;
+use self::subject::{Drawn, subject};
 use super::error::CliError;
 use super::input::{Input, InputKind};
-use super::output::{Output, Target, check_targets};
+use super::output::{Output, PictureFormat, Target, check_targets};
 use super::pool::on_threads;
 use super::product::draw;
 use super::progress::Progress;
 use super::terminal;
-use planecut::export::{PreviewOptions, render_buffers};
 
 /// What is to be drawn from what.
 struct Plan<'a> {
     args: &'a RenderArgs,
     inputs: Vec<(Input, InputKind)>,
     picture: Target,
+    /// `None` for a single picture.
+    animation: Option<AnimationFormat>,
     depth: Option<Target>,
     ids: Option<Target>,
     options: PreviewOptions,
 }
+
+/// What was drawn: the pictures, and for each input what was left out.
+type Made = (Vec<Output>, Vec<Vec<Warning>>);
 
 /// Runs the command.
 ///
@@ -34,11 +44,11 @@ struct Plan<'a> {
 pub(crate) fn run(args: &RenderArgs) -> Result<(), CliError> {
     let plan = Plan::resolve(args)?;
     let progress = Progress::start(args.common.quiet);
-    let (drawn, outputs) = on_threads(args.common.threads, || plan.carry_out(&progress))?;
+    let (outputs, warnings) = on_threads(args.common.threads, || plan.carry_out(&progress))?;
     drop(progress);
     if !args.common.quiet {
-        for ((input, _), drawn) in plan.inputs.iter().zip(&drawn) {
-            terminal::print_warnings(&input.name(), &drawn.warnings);
+        for ((input, _), warnings) in plan.inputs.iter().zip(&warnings) {
+            terminal::print_warnings(&input.name(), warnings);
         }
     }
     outputs.into_iter().try_for_each(Output::commit)
@@ -51,27 +61,99 @@ impl<'a> Plan<'a> {
             args.reading.check(kind)?;
             Ok((input, kind))
         };
+        let (picture, format) = PictureFormat::resolve(&args.output)?;
+        let animation = match format {
+            PictureFormat::Png => None,
+            PictureFormat::Animation(format) => Some(format),
+        };
         let plan = Self {
             args,
             inputs: args.inputs.iter().map(resolve).collect::<Result<_, CliError>>()?,
-            picture: Target::picture(&args.output)?,
+            picture,
+            animation,
             depth: args.buffers.depth.as_deref().map(Target::picture).transpose()?,
             ids: args.buffers.ids.as_deref().map(Target::picture).transpose()?,
-            options: args.options(false),
+            options: args.options(animation.is_some()),
         };
-        for (input, _) in &plan.inputs {
-            check_targets(input.file(), [&plan.picture].into_iter().chain(&plan.depth).chain(&plan.ids))?;
-        }
+        plan.check()?;
         Ok(plan)
     }
 
-    fn carry_out(&self, progress: &Progress) -> Result<(Vec<Drawn>, Vec<Output>), CliError> {
-        let (input, kind) = &self.inputs[0];
+    /// Sees that what is asked for fits together, and that no output replaces an input.
+    fn check(&self) -> Result<(), CliError> {
+        let is_one = self.inputs.len() == 1;
+        let refuse = |found: &str, expected: &str| Err(CliError::Usage(format!("found {found}, expected {expected}")));
+        if !is_one && self.animation.is_some() {
+            return refuse("a turntable of several inputs", "one input, or a picture (.png)");
+        }
+        if self.depth.is_some() || self.ids.is_some() {
+            if !is_one || self.animation.is_some() {
+                return refuse("--depth or --ids beside several pictures", "one input and one picture (.png)");
+            }
+            let is_whole = self.args.section().is_none() && self.args.spread().is_none();
+            if self.args.buffers.id_of == IdKind::Brush && !is_whole {
+                return refuse("--id-of brush with cells or a section", "it with the whole model");
+            }
+        }
+        if self.args.sequence.columns.is_some() && is_one {
+            return refuse("--columns with one input", "it with several");
+        }
+        for (input, _) in &self.inputs {
+            check_targets(input.file(), [&self.picture].into_iter().chain(&self.depth).chain(&self.ids))?;
+        }
+        Ok(())
+    }
+
+    fn carry_out(&self, progress: &Progress) -> Result<Made, CliError> {
+        let [(input, kind)] = &self.inputs[..] else { return self.contact_sheet(progress) };
         let drawn = subject(input, *kind, self.args, &self.options, progress)?;
         progress.stage("drawing");
-        let mut outputs = vec![draw(&drawn.subject, &self.picture, &self.options)?];
+        let mut outputs = vec![match self.animation {
+            None => draw(&drawn.subject, &self.picture, &self.options)?,
+            Some(format) => self.turntable(&drawn, format)?,
+        }];
         outputs.extend(self.buffers(&drawn)?);
-        Ok((vec![drawn], outputs))
+        Ok((outputs, vec![drawn.warnings]))
+    }
+
+    fn turntable(&self, drawn: &Drawn, format: AnimationFormat) -> Result<Output, CliError> {
+        let PreviewOptions { width, height, .. } = self.options;
+        let sequence = &self.args.sequence;
+        self.picture.begin(|out| {
+            let turntable = Turntable::new(&drawn.subject, &self.options, sequence.frames)?;
+            let mut animation = AnimationWriter::new(format, width, height, sequence.frames, sequence.frame_time, out)?;
+            // Colours are chosen for all sides of the model.
+            let sides = sequence.frames.min(4);
+            for side in 0..sides {
+                animation.learn(&turntable.frame(side * sequence.frames / sides)?);
+            }
+            for number in 0..turntable.frames() {
+                animation.frame(&turntable.frame(number)?)?;
+            }
+            animation.finish()
+        })
+    }
+
+    fn contact_sheet(&self, progress: &Progress) -> Result<Made, CliError> {
+        let PreviewOptions { width, height, .. } = self.options;
+        let failed = |source| CliError::Encode { output: self.picture.to_string(), source };
+        let layout = sheet_layout(self.inputs.len(), [width, height], self.args.sequence.columns).map_err(failed)?;
+        let [width, height] = layout.tile;
+        let options = PreviewOptions { width, height, ..self.options };
+        let (mut tiles, mut warnings) = (Vec::new(), Vec::new());
+        for (input, kind) in &self.inputs {
+            let drawn = subject(input, *kind, self.args, &options, progress)?;
+            progress.stage("drawing");
+            tiles.push(Tile { title: title_of(input), picture: render(&drawn.subject, &options).map_err(failed)? });
+            warnings.push(drawn.warnings);
+        }
+        let colors = match self.options.background {
+            Background::Light => SheetColors::LIGHT,
+            Background::Dark => SheetColors::DARK,
+            Background::Transparent => SheetColors::TRANSPARENT,
+        };
+        let sheet = contact_sheet(&tiles, &layout, &colors).map_err(failed)?;
+        Ok((vec![self.picture.begin(|out| Ok(out.write_all(&sheet.to_png()?)?))?], warnings))
     }
 
     /// Depth and ids, as far as they are asked for.
@@ -95,4 +177,10 @@ impl<'a> Plan<'a> {
         }
         Ok(outputs)
     }
+}
+
+/// What an input is called on a sheet: its file's name.
+fn title_of(input: &Input) -> String {
+    let name = input.path.file_name().unwrap_or(input.path.as_os_str());
+    name.to_string_lossy().into_owned()
 }
