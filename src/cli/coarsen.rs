@@ -16,7 +16,7 @@ use super::error::CliError;
 use super::input::{Input, InputKind};
 use super::output::{MeshTarget, Output, Target, check_targets};
 use super::pieces::{NUMBER, Pieces, bounded_tree};
-use super::product::{Contents, Product, draw, encode, produce};
+use super::product::{Contents, Product, draw, encode, first_written, produce};
 use super::progress::Progress;
 use super::report::{CoarsenPart, milliseconds};
 use super::solve::{Read, Solved, read, solve_read};
@@ -26,6 +26,8 @@ struct Plan<'a> {
     args: &'a CoarsenArgs,
     input: Input,
     kind: InputKind,
+    /// The first output: the report says what it holds.
+    first: Option<MeshTarget>,
     /// Where all cells go together.
     meshes: Vec<MeshTarget>,
     /// Where each goes alone: names in which its number stands for `{}`.
@@ -51,12 +53,14 @@ impl<'a> Plan<'a> {
         args.reading.check(kind)?;
         args.output.assets.check_without_sources()?;
         let targets = args.output.targets()?;
+        let first = targets.first().cloned();
         let (patterns, meshes) = targets.into_iter().partition(|mesh| pattern_of(mesh).is_some());
         let clear = |path: &PathBuf| Input::resolve_any(path, None);
         let plan = Self {
             args,
             input,
             kind,
+            first,
             meshes,
             patterns,
             clear: args.limits.keep_clear.iter().map(clear).collect::<Result<_, _>>()?,
@@ -95,6 +99,10 @@ impl<'a> Plan<'a> {
         progress.stage("encoding");
         let mut outputs = self.encode(&cells, &bodies, &solved)?;
         let encoding = begin.elapsed();
+        let first = self.first.as_ref().filter(|_| self.report.is_some());
+        if let Some(written) = first_written(first, &cells.as_parts(&[]), &self.options())? {
+            solved.report.set_written(&written);
+        }
         if let Some(target) = &self.preview {
             let drawing = Instant::now();
             progress.stage("drawing");
@@ -157,9 +165,12 @@ impl<'a> Plan<'a> {
         }
     }
 
+    fn options(&self) -> ExportOptions {
+        ExportOptions { convex_colliders: true, ..self.args.output.assets.options(self.args.output.scale) }
+    }
+
     fn encode(&self, cells: &Pieces, bodies: &[Brush], solved: &Solved) -> Result<Vec<Output>, CliError> {
-        let options =
-            ExportOptions { convex_colliders: true, ..self.args.output.assets.options(self.args.output.scale) };
+        let options = self.options();
         let parts = cells.as_parts(&[]);
         let materials = &solved.model.materials;
         let contents = Contents { parts: &parts, materials, brushes: &|| bodies.to_vec() };
