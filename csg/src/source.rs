@@ -36,11 +36,11 @@ impl TextureAxes {
     }
 
     /// Numbers that are equal for textures that lie alike.
-    fn bits(&self) -> (bool, [u64; 8]) {
-        let [a, b, c] = self.u.to_array();
-        let [d, e, f] = self.v.to_array();
-        let numbers = [a, b, c, d, e, f, self.offset.x, self.offset.y].map(f64::to_bits);
-        (self.unit == TextureUnit::Pictures, numbers)
+    fn bits(&self) -> [u64; 9] {
+        let [a, b, c] = self.u.to_array().map(f64::to_bits);
+        let [d, e, f] = self.v.to_array().map(f64::to_bits);
+        let [g, h] = self.offset.to_array().map(f64::to_bits);
+        [a, b, c, d, e, f, g, h, u64::from(self.unit == TextureUnit::Pictures)]
     }
 }
 
@@ -65,7 +65,7 @@ impl Model {
     pub fn split_by_source(&self, textures: &[Vec<Option<TextureAxes>>], by_face: bool) -> (Self, Vec<FaceSource>) {
         let mut split = Self { materials: Vec::new(), tree: self.tree.clone() };
         let mut sources = Vec::new();
-        let mut known: FxHashMap<(MaterialId, Option<(bool, [u64; 8])>), MaterialId> = FxHashMap::default();
+        let mut known: FxHashMap<(MaterialId, Option<[u64; 9]>), MaterialId> = FxHashMap::default();
         for (number, brush) in split.tree.brushes_mut().iter_mut().enumerate() {
             for (plane, face) in brush.faces.iter_mut().enumerate() {
                 let texture = textures.get(number).and_then(|faces| faces.get(plane).copied().flatten());

@@ -17,8 +17,11 @@ const GROUP: usize = 16;
 const STRIDE_UNIT: usize = 4;
 const MAX_STRIDE: usize = 256;
 
+/// Unpacks so many elements; `None` where the bytes are damaged.
+type Unpack = fn(&[u8], usize) -> Option<Vec<u8>>;
+
 /// The function for each stride of attributes, 4, 8, 12, …
-const ATTRIBUTES: [fn(&[u8], usize) -> Option<Vec<u8>>; MAX_STRIDE / STRIDE_UNIT] = {
+const ATTRIBUTES: [Unpack; MAX_STRIDE / STRIDE_UNIT] = {
     macro_rules! for_strides {
         ($($units:literal)*) => { [$(attributes::<{ STRIDE_UNIT * $units }>),*] };
     }
@@ -34,7 +37,7 @@ pub(super) fn unpack(view: &PackedView, packed: &[u8], place: &Place) -> Result<
     let PackedView { count, byte_stride: stride, .. } = *view;
     let filter = view.filter.as_deref().unwrap_or("NONE");
     let is_attribute = view.mode == "ATTRIBUTES";
-    let unpack: fn(&[u8], usize) -> Option<Vec<u8>> = match (view.mode.as_str(), stride) {
+    let unpack: Unpack = match (view.mode.as_str(), stride) {
         ("ATTRIBUTES", _) => match ATTRIBUTES.get((stride / STRIDE_UNIT).wrapping_sub(1)) {
             Some(unpack) if stride % STRIDE_UNIT == 0 => *unpack,
             _ => return fault(format!("byte stride {stride}"), "a multiple of 4 from 4 to 256"),
@@ -140,7 +143,7 @@ fn octahedral_bytes(bytes: &mut [u8]) {
 }
 
 fn octahedral_shorts(bytes: &mut [u8]) {
-    of_shorts(bytes, |vectors| meshopt::decode_filter_oct(vectors));
+    of_shorts(bytes, meshopt::decode_filter_oct);
 }
 
 fn quaternions(bytes: &mut [u8]) {
