@@ -70,7 +70,7 @@ pub use outline::Outline;
 pub use plane_table::{PlaneId, PlaneTable, SNAP_TOLERANCE};
 pub use primitives::ShapeError;
 pub use solid::{Cell, CellPlane, CutId, RayHit, Solid};
-pub use source::{FaceSource, TextureAxes};
+pub use source::{FaceSource, TextureAxes, TextureUnit};
 pub use transform::{Transform, TransformError, sine_and_cosine};
 pub use tree::{Operation, Tree, TreeNode};
 pub use weld::WeldError;

@@ -5,6 +5,16 @@ use rustc_hash::FxHashMap;
 
 use crate::brush::{MaterialId, Model};
 
+/// What texture coordinates count.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum TextureUnit {
+    /// Texels, of which a picture has as many as it is wide or high; lengths where there is no picture.
+    #[default]
+    Texels,
+    /// Whole pictures, whatever their size.
+    Pictures,
+}
+
 /// How a texture lies on a plane: its coordinates are linear in space.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TextureAxes {
@@ -14,19 +24,23 @@ pub struct TextureAxes {
     pub v: DVec3,
     /// Both at the origin.
     pub offset: DVec2,
+    /// What both count.
+    pub unit: TextureUnit,
 }
 
 impl TextureAxes {
-    /// The texture coordinates of a point, in the units of the source: texels in maps.
+    /// The texture coordinates of a point, in [`TextureAxes::unit`].
     #[must_use]
     pub fn at(&self, point: DVec3) -> DVec2 {
         DVec2::new(self.u.dot(point), self.v.dot(point)) + self.offset
     }
 
-    fn bits(&self) -> [u64; 8] {
-        let [a, b, c] = self.u.to_array();
-        let [d, e, f] = self.v.to_array();
-        [a, b, c, d, e, f, self.offset.x, self.offset.y].map(f64::to_bits)
+    /// Numbers that are equal for textures that lie alike.
+    fn bits(&self) -> [u64; 9] {
+        let [a, b, c] = self.u.to_array().map(f64::to_bits);
+        let [d, e, f] = self.v.to_array().map(f64::to_bits);
+        let [g, h] = self.offset.to_array().map(f64::to_bits);
+        [a, b, c, d, e, f, g, h, u64::from(self.unit == TextureUnit::Pictures)]
     }
 }
 
@@ -51,7 +65,7 @@ impl Model {
     pub fn split_by_source(&self, textures: &[Vec<Option<TextureAxes>>], by_face: bool) -> (Self, Vec<FaceSource>) {
         let mut split = Self { materials: Vec::new(), tree: self.tree.clone() };
         let mut sources = Vec::new();
-        let mut known: FxHashMap<(MaterialId, Option<[u64; 8]>), MaterialId> = FxHashMap::default();
+        let mut known: FxHashMap<(MaterialId, Option<[u64; 9]>), MaterialId> = FxHashMap::default();
         for (number, brush) in split.tree.brushes_mut().iter_mut().enumerate() {
             for (plane, face) in brush.faces.iter_mut().enumerate() {
                 let texture = textures.get(number).and_then(|faces| faces.get(plane).copied().flatten());
@@ -89,7 +103,7 @@ mod tests {
         let block = |x: f64| Brush::cuboid(DVec3::new(x, 0.0, 0.0), DVec3::new(x + 1.0, 1.0, 1.0), MaterialId(0));
         let tree = Tree::union_of(vec![block(0.0), block(1.0)]);
         let model = Model { materials: vec![Material::named("stone")], tree };
-        let lying = TextureAxes { u: DVec3::X, v: DVec3::Y, offset: DVec2::ZERO };
+        let lying = TextureAxes { u: DVec3::X, v: DVec3::Y, offset: DVec2::ZERO, unit: TextureUnit::Texels };
         let textures = vec![vec![None; 6], vec![Some(lying); 6]];
         for (by_face, count, faces) in [(false, 2, 10), (true, 12, 10)] {
             let (split, sources) = model.split_by_source(&textures, by_face);

@@ -119,11 +119,7 @@ pub fn write_parts(
     options: &ExportOptions,
     out: &mut dyn Write,
 ) -> Result<(), ExportError> {
-    options.check()?;
-    for part in parts {
-        check_mesh(part.mesh)?;
-        check_sources(part)?;
-    }
+    check_parts(parts, options)?;
     match format {
         Format::Glb => glb::write_glb(parts, options, out),
         Format::Gltf => glb::write_gltf(parts, options, out),
@@ -132,6 +128,15 @@ pub fn write_parts(
         Format::ThreeMf => threemf::write_3mf(parts, options, out),
         Format::Ply => ply::write_ply(parts, options, out),
     }
+}
+
+/// Sees that what is to be written can be trusted.
+pub(crate) fn check_parts(parts: &[Part<'_>], options: &ExportOptions) -> Result<(), ExportError> {
+    options.check()?;
+    parts.iter().try_for_each(|part| {
+        check_mesh(part.mesh)?;
+        check_sources(part)
+    })
 }
 
 fn check_sources(part: &Part<'_>) -> Result<(), ExportError> {

@@ -2,6 +2,7 @@
 //!
 //! - [`encode`] turns a [`planecut_csg::Mesh`] into the bytes of a mesh file ([`Format`]); [`encode_parts`]
 //!   does so for several named meshes in one file, and [`write_parts`] piece by piece. [`Format`] says what each format keeps of the mesh.
+//! - [`written`] tells what triangles such a file holds, where its precision is not that of the mesh.
 //! - [`write_brushes`] puts convex bodies back into formats that editors open: a Quake map, or OpenSCAD's evaluated tree
 //!   ([`BrushFormat`]).
 //! - [`AtomicFile`] and [`write_atomic`] put bytes under a file name, completely or not at all.
@@ -29,6 +30,7 @@ mod stl;
 mod surface;
 mod threemf;
 mod topology;
+mod written;
 
 pub use brushes::{BrushFormat, write_brushes};
 pub use color::distinct_color;
@@ -42,3 +44,4 @@ pub use preview::{
     PreviewStyle, SheetColors, SheetLayout, Subject, Tile, Turntable, contact_sheet, render, render_buffers,
     sheet_layout,
 };
+pub use written::{Written, written};

@@ -117,7 +117,8 @@ pub enum Shading {
 pub struct TextureMapping {
     /// How they follow from positions.
     pub projection: Projection,
-    /// So long is what a texture covers once: in units of the input, in texels where the source has its own.
+    /// So long is what a texture covers once: in units of the input, in texels where the source counts in these. Where it counts in whole
+    /// pictures this has no say.
     pub size: f64,
 }
 

@@ -10,22 +10,35 @@ use glam::DVec3;
 use planecut_csg::Mesh;
 
 use crate::single_precision::without_lost_edges;
-use crate::{ExportError, ExportOptions, Part};
+use crate::{ExportError, ExportOptions, Part, Written};
 
 const HEADER_BYTES: usize = 80;
 
 /// Writes the triangles of all parts, Z-up, in the order of the meshes.
 pub(crate) fn write_stl(parts: &[Part<'_>], options: &ExportOptions, out: &mut dyn Write) -> Result<(), ExportError> {
-    let meshes: Vec<Cow<'_, Mesh>> = parts
-        .iter()
-        .map(|part| without_lost_edges(part.mesh, |position| (position * options.scale).as_vec3()))
-        .collect();
+    let meshes = reduced(parts, options);
     meshes.iter().try_for_each(|mesh| check_range(&mesh.positions, options.scale))?;
     if options.text {
         write_text(parts, &meshes, options.scale, out)
     } else {
         write_binary(&meshes, options.scale, out)
     }
+}
+
+/// The meshes of all parts without the edges whose ends are stored as one place.
+fn reduced<'a>(parts: &[Part<'a>], options: &ExportOptions) -> Vec<Cow<'a, Mesh>> {
+    let round = |position: DVec3| (position * options.scale).as_vec3();
+    parts.iter().map(|part| without_lost_edges(part.mesh, round)).collect()
+}
+
+/// What a file of the parts holds.
+pub(crate) fn written(parts: &[Part<'_>], options: &ExportOptions) -> Result<Written, ExportError> {
+    let mut written = Written::default();
+    for (part, mesh) in parts.iter().zip(reduced(parts, options)) {
+        let place = |position: DVec3| (position * options.scale).as_vec3().as_dvec3() / options.scale;
+        written.push(part, &mesh, |_| true, place)?;
+    }
+    Ok(written)
 }
 
 fn write_binary(meshes: &[Cow<'_, Mesh>], scale: f64, out: &mut dyn Write) -> Result<(), ExportError> {

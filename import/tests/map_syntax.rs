@@ -1,7 +1,8 @@
 //! Each variant of the syntax of a map.
 #![forbid(unsafe_code)]
 
-use planecut_csg::Model;
+use glam::{DVec2, DVec3};
+use planecut_csg::{Model, TextureUnit};
 use planecut_import::map::{MapImport, MapOptions, read_map};
 
 const POINTS: &str = "( 0 0 0 ) ( 0 1 0 ) ( 0 0 1 )";
@@ -202,6 +203,12 @@ fn brush_primitives_with_points_are_brushes() {
     assert!(import.warnings.is_empty());
     let plain = read(world(&[format!("{POINTS} a 0 0 0 1 1")])).model.tree.brushes()[0].faces[0].half_space;
     assert!(import.model.tree.brushes()[0].faces.iter().all(|face| face.half_space == plain));
+    // the face looks to -x: on it, pictures go to -y and down
+    for axes in &import.textures[0] {
+        let axes = axes.expect("axes");
+        assert_eq!(axes.unit, TextureUnit::Pictures);
+        assert_eq!(axes.at(DVec3::new(0.0, 10.0, 20.0)), DVec2::new(0.03 * -10.0 + 1.0, 0.03 * -20.0 - 2.0));
+    }
 }
 
 #[test]

@@ -3,6 +3,7 @@
 
 mod mesh_support;
 
+use mesh_support::packed::{Positions, packed_cube};
 use mesh_support::{glb, obj, ply, split_cube, stl_ascii, stl_binary};
 use planecut_import::mesh::{MeshFormat, read_mesh};
 
@@ -11,6 +12,8 @@ fn files() -> Vec<(MeshFormat, Vec<u8>)> {
         r#""scenes": [{"nodes": [0]}], "nodes": [{"children": [1]}, {"mesh": 0, "rotation": [0, 0, 1, 0], "scale": [1, 2, 3]}]"#,
         "",
     );
+    let (packed_json, packed) = packed_cube(Positions::Exponential, "TRIANGLES", 2);
+    let (sequence_json, sequence) = packed_cube(Positions::Shorts, "INDICES", 4);
     vec![
         (MeshFormat::Obj, obj().into_bytes()),
         (MeshFormat::Stl, stl_binary()),
@@ -19,6 +22,8 @@ fn files() -> Vec<(MeshFormat, Vec<u8>)> {
         (MeshFormat::Ply, ply("binary_little_endian")),
         (MeshFormat::Ply, ply("binary_big_endian")),
         (MeshFormat::Gltf, glb(&json, &buffer)),
+        (MeshFormat::Gltf, glb(&packed_json, &packed)),
+        (MeshFormat::Gltf, glb(&sequence_json, &sequence)),
     ]
 }
 

@@ -9,7 +9,7 @@ use super::error::CliError;
 use super::input::{Input, InputKind};
 use super::output::{MeshTarget, Target, check_targets};
 use super::pieces::{Pieces, brushes};
-use super::product::{Contents, Product, draw, encode, produce};
+use super::product::{Contents, Product, draw, encode, first_written, produce};
 use super::progress::Progress;
 use super::report::milliseconds;
 use super::solve::solve;
@@ -72,6 +72,10 @@ impl<'a> Plan<'a> {
         let contents = Contents { parts: &parts, materials: &solved.model.materials, brushes: &brushes };
         let mut outputs = encode(&contents, &self.meshes, &options)?;
         let encoding = begin.elapsed();
+        let first = self.meshes.first().filter(|_| self.report.is_some());
+        if let Some(written) = first_written(first, &parts, &options)? {
+            solved.report.set_written(&written);
+        }
         if let Some(target) = &self.preview {
             let drawing = Instant::now();
             progress.stage("drawing");

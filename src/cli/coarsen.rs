@@ -16,7 +16,7 @@ use super::error::CliError;
 use super::input::{Input, InputKind};
 use super::output::{MeshTarget, Output, Target, check_targets};
 use super::pieces::{NUMBER, Pieces, bounded_tree};
-use super::product::{Contents, Product, draw, encode, produce};
+use super::product::{Contents, Product, draw, encode, first_written, produce};
 use super::progress::Progress;
 use super::report::{CoarsenPart, milliseconds};
 use super::solve::{Read, Solved, read, solve_read};
@@ -26,6 +26,8 @@ struct Plan<'a> {
     args: &'a CoarsenArgs,
     input: Input,
     kind: InputKind,
+    /// The first output: the report says what it holds.
+    first: Option<MeshTarget>,
     /// Where all cells go together.
     meshes: Vec<MeshTarget>,
     /// Where each goes alone: names in which its number stands for `{}`.
@@ -51,12 +53,14 @@ impl<'a> Plan<'a> {
         args.reading.check(kind)?;
         args.output.assets.check_without_sources()?;
         let targets = args.output.targets()?;
+        let first = targets.first().cloned();
         let (patterns, meshes) = targets.into_iter().partition(|mesh| pattern_of(mesh).is_some());
         let clear = |path: &PathBuf| Input::resolve_any(path, None);
         let plan = Self {
             args,
             input,
             kind,
+            first,
             meshes,
             patterns,
             clear: args.limits.keep_clear.iter().map(clear).collect::<Result<_, _>>()?,
@@ -88,13 +92,17 @@ impl<'a> Plan<'a> {
         let begin = Instant::now();
         let coarsened = self.coarsen(&solved, &points, &self.args.limits.options(clear))?;
         let time = begin.elapsed();
-        let cells = self.cells(&coarsened, &solved)?;
+        let (cells, bodies) = self.cells(&coarsened, &solved)?;
         self.tell(&mut solved, &coarsened, &cells, time);
         solved.report.time_ms.evaluate += milliseconds(begin.elapsed());
         let begin = Instant::now();
         progress.stage("encoding");
-        let mut outputs = self.encode(&cells, &coarsened, &solved)?;
+        let mut outputs = self.encode(&cells, &bodies, &solved)?;
         let encoding = begin.elapsed();
+        let first = self.first.as_ref().filter(|_| self.report.is_some());
+        if let Some(written) = first_written(first, &cells.as_parts(&[]), &self.options())? {
+            solved.report.set_written(&written);
+        }
         if let Some(target) = &self.preview {
             let drawing = Instant::now();
             progress.stage("drawing");
@@ -131,17 +139,17 @@ impl<'a> Plan<'a> {
         coarsened.map_err(|source| CliError::Coarsen { path: self.input.path.clone(), source })
     }
 
-    /// The mesh of each cell.
-    fn cells(&self, coarsened: &Coarsened, solved: &Solved) -> Result<Pieces, CliError> {
+    /// The mesh of each cell that has one, and the same cells as bodies: what is thinner than rounding has none, and gets no number in any format.
+    fn cells(&self, coarsened: &Coarsened, solved: &Solved) -> Result<(Pieces, Vec<Brush>), CliError> {
         let mesh = |cell: &Brush| -> Result<Mesh, EvaluateError> {
             let model = Model { materials: solved.model.materials.clone(), tree: cell.clone().into() };
             Ok(evaluate(&model)?.mesh)
         };
         let meshes: Result<Vec<Mesh>, EvaluateError> = coarsened.cells.par_iter().map(mesh).collect();
-        let mut meshes = meshes.map_err(|source| CliError::of_evaluation(&self.input.path, source))?;
-        // what is thinner than rounding has none
-        meshes.retain(|mesh| !mesh.triangles.is_empty());
-        Ok(Pieces::named(meshes, &self.args.name))
+        let meshes = meshes.map_err(|source| CliError::of_evaluation(&self.input.path, source))?;
+        let cells = meshes.into_iter().zip(coarsened.cells.iter().cloned());
+        let (meshes, bodies) = cells.filter(|(mesh, _)| !mesh.triangles.is_empty()).unzip();
+        Ok((Pieces::named(meshes, &self.args.name), bodies))
     }
 
     /// Tells the report and, where cells could not become so few, warns.
@@ -157,19 +165,21 @@ impl<'a> Plan<'a> {
         }
     }
 
-    fn encode(&self, cells: &Pieces, coarsened: &Coarsened, solved: &Solved) -> Result<Vec<Output>, CliError> {
-        let options =
-            ExportOptions { convex_colliders: true, ..self.args.output.assets.options(self.args.output.scale) };
+    fn options(&self) -> ExportOptions {
+        ExportOptions { convex_colliders: true, ..self.args.output.assets.options(self.args.output.scale) }
+    }
+
+    fn encode(&self, cells: &Pieces, bodies: &[Brush], solved: &Solved) -> Result<Vec<Output>, CliError> {
+        let options = self.options();
         let parts = cells.as_parts(&[]);
         let materials = &solved.model.materials;
-        let contents = Contents { parts: &parts, materials, brushes: &|| coarsened.cells.clone() };
+        let contents = Contents { parts: &parts, materials, brushes: &|| bodies.to_vec() };
         let mut outputs = encode(&contents, &self.meshes, &options)?;
         for mesh in &self.patterns {
             let pattern = pattern_of(mesh).unwrap_or_default();
-            for (number, part) in parts.iter().enumerate() {
+            for (number, (part, body)) in parts.iter().zip(bodies).enumerate() {
                 let target = Target::File(PathBuf::from(pattern.replace(NUMBER, &number.to_string())));
-                let brushes = || coarsened.cells.get(number).cloned().into_iter().collect();
-                let contents = Contents { parts: &[*part], materials, brushes: &brushes };
+                let contents = Contents { parts: &[*part], materials, brushes: &|| vec![body.clone()] };
                 outputs.extend(encode(&contents, &[MeshTarget::alone(target, mesh.format)], &options)?);
             }
         }

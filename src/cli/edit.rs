@@ -12,7 +12,7 @@ use super::error::CliError;
 use super::input::{Input, InputKind};
 use super::output::{MeshTarget, Target, check_targets};
 use super::pieces::brushes;
-use super::product::{Contents, Product, encode, produce};
+use super::product::{Contents, Product, encode, first_written, produce};
 use super::progress::Progress;
 use super::report::{EditPart, milliseconds};
 use super::solve::{Read, read, solve_read, unbounded_of};
@@ -101,13 +101,16 @@ impl<'a> Plan<'a> {
         let begin = Instant::now();
         progress.stage("encoding");
         let options = self.args.output.assets.options(self.args.output.scale);
-        let contents = Contents {
-            parts: &[Part::new("solid", &solved.mesh)],
-            materials: &solved.model.materials,
-            brushes: &|| brushes(self.kind, &solved),
-        };
+        let parts = [Part::new("solid", &solved.mesh)];
+        let contents =
+            Contents { parts: &parts, materials: &solved.model.materials, brushes: &|| brushes(self.kind, &solved) };
         let outputs = encode(&contents, &self.meshes, &options)?;
-        Ok(Product { solved, outputs, encoding: begin.elapsed() })
+        let encoding = begin.elapsed();
+        let first = self.meshes.first().filter(|_| self.report.is_some());
+        if let Some(written) = first_written(first, &parts, &options)? {
+            solved.report.set_written(&written);
+        }
+        Ok(Product { solved, outputs, encoding })
     }
 }
 

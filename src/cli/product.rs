@@ -4,7 +4,9 @@ use std::cell::LazyCell;
 use std::time::{Duration, Instant};
 
 use planecut::csg::{Brush, Material};
-use planecut::export::{ExportOptions, Part, PreviewOptions, Subject, render, write_brushes, write_mtl, write_parts};
+use planecut::export::{
+    ExportOptions, Part, PreviewOptions, Subject, Written, render, write_brushes, write_mtl, write_parts, written,
+};
 
 use super::args::CommonArgs;
 use super::error::CliError;
@@ -103,4 +105,17 @@ pub(crate) fn encode(
         }
     }
     Ok(outputs)
+}
+
+/// What the first output holds of some parts, for the report; nothing where there is none, or it holds the meshes as they are.
+///
+/// # Errors
+/// [`CliError::Encode`].
+pub(crate) fn first_written(
+    first: Option<&MeshTarget>,
+    parts: &[Part<'_>],
+    options: &ExportOptions,
+) -> Result<Option<Written>, CliError> {
+    let Some(MeshTarget { target, format: OutputFormat::Mesh(format), .. }) = first else { return Ok(None) };
+    written(parts, *format, options).map_err(|source| CliError::Encode { output: target.to_string(), source })
 }

@@ -5,9 +5,10 @@
 
 use std::time::Duration;
 
-use planecut::csg::check::{Measures, TopologyReport};
+use planecut::csg::check::{Measures, TopologyReport, check_topology, measure_triangles};
 use planecut::csg::coarsen::Coarsened;
 use planecut::csg::{Evaluation, ModelSummary, SolidMeasures, StageTimes};
+use planecut::export::Written;
 use planecut::kernel::DVec3;
 use planecut::kernel::sign::Counts;
 use serde::Serialize;
@@ -113,6 +114,11 @@ impl Report {
         self.mesh = mesh;
     }
 
+    /// Says what the first file holds of the mesh, where its precision is not that of the mesh.
+    pub(crate) fn set_written(&mut self, written: &Written) {
+        self.mesh = self.mesh.written(written);
+    }
+
     /// Says what edits were done.
     pub(crate) fn set_edit(&mut self, edit: EditPart) {
         self.edit = Some(edit);
@@ -207,6 +213,16 @@ impl MeshPart {
             return part;
         }
         Self { genus: Some(0), watertight: true, manifold: true, ..part }
+    }
+
+    /// What a file holds of this mesh. Where no triangle is missing there, only the volume is another.
+    fn written(&self, written: &Written) -> Self {
+        let Written { positions, triangles, faces, is_reduced } = written;
+        if *is_reduced {
+            return Self::of_solid(&check_topology(positions, triangles), *faces);
+        }
+        let volume = measure_triangles(positions, triangles).map_or(self.volume, |measures| measures.volume + 0.0);
+        Self { volume, ..self.clone() }
     }
 
     fn new(topology: &TopologyReport, faces: Option<usize>) -> Self {

@@ -69,6 +69,30 @@ fn a_file_for_each_cell() {
     assert!(folder.path().join("2.stl").is_file() && !folder.path().join("3.stl").exists());
 }
 
+/// A sheet between two boxes that no mesh has: its number goes to the box after it, in all formats.
+#[test]
+fn numbers_of_files_are_the_same_in_all_formats() {
+    let folder = scratch();
+    let sheet = 3.0 + 2.0 * f64::EPSILON;
+    let boxes = [(0.0, 1.0), (3.0, sheet), (5.0, 6.0)];
+    let nodes = boxes.map(|(min, max)| json!({"box": {"min": [min, 0, 0], "max": [max, 1, 1]}}));
+    let path = folder.path().join("sheet.json");
+    fs::write(&path, json!({"planecut": 1, "model": {"union": nodes}}).to_string()).expect("written");
+    let endings = ["glb", "obj", "stl", "map", "csg"];
+    let outputs = endings.map(|ending| format!("-o DIR/part_{{}}.{ending} -o DIR/all.{ending}")).join(" ");
+    let run = coarsen(&path.display().to_string(), folder.path(), &format!("{outputs} -q"));
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    for ending in endings {
+        let info = |name: &str| planecut(["info", &folder.path().join(name).display().to_string()]).json();
+        for (number, min) in [(0, 0.0), (1, 5.0)] {
+            let solid = info(&format!("part_{number}.{ending}"))["solid"].clone();
+            assert_eq!((&solid["min"], &solid["volume"]), (&json!([min, 0.0, 0.0]), &json!(1.0)), "{number} {ending}");
+        }
+        assert!(!folder.path().join(format!("part_2.{ending}")).exists(), "{ending}");
+        assert_eq!(info(&format!("all.{ending}"))["solid"]["volume"], json!(2.0), "{ending}");
+    }
+}
+
 #[test]
 fn what_was_written_is_read_again_as_so_many_cells() {
     let folder = scratch();

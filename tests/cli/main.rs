@@ -15,3 +15,4 @@ mod report;
 mod shared_maps;
 mod support;
 mod usage;
+mod written;

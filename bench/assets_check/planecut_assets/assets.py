@@ -10,6 +10,7 @@ from .setting import SIZE, Setting
 
 PLAIN = "plain"
 MESHES = ("glb", "gltf", "obj", "stl", "ply", "3mf")
+SINGLE_PRECISION = ("glb", "gltf", "stl")
 MODELS = ("map", "csg")
 
 MAX_CELLS = 2000
@@ -115,7 +116,9 @@ class Formats:
 def write_assets(setting: Setting, formats: Formats, source: Input) -> Written | None:
     """All files of an input; nothing, with a note, where planecut refuses it."""
     stem = setting.scratch / source.name.replace("/", "__")
-    plain = [stem.with_name(f"{stem.name}.{ending}") for ending in formats.meshes]
+    # The report is of the first: of a format in double precision, where planecut writes any.
+    endings = sorted(formats.meshes, key=lambda ending: ending in SINGLE_PRECISION)
+    plain = [stem.with_name(f"{stem.name}.{ending}") for ending in endings]
     try:
         report, _ = setting.planecut.build(source.path, plain)
     except Refused as refused:

@@ -20,6 +20,13 @@ pub struct Measures {
     pub max: DVec3,
 }
 
+/// Volume, area and centroid of the given triangles; `None` where one names a position that there is not.
+#[must_use]
+pub fn measure_triangles(positions: &[DVec3], triangles: &[[u32; 3]]) -> Option<Measures> {
+    let is_there = |corner: &u32| (*corner as usize) < positions.len();
+    triangles.as_flattened().iter().all(is_there).then(|| measure(positions, triangles))
+}
+
 /// Measures of the given triangles, all of whose indices are in range.
 ///
 /// Tetrahedra are formed with the centre of the bounding box, not with the origin, so that meshes far away lose no digits.

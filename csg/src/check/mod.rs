@@ -18,7 +18,7 @@ use std::fmt;
 use glam::DVec3;
 
 pub use crossing::{Contact, ContactKind, CrossingReport};
-pub use measure::Measures;
+pub use measure::{Measures, measure_triangles};
 pub use topology::{TopologyDefect, TopologyReport, check_topology};
 
 /// Tolerance for positions that are exact decimals or `f64`.

@@ -59,7 +59,7 @@ impl<'a> Document<'a> {
     /// Describes `parts`. A part without triangles becomes a node without a mesh, since glTF forbids empty arrays; parts that are alike
     /// share a mesh.
     pub(super) fn build(parts: &[Part<'a>], options: &ExportOptions) -> Result<Self, ExportError> {
-        let repeats = if options.source_ids { Repeats::none(parts.len()) } else { Repeats::of(parts) };
+        let repeats = Repeats::of(parts, options);
         let firsts: Vec<&Part<'a>> = repeats.firsts().iter().map(|part| &parts[*part]).collect();
         let mut meshes: Vec<Geometry<'a>> =
             firsts.par_iter().map(|part| Geometry::new(part, options)).collect::<Result<_, _>>()?;
@@ -93,7 +93,7 @@ impl<'a> Document<'a> {
         for (part, repeat) in parts.iter().zip(repeats.iter()) {
             let mesh = &meshes[repeat.first];
             let node = Node { mesh: described[repeat.first], ..node(part.name) };
-            document.places.push(((mesh.origin + repeat.moved).to_array(), mesh.step));
+            document.places.push(((mesh.rounding.origin + repeat.moved).to_array(), mesh.rounding.step));
             document.root.nodes.push(node);
         }
         let children: Vec<_> = (1..document.root.nodes.len()).map(|child| Index::new(child as u32)).collect();
@@ -491,7 +491,7 @@ fn bounds(mesh: &Geometry) -> (Value, Value) {
         bounds.map_or((Value::Null, Value::Null), |(min, max)| (json!(min), json!(max)))
     }
     let vertices = 0..mesh.vertices.origins.len();
-    match mesh.step {
+    match mesh.rounding.step {
         Some(step) => of(vertices.map(|vertex| mesh.grid_position(vertex, step))),
         None => of(vertices.map(|vertex| mesh.position(vertex))),
     }

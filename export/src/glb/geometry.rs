@@ -3,28 +3,23 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
-use glam::{DVec3, I16Vec3};
+use glam::DVec3;
 use planecut_csg::Mesh;
 use rayon::prelude::*;
 
-use super::origin::choose_origin;
+use super::rounding::Rounding;
 use super::tangents::tangents;
-use crate::single_precision::without_lost_edges;
 use crate::surface::{Looks, Vertices};
 use crate::topology::is_oriented_manifold;
 use crate::{ExportError, ExportOptions, Part};
 
 /// Marks a vertex that no triangle has used yet.
 const NONE: u32 = u32::MAX;
-/// The farthest that a position of 16 bits reaches.
-const REACH: f64 = i16::MAX as f64;
 
 /// Vertex and index arrays of one mesh, with what is needed to undo the splitting.
 pub(super) struct Geometry<'a> {
-    /// The point that positions are relative to; exact in single precision.
-    pub(super) origin: DVec3,
-    /// Of the grid that positions lie on, a power of two; none where they are in single precision.
-    pub(super) step: Option<f64>,
+    /// How its positions are stored.
+    pub(super) rounding: Rounding,
     /// Without edges that are lost where positions are rounded.
     pub(super) mesh: Cow<'a, Mesh>,
     pub(super) vertices: Vertices,
@@ -51,17 +46,13 @@ impl<'a> Geometry<'a> {
     /// The arrays of a checked part. Edges whose ends are rounded to one place are contracted; triangles that name a
     /// vertex twice have no area by construction and are left out.
     pub(super) fn new(part: &Part<'a>, options: &ExportOptions) -> Result<Self, ExportError> {
-        let origin = choose_origin(&part.mesh.positions);
-        let step = options.quantize.then(|| grid_step(&part.mesh.positions, origin));
-        let mesh = without_lost_edges(part.mesh, |position| match step {
-            Some(step) => on_grid(position, origin, step).as_vec3(),
-            None => (position - origin).as_vec3(),
-        });
-        check_range(&mesh.positions, origin)?;
+        let rounding = Rounding::of(&part.mesh.positions, options);
+        let mesh = rounding.reduced(part.mesh);
+        check_range(&mesh.positions, rounding.origin)?;
         let looks = Looks::of(&mesh.materials);
         let mut triangles: Vec<u32> = (0..)
             .zip(&mesh.triangles)
-            .filter(|(_, [a, b, c])| a != b && b != c && c != a)
+            .filter(|(_, corners)| has_three_corners(corners))
             .map(|(triangle, _)| triangle)
             .collect();
         let look = |triangle: &u32| looks.of_face(&mesh, mesh.triangle_faces[*triangle as usize]);
@@ -82,9 +73,9 @@ impl<'a> Geometry<'a> {
         if !options.source_ids {
             order_for_caches(&mut vertices, &runs);
         }
-        let mut geometry = Self { origin, step, mesh, vertices, tangents: Vec::new(), runs, merges: None };
+        let mut geometry = Self { rounding, mesh, vertices, tangents: Vec::new(), runs, merges: None };
         if options.tangents {
-            geometry.tangents = tangents(&mut geometry.vertices, &geometry.mesh.positions, origin);
+            geometry.tangents = tangents(&mut geometry.vertices, &geometry.mesh.positions, rounding.origin);
         }
         Ok(geometry)
     }
@@ -93,13 +84,13 @@ impl<'a> Geometry<'a> {
     pub(super) fn position(&self, vertex: usize) -> [f32; 3] {
         let position = self.mesh.positions[self.vertices.origins[vertex] as usize];
         // Adding zero turns -0 into 0, which some JSON readers do not tell from it in the bounds.
-        ((position - self.origin).as_vec3() + glam::Vec3::ZERO).to_array()
+        (self.rounding.single(position) + glam::Vec3::ZERO).to_array()
     }
 
     /// A position on the grid.
     pub(super) fn grid_position(&self, vertex: usize, step: f64) -> [i16; 3] {
         let position = self.mesh.positions[self.vertices.origins[vertex] as usize];
-        on_grid(position, self.origin, step).to_array()
+        self.rounding.grid(position, step).to_array()
     }
 
     /// Finds which vertices are one, once the corners have their order.
@@ -127,15 +118,9 @@ impl<'a> Geometry<'a> {
     }
 }
 
-/// The step of the finest grid of a power of two on which positions have 16 bits.
-fn grid_step(positions: &[DVec3], origin: DVec3) -> f64 {
-    let reach = positions.iter().map(|position| (*position - origin).abs().max_element()).fold(0.0, f64::max);
-    let finest = reach / REACH;
-    if finest.is_normal() && finest.is_finite() { finest.log2().ceil().exp2() } else { 1.0 }
-}
-
-fn on_grid(position: DVec3, origin: DVec3, step: f64) -> I16Vec3 {
-    ((position - origin) / step).round().as_i16vec3()
+/// Whether a triangle names three vertices.
+pub(super) fn has_three_corners([a, b, c]: &[u32; 3]) -> bool {
+    a != b && b != c && c != a
 }
 
 fn check_range(positions: &[DVec3], origin: DVec3) -> Result<(), ExportError> {

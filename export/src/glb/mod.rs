@@ -4,7 +4,7 @@
 //! Every mesh node is translated to a point near the part's centre, so that single-precision positions are small. Parts that are alike share
 //! a mesh.
 //!
-//! Way of a mesh through this folder: [`repeats`] finds parts that are alike, [`origin`] chooses the translation, [`geometry`] splits vertices
+//! Way of a mesh through this folder: [`repeats`] finds parts that are alike, [`origin`] chooses the translation, [`rounding`] says where positions are stored, [`geometry`] splits vertices
 //! and remembers which belong together, with [`tangents`] where they are asked for; [`sections`] lays out the arrays, [`packed`] compresses them,
 //! [`document`] describes them in JSON. Arrays are written as they are made: the file is never in memory as a whole.
 
@@ -14,14 +14,22 @@ mod geometry;
 mod origin;
 mod packed;
 mod repeats;
+mod rounding;
 mod sections;
 mod tangents;
 
+use std::borrow::Cow;
 use std::io::Write;
 
 use self::base64::Base64Writer;
+use planecut_csg::Mesh;
+use rayon::prelude::*;
+
 use self::document::Document;
-use crate::{ExportError, ExportOptions, Part};
+use self::geometry::has_three_corners;
+use self::repeats::Repeats;
+use self::rounding::Rounding;
+use crate::{ExportError, ExportOptions, Part, Written};
 
 /// What a GLB begins with, and its version.
 const MAGIC: [u8; 4] = *b"glTF";
@@ -73,4 +81,21 @@ pub(crate) fn write_gltf(parts: &[Part<'_>], options: &ExportOptions, out: &mut 
     base64.finish()?;
     out.write_all(b"\"")?;
     Ok(out.write_all(after)?)
+}
+
+/// What a file of the parts holds.
+pub(crate) fn written(parts: &[Part<'_>], options: &ExportOptions) -> Result<Written, ExportError> {
+    let repeats = Repeats::of(parts, options);
+    let reduced = |part: &usize| -> (Rounding, Cow<'_, Mesh>) {
+        let mesh = parts[*part].mesh;
+        let rounding = Rounding::of(&mesh.positions, options);
+        (rounding, rounding.reduced(mesh))
+    };
+    let meshes: Vec<(Rounding, Cow<'_, Mesh>)> = repeats.firsts().par_iter().map(reduced).collect();
+    let mut written = Written::default();
+    for (part, repeat) in parts.iter().zip(repeats.iter()) {
+        let (rounding, mesh) = &meshes[repeat.first];
+        written.push(part, mesh, has_three_corners, |position| rounding.place(position) + repeat.moved)?;
+    }
+    Ok(written)
 }

@@ -6,8 +6,8 @@ use glam::DVec3;
 use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHasher};
 
-use crate::Part;
 use crate::surface::Looks;
+use crate::{ExportOptions, Part};
 
 /// Corners of parts that are alike lie no farther apart than this part of the size, which is below single precision.
 const SAME: f64 = 1.0 / (1u64 << 26) as f64;
@@ -30,14 +30,14 @@ pub(super) struct Repeats {
 
 impl Repeats {
     /// No part is a copy.
-    pub(super) fn none(parts: usize) -> Self {
+    fn none(parts: usize) -> Self {
         let repeats = (0..parts).map(|first| Repeat { first, moved: DVec3::ZERO }).collect();
         Self { firsts: (0..parts).collect(), repeats }
     }
 
-    /// Those among some parts whose faces are alike, in the same order.
-    pub(super) fn of(parts: &[Part<'_>]) -> Self {
-        if parts.len() < 2 {
+    /// Those among some parts whose faces are alike, in the same order; none where faces are to say where they come from.
+    pub(super) fn of(parts: &[Part<'_>], options: &ExportOptions) -> Self {
+        if parts.len() < 2 || options.source_ids {
             return Self::none(parts.len());
         }
         let looks: Vec<Looks> = parts.iter().map(|part| Looks::of(&part.mesh.materials)).collect();

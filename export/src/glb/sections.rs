@@ -147,7 +147,7 @@ impl Section {
     fn write_mesh(&self, mesh: &Geometry, out: &mut dyn Write) -> io::Result<()> {
         let vertices = &mesh.vertices;
         match self.kind {
-            Kind::Positions => match mesh.step {
+            Kind::Positions => match mesh.rounding.step {
                 Some(step) => (0..vertices.origins.len()).try_for_each(|vertex| {
                     let [x, y, z] = mesh.grid_position(vertex, step);
                     // what an element lacks to four bytes is zero

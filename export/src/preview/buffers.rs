@@ -3,12 +3,12 @@
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
 
-use super::camera::Camera;
-use super::options::PreviewOptions;
-use super::raster::{NO_FACE, Raster, Triangles};
-use super::subject::Subject;
 use crate::ExportError;
 use crate::check::check_mesh;
+use crate::preview::camera::Camera;
+use crate::preview::options::PreviewOptions;
+use crate::preview::raster::{NO_FACE, Raster, Triangles};
+use crate::preview::subject::Subject;
 
 /// The surface seen at the middle of each pixel, row by row from the top left.
 #[derive(Debug, Clone, PartialEq)]

@@ -8,8 +8,8 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DMat3, DVec3};
 
-use super::lens::{Lens, ORTHOGRAPHIC_DISTANCE, ScreenPoint};
-use super::options::{CameraKind, PreviewOptions};
+use crate::preview::lens::{Lens, ORTHOGRAPHIC_DISTANCE, ScreenPoint};
+use crate::preview::options::{CameraKind, PreviewOptions};
 
 /// Tangent of half the view angle along the shorter side of the picture, the longer side gets more.
 const HALF_VIEW_TANGENT: f64 = 0.25;

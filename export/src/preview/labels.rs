@@ -1,14 +1,14 @@
 //! Dimensions and scale bars.
 
-use glam::{DVec3, Vec2};
+use glam::Vec2;
 
-use super::camera::Camera;
-use super::options::{Background, PreviewOptions};
-use super::overlay::{Align, Color, Overlay, TextStyle};
-use super::picture::Picture;
-use super::scale_of;
-use super::scene::Scene;
-use super::text::{Weight, text_width};
+use crate::preview::camera::Camera;
+use crate::preview::canvas::overlay::{Align, Color, Overlay, TextStyle};
+use crate::preview::canvas::text::text_width;
+use crate::preview::options::{Background, PreviewOptions};
+use crate::preview::picture::Picture;
+use crate::preview::scene::Scene;
+use crate::preview::{box_corners, scale_of};
 use crate::{ExportError, Unit};
 
 /// Sizes in a picture whose shorter side is 960 pixels, in pixels: of text, lines, arrow heads, and what stands off the model.
@@ -68,14 +68,13 @@ struct Labels {
 impl Labels {
     /// The extents of the model along the axes, each at an edge of its box that stands out on the picture.
     fn dimensions(&mut self, scene: &Scene<'_>) {
-        let Some((min, max)) = used_box(scene) else { return };
-        let corner = |number: usize| {
-            DVec3::from([0, 1, 2].map(|axis| if number >> axis & 1 == 1 { max[axis] } else { min[axis] }))
-        };
-        let seen: [Vec2; 8] = std::array::from_fn(|number| scene.camera.see(corner(number)).place());
+        let Some(bounds) = scene.bounds else { return };
+        let corners = box_corners(bounds);
+        let extent = bounds[1] - bounds[0];
+        let seen = corners.map(|corner| scene.camera.see(corner).place());
         let middle = seen.iter().sum::<Vec2>() / 8.0;
         for axis in 0..3 {
-            if max[axis] <= min[axis] {
+            if extent[axis] <= 0.0 {
                 continue;
             }
             // The edges along the axis start at the corners whose number lacks its bit.
@@ -85,7 +84,7 @@ impl Labels {
             let outward = |edge: &[usize; 2]| if axis == 2 { -place(edge).x } else { place(edge).y };
             let best = edges.max_by(|a, b| outward(a).total_cmp(&outward(b)));
             if let Some([from, to]) = best {
-                let length = self.length(max[axis] - min[axis]);
+                let length = self.length(extent[axis]);
                 self.dimension([seen[from], seen[to]], middle, &length);
             }
         }
@@ -121,7 +120,7 @@ impl Labels {
         }
         let style = self.style(TEXT);
         let text = (from + to) / 2.0;
-        let wide = text_width(length, style.size, style.weight);
+        let wide = text_width(length, style.size);
         if wide < (to - from).length() {
             self.overlay.text_along(length, text.to_array(), along.to_array(), Align::Center, &style);
         } else {
@@ -166,7 +165,7 @@ impl Labels {
 
     fn style(&self, size: f32) -> TextStyle {
         let size = (size * self.scale).max(11.0);
-        TextStyle { size, weight: Weight::Regular, color: self.inks.ink, halo: Some((size * 0.2, self.inks.halo)) }
+        TextStyle { size, color: self.inks.ink, halo: Some((size * 0.2, self.inks.halo)) }
     }
 
     /// A length with its unit.
@@ -177,12 +176,6 @@ impl Labels {
             None => number,
         }
     }
-}
-
-/// The box around the vertices that triangles use.
-fn used_box(scene: &Scene<'_>) -> Option<(DVec3, DVec3)> {
-    let points = scene.mesh.triangles.iter().flatten().map(|&corner| scene.mesh.positions[corner as usize]);
-    points.map(|point| (point, point)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
 }
 
 /// The largest of 1, 2 and 5 times a power of ten that is no more than `wanted`, which is positive.

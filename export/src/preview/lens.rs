@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec2, Vec3};
 
-use super::options::CameraKind;
+use crate::preview::options::CameraKind;
 
 /// View depth, of an orthographic picture, at which the nearness is 0. Models lie nearer: their middles are
 /// [`ORTHOGRAPHIC_DISTANCE`] away, and they reach one radius around them.

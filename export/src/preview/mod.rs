@@ -1,54 +1,45 @@
 //! Preview pictures, drawn without a graphics card.
 //!
-//! Way of a [`subject`] through this folder: [`camera`] frames it, [`scene`] brings it into view coordinates and colours its
-//! faces, [`surface`] finds what is seen in each cell of a few pixels, [`light`] computes how much light gets there ([`shadow`],
-//! [`occlusion`]), [`edges`] finds the lines ([`dashes`] along them), and [`mod@compose`] puts all of it together at several samples
-//! per pixel: [`ink`] of lines, [`hatch`] on cuts, [`veil`] of surfaces that are seen through, and [`display`] makes bytes of it.
-//! [`raster`] is the z-buffer that all of these share, [`lens`] the projection. Numbers that are a matter of taste are in [`style`].
+//! Way of a [`subject`] through this folder: a [`camera`] frames it ([`lens`] is the projection), [`scene`] brings it into view
+//! coordinates and colours its faces, [`shade`] finds what is seen and how much light gets there, [`lines`] finds the edges worth
+//! drawing, [`paint`] makes pixels of all that, and [`labels`] writes beside it, on a [`canvas`]. [`buffers`] tells what is behind the
+//! pixels, and [`sequence`] makes turntables and contact sheets of several pictures. [`raster`] is the z-buffer that all of these share.
+//! Numbers that are a matter of taste are in [`style`].
 
-mod animation;
 mod buffers;
 mod camera;
-mod compose;
-mod dashes;
-mod display;
-mod edges;
-mod hatch;
-mod ink;
+mod canvas;
 mod labels;
 mod lens;
-mod light;
-mod occlusion;
+mod lines;
 mod options;
-mod overlay;
+mod paint;
 mod picture;
 mod raster;
 mod scene;
-mod shadow;
-mod sheet;
+mod sequence;
+mod shade;
 mod style;
 mod subject;
-mod surface;
-mod text;
-mod turntable;
-mod veil;
 
-pub use self::animation::{AnimationFormat, AnimationWriter};
+use glam::DVec3;
+
 pub use self::buffers::{Buffers, render_buffers};
 use self::camera::Camera;
-use self::compose::{Layers, compose, compose_background};
-use self::edges::feature_lines;
 use self::labels::draw_labels;
-use self::light::{OPEN, reaching_light};
+use self::lines::edges::feature_lines;
 pub use self::options::{Background, CameraKind, MAX_IMAGE_SIDE, PreviewOptions};
+use self::paint::compose::{Layers, compose, compose_background};
 pub use self::picture::Picture;
 use self::scene::Scene;
-pub use self::sheet::{SheetColors, SheetLayout, Tile, contact_sheet, sheet_layout};
+pub use self::sequence::animation::{AnimationFormat, AnimationWriter};
+pub use self::sequence::sheet::{SheetColors, SheetLayout, Tile, contact_sheet, sheet_layout};
+pub use self::sequence::turntable::Turntable;
+use self::shade::light::{OPEN, reaching_light};
+use self::shade::surface::Surface;
 pub use self::style::PreviewStyle;
 use self::style::{Fill, Look};
 pub use self::subject::Subject;
-use self::surface::Surface;
-pub use self::turntable::Turntable;
 use crate::ExportError;
 use crate::check::check_mesh;
 
@@ -64,8 +55,25 @@ pub fn render(subject: &Subject<'_>, options: &PreviewOptions) -> Result<Picture
     options.check()?;
     let mesh = subject.as_mesh();
     check_mesh(mesh)?;
-    let framed = if mesh.triangles.is_empty() { None } else { Camera::framing(&mesh.positions, options) };
+    let framed = if mesh.triangles.is_empty() { None } else { framing(subject, options) };
     draw(subject, framed, options)
+}
+
+/// A camera that sees all of a subject, and its dimensions.
+fn framing(subject: &Subject<'_>, options: &PreviewOptions) -> Option<Camera> {
+    let positions = &subject.as_mesh().positions;
+    if !options.dimensions {
+        return Camera::framing(positions, options);
+    }
+    // Dimensions stand beside the box around the model, which may be seen far outside of it.
+    let corners = subject.bounds().map(box_corners).unwrap_or_default();
+    Camera::framing(&[&positions[..], &corners].concat(), options)
+}
+
+/// The corners of a box; the bits of their numbers say at which end of each axis they lie.
+fn box_corners([min, max]: [DVec3; 2]) -> [DVec3; 8] {
+    let corner = |number: usize| DVec3::from([0, 1, 2].map(|axis| [min, max][number >> axis & 1][axis]));
+    std::array::from_fn(corner)
 }
 
 /// Draws what a camera sees, and what is written beside it.

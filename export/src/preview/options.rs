@@ -1,6 +1,6 @@
 //! What to draw a preview like.
 
-use super::style::PreviewStyle;
+use crate::preview::style::PreviewStyle;
 use crate::{ExportError, Unit};
 
 /// Largest width and height of a preview, in pixels.

@@ -8,7 +8,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::lens::ScreenPoint;
+use crate::preview::lens::ScreenPoint;
 
 /// Number of the face at samples that no triangle covers.
 pub(super) const NO_FACE: u32 = u32::MAX;

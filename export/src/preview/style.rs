@@ -2,8 +2,8 @@
 
 use glam::Vec3;
 
-use super::options::Background;
 use crate::color::srgb_to_linear;
+use crate::preview::options::Background;
 
 /// How a preview is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]

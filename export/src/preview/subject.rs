@@ -70,6 +70,12 @@ impl<'a> Subject<'a> {
         &self.mesh
     }
 
+    /// The box around the vertices that triangles use.
+    pub(super) fn bounds(&self) -> Option<[DVec3; 2]> {
+        let points = self.mesh.triangles.iter().flatten().map(|&corner| self.mesh.positions[corner as usize]);
+        points.map(|point| [point, point]).reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
+    }
+
     /// For each material the number of its hatching.
     pub(super) fn hatches(&self) -> Vec<Option<u32>> {
         let place = |number: u32| self.cuts.binary_search(&MaterialId(number)).ok().map(|place| place as u32);

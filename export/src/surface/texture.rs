@@ -1,7 +1,7 @@
 //! Texture coordinates by projection.
 
 use glam::{DVec2, DVec3};
-use planecut_csg::{FaceSource, Mesh, TextureAxes};
+use planecut_csg::{FaceSource, Mesh, TextureAxes, TextureUnit};
 
 use crate::options::{Projection, TextureMapping};
 
@@ -22,7 +22,11 @@ impl<'a> Texture<'a> {
 
     /// The coordinates at a point of a face: `u` to the right of the picture, `v` down, from 0 to 1 across it once.
     pub(super) fn at(&self, mesh: &Mesh, face: u32, point: DVec3) -> DVec2 {
-        self.axes(mesh, face).at(point) / self.mapping.size
+        let axes = self.axes(mesh, face);
+        match axes.unit {
+            TextureUnit::Texels => axes.at(point) / self.mapping.size,
+            TextureUnit::Pictures => axes.at(point),
+        }
     }
 
     /// A number that is the same for faces on which textures lie alike.
@@ -95,6 +99,6 @@ impl Side {
             Self::Up => (DVec3::X, -DVec3::Y),
             Self::Down => (DVec3::X, DVec3::Y),
         };
-        TextureAxes { u, v, offset: DVec2::ZERO }
+        TextureAxes { u, v, offset: DVec2::ZERO, unit: TextureUnit::Texels }
     }
 }

@@ -1,7 +1,7 @@
 //! Normals, texture coordinates, tangents, colours and sources.
 
 use glam::{DVec2, DVec3, DVec4};
-use planecut_csg::{Brush, Material, MaterialId, Mesh, Model, TextureAxes, Tree, evaluate, primitives};
+use planecut_csg::{Brush, Material, MaterialId, Mesh, Model, TextureAxes, TextureUnit, Tree, evaluate, primitives};
 use planecut_export::{ExportError, ExportOptions, Format, Part, Projection, Shading, TextureMapping, encode};
 
 use super::common::{box_mesh, cube_with_hole, random_boxes};
@@ -75,6 +75,8 @@ fn sources_say_how_textures_lie_and_where_faces_come_from() {
         u: DVec3::new(0.5, 0.25 * brush as f64, 1.0),
         v: DVec3::new(1.0, -1.0, plane as f64),
         offset: DVec2::new(brush as f64, -(plane as f64)),
+        // those of one brush count whole pictures, which have no size of texels
+        unit: if brush == 1 { TextureUnit::Pictures } else { TextureUnit::Texels },
     };
     let textures: Vec<Vec<_>> = (0..3).map(|brush| (0..6).map(|plane| Some(axes(brush, plane))).collect()).collect();
     let model = Model { materials: vec![Material::named("m")], tree: Tree::union_of(blocks.to_vec()) };
@@ -92,7 +94,8 @@ fn sources_say_how_textures_lie_and_where_faces_come_from() {
             for triangle in triangles.by_ref().take(count) {
                 for corner in primitive.corners(*triangle) {
                     assert!(half_space.signed_distance(corner.position).abs() < 1e-6, "{brush} {plane}");
-                    let expected = axes(brush, plane).at(corner.position) / 2.0;
+                    let size = if brush == 1 { 1.0 } else { 2.0 };
+                    let expected = axes(brush, plane).at(corner.position) / size;
                     assert!(corner.texture.expect("some").abs_diff_eq(expected, 1e-5));
                     checked += 1;
                 }

@@ -4,6 +4,7 @@
 mod attributes;
 #[path = "../common/mod.rs"]
 mod common;
+mod held;
 mod packages;
 mod packed;
 mod shared;

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 use planecut_export::{ExportOptions, Format, Part, Projection, Shading, TextureMapping, encode_parts};
+use planecut_import::mesh::{IndexedMesh, MeshFormat, read_mesh};
 use serde_json::Value;
 
 use super::common::{box_mesh, cube_with_hole, random_boxes};
@@ -149,4 +150,51 @@ fn turned(corners: &[u32]) -> Vec<[u32; 3]> {
         triangle
     };
     triangles.iter().copied().map(turn).collect()
+}
+
+/// The volume that triangles enclose.
+fn volume(mesh: &IndexedMesh) -> f64 {
+    let origin = mesh.positions[0];
+    let corner = |v: u32| mesh.positions[v as usize] - origin;
+    mesh.triangles.iter().map(|[a, b, c]| corner(*a).dot(corner(*b).cross(corner(*c)))).sum::<f64>() / 6.0
+}
+
+/// Own files come back as they were written, whether packed, on a grid, or both.
+#[test]
+fn own_files_are_read_again() {
+    // few vertices, and more than 16 bits can number
+    let meshes = [cube_with_hole(), random_boxes(40, 2), random_boxes(3_000, 3)];
+    let smooth = Shading::Smooth { crease: 30.0 };
+    for mesh in &meshes {
+        let parts = [Part::new("m", mesh), Part::new("n", mesh)];
+        let read = |format: Format, options: &ExportOptions| {
+            let bytes = encode_parts(&parts, format, options).expect("encoded");
+            read_mesh(&bytes, MeshFormat::Gltf, "file").expect("read")
+        };
+        for shading in [Shading::Flat, smooth] {
+            let plain_options = ExportOptions { shading, ..ExportOptions::default() };
+            let plain = read(Format::Glb, &plain_options);
+            let packed = ExportOptions { meshopt: true, ..plain_options.clone() };
+            for format in [Format::Glb, Format::Gltf] {
+                let again = read(format, &packed);
+                assert_eq!(again.triangles.len(), plain.triangles.len());
+                assert!((volume(&again) - volume(&plain)).abs() <= 1e-12 * volume(&plain));
+            }
+            let on_grid = ExportOptions { quantize: true, ..plain_options.clone() };
+            let both = ExportOptions { meshopt: true, ..on_grid.clone() };
+            let (on_grid, both) = (read(Format::Glb, &on_grid), read(Format::Gltf, &both));
+            assert_eq!(both.triangles.len(), on_grid.triangles.len());
+            assert!((volume(&both) - volume(&on_grid)).abs() <= 1e-12 * volume(&on_grid));
+            // all corners are moved by half a step at most: the volume changes by that much times the surface
+            let far = plain.positions.iter().fold(DVec3::ZERO, |far, p| far.max((*p - plain.positions[0]).abs()));
+            let step = (far.max_element() / f64::from(i16::MAX)).log2().ceil().exp2();
+            let area = |[a, b, c]: &[u32; 3]| {
+                let [a, b, c] = [a, b, c].map(|v| plain.positions[*v as usize]);
+                (b - a).cross(c - a).length() / 2.0
+            };
+            let bound = step * plain.triangles.iter().map(area).sum::<f64>();
+            let off = (volume(&both) - volume(&plain)).abs();
+            assert!(off <= bound, "{off} {bound}");
+        }
+    }
 }

@@ -84,7 +84,7 @@ impl<'a> Builder<'a> {
                 Ok(half_space) => {
                     let normal = half_space.normal();
                     let scale = normal.abs().max_element();
-                    textures.push(face.alignment.and_then(|alignment| alignment.axes((normal / scale).normalize())));
+                    textures.push(face.alignment.axes((normal / scale).normalize()));
                     faces.push(BrushFace { half_space, material: self.material(&text(&face.texture)) });
                 }
                 Err(PlaneError::NoArea) => self.faces_left_out.add(self.lines.line_of(face.offset)),

@@ -40,8 +40,8 @@ pub(super) struct Face<'a> {
     pub(super) offset: usize,
     pub(super) plane: Result<HalfSpace, PlaneError>,
     pub(super) texture: Cow<'a, [u8]>,
-    /// How the texture lies; not known of brush primitives.
-    pub(super) alignment: Option<Alignment>,
+    /// How the texture lies.
+    pub(super) alignment: Alignment,
 }
 
 /// A primitive that is not read.
@@ -160,10 +160,7 @@ fn faces<'a>(input: &mut Input<'a>, opened: usize, has_matrix: bool) -> Parsed<V
 fn face<'a>(input: &mut Input<'a>, has_matrix: bool) -> Parsed<Face<'a>> {
     let offset = input.current_token_start();
     let points: [Point; 3] = (triple, triple, triple).map(<[Point; 3]>::from).parse_next(input)?;
-    if has_matrix {
-        let rows = (triple, triple).void();
-        delimited(punctuation(b'(', "`(`"), rows, punctuation(b')', "`)`")).parse_next(input)?;
-    }
+    let matrix = if has_matrix { Some(matrix(input)?) } else { None };
     let texture = name(input)?;
     let (layout, axes) = if has_matrix {
         (Layout::Matrix, None)
@@ -173,13 +170,13 @@ fn face<'a>(input: &mut Input<'a>, has_matrix: bool) -> Parsed<Face<'a>> {
         (Layout::Plain, None)
     };
     let values = values(input, offset, layout)?;
-    let alignment = match (layout, axes) {
-        (Layout::Axes, Some((u, v))) => Some(Alignment::Axes { u, v, scale: DVec2::new(values[1], values[2]) }),
-        (Layout::Plain, _) => {
+    let alignment = match (matrix, axes) {
+        (Some((u, v)), _) => Alignment::Matrix { u, v },
+        (None, Some((u, v))) => Alignment::Axes { u, v, scale: DVec2::new(values[1], values[2]) },
+        (None, None) => {
             let [x, y, degrees, wide, high, ..] = values;
-            Some(Alignment::Plain { shift: DVec2::new(x, y), degrees, scale: DVec2::new(wide, high) })
+            Alignment::Plain { shift: DVec2::new(x, y), degrees, scale: DVec2::new(wide, high) }
         }
-        _ => None,
     };
     Ok(Face { offset, plane: plane::half_space(&points), texture, alignment })
 }
@@ -188,6 +185,15 @@ fn face<'a>(input: &mut Input<'a>, has_matrix: bool) -> Parsed<Face<'a>> {
 fn triple(input: &mut Input<'_>) -> Parsed<Point> {
     let numbers = (number, number, number).map(Point::from);
     delimited(punctuation(b'(', "`(`"), numbers, punctuation(b')', "`)`")).parse_next(input)
+}
+
+/// `( ( a b c ) ( a b c ) )`.
+fn matrix(input: &mut Input<'_>) -> Parsed<(DVec3, DVec3)> {
+    let rows = (triple, triple).map(|rows: (Point, Point)| {
+        let row = |[a, b, c]: Point| DVec3::new(a.to_f64(), b.to_f64(), c.to_f64());
+        (row(rows.0), row(rows.1))
+    });
+    delimited(punctuation(b'(', "`(`"), rows, punctuation(b')', "`)`")).parse_next(input)
 }
 
 /// `[ x y z offset ]`.

@@ -58,8 +58,8 @@ pub struct MapImport {
     /// The brushes, in the order of the file; a brush outside the world is named `classname #entity`, entities being
     /// counted from 0.
     pub model: Model,
-    /// For each brush how the textures of its faces lie, in texels; not known of faces of brush primitives (`brushDef`), whose matrices count in
-    /// sizes of pictures that are not at hand.
+    /// For each brush how the textures of its faces lie, in texels, or in whole pictures where it is a brush primitive (`brushDef`); not known where
+    /// numbers run out of range.
     pub textures: Vec<Vec<Option<TextureAxes>>>,
     /// Entities in the file, skipped ones included.
     pub entities: usize,

@@ -1,6 +1,8 @@
 //! Writers of small mesh files, made for the tests of the readers: each file is put together from its specification.
 #![allow(dead_code, reason = "each test crate uses some of these")]
 
+pub(crate) mod packed;
+
 use planecut_csg::check::{CheckOptions, CheckReport, TOLERANCE_F32, check_mesh};
 use planecut_import::mesh::{IndexedMesh, Precision};
 

@@ -1,16 +1,22 @@
 //! Numbers from the buffers of a glTF document.
 
 use std::borrow::Cow;
+use std::cell::{Cell, OnceCell};
 
 use glam::DVec3;
 
 use super::super::error::{Fault, Place, quoted};
-use super::document::{Accessor, Document, Sparse};
+use super::document::{Accessor, BufferView, Document, PackedView, Sparse};
+use super::packed;
 
 /// The embedded buffers.
 pub(super) struct Buffers<'a> {
     document: &'a Document,
     data: Vec<Cow<'a, [u8]>>,
+    /// For each view its bytes, where they were packed and have been asked for.
+    unpacked: Vec<OnceCell<Vec<u8>>>,
+    /// How many packed bytes may still be unpacked: no more than there are, or a small file could have the same ones unpacked any number of times.
+    budget: Cell<usize>,
 }
 
 impl<'a> Buffers<'a> {
@@ -18,6 +24,9 @@ impl<'a> Buffers<'a> {
     pub(super) fn new(document: &'a Document, binary: Option<&'a [u8]>) -> Result<Self, Fault> {
         let load = |(number, buffer): (usize, &'a super::document::Buffer)| {
             let place = || Place::Json(format!("buffers/{number}"));
+            if buffer.extensions.packed.as_ref().is_some_and(|packed| packed.fallback) {
+                return Ok(Cow::Borrowed(&[][..]));
+            }
             match (&buffer.uri, binary) {
                 (None, Some(binary)) if number == 0 => Ok(Cow::Borrowed(binary)),
                 (None, _) => Err(Fault::new(place(), "a buffer without data", "a data address or a binary chunk")),
@@ -26,8 +35,10 @@ impl<'a> Buffers<'a> {
                 }),
             }
         };
-        let data = document.buffers.iter().enumerate().map(load).collect::<Result<_, _>>()?;
-        Ok(Self { document, data })
+        let data = document.buffers.iter().enumerate().map(load).collect::<Result<Vec<_>, _>>()?;
+        let unpacked = document.buffer_views.iter().map(|_| OnceCell::new()).collect();
+        let budget = Cell::new(data.iter().map(|data| data.len()).sum());
+        Ok(Self { document, data, unpacked, budget })
     }
 
     /// The vectors of an accessor of the type `VEC3`; all finite.
@@ -152,13 +163,52 @@ impl<'a> Buffers<'a> {
         let Some(view) = views.get(number) else {
             return Err(Fault::new(place.clone(), format!("buffer view {number}"), format!("one of {}", views.len())));
         };
-        let data = self.data.get(view.buffer).map(|d| &d[..]).unwrap_or_default();
-        let end = view.byte_offset.checked_add(view.byte_length);
-        end.and_then(|end| data.get(view.byte_offset..end)).ok_or_else(|| {
-            let found = format!("{} bytes from byte {} of buffer {}", view.byte_length, view.byte_offset, view.buffer);
-            let place = Place::Json(format!("bufferViews/{number}"));
+        let place = Place::Json(format!("bufferViews/{number}"));
+        match (&view.extensions.packed, self.unpacked.get(number)) {
+            (Some(packed), Some(unpacked)) => match unpacked.get() {
+                Some(bytes) => Ok(bytes),
+                None => {
+                    let bytes = self.unpack(view, packed, number, place)?;
+                    Ok(unpacked.get_or_init(|| bytes))
+                }
+            },
+            _ => self.range(view.buffer, view.byte_offset, view.byte_length, place),
+        }
+    }
+
+    /// Bytes of a buffer.
+    fn range(&self, buffer: usize, offset: usize, length: usize, place: Place) -> Result<&[u8], Fault> {
+        let data = self.data.get(buffer).map(|d| &d[..]).unwrap_or_default();
+        let end = offset.checked_add(length);
+        end.and_then(|end| data.get(offset..end)).ok_or_else(|| {
+            let found = format!("{length} bytes from byte {offset} of buffer {buffer}");
             Fault::new(place, found, format!("a range within its {} bytes", data.len()))
         })
+    }
+
+    fn unpack(
+        &self,
+        view: &BufferView,
+        packed: &PackedView,
+        number: usize,
+        view_place: Place,
+    ) -> Result<Vec<u8>, Fault> {
+        let (count, stride) = (packed.count, packed.byte_stride);
+        if count.checked_mul(stride) != Some(view.byte_length) {
+            let expected = format!("{count} packed elements of {stride}");
+            return Err(Fault::new(view_place, format!("{} bytes", view.byte_length), expected));
+        }
+        if let Some(other) = view.byte_stride.filter(|other| *other != stride) {
+            let expected = format!("{stride} as in its packed form");
+            return Err(Fault::new(view_place, format!("byte stride {other}"), expected));
+        }
+        let place = Place::Json(format!("bufferViews/{number}/extensions/EXT_meshopt_compression"));
+        let bytes = self.range(packed.buffer, packed.byte_offset, packed.byte_length, place.clone())?;
+        let Some(rest) = self.budget.get().checked_sub(bytes.len()) else {
+            return Err(Fault::new(place, "packed bytes that other views have", "bytes of its own"));
+        };
+        self.budget.set(rest);
+        packed::unpack(packed, bytes, &place)
     }
 }
 

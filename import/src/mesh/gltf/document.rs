@@ -143,11 +143,48 @@ pub(super) struct BufferView {
     pub(super) byte_offset: usize,
     pub(super) byte_length: usize,
     pub(super) byte_stride: Option<usize>,
+    #[serde(default)]
+    pub(super) extensions: ViewExtensions,
+}
+
+#[derive(Debug, Default, Deserialize)]
+pub(super) struct ViewExtensions {
+    #[serde(rename = "EXT_meshopt_compression")]
+    pub(super) packed: Option<PackedView>,
+}
+
+/// `EXT_meshopt_compression`: where the packed bytes of a view are, and how they are packed. The view's own buffer is not read.
+#[derive(Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct PackedView {
+    pub(super) buffer: usize,
+    #[serde(default)]
+    pub(super) byte_offset: usize,
+    pub(super) byte_length: usize,
+    pub(super) byte_stride: usize,
+    pub(super) count: usize,
+    pub(super) mode: String,
+    pub(super) filter: Option<String>,
 }
 
 #[derive(Debug, Deserialize)]
 pub(super) struct Buffer {
     pub(super) uri: Option<String>,
+    #[serde(default)]
+    pub(super) extensions: BufferExtensions,
+}
+
+#[derive(Debug, Default, Deserialize)]
+pub(super) struct BufferExtensions {
+    #[serde(rename = "EXT_meshopt_compression")]
+    pub(super) packed: Option<Fallback>,
+}
+
+/// A buffer that is a fallback is for readers that do not know the extension: its views are packed elsewhere, and it may have no bytes.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct Fallback {
+    pub(super) fallback: bool,
 }
 
 /// Parses a document of version 2.

@@ -4,6 +4,7 @@
 //! over all its primitives, vertices with equal coordinates become one: formats for rendering split vertices where normals or
 //! materials differ. Two parts that merely touch are glued by that. A mesh with the extension `EXT_mesh_manifold` says
 //! which vertices are one; there its indices are taken as they stand. Vertices of different nodes stay different.
+//! Buffers may be packed (`EXT_meshopt_compression`) and positions whole numbers (`KHR_mesh_quantization`).
 //!
 //! Points, lines, morph targets and skins are passed over.
 
@@ -11,6 +12,7 @@ mod accessor;
 mod container;
 mod document;
 mod geometry;
+mod packed;
 mod transform;
 
 use glam::DVec3;
@@ -26,8 +28,8 @@ use geometry::Geometry;
 /// Most triangles over all nodes: a small file can ask for the same mesh, or the same accessor, any number of times.
 const MAX_TRIANGLES: usize = 200_000_000;
 
-/// Extensions that a file may require: they do not change where triangles are.
-const HARMLESS: [&str; 2] = ["KHR_mesh_quantization", "EXT_mesh_manifold"];
+/// Extensions that a file may require: they do not change where triangles are, or they are read.
+const HARMLESS: [&str; 3] = ["KHR_mesh_quantization", "EXT_mesh_manifold", "EXT_meshopt_compression"];
 const HARMLESS_PREFIXES: [&str; 4] = ["KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_"];
 
 /// Reads a glTF file.

@@ -1,15 +1,18 @@
 //! Antialiased lines, their hidden parts left out, faint or dashed.
 
 use super::edges::Line;
-use super::lens::ScreenPoint;
-use super::raster::Raster;
+use crate::preview::lens::ScreenPoint;
+use crate::preview::raster::Raster;
 
 /// A surface hides an edge only when nearer by more than this part.
 const DEPTH_TOLERANCE: f32 = 2e-4;
 
+/// Pixels that lines go on beyond their ends: where one ends and the next begins within a pixel, neither would cover it.
+const REACH: f32 = 0.5;
+
 impl Line {
     /// Lowest and highest row that the line can touch.
-    pub(super) fn rows(&self) -> [f32; 2] {
+    pub(in crate::preview) fn rows(&self) -> [f32; 2] {
         let [a, b] = self.ends.map(|end| end.y);
         [a.min(b) - self.half_width - 1.0, a.max(b) + self.half_width + 1.0]
     }
@@ -30,9 +33,9 @@ impl Line {
 
 /// Lengths of dashes and of the gaps between them, in pixels.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct DashLengths {
-    pub(super) dash: f32,
-    pub(super) gap: f32,
+pub(in crate::preview) struct DashLengths {
+    pub(in crate::preview) dash: f32,
+    pub(in crate::preview) gap: f32,
 }
 
 impl DashLengths {
@@ -45,12 +48,12 @@ impl DashLengths {
 }
 
 /// A few rows of the picture, with the opacity of the ink on each pixel.
-pub(super) struct InkBand<'a> {
-    pub(super) width: usize,
-    pub(super) first_row: usize,
+pub(in crate::preview) struct InkBand<'a> {
+    pub(in crate::preview) width: usize,
+    pub(in crate::preview) first_row: usize,
     /// As many as pixels in the band.
-    pub(super) ink: &'a mut [f32],
-    pub(super) dashes: DashLengths,
+    pub(in crate::preview) ink: &'a mut [f32],
+    pub(in crate::preview) dashes: DashLengths,
 }
 
 /// The part of a line within one step along it.
@@ -64,7 +67,7 @@ struct Step {
 
 impl InkBand<'_> {
     /// Draws the part of a line that is in the band. `factor` is the number of samples along a pixel.
-    pub(super) fn draw(&mut self, line: &Line, samples: &Raster, factor: usize) {
+    pub(in crate::preview) fn draw(&mut self, line: &Line, samples: &Raster, factor: usize) {
         let [a, b] = line.ends;
         let (dx, dy) = (b.x - a.x, b.y - a.y);
         let steep = dy.abs() > dx.abs();
@@ -78,7 +81,7 @@ impl InkBand<'_> {
         for place in low..high {
             let pixel = place as f32;
             // Part of this step that the line covers: less than all at its ends.
-            let covered = (end.min(pixel + 1.0) - start.max(pixel)).max(0.0);
+            let covered = ((end + REACH).min(pixel + 1.0) - (start - REACH).max(pixel)).clamp(0.0, 1.0);
             let part_at = |t: f32| if length == 0.0 { 0.5 } else { ((t - along(a)) / length).clamp(0.0, 1.0) };
             let visible = [0.25, 0.75].map(|offset| {
                 let clipped = (pixel + offset).clamp(start, end);
@@ -104,7 +107,7 @@ impl InkBand<'_> {
     /// The steps along the line that can touch the band.
     fn steps(&self, steep: bool, slope: f32, line: &Line, [start, end]: [f32; 2]) -> [usize; 2] {
         let rows = [self.first_row as f32, (self.first_row + self.ink.len() / self.width) as f32];
-        let [mut low, mut high] = [start, end];
+        let [mut low, mut high] = [start - REACH, end + REACH];
         if steep {
             (low, high) = (low.max(rows[0]), high.min(rows[1]));
         } else if slope != 0.0 {

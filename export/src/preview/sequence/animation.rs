@@ -9,9 +9,9 @@ use std::path::Path;
 
 use self::apng::ApngWriter;
 use self::frames::GifWriter;
-use super::MAX_IMAGE_SIDE;
-use super::picture::Picture;
 use crate::ExportError;
+use crate::preview::MAX_IMAGE_SIDE;
+use crate::preview::picture::Picture;
 
 /// A format that moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

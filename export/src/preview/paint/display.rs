@@ -8,24 +8,24 @@ use crate::color::linear_to_srgb;
 ///
 /// Rows differ, so that the steps of a slow gradient leave no visible bands; within a row it is the same everywhere, so
 /// that even colours stay even and compress well.
-pub(super) fn row_rounding(row: usize) -> [f32; 3] {
+pub(in crate::preview) fn row_rounding(row: usize) -> [f32; 3] {
     // Multiples of the golden ratio, modulo one, spread evenly over any run of rows.
     [0, 1, 2].map(|channel| ((row * 3 + channel) as f32 * 0.618_034).fract())
 }
 
 /// Linear light to display bytes by table: the transfer function itself is too slow for every pixel.
-pub(super) struct DisplayTable(Vec<f32>);
+pub(in crate::preview) struct DisplayTable(Vec<f32>);
 
 impl DisplayTable {
     /// Number of the last entry: fine enough that two neighbouring ones differ by less than one byte value.
     const LAST: f32 = 16_383.0;
 
-    pub(super) fn new() -> Self {
+    pub(in crate::preview) fn new() -> Self {
         Self((0..=Self::LAST as u16).map(|step| linear_to_srgb(f32::from(step) / Self::LAST) * 255.0).collect())
     }
 
     /// Display bytes of a linear colour that is multiplied by its alpha; `rounding` is added before fractions are dropped.
-    pub(super) fn encode(&self, color: Vec4, rounding: [f32; 3]) -> [u8; 4] {
+    pub(in crate::preview) fn encode(&self, color: Vec4, rounding: [f32; 3]) -> [u8; 4] {
         let alpha = color.w;
         if alpha >= 1.0 {
             let [red, green, blue] = self.encode_opaque(color.truncate(), rounding);

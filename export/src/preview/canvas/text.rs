@@ -17,25 +17,15 @@ const ELLIPSIS: char = '…';
 /// Share of the room for the end of a shortened text: the end of a file name says most.
 const END_SHARE: f32 = 0.62;
 
-/// How heavy letters are.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(super) enum Weight {
-    /// For most text.
-    #[default]
-    Regular,
-    /// For headings and for small text on a busy ground.
-    Bold,
-}
-
 /// Width of a text in pixels, for a size in pixels per em.
-pub(super) fn text_width(text: &str, size: f32, weight: Weight) -> f32 {
-    Face::new(weight).map_or(0.0, |face| face.width(text)) * size
+pub(in crate::preview) fn text_width(text: &str, size: f32) -> f32 {
+    Face::new().map_or(0.0, |face| face.width(text)) * size
 }
 
 /// The text itself where it is not wider than `width` pixels, else its start and its end with an ellipsis between. Empty
 /// where not even an ellipsis has room.
-pub(super) fn shortened(text: &str, width: f32, size: f32, weight: Weight) -> String {
-    let Some(face) = Face::new(weight) else { return String::new() };
+pub(in crate::preview) fn shortened(text: &str, width: f32, size: f32) -> String {
+    let Some(face) = Face::new() else { return String::new() };
     let room = width / size;
     if face.width(text) <= room {
         return text.to_owned();
@@ -58,7 +48,7 @@ pub(super) fn shortened(text: &str, width: f32, size: f32, weight: Weight) -> St
 }
 
 /// A font, ready to be asked.
-pub(super) struct Face<'a> {
+pub(in crate::preview) struct Face<'a> {
     characters: Charmap<'a>,
     /// In the units of the font.
     metrics: GlyphMetrics<'a>,
@@ -69,12 +59,9 @@ pub(super) struct Face<'a> {
 }
 
 impl Face<'static> {
-    /// The font of a weight. `None` never happens with the fonts that come along.
-    pub(super) fn new(weight: Weight) -> Option<Self> {
-        let data = match weight {
-            Weight::Regular => dejavu::sans_condensed::regular(),
-            Weight::Bold => dejavu::sans_condensed::bold(),
-        };
+    /// The font. `None` never happens with the fonts that come along.
+    pub(in crate::preview) fn new() -> Option<Self> {
+        let data = dejavu::sans_condensed::regular();
         let font = FontRef::new(data).ok()?;
         let (size, location) = (Size::unscaled(), LocationRef::default());
         let whole = font.metrics(size, location);
@@ -92,12 +79,12 @@ impl Face<'static> {
 
 impl Face<'_> {
     /// Height of capital letters for one pixel per em.
-    pub(super) fn cap_height(&self) -> f32 {
+    pub(in crate::preview) fn cap_height(&self) -> f32 {
         self.cap_height
     }
 
     /// Width of a text for one pixel per em.
-    pub(super) fn width(&self, text: &str) -> f32 {
+    pub(in crate::preview) fn width(&self, text: &str) -> f32 {
         text.chars().map(|c| self.advance(c)).sum()
     }
 
@@ -105,7 +92,7 @@ impl Face<'_> {
     ///
     /// `hinted` fits the letters to whole rows of pixels, for text that is not turned. `is_visible` is asked with the place
     /// and the width of each glyph: text may be far longer than a picture is wide.
-    pub(super) fn path(
+    pub(in crate::preview) fn path(
         &self,
         text: &str,
         size: f32,

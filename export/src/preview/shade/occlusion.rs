@@ -26,7 +26,7 @@ const GOLDEN_TURN: [f32; 2] = [-0.737_368_9, 0.675_490_3];
 ///
 /// `point` and `normal` are the cell's own, in view coordinates; `turn` is a unit vector that turns the pattern, `shift` moves it
 /// outwards by a part of a step.
-pub(super) fn openness(
+pub(in crate::preview) fn openness(
     surface: &Surface,
     [column, row]: [usize; 2],
     (point, normal): (Vec3, Vec3),

@@ -16,19 +16,19 @@ const NORMALS: [[f32; 2]; 6] = [
 
 /// Hatching of a picture.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Hatching {
+pub(in crate::preview) struct Hatching {
     spacing: f32,
     half_width: f32,
 }
 
 impl Hatching {
     /// For a picture that is `scale` times as large as the one that lengths are stated for.
-    pub(super) fn new(scale: f32) -> Self {
+    pub(in crate::preview) fn new(scale: f32) -> Self {
         Self { spacing: (SPACING * scale).max(4.0), half_width: (WIDTH * scale).max(0.8) / 2.0 }
     }
 
     /// The part of a pixel that lines cover, for a hatching of this number.
-    pub(super) fn coverage(self, [column, row]: [usize; 2], number: u32) -> f32 {
+    pub(in crate::preview) fn coverage(self, [column, row]: [usize; 2], number: u32) -> f32 {
         let [a, b] = NORMALS[number as usize % NORMALS.len()];
         // Materials beyond the number of directions have lines farther apart, as far as that helps.
         let spacing = self.spacing * (1.0 + 0.35 * (number as usize / NORMALS.len() % 3) as f32);

@@ -1,19 +1,19 @@
 //! Dashes that run on from one edge to the next: curves consist of edges that are shorter than a dash.
 
-use super::lens::ScreenPoint;
+use crate::preview::lens::ScreenPoint;
 
 /// Where a line is within the dashes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct DashRun {
+pub(in crate::preview) struct DashRun {
     /// Pixels from the beginning of the dashes to the first end of the line.
-    pub(super) start: f32,
+    pub(in crate::preview) start: f32,
     /// Whether the dashes are counted from the first end to the second, or back.
-    pub(super) is_forward: bool,
+    pub(in crate::preview) is_forward: bool,
 }
 
 impl DashRun {
     /// Pixels from the beginning of the dashes to a point `distance` pixels from the first end of the line.
-    pub(super) fn at(self, distance: f32) -> f32 {
+    pub(in crate::preview) fn at(self, distance: f32) -> f32 {
         if self.is_forward { self.start + distance } else { self.start - distance }
     }
 }
@@ -22,7 +22,7 @@ impl DashRun {
 const LONGEST: usize = 1 << 16;
 
 /// For each edge its place in the dashes of the chain that it belongs to. Chains go on with the edge that turns least.
-pub(super) fn dash_runs(edges: &[[u32; 2]], points: &[ScreenPoint]) -> Vec<DashRun> {
+pub(in crate::preview) fn dash_runs(edges: &[[u32; 2]], points: &[ScreenPoint]) -> Vec<DashRun> {
     let ends_at = Ends::new(edges, points.len());
     let mut runs: Vec<Option<DashRun>> = vec![None; edges.len()];
     for start in 0..edges.len() {

@@ -5,9 +5,9 @@ use std::ops::Range;
 
 use glam::{Vec3, Vec4};
 
-use super::raster::{Triangles, each_span, signed_area};
-use super::scene::Scene;
-use super::surface::Surface;
+use crate::preview::raster::{Triangles, each_span, signed_area};
+use crate::preview::scene::{Scene, Shade};
+use crate::preview::shade::surface::Surface;
 
 /// The light that is to come through all surfaces where the model has as many of them as on the mean.
 const MEAN_LIGHT: f32 = 0.22;
@@ -22,7 +22,7 @@ const GRAZING: f32 = 1.6;
 const FAR_WEIGHT: f32 = 0.06;
 
 /// What each face adds to the picture.
-pub(super) struct VeilFaces {
+pub(in crate::preview) struct VeilFaces {
     /// Linear RGB and opacity.
     layers: Vec<Vec4>,
     /// The nearness of the farthest vertex, and the reciprocal of what is between it and the nearest one.
@@ -31,7 +31,7 @@ pub(super) struct VeilFaces {
 }
 
 impl VeilFaces {
-    pub(super) fn new(scene: &Scene<'_>, surface: &Surface) -> Self {
+    pub(in crate::preview) fn new(scene: &Scene<'_>, surface: &Surface) -> Self {
         let points = |corners: &[u32; 3]| corners.map(|corner| scene.screen[corner as usize]);
         let area = |corners: &[u32; 3]| {
             let [a, b, c] = points(corners);
@@ -44,7 +44,7 @@ impl VeilFaces {
         let opacity = (1.0 - libm::powf(MEAN_LIGHT, 1.0 / surfaces)).clamp(OPACITY[0], OPACITY[1]);
         let nearness = scene.screen.iter().map(|point| point.w);
         let (far, near) = nearness.fold((f32::INFINITY, 0.0_f32), |(low, high), w| (low.min(w), high.max(w)));
-        let layer = |(shade, normal): (&super::scene::Shade, &Vec3)| {
+        let layer = |(shade, normal): (&Shade, &Vec3)| {
             let grazing = 1.0 - normal.z.abs();
             let opacity = (opacity * (1.0 + GRAZING * grazing * grazing)).min(0.9);
             (shade.ambient + shade.direct).min(Vec3::ONE).extend(opacity)
@@ -61,7 +61,7 @@ impl VeilFaces {
 
 /// Some rows of samples with all that is on them.
 #[derive(Default)]
-pub(super) struct Veil {
+pub(in crate::preview) struct Veil {
     width: usize,
     rows: Range<usize>,
     /// Sums of colours and of weights.
@@ -72,7 +72,7 @@ pub(super) struct Veil {
 
 impl Veil {
     /// Draws the chosen triangles, whichever side they show. What was held before is dropped, only the memory is used again.
-    pub(super) fn draw_rows(
+    pub(in crate::preview) fn draw_rows(
         &mut self,
         triangles: Triangles<'_>,
         rows: Range<usize>,
@@ -102,7 +102,7 @@ impl Veil {
     }
 
     /// The mean of the samples of a pixel, as a linear colour that is multiplied by its alpha.
-    pub(super) fn pixel(&self, [column, row]: [usize; 2], factor: usize) -> Vec4 {
+    pub(in crate::preview) fn pixel(&self, [column, row]: [usize; 2], factor: usize) -> Vec4 {
         let mut mean = Vec4::ZERO;
         for y in row * factor..(row + 1) * factor {
             let start = (y - self.rows.start) * self.width + column * factor;

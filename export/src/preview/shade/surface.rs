@@ -4,35 +4,35 @@
 
 use glam::Vec3;
 
-use super::lens::Lens;
-use super::raster::{NO_FACE, Raster};
-use super::scene::{Floor, Scene};
+use crate::preview::lens::Lens;
+use crate::preview::raster::{NO_FACE, Raster};
+use crate::preview::scene::{Floor, Scene};
 
 /// Number of the floor among the faces.
-pub(super) const FLOOR: u32 = NO_FACE - 1;
+pub(in crate::preview) const FLOOR: u32 = NO_FACE - 1;
 
 /// Beyond this distance from the model, in its radii, the floor is not looked at: nothing falls on it there.
 const FLOOR_REACH: f32 = 3.0;
 
 /// One surface for each cell, row by row.
-pub(super) struct Surface {
+pub(in crate::preview) struct Surface {
     /// Cells across.
-    pub(super) width: usize,
+    pub(in crate::preview) width: usize,
     /// Cells down.
-    pub(super) height: usize,
+    pub(in crate::preview) height: usize,
     /// Pixels along a cell.
-    pub(super) cell: usize,
+    pub(in crate::preview) cell: usize,
     /// The picture of the cells.
-    pub(super) lens: Lens,
+    pub(in crate::preview) lens: Lens,
     /// View depth; infinite where there is nothing.
-    pub(super) depth: Vec<f32>,
+    pub(in crate::preview) depth: Vec<f32>,
     /// Number of the face, [`FLOOR`], or [`NO_FACE`].
-    pub(super) faces: Vec<u32>,
+    pub(in crate::preview) faces: Vec<u32>,
 }
 
 impl Surface {
     /// Looks through the middle of each cell of `cell`² pixels; the picture has `size` pixels.
-    pub(super) fn new(scene: &Scene<'_>, size: [usize; 2], cell: usize) -> Self {
+    pub(in crate::preview) fn new(scene: &Scene<'_>, size: [usize; 2], cell: usize) -> Self {
         let points: Vec<_> = scene.screen.iter().map(|point| point.magnified(1.0 / cell as f32)).collect();
         // Cells at the right and lower edge may reach beyond the picture.
         let size = size.map(|side| side.div_ceil(cell));
@@ -62,7 +62,7 @@ impl Surface {
     }
 
     /// The point that a cell shows, in view coordinates; infinitely far away where there is nothing.
-    pub(super) fn point(&self, at: [usize; 2]) -> Vec3 {
+    pub(in crate::preview) fn point(&self, at: [usize; 2]) -> Vec3 {
         let [x, y] = middle(at);
         self.lens.point(x, y, self.depth[at[1] * self.width + at[0]])
     }
@@ -84,7 +84,7 @@ impl Floor {
     }
 
     /// How much the floor shows of what falls on it at a point: all near the model, nothing far away.
-    pub(super) fn fade(&self, point: Vec3) -> f32 {
+    pub(in crate::preview) fn fade(&self, point: Vec3) -> f32 {
         let part = point.distance(self.center) / FLOOR_REACH;
         let rest = (1.0 - part * part).max(0.0);
         rest * rest

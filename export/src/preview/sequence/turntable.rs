@@ -1,12 +1,12 @@
 //! A model seen from all around.
 
-use super::camera::Camera;
-use super::draw;
-use super::options::PreviewOptions;
-use super::picture::Picture;
-use super::subject::Subject;
 use crate::ExportError;
 use crate::check::check_mesh;
+use crate::preview::camera::Camera;
+use crate::preview::draw;
+use crate::preview::options::PreviewOptions;
+use crate::preview::picture::Picture;
+use crate::preview::subject::Subject;
 
 /// The pictures of one turn about the vertical. The camera keeps its distance, so that nothing but the turning moves, and light comes from the
 /// same side of the picture in all of them.

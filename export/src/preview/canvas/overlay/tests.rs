@@ -1,13 +1,13 @@
 //! Shapes against areas and places computed by hand.
 
+use super::super::text::{shortened, text_width};
 use super::*;
-use crate::preview::text::{shortened, text_width};
 
 const WHITE: Color = [255; 4];
 const BLACK: Color = [0, 0, 0, 255];
 
 fn style(size: f32) -> TextStyle {
-    TextStyle { size, weight: Weight::Regular, color: BLACK, halo: None }
+    TextStyle { size, color: BLACK, halo: None }
 }
 
 /// How much of each pixel of a white picture is black after drawing, 0 to 1, row by row.
@@ -77,7 +77,7 @@ fn drawing_mixes_with_what_is_below() {
 fn text_stands_where_it_is_asked_to() {
     let (width, height) = (300, 80);
     for (align, first) in [(Align::Left, 150.0), (Align::Center, 0.0), (Align::Right, 0.0)] {
-        let long = text_width("HEIGHT", 24.0, Weight::Regular);
+        let long = text_width("HEIGHT", 24.0);
         let first = match align {
             Align::Left => first,
             Align::Center => 150.0 - long / 2.0,
@@ -125,9 +125,8 @@ fn halos_surround_letters() {
 
 #[test]
 fn widths_scale_and_add_up() {
-    let width = |text: &str, size: f32| text_width(text, size, Weight::Regular);
+    let width = |text: &str, size: f32| text_width(text, size);
     assert!((width("AB", 20.0) - width("A", 10.0) * 2.0 - width("B", 20.0)).abs() < 1e-3);
-    assert!(text_width("part.stl", 20.0, Weight::Bold) > width("part.stl", 20.0));
     assert_eq!(width("\u{0}\n\t\u{7f}\u{9b}", 20.0), 0.0, "control characters are left out");
     // The box of what the font lacks.
     assert!(width("\u{10_3456}", 20.0) > 5.0);
@@ -136,18 +135,18 @@ fn widths_scale_and_add_up() {
 
 #[test]
 fn long_texts_keep_their_ends() {
-    let short = |text: &str, width: f32| shortened(text, width, 14.0, Weight::Regular);
+    let short = |text: &str, width: f32| shortened(text, width, 14.0);
     assert_eq!(short("bracket.stl", 400.0), "bracket.stl");
     let name = "a very long name of a part with many words, revision 17.step";
     let cut = short(name, 150.0);
     let (start, end) = cut.split_once('…').expect("an ellipsis");
     assert!(name.starts_with(start) && name.ends_with(end) && end.len() > start.len(), "{cut}");
     assert!(end.ends_with("revision 17.step") || end.ends_with("17.step"), "{cut}");
-    let width = text_width(&cut, 14.0, Weight::Regular);
+    let width = text_width(&cut, 14.0);
     assert!((120.0..=150.0).contains(&width), "{width}");
     assert_eq!((short(name, 15.0), short(name, 5.0)), ("…".to_owned(), String::new()));
     assert_eq!(short(name, f32::NAN), "");
-    assert_eq!(shortened(name, 100.0, 0.0, Weight::Regular), name);
+    assert_eq!(shortened(name, 100.0, 0.0), name);
 }
 
 #[test]

@@ -4,10 +4,10 @@ use glam::Vec3;
 use rayon::prelude::*;
 
 use super::occlusion::openness;
-use super::raster::NO_FACE;
-use super::scene::Scene;
 use super::shadow::ShadowMap;
 use super::surface::{FLOOR, Surface};
+use crate::preview::raster::NO_FACE;
+use crate::preview::scene::Scene;
 
 /// The patterns of taps repeat after this many cells each way; smoothing over as many evens them out.
 const TILE: usize = 4;
@@ -20,16 +20,16 @@ const NORMAL_TOLERANCE: f32 = 0.95;
 
 /// The parts of the ambient and of the direct light that reach a cell, 0 to 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Reaching {
-    pub(super) ambient: f32,
-    pub(super) direct: f32,
+pub(in crate::preview) struct Reaching {
+    pub(in crate::preview) ambient: f32,
+    pub(in crate::preview) direct: f32,
 }
 
 /// All the light there is.
-pub(super) const OPEN: Reaching = Reaching { ambient: 1.0, direct: 1.0 };
+pub(in crate::preview) const OPEN: Reaching = Reaching { ambient: 1.0, direct: 1.0 };
 
 /// Light for each cell of the surface, row by row.
-pub(super) fn reaching_light(scene: &Scene<'_>, surface: &Surface) -> Vec<Reaching> {
+pub(in crate::preview) fn reaching_light(scene: &Scene<'_>, surface: &Surface) -> Vec<Reaching> {
     let shadows = ShadowMap::new(scene);
     let mut raw = vec![OPEN; surface.width * surface.height];
     let patterns = tap_patterns();

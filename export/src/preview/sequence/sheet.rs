@@ -1,10 +1,10 @@
 //! Contact sheets: several pictures side by side on one, each with its title below.
 
-use super::MAX_IMAGE_SIDE;
-use super::overlay::{Align, Color, Overlay, TextStyle};
-use super::picture::Picture;
-use super::text::{Weight, shortened};
 use crate::ExportError;
+use crate::preview::MAX_IMAGE_SIDE;
+use crate::preview::canvas::overlay::{Align, Color, Overlay, TextStyle};
+use crate::preview::canvas::text::shortened;
+use crate::preview::picture::Picture;
 
 /// Width and height that a tile should have to one another.
 const ASPECT: f64 = 4.0 / 3.0;
@@ -148,7 +148,7 @@ pub fn contact_sheet(tiles: &[Tile], layout: &SheetLayout, colors: &SheetColors)
     }
     let mut sheet = Picture::filled(width, height, colors.ground);
     let halo = colors.halo.map(|color: Color| (layout.text_size * 0.16, color));
-    let style = TextStyle { size: layout.text_size, weight: Weight::Regular, color: colors.text, halo };
+    let style = TextStyle { size: layout.text_size, color: colors.text, halo };
     for (tile, place) in tiles.iter().zip((0..).map(|index| layout.place(index))) {
         if !tile.picture.is_complete() {
             return Err(ExportError::Encode { format: "contact sheet", message: tile.picture.mismatch() });
@@ -160,7 +160,7 @@ pub fn contact_sheet(tiles: &[Tile], layout: &SheetLayout, colors: &SheetColors)
             place[0] as f32 + tile_width as f32 / 2.0,
             (place[1] + tile_height) as f32 + layout.title_height as f32 / 2.0,
         ];
-        let title = shortened(&tile.title, tile_width as f32, style.size, style.weight);
+        let title = shortened(&tile.title, tile_width as f32, style.size);
         overlay.text(&title, middle, Align::Center, &style);
     }
     overlay.draw_onto(&mut sheet);

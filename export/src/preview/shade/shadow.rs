@@ -2,9 +2,9 @@
 
 use glam::{Mat3, Vec3};
 
-use super::lens::ScreenPoint;
-use super::raster::Raster;
-use super::scene::Scene;
+use crate::preview::lens::ScreenPoint;
+use crate::preview::raster::Raster;
+use crate::preview::scene::Scene;
 
 /// Texels along a side of the map.
 const SIDE: f32 = 1024.0;
@@ -25,7 +25,7 @@ const MAX_SLOPE: f32 = 6.0;
 const TAPS: usize = 8;
 
 /// Distances of surfaces from the light.
-pub(super) struct ShadowMap {
+pub(in crate::preview) struct ShadowMap {
     map: Raster,
     /// View directions of the map's axes and to the light, as rows.
     axes: Mat3,
@@ -36,7 +36,7 @@ pub(super) struct ShadowMap {
 }
 
 impl ShadowMap {
-    pub(super) fn new(scene: &Scene<'_>) -> Self {
+    pub(in crate::preview) fn new(scene: &Scene<'_>) -> Self {
         let (u, v) = scene.light.any_orthonormal_pair();
         // Seen from the light, like any picture: x to the right, y down, heights towards the viewer. That is a left-handed
         // frame, and so is that of the view coordinates, so the light's right-handed pair serves as it is.
@@ -62,7 +62,7 @@ impl ShadowMap {
 
     /// The part of the key light that reaches a point, 0 to 1. `turn` is a unit vector (cosine, sine) by which the pattern
     /// of taps is turned.
-    pub(super) fn lit(&self, point: Vec3, normal: Vec3, turn: [f32; 2]) -> f32 {
+    pub(in crate::preview) fn lit(&self, point: Vec3, normal: Vec3, turn: [f32; 2]) -> f32 {
         let place = self.place(point);
         let facing = self.axes * normal;
         // Height that the surface itself gains per model radius along the map's axes.

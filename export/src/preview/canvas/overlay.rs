@@ -2,13 +2,13 @@
 
 use tiny_skia::{FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Rect, Stroke, Transform};
 
-use super::MAX_IMAGE_SIDE;
-use super::picture::Picture;
-use super::text::{Face, Weight};
+use super::text::Face;
 use crate::ExportError;
+use crate::preview::MAX_IMAGE_SIDE;
+use crate::preview::picture::Picture;
 
 /// Red, green, blue and alpha (sRGB, alpha not premultiplied).
-pub(super) type Color = [u8; 4];
+pub(in crate::preview) type Color = [u8; 4];
 
 /// Coordinates farther from the origin than this are not drawn: far beyond any picture, and still exact enough.
 const FARTHEST: f32 = 1e6;
@@ -17,7 +17,7 @@ const LEAST_TEXT: f32 = 1.0;
 
 /// Which part of a text stands at the place that is given for it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Align {
+pub(in crate::preview) enum Align {
     /// Its start.
     Left,
     /// Its middle.
@@ -28,20 +28,19 @@ pub(super) enum Align {
 
 /// How text looks.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct TextStyle {
+pub(in crate::preview) struct TextStyle {
     /// Pixels per em; capital letters are about 0.73 times as high.
-    pub(super) size: f32,
-    pub(super) weight: Weight,
-    pub(super) color: Color,
+    pub(in crate::preview) size: f32,
+    pub(in crate::preview) color: Color,
     /// Width in pixels and colour of a rim around the letters, which keeps them legible on any ground.
-    pub(super) halo: Option<(f32, Color)>,
+    pub(in crate::preview) halo: Option<(f32, Color)>,
 }
 
 /// A drawing as large as a picture, transparent where nothing is drawn.
 ///
 /// Coordinates are pixels from the upper left corner, x to the right and y down; the middle of the first pixel is at
 /// (0.5, 0.5). What lies outside is cut off, and shapes with coordinates that are not finite or absurdly far are left out.
-pub(super) struct Overlay {
+pub(in crate::preview) struct Overlay {
     pixmap: Pixmap,
     /// The columns and rows outside of which nothing is drawn: first and end.
     touched: [[u32; 2]; 2],
@@ -52,7 +51,7 @@ impl Overlay {
     ///
     /// # Errors
     /// [`ExportError::ImageSize`].
-    pub(super) fn new(width: u32, height: u32) -> Result<Self, ExportError> {
+    pub(in crate::preview) fn new(width: u32, height: u32) -> Result<Self, ExportError> {
         let sides = 1..=MAX_IMAGE_SIDE;
         let pixmap = Pixmap::new(width, height).filter(|_| sides.contains(&width) && sides.contains(&height));
         let pixmap = pixmap.ok_or(ExportError::ImageSize { width, height })?;
@@ -60,7 +59,7 @@ impl Overlay {
     }
 
     /// A line with square ends that do not reach beyond its end points.
-    pub(super) fn line(&mut self, from: [f32; 2], to: [f32; 2], width: f32, color: Color) {
+    pub(in crate::preview) fn line(&mut self, from: [f32; 2], to: [f32; 2], width: f32, color: Color) {
         if !(width > 0.0 && within_reach(&[from, to, [width, width]])) {
             return;
         }
@@ -74,7 +73,7 @@ impl Overlay {
     }
 
     /// The inside of a polygon.
-    pub(super) fn polygon(&mut self, corners: &[[f32; 2]], color: Color) {
+    pub(in crate::preview) fn polygon(&mut self, corners: &[[f32; 2]], color: Color) {
         let [first, others @ ..] = corners else { return };
         if !within_reach(corners) {
             return;
@@ -91,7 +90,7 @@ impl Overlay {
     }
 
     /// A rectangle between two opposite corners, the lesser coordinates first, with rounded corners where `radius` is not 0.
-    pub(super) fn rectangle(&mut self, min: [f32; 2], max: [f32; 2], radius: f32, color: Color) {
+    pub(in crate::preview) fn rectangle(&mut self, min: [f32; 2], max: [f32; 2], radius: f32, color: Color) {
         let [left, top] = min;
         let [right, bottom] = max;
         if !within_reach(&[min, max]) || left >= right || top >= bottom {
@@ -121,7 +120,7 @@ impl Overlay {
     }
 
     /// A line of text. `at` is halfway up the capital letters.
-    pub(super) fn text(&mut self, text: &str, at: [f32; 2], align: Align, style: &TextStyle) {
+    pub(in crate::preview) fn text(&mut self, text: &str, at: [f32; 2], align: Align, style: &TextStyle) {
         self.text_along(text, at, [1.0, 0.0], align, style);
     }
 
@@ -129,7 +128,7 @@ impl Overlay {
     ///
     /// A direction that would put the text upside down is read the other way round, so the text is still in the same
     /// place; a vertical one is read upwards. `align` is meant along the direction as given.
-    pub(super) fn text_along(
+    pub(in crate::preview) fn text_along(
         &mut self,
         text: &str,
         at: [f32; 2],
@@ -137,10 +136,10 @@ impl Overlay {
         align: Align,
         style: &TextStyle,
     ) {
-        let TextStyle { size, weight, color, halo } = *style;
+        let TextStyle { size, color, halo } = *style;
         let length = direction[0].hypot(direction[1]);
         let is_size = (LEAST_TEXT..=MAX_IMAGE_SIDE as f32).contains(&size);
-        let (true, true, Some(face)) = (length.is_normal() && is_size, within_reach(&[at]), Face::new(weight)) else {
+        let (true, true, Some(face)) = (length.is_normal() && is_size, within_reach(&[at]), Face::new()) else {
             return;
         };
         let [cos, sin] = direction.map(|part| part / length);
@@ -178,7 +177,7 @@ impl Overlay {
     }
 
     /// Puts the drawing on top of a picture of the same size; on any other nothing is put.
-    pub(super) fn draw_onto(&self, picture: &mut Picture) {
+    pub(in crate::preview) fn draw_onto(&self, picture: &mut Picture) {
         let width = self.pixmap.width();
         let [[left, right], [top, bottom]] = self.touched.map(|ends| ends.map(|end| end as usize));
         if !picture.is_complete() || [picture.width, picture.height] != [width, self.pixmap.height()] || left >= right {

@@ -4,15 +4,15 @@ use glam::{Vec3, Vec4};
 use rayon::prelude::*;
 
 use super::display::{DisplayTable, row_rounding};
-use super::edges::Line;
 use super::hatch::Hatching;
-use super::ink::{DashLengths, InkBand};
-use super::light::Reaching;
-use super::raster::{NO_FACE, Raster, Sides};
-use super::scene::{Scene, Shade};
-use super::style::{Fill, Look};
-use super::surface::{FLOOR, Surface};
 use super::veil::{Veil, VeilFaces};
+use crate::preview::lines::edges::Line;
+use crate::preview::lines::ink::{DashLengths, InkBand};
+use crate::preview::raster::{NO_FACE, Raster, Sides};
+use crate::preview::scene::{Scene, Shade};
+use crate::preview::shade::light::Reaching;
+use crate::preview::shade::surface::{FLOOR, Surface};
+use crate::preview::style::{Fill, Look};
 
 /// Rows that are composed as one piece of work.
 const BAND_ROWS: usize = 32;
@@ -24,21 +24,21 @@ const MARGIN: usize = 2;
 const HATCH_OPACITY: f32 = 0.6;
 
 /// Everything that a picture is made from.
-pub(super) struct Layers<'a> {
-    pub(super) scene: &'a Scene<'a>,
+pub(in crate::preview) struct Layers<'a> {
+    pub(in crate::preview) scene: &'a Scene<'a>,
     /// Pixels across and down.
-    pub(super) size: [usize; 2],
+    pub(in crate::preview) size: [usize; 2],
     /// How large the picture is, compared with the one that widths of lines are stated for.
-    pub(super) scale: f32,
+    pub(in crate::preview) scale: f32,
     /// Samples along a pixel.
-    pub(super) factor: usize,
-    pub(super) surface: &'a Surface,
-    pub(super) light: &'a [Reaching],
-    pub(super) lines: &'a [Line],
+    pub(in crate::preview) factor: usize,
+    pub(in crate::preview) surface: &'a Surface,
+    pub(in crate::preview) light: &'a [Reaching],
+    pub(in crate::preview) lines: &'a [Line],
 }
 
 /// RGBA bytes of a picture that shows the background alone.
-pub(super) fn compose_background(look: &Look, [width, height]: [usize; 2]) -> Vec<u8> {
+pub(in crate::preview) fn compose_background(look: &Look, [width, height]: [usize; 2]) -> Vec<u8> {
     let display = DisplayTable::new();
     let rows = (0..height).flat_map(|row| {
         let color = display.encode(background(look, row, height), row_rounding(row));
@@ -50,7 +50,7 @@ pub(super) fn compose_background(look: &Look, [width, height]: [usize; 2]) -> Ve
 /// RGBA bytes of the picture, row by row.
 ///
 /// Samples live only while their band of rows is composed: those of the whole picture would not fit any cache.
-pub(super) fn compose(layers: &Layers<'_>) -> Vec<u8> {
+pub(in crate::preview) fn compose(layers: &Layers<'_>) -> Vec<u8> {
     let ([width, height], factor, scene) = (layers.size, layers.factor, layers.scene);
     let lines = lines_by_band(layers.lines, height);
     let points: Vec<_> = scene.screen.iter().map(|point| point.magnified(factor as f32)).collect();

@@ -4,10 +4,10 @@ use planecut_csg::Mesh;
 use rayon::prelude::*;
 
 use super::dashes::{DashRun, dash_runs};
-use super::lens::ScreenPoint;
-use super::raster::is_front;
-use super::scene::Scene;
-use super::style::{Fill, Hidden};
+use crate::preview::lens::ScreenPoint;
+use crate::preview::raster::is_front;
+use crate::preview::scene::Scene;
+use crate::preview::style::{Fill, Hidden};
 
 /// Cosine of the angle (40 degrees) from which on creases are drawn at full strength.
 const SHARP_COSINE: f64 = 0.766;
@@ -17,18 +17,18 @@ const FAINT: f32 = 0.3;
 
 /// A line on the picture.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Line {
-    pub(super) ends: [ScreenPoint; 2],
+pub(in crate::preview) struct Line {
+    pub(in crate::preview) ends: [ScreenPoint; 2],
     /// Faces on both sides; the same twice at the rim of an open mesh.
-    pub(super) faces: [u32; 2],
+    pub(in crate::preview) faces: [u32; 2],
     /// Opacity where it is seen, 0 to 1.
-    pub(super) opacity: f32,
+    pub(in crate::preview) opacity: f32,
     /// Opacity where something hides it.
-    pub(super) hidden: f32,
+    pub(in crate::preview) hidden: f32,
     /// In pixels.
-    pub(super) half_width: f32,
+    pub(in crate::preview) half_width: f32,
     /// Where its dashes begin, if what is hidden is dashed.
-    pub(super) dashes: Option<DashRun>,
+    pub(in crate::preview) dashes: Option<DashRun>,
 }
 
 /// What an edge is.
@@ -43,7 +43,7 @@ enum Kind {
 }
 
 /// The creases, outlines and rims of the scene's mesh, as far as its look draws them.
-pub(super) fn feature_lines(scene: &Scene<'_>, scale: f32) -> Vec<Line> {
+pub(in crate::preview) fn feature_lines(scene: &Scene<'_>, scale: f32) -> Vec<Line> {
     let fronts: Vec<bool> = scene
         .mesh
         .triangles
@@ -105,7 +105,11 @@ fn line_along(scene: &Scene<'_>, around: &[HalfEdge], scale: f32) -> Option<Line
     }
     let (opacity, width) = match kind_of(scene, around, fronts) {
         Kind::Outline => (look.outline, look.outline_width),
-        Kind::Crease(part) => (look.crease * part, look.crease_width),
+        Kind::Crease(part) => {
+            // Where lines cannot become thinner, the faint ones become fainter: small pictures would be full of them.
+            let thin = (look.crease_width * scale / LEAST_WIDTH).min(1.0);
+            (look.crease * part * (part + (1.0 - part) * thin * thin), look.crease_width)
+        }
         Kind::Inner => (look.inner, look.crease_width * 0.8),
     };
     if opacity == 0.0 {
@@ -144,8 +148,10 @@ fn kind_of(scene: &Scene<'_>, around: &[HalfEdge], fronts: usize) -> Kind {
     }
 }
 
+/// Lines that are thinner, in pixels, would look broken.
+const LEAST_WIDTH: f32 = 0.75;
+
 /// Half the width of a line in pixels, where pictures are `scale` times as large as those that widths are stated for.
 fn half_width(width: f32, scale: f32) -> f32 {
-    // Thinner lines than this would only look broken.
-    (width * scale).max(0.75) / 2.0
+    (width * scale).max(LEAST_WIDTH) / 2.0
 }

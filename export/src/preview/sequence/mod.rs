@@ -1,0 +1,5 @@
+//! Several pictures: turntables and contact sheets.
+
+pub(super) mod animation;
+pub(super) mod sheet;
+pub(super) mod turntable;
