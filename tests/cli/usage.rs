@@ -57,7 +57,7 @@ fn names_that_do_not_end_well() {
     refused("build m.map -o a.fbx", "a.fbx: found a name that ends in `.fbx`, expected `.glb`");
     refused("build m.map -o a", "a: found a name without an ending");
     refused("build m.map -o a.glb --preview p.jpg", "p.jpg: found");
-    refused("render m.map -o p.gif", "p.gif: found");
+    refused("render m.map -o p.jpg", "p.jpg: found");
     refused(
         "build m.scad -o a.glb",
         "m.scad: found a name that ends in `.scad`, expected `.json`, `.map`, `.csg`, `.obj`",

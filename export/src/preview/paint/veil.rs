@@ -10,7 +10,7 @@ use crate::preview::scene::{Scene, Shade};
 use crate::preview::shade::surface::Surface;
 
 /// The light that is to come through all surfaces where the model has as many of them as on the mean.
-const MEAN_LIGHT: f32 = 0.22;
+const MEAN_LIGHT: f32 = 0.16;
 
 /// Bounds of the opacity of a surface that is seen at a right angle.
 const OPACITY: [f32; 2] = [0.012, 0.42];
