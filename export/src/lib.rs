@@ -6,7 +6,7 @@
 //! - [`write_brushes`] puts convex bodies back into formats that editors open: a Quake map, or OpenSCAD's evaluated tree
 //!   ([`BrushFormat`]).
 //! - [`AtomicFile`] and [`write_atomic`] put bytes under a file name, completely or not at all.
-//! - [`render_preview`] draws a mesh as a PNG picture.
+//! - [`render`] draws a mesh as a picture.
 //!
 //! Every writer gives the same bytes for the same input, whatever the number of threads.
 #![forbid(unsafe_code)]

@@ -5,7 +5,7 @@ use image::{ExtendedColorType, ImageEncoder};
 
 use crate::ExportError;
 use crate::check::check_mesh;
-use crate::preview::camera::Camera;
+use crate::preview::framing;
 use crate::preview::options::PreviewOptions;
 use crate::preview::raster::{NO_FACE, Raster, Triangles};
 use crate::preview::subject::Subject;
@@ -42,7 +42,7 @@ pub fn render_buffers(subject: &Subject<'_>, options: &PreviewOptions) -> Result
     if mesh.triangles.is_empty() {
         return Ok(empty());
     }
-    let Some(camera) = Camera::framing(&mesh.positions, options) else { return Ok(empty()) };
+    let Some(camera) = framing(subject, options) else { return Ok(empty()) };
     let points: Vec<_> = mesh.positions.iter().map(|&point| camera.see(point)).collect();
     let raster =
         Raster::draw(Triangles { size, points: &points, corners: &mesh.triangles, faces: &mesh.triangle_faces });
