@@ -160,7 +160,7 @@ fn a_mesh_need_not_be_closed_to_be_drawn() {
     fs::write(folder.path().join("open.obj"), mesh).expect("written");
     run_in(folder.path(), "render open.obj -o a.png --size 60x40").expect_quiet_success();
     assert!(colors(&picture(&folder.path().join("a.png"))) > 10);
-    run_in(folder.path(), "render open.obj -o a.png --size 60x40 --style section").expect_error(1, "open.obj");
+    run_in(folder.path(), "render open.obj -o a.png --size 60x40 --style section").expect_error(2, "open.obj");
 }
 
 /// Each command of the gallery page is one that the program takes: those whose files are in the project are run, small.
