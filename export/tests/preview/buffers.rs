@@ -1,11 +1,11 @@
 //! Which face is seen at each pixel, and how far away, against the second opinion.
 
-use glam::{DMat3, DMat4, DVec2, DVec3, DVec4, EulerRot};
+use glam::{DMat3, DVec2, DVec3, EulerRot};
 use planecut_csg::Mesh;
 use planecut_export::{Background, Buffers, CameraKind, PreviewOptions, PreviewStyle, Subject, render_buffers};
 
 use crate::common::{self, Random};
-use crate::oracle::{Seen, axes, hits, orthographic, perspective};
+use crate::oracle::{Seen, eye_of, hits, orthographic, perspective};
 use crate::support::{CAMERAS, SMALL, draw, pixel, places, tetrahedron};
 
 /// Directions to look from; straight down and level ones are among them.
@@ -95,36 +95,6 @@ fn orthographic_buffers_agree_with_every_triangle_at_every_pixel() {
             assert!(found.depth.iter().all(|&depth| depth > 0.0), "{what}: the model reaches beyond the eye");
         }
     }
-}
-
-/// The eye and the width of a pixel at depth 1 that put the points of a picture on the planes of their faces as well as any: each
-/// pixel makes a linear equation. The largest distance of a point from its face's plane comes along.
-fn eye_of(mesh: &Mesh, options: &PreviewOptions, found: &Buffers) -> (DVec3, f64, f64) {
-    let axes = axes(options);
-    let half = DVec2::new(options.width.into(), options.height.into()) / 2.0;
-    let plane = |face: u32| {
-        let triangle = mesh.triangle_faces.iter().position(|&other| other == face).expect("a triangle");
-        let normal = mesh.faces[face as usize].normal;
-        (normal, normal.dot(mesh.positions[mesh.triangles[triangle][0] as usize]))
-    };
-    let seen = places(found.width, found.height).zip(found.faces.iter().zip(&found.depth));
-    let equations: Vec<(DVec4, f64)> = seen
-        .filter_map(|([x, y], (face, &depth))| {
-            let (normal, distance) = plane((*face)?);
-            let depth = f64::from(depth);
-            let across = DVec2::new(f64::from(x) + 0.5 - half.x, half.y - f64::from(y) - 0.5) * depth;
-            let sideways = axes.x_axis * across.x + axes.y_axis * across.y;
-            Some((normal.extend(normal.dot(sideways)), distance - depth * normal.dot(axes.z_axis)))
-        })
-        .collect();
-    let (mut square, mut right) = (DMat4::ZERO, DVec4::ZERO);
-    for &(row, value) in &equations {
-        square += DMat4::from_cols(row * row.x, row * row.y, row * row.z, row * row.w);
-        right += row * value;
-    }
-    let solution = square.inverse() * right;
-    let worst = equations.iter().map(|(row, value)| (row.dot(solution) - value).abs()).fold(0.0, f64::max);
-    (solution.truncate(), solution.w, worst)
 }
 
 /// One eye puts the points of all pixels on the planes of their faces; what is seen from there is the picture.

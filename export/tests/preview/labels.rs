@@ -1,11 +1,12 @@
 //! Dimensions and scale bars, measured on the picture.
 
 use glam::DVec3;
+use planecut_csg::Mesh;
 use planecut_export::{Background, CameraKind, Picture, PreviewOptions, PreviewStyle, Subject, Unit, render_buffers};
 
 use crate::common::Random;
-use crate::oracle::orthographic;
-use crate::support::{BACKGROUNDS, SMALL, STYLES, around, block, differences, draw, pixel, places};
+use crate::oracle::{axes, eye_of, orthographic};
+use crate::support::{BACKGROUNDS, CAMERAS, SMALL, STYLES, around, block, differences, draw, pixel, places};
 
 const SIDES: DVec3 = DVec3::new(60.0, 44.0, 54.0);
 
@@ -123,29 +124,46 @@ fn scale_bars_are_written_at_the_lower_left() {
     }
 }
 
+/// How many pixels long the scale bar is, and how many pixels a unit has in the middle of the model.
+fn scale_bar_on(mesh: &Mesh, options: &PreviewOptions) -> (f64, f64) {
+    let [plain, barred] = [false, true].map(|scale_bar| draw(mesh, &PreviewOptions { scale_bar, ..*options }));
+    let changed = differences(&plain, &barred);
+    let lowest = around(&changed)[1][1];
+    // Through the bar, which is 7 pixels high with a rim of 1.2: below any text.
+    let bar: Vec<_> = changed.iter().copied().filter(|at| at[1] == lowest - 4).collect();
+    let [min, max] = around(&bar);
+    let per_unit = match options.camera {
+        CameraKind::Orthographic => orthographic(mesh, options).pixels_per_unit,
+        CameraKind::Perspective => {
+            let found = render_buffers(&Subject::of_mesh(mesh), options).expect("drawn");
+            let (eye, pixel, _) = eye_of(mesh, options, &found);
+            let middle = mesh.positions.iter().sum::<DVec3>() / mesh.positions.len() as f64;
+            let depth = axes(options).z_axis.dot(middle - eye);
+            1.0 / (pixel * depth)
+        }
+    };
+    (f64::from(max[0] - min[0] + 1) - 2.4, per_unit)
+}
+
 /// A scale bar is 1, 2 or 5 times a power of ten units long, and takes up about a fifth of the picture.
 #[test]
 fn scale_bars_have_round_lengths() {
     let mut random = Random(21);
-    for round in 0..30 {
+    for (round, camera) in (0..30).zip(CAMERAS.into_iter().cycle()) {
         let scale = 10_f64.powf(random.between(-5.0, 5.0));
         let mesh = block(SIDES * scale);
-        let azimuth = random.between(-180.0, 180.0);
-        let options = PreviewOptions { azimuth, elevation: 20.0, dimensions: false, ..FRONT };
-        let options = PreviewOptions { background: Background::Light, width: 960, ..options };
-        let [plain, barred] = [false, true].map(|scale_bar| draw(&mesh, &PreviewOptions { scale_bar, ..options }));
-        let changed = differences(&plain, &barred);
-        let lowest = around(&changed)[1][1];
-        // Through the bar, which is 7 pixels high with a rim of 1.2: below any text.
-        let bar: Vec<_> = changed.iter().copied().filter(|at| at[1] == lowest - 4).collect();
-        let [min, max] = around(&bar);
-        let pixels = f64::from(max[0] - min[0] + 1) - 2.4;
-        let units = pixels / orthographic(&mesh, &options).pixels_per_unit;
+        // Three sides are seen, as many as tell where the eye is.
+        let azimuth = random.between(20.0, 70.0) + 90.0 * f64::from(round % 4);
+        let options = PreviewOptions { azimuth, elevation: 20.0, dimensions: false, width: 960, camera, ..FRONT };
+        let options = PreviewOptions { background: Background::Light, ..options };
+        let (pixels, per_unit) = scale_bar_on(&mesh, &options);
+        let units = pixels / per_unit;
         let power = 10_f64.powf(units.log10().floor());
         let nearest = [1.0, 2.0, 5.0, 10.0].map(|digit| (digit * power / units - 1.0).abs() * pixels);
         let off = nearest.into_iter().fold(f64::INFINITY, f64::min);
-        println!("round {round} of seed 21: {pixels} pixels, {units} units, off by {off} pixels");
-        assert!(off < 2.0, "round {round} of seed 21: {pixels} pixels are {units} units");
-        assert!(pixels > 960.0 * 0.2 / 2.5 - 2.0 && pixels < 960.0 * 0.2 + 2.0, "round {round} of seed 21: {pixels}");
+        let what = format!("round {round} of seed 21: {pixels} pixels, {units} units, off by {off} pixels");
+        println!("{what}");
+        assert!(off < 2.0, "{what}");
+        assert!(pixels > 960.0 * 0.2 / 2.5 - 2.0 && pixels < 960.0 * 0.2 + 2.0, "{what}");
     }
 }

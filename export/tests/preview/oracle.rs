@@ -1,8 +1,10 @@
 //! A second opinion on what is seen where: every triangle at every pixel, in double precision.
 
-use glam::{DMat3, DVec2, DVec3};
+use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
 use planecut_csg::Mesh;
-use planecut_export::PreviewOptions;
+use planecut_export::{Buffers, PreviewOptions};
+
+use crate::support::places;
 
 /// World directions to the right, upwards and away from the eye, as the options' documentation says.
 pub(crate) fn axes(options: &PreviewOptions) -> DMat3 {
@@ -48,6 +50,36 @@ pub(crate) fn perspective(mesh: &Mesh, options: &PreviewOptions, eye: DVec3, pix
     };
     let points = mesh.positions.iter().map(place).collect();
     Seen { points, is_perspective: true, pixels_per_unit: f64::NAN }
+}
+
+/// The eye and the width of a pixel at depth 1 that put the points of a picture on the planes of their faces as well as any: each
+/// pixel makes a linear equation. The largest distance of a point from its face's plane comes along.
+pub(crate) fn eye_of(mesh: &Mesh, options: &PreviewOptions, found: &Buffers) -> (DVec3, f64, f64) {
+    let axes = axes(options);
+    let half = DVec2::new(options.width.into(), options.height.into()) / 2.0;
+    let plane = |face: u32| {
+        let triangle = mesh.triangle_faces.iter().position(|&other| other == face).expect("a triangle");
+        let normal = mesh.faces[face as usize].normal;
+        (normal, normal.dot(mesh.positions[mesh.triangles[triangle][0] as usize]))
+    };
+    let seen = places(found.width, found.height).zip(found.faces.iter().zip(&found.depth));
+    let equations: Vec<(DVec4, f64)> = seen
+        .filter_map(|([x, y], (face, &depth))| {
+            let (normal, distance) = plane((*face)?);
+            let depth = f64::from(depth);
+            let across = DVec2::new(f64::from(x) + 0.5 - half.x, half.y - f64::from(y) - 0.5) * depth;
+            let sideways = axes.x_axis * across.x + axes.y_axis * across.y;
+            Some((normal.extend(normal.dot(sideways)), distance - depth * normal.dot(axes.z_axis)))
+        })
+        .collect();
+    let (mut square, mut right) = (DMat4::ZERO, DVec4::ZERO);
+    for &(row, value) in &equations {
+        square += DMat4::from_cols(row * row.x, row * row.y, row * row.z, row * row.w);
+        right += row * value;
+    }
+    let solution = square.inverse() * right;
+    let worst = equations.iter().map(|(row, value)| (row.dot(solution) - value).abs()).fold(0.0, f64::max);
+    (solution.truncate(), solution.w, worst)
 }
 
 /// What covers the middle of a pixel.
