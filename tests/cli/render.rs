@@ -53,7 +53,8 @@ fn every_style_draws_every_kind_of_input() {
     let mut seen = Vec::new();
     for style in STYLES {
         for input in ["m.map", "m.glb", "m.stl"] {
-            run_in(folder.path(), &format!("render {input} -o a.png --style {style} --size 120x90")).expect_quiet_success();
+            run_in(folder.path(), &format!("render {input} -o a.png --style {style} --size 120x90"))
+                .expect_quiet_success();
             let drawn = picture(&folder.path().join("a.png"));
             assert_eq!((drawn.width(), drawn.height()), (120, 90));
             assert!(colors(&drawn) > 30, "{style} of {input}: {} colours", colors(&drawn));
@@ -70,7 +71,8 @@ fn every_style_draws_every_kind_of_input() {
 #[test]
 fn pictures_do_not_depend_on_threads() {
     let folder = sample();
-    let options = ["--style xray", "--style technical --section z --dimensions --unit mm", "--spread 1 --background dark"];
+    let options =
+        ["--style xray", "--style technical --section z --dimensions --unit mm", "--spread 1 --background dark"];
     for options in options {
         for threads in [1, 3] {
             let command = format!("render m.map -o {threads}.png --size 200x150 --threads {threads} {options}");
@@ -116,7 +118,8 @@ fn several_inputs_make_a_sheet() {
 #[test]
 fn buffers_tell_depth_and_brush_of_each_pixel() {
     let folder = sample();
-    let command = "render m.map -o a.png --size 100x80 --view top --camera orthographic --depth d.png --ids i.png --id-of brush";
+    let command =
+        "render m.map -o a.png --size 100x80 --view top --camera orthographic --depth d.png --ids i.png --id-of brush";
     run_in(folder.path(), command).expect_quiet_success();
     let depth = picture(&folder.path().join("d.png")).into_luma16();
     let ids = picture(&folder.path().join("i.png")).into_rgb8();

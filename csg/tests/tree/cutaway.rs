@@ -25,7 +25,8 @@ struct Chain(Vec<(Operation, Block)>);
 
 impl Chain {
     fn random(rng: &mut Rng) -> Self {
-        let kinds = [Operation::Union, Operation::Union, Operation::Difference, Operation::Intersection, Operation::Xor];
+        let kinds =
+            [Operation::Union, Operation::Union, Operation::Difference, Operation::Intersection, Operation::Xor];
         let count = 2 + rng.below(5);
         Self((0..count).map(|_| (kinds[rng.below(kinds.len())], random_block(rng))).collect())
     }

@@ -21,7 +21,7 @@ const MAX_HALF_VIEW_TANGENT: f64 = 0.7;
 const FILL: f64 = 0.88;
 
 /// The same where dimensions stand around the model.
-const FILL_BESIDE_LABELS: f64 = 0.72;
+const FILL_BESIDE_LABELS: f64 = 0.76;
 
 /// Distance from the eye to the nearest vertex, at least, in model radii.
 const MIN_DISTANCE: f64 = 0.1;

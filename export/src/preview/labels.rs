@@ -106,7 +106,6 @@ impl Labels {
             self.line(end + gap, end + distance + beyond, 0.75);
         }
         let (from, to) = (a + distance, b + distance);
-        self.line(from, to, 1.0);
         let [arrow, half] = ARROW.map(|length| length * self.scale);
         // Where there is no room for arrows within, they come from outside.
         let is_short = (to - from).length() < 2.6 * arrow;
@@ -121,9 +120,14 @@ impl Labels {
         let style = self.style(TEXT);
         let text = (from + to) / 2.0;
         let wide = text_width(length, style.size);
-        if wide < (to - from).length() {
+        // The line makes room for the text, as far as there is room for both.
+        if wide + style.size < (to - from).length() {
+            let half = along * (wide + 0.6 * style.size) / 2.0;
+            self.line(from, text - half, 1.0);
+            self.line(text + half, to, 1.0);
             self.overlay.text_along(length, text.to_array(), along.to_array(), Align::Center, &style);
         } else {
+            self.line(from, to, 1.0);
             let beside = text + away.normalize_or_zero() * style.size * 1.1;
             let align = if away.x < -0.5 {
                 Align::Right
