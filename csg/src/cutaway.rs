@@ -17,6 +17,12 @@ pub struct Cutaway {
     pub cuts: Vec<MaterialId>,
 }
 
+impl Cutaway {
+    /// What the names of cut materials end with, behind the name of the material and a space; alone it is the name of a cut through brushes
+    /// of several.
+    pub const SUFFIX: &str = "(cut)";
+}
+
 impl Model {
     /// Cuts the model open along the plane of a half-space. Where it goes through a brush that is made of one material, the face of the cut has that
     /// material's own for cuts, of the same looks; brushes whose faces differ, as the textures of a map do, share one without a name.
@@ -70,7 +76,7 @@ fn inside_of(brush: &Brush) -> Option<MaterialId> {
 /// How the cut through a material is called, and what it looks like.
 fn cut_through(material: Option<&Material>) -> Material {
     match material {
-        Some(material) => Material { name: format!("{} (cut)", material.name), ..material.clone() },
-        None => Material::named("(cut)"),
+        Some(material) => Material { name: format!("{} {}", material.name, Cutaway::SUFFIX), ..material.clone() },
+        None => Material::named(Cutaway::SUFFIX),
     }
 }

@@ -19,7 +19,7 @@ pub struct Buffers {
     pub height: u32,
     /// Distances from the plane through the eye across the view, in the units of the model; infinite where there is nothing. Of an
     /// orthographic picture the plane lies in front of all of the model.
-    pub depth: Vec<f32>,
+    pub depth: Vec<f64>,
     /// Numbers of the faces of the subject's mesh; `None` where there is nothing.
     pub faces: Vec<Option<u32>>,
 }
@@ -36,7 +36,7 @@ pub fn render_buffers(subject: &Subject<'_>, options: &PreviewOptions) -> Result
     let empty = || Buffers {
         width: options.width,
         height: options.height,
-        depth: vec![f32::INFINITY; size[0] * size[1]],
+        depth: vec![f64::INFINITY; size[0] * size[1]],
         faces: vec![None; size[0] * size[1]],
     };
     if mesh.triangles.is_empty() {
@@ -46,9 +46,9 @@ pub fn render_buffers(subject: &Subject<'_>, options: &PreviewOptions) -> Result
     let points: Vec<_> = mesh.positions.iter().map(|&point| camera.see(point)).collect();
     let raster =
         Raster::draw(Triangles { size, points: &points, corners: &mesh.triangles, faces: &mesh.triangle_faces });
-    let radius = camera.radius() as f32;
+    let radius = camera.radius();
     Ok(Buffers {
-        depth: raster.nearness.iter().map(|&nearness| camera.lens.depth(nearness) * radius).collect(),
+        depth: raster.nearness.iter().map(|&nearness| f64::from(camera.lens.depth(nearness)) * radius).collect(),
         faces: raster.faces.iter().map(|&face| (face != NO_FACE).then_some(face)).collect(),
         ..empty()
     })
@@ -60,10 +60,10 @@ const NOTHING: u16 = u16::MAX;
 impl Buffers {
     /// The nearest and the farthest depth; `None` where there is no surface at all.
     #[must_use]
-    pub fn depth_range(&self) -> Option<[f32; 2]> {
+    pub fn depth_range(&self) -> Option<[f64; 2]> {
         let seen = self.depth.iter().copied().filter(|depth| depth.is_finite());
         let [near, far] =
-            seen.fold([f32::INFINITY, f32::NEG_INFINITY], |[near, far], depth| [near.min(depth), far.max(depth)]);
+            seen.fold([f64::INFINITY, f64::NEG_INFINITY], |[near, far], depth| [near.min(depth), far.max(depth)]);
         (near <= far).then_some([near, far])
     }
 
@@ -74,8 +74,8 @@ impl Buffers {
     /// [`ExportError::Encode`]; never expected.
     pub fn depth_png(&self) -> Result<Vec<u8>, ExportError> {
         let [near, far] = self.depth_range().unwrap_or([0.0, 0.0]);
-        let per_range = f32::from(NOTHING - 1) / (far - near).max(f32::MIN_POSITIVE);
-        let grey = |&depth: &f32| if depth.is_finite() { ((depth - near) * per_range).round() as u16 } else { NOTHING };
+        let per_range = f64::from(NOTHING - 1) / (far - near).max(f64::MIN_POSITIVE);
+        let grey = |&depth: &f64| if depth.is_finite() { ((depth - near) * per_range).round() as u16 } else { NOTHING };
         let bytes: Vec<u8> = self.depth.iter().flat_map(|depth| grey(depth).to_be_bytes()).collect();
         let mut png = Vec::new();
         let failed = |error: png::EncodingError| ExportError::Encode { format: "PNG", message: error.to_string() };

@@ -196,7 +196,7 @@ fn rings_around(points: &[DVec3]) -> Vec<DVec3> {
     for point in points {
         let layer = ((point.z - min.z) / height * RINGS as f64) as usize;
         let radius = &mut radii[layer.min(RINGS - 1)];
-        *radius = radius.max((*point - middle).truncate().length());
+        *radius = radius.max((point.x - middle.x).hypot(point.y - middle.y));
     }
     // A ring has corners that lie outside the circle, so that its sides do not cut into it.
     let beyond = 1.0 / libm::cos(PI / RING_CORNERS as f64);

@@ -154,9 +154,9 @@ impl Labels {
         let height = BAR * self.scale;
         let rim = 1.2 * self.scale;
         // Alternating parts, as on maps: half of the bar is filled.
-        self.overlay.rectangle([left - rim, bottom - height - rim], [right + rim, bottom + rim], 0.0, self.inks.ink);
+        self.overlay.rectangle([left, bottom - height - 2.0 * rim], [right, bottom], 0.0, self.inks.ink);
         let middle = (left + right) / 2.0;
-        self.overlay.rectangle([middle, bottom - height], [right, bottom], 0.0, self.inks.halo);
+        self.overlay.rectangle([middle, bottom - height - rim], [right - rim, bottom - rim], 0.0, self.inks.halo);
         let style = self.style(TEXT * 0.9);
         let text = bottom - height - style.size * 0.75;
         self.overlay.text(&self.length(length), [left, text], Align::Left, &style);

@@ -134,7 +134,7 @@ impl Raster {
     fn fill(&mut self, corners: [ScreenPoint; 3], face: u32) {
         let (rows, width) = (self.rows.clone(), self.width);
         each_span(corners, rows, width, |row, columns, (first, step)| {
-            self.fill_span(row, columns, (first, step), face)
+            self.fill_span(row, columns, (first, step), face);
         });
     }
 

@@ -1,7 +1,7 @@
 //! The model as the camera sees it, computed once for all later steps.
 
 use glam::{DVec3, Vec3};
-use planecut_csg::Mesh;
+use planecut_csg::{Cutaway, Material, Mesh};
 
 use crate::color::material_color;
 use crate::preview::camera::Camera;
@@ -66,7 +66,15 @@ impl<'a> Scene<'a> {
             .iter()
             .map(|material| {
                 let tint = if material.color.is_some() { look.stated_tint } else { look.tint };
-                look.clay.lerp(Vec3::from(material_color(material)), tint)
+                // A cut looks like what was cut.
+                match material.name.strip_suffix(Cutaway::SUFFIX).map(str::trim_end) {
+                    Some("") => look.clay,
+                    Some(name) => {
+                        let whole = Material { name: name.to_owned(), ..material.clone() };
+                        look.clay.lerp(Vec3::from(material_color(&whole)), tint)
+                    }
+                    None => look.clay.lerp(Vec3::from(material_color(material)), tint),
+                }
             })
             .collect();
         let shade = |(face, &normal): (&planecut_csg::MeshFace, &Vec3)| {

@@ -56,7 +56,7 @@ fn compare(mesh: &Mesh, seen: &Seen, found: &Buffers, nearer: f64, margin: f64, 
         let (depth, face) = (f64::from(found.depth[index]) + nearer, found.faces[index]);
         let Some((nearest, expected)) = hits.nearest() else {
             assert_eq!(face, None, "{what}: pixel {x}, {y} shows a face instead of nothing");
-            assert_eq!(found.depth[index], f32::INFINITY, "{what}: pixel {x}, {y} has a depth");
+            assert_eq!(found.depth[index], f64::INFINITY, "{what}: pixel {x}, {y} has a depth");
             continue;
         };
         counts[1] += 1;
@@ -137,7 +137,7 @@ fn nearness_is_linear_across_a_face() {
     let mesh = common::box_mesh(DVec3::ZERO, DVec3::new(2.0, 9.0, 1.0), "stone");
     for camera in CAMERAS {
         let found = buffers(&mesh, &PreviewOptions { azimuth: -70.0, camera, ..SMALL });
-        let bends = |value: fn(f32) -> f64| {
+        let bends = |value: fn(f64) -> f64| {
             let mut worst = 0.0_f64;
             let rows = found.faces.chunks_exact(320).zip(found.depth.chunks_exact(320));
             for (faces, depth) in rows {

@@ -215,7 +215,7 @@ fn units_do_not_matter() {
             assert_eq!(plain.2.faces, same.2.faces, "{camera:?}: 2^{exponent}");
             // Single precision does not hold the others.
             if exponent < 100 && exponent > -100 {
-                let depths = plain.2.depth.iter().map(|&depth| depth * factor as f32);
+                let depths = plain.2.depth.iter().map(|&depth| depth * factor);
                 assert!(depths.eq(same.2.depth.iter().copied()), "{camera:?}: 2^{exponent}");
             }
         }

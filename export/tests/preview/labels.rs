@@ -129,7 +129,7 @@ fn scale_bar_on(mesh: &Mesh, options: &PreviewOptions) -> (f64, f64) {
     let [plain, barred] = [false, true].map(|scale_bar| draw(mesh, &PreviewOptions { scale_bar, ..*options }));
     let changed = differences(&plain, &barred);
     let lowest = around(&changed)[1][1];
-    // Through the bar, which is 7 pixels high with a rim of 1.2: below any text.
+    // Through the bar, which is 7 pixels high with a rim of 1.2 around it: below any text.
     let bar: Vec<_> = changed.iter().copied().filter(|at| at[1] == lowest - 4).collect();
     let [min, max] = around(&bar);
     let per_unit = match options.camera {
@@ -142,7 +142,7 @@ fn scale_bar_on(mesh: &Mesh, options: &PreviewOptions) -> (f64, f64) {
             1.0 / (pixel * depth)
         }
     };
-    (f64::from(max[0] - min[0] + 1) - 2.4, per_unit)
+    (f64::from(max[0] - min[0] + 1), per_unit)
 }
 
 /// A scale bar is 1, 2 or 5 times a power of ten units long, and takes up about a fifth of the picture.

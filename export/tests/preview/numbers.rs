@@ -15,13 +15,13 @@ fn buffers(mesh: &Mesh, options: &PreviewOptions) -> Buffers {
 }
 
 /// The texts `near` and `far` of a picture of depth, and its greys.
-fn decoded(png: &[u8]) -> ([f32; 2], Vec<u16>) {
+fn decoded(png: &[u8]) -> ([f64; 2], Vec<u16>) {
     let reader = png::Decoder::new(Cursor::new(png)).read_info().expect("a PNG");
     let info = reader.info();
     assert_eq!((info.color_type, info.bit_depth), (png::ColorType::Grayscale, png::BitDepth::Sixteen));
     let text = |key: &str| {
         let chunk = info.uncompressed_latin1_text.iter().find(|chunk| chunk.keyword == key).expect("a text");
-        chunk.text.parse::<f32>().expect("a number")
+        chunk.text.parse::<f64>().expect("a number")
     };
     let range = [text("near"), text("far")];
     let DynamicImage::ImageLuma16(greys) = image::load_from_memory(png).expect("a PNG") else {
@@ -42,7 +42,7 @@ fn pictures_of_depth_hold_the_depths() {
             let range = f64::from(far) - f64::from(near);
             assert!(range > 0.0 && greys.contains(&0) && greys.contains(&65_534) && greys.contains(&65_535));
             for (&depth, &grey) in found.depth.iter().zip(&greys) {
-                if depth == f32::INFINITY {
+                if depth == f64::INFINITY {
                     assert_eq!(grey, 65_535);
                 } else {
                     let told = f64::from(near) + range * f64::from(grey) / 65_534.0;

@@ -1,13 +1,15 @@
 //! Hatching of cut faces, as in drawings (ISO 128-50): parallel fine lines, in another direction for each material.
 
+use std::f32::consts::FRAC_1_SQRT_2;
+
 /// Distance between the lines and their width in a picture whose shorter side is 960 pixels, in pixels.
 const SPACING: f32 = 12.0;
 const WIDTH: f32 = 1.1;
 
 /// Unit normals of the lines: 45 degrees one way and the other, then steeper and flatter ones.
 const NORMALS: [[f32; 2]; 6] = [
-    [0.707_107, 0.707_107],
-    [0.707_107, -0.707_107],
+    [FRAC_1_SQRT_2, FRAC_1_SQRT_2],
+    [FRAC_1_SQRT_2, -FRAC_1_SQRT_2],
     [0.5, 0.866_025],
     [0.5, -0.866_025],
     [0.866_025, 0.5],
