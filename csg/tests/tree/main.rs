@@ -22,4 +22,5 @@ mod algebra;
 mod edge_cases;
 mod random;
 mod regressions;
+mod touching;
 mod volume;
