@@ -84,6 +84,11 @@ impl Gauge {
         }
         for edges in edges {
             let edges = &corners.edges[edges.start as usize..edges.end as usize];
+            // where one neighbour is missing, a climb may end below the largest value, and a point beyond pass for one inside
+            debug_assert!(
+                edges.iter().all(|plane| face_of[plane.0].is_some()),
+                "an edge without a face on its other side"
+            );
             gauge.neighbours.extend(edges.iter().filter_map(|plane| face_of[plane.0]));
             gauge.starts.push(gauge.neighbours.len() as u32);
         }

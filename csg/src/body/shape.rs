@@ -33,7 +33,7 @@ pub(super) struct Face {
 pub(super) struct Corners {
     /// The different corners.
     pub(super) different: Vec<Corner>,
-    /// Face by face the numbers of its corners, and the planes of its edges.
+    /// Face by face the numbers of its corners, and the planes of its edges: those of the neighbouring faces.
     pub(super) numbers: Vec<u32>,
     pub(super) edges: Vec<PlaneIdx>,
     /// The plane of each face.

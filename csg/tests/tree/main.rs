@@ -24,4 +24,5 @@ mod cutaway;
 mod edge_cases;
 mod random;
 mod regressions;
+mod touching;
 mod volume;

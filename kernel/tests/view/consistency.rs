@@ -38,7 +38,13 @@ pub(crate) fn compare_with_facets(polytope: &IncrementalPolytope) -> Result<(), 
     let facets = polytope.facets();
     let mut points = BTreeSet::new();
     let mut ends_of_edges = 0;
+    let across: BTreeMap<PlaneIdx, BTreeSet<PlaneIdx>> =
+        facets.iter().map(|(plane, edges)| (*plane, edges.iter().flatten().copied().collect())).collect();
     for (plane, edges) in &facets {
+        for edge in edges.iter().flatten() {
+            let sees_back = across.get(edge).is_some_and(|back| back.contains(plane));
+            agree(&format!("{edge:?}, across an edge of the facet {plane:?}, sees it"), sees_back, true)?;
+        }
         ends_of_edges += edges.iter().flatten().count();
         for (k, edge) in edges.iter().enumerate() {
             if let (Some(a), Some(b)) = (edge, edges[(k + 1) % edges.len()]) {

@@ -23,7 +23,7 @@ pub struct Face {
 /// An edge of a facet and the corner at its end; see [`IncrementalPolytope::for_each_facet`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct FacetEdge {
-    /// The plane on the other side of the edge; `None` for an infinity plane.
+    /// The plane of the facet on the other side of the edge; `None` for an infinity plane.
     pub plane: Option<PlaneIdx>,
     /// A number that the facets at a corner share where exactly three planes make it, below
     /// [`corner_bound`](IncrementalPolytope::corner_bound); `None` where an edge of no length was left out.
@@ -63,7 +63,8 @@ impl IncrementalPolytope {
     }
 
     /// The faces that have an area, exactly: for each its plane and the planes of its edges, counter-clockwise seen from
-    /// outside. Edges of exactly zero length are left out; the tolerance takes no part. Corner `i` is where the plane and
+    /// outside. Each edge is named by the facet on its other side: planes that merely touch are nowhere named. Edges of
+    /// exactly zero length are left out; the tolerance takes no part. Corner `i` is where the plane and
     /// the edge planes `i` and `i + 1` meet, right-handed in this order. Infinity planes are `None`.
     #[must_use]
     pub fn facets(&self) -> Vec<(PlaneIdx, Vec<Option<PlaneIdx>>)> {
@@ -74,17 +75,33 @@ impl IncrementalPolytope {
 
     /// Calls `visit` for each of the [`facets`](Self::facets), without making a list of each.
     pub fn for_each_facet(&self, mut visit: impl FnMut(PlaneIdx, &[FacetEdge])) {
-        let (mut edges, mut facet) = (Vec::new(), Vec::new());
+        // which faces are slivers is known once all were looked at
+        let half_edges = 3 * self.vertices.slot_count();
+        let (mut edges, mut ends, mut slivers) = (Vec::with_capacity(half_edges), Vec::new(), Slivers::default());
         for plane in self.planes.faces().filter(|plane| !self.is_empty() && !is_infinity(*plane)) {
+            let start = edges.len();
             self.exact_edges(plane, &mut edges);
-            if edges.len() < 3 {
-                continue;
+            match edges[start..] {
+                [] | [_] => edges.truncate(start),
+                [one, other] => {
+                    slivers.add(plane, [one.plane, other.plane]);
+                    edges.truncate(start);
+                }
+                _ => ends.push((plane, edges.len())),
             }
+        }
+        let (mut start, mut facet) = (0, Vec::new());
+        for (plane, end) in ends {
+            let edges = &edges[start..end];
+            start = end;
             facet.clear();
             facet.extend((0..edges.len()).map(|k| {
                 let (edge, next) = (&edges[k], &edges[(k + 1) % edges.len()]);
-                let plane = (!is_infinity(edge.plane)).then(|| external(edge.plane));
-                FacetEdge { plane, corner: (edge.end == next.start).then_some(edge.end as usize) }
+                let across = slivers.beyond(plane, edge.plane);
+                FacetEdge {
+                    plane: (!is_infinity(across)).then(|| external(across)),
+                    corner: (edge.end == next.start).then_some(edge.end as usize),
+                }
             }));
             visit(external(plane), &facet);
         }
@@ -103,9 +120,8 @@ impl IncrementalPolytope {
         edges.into_iter().map(|edge| edge.plane).collect()
     }
 
-    /// Replaces what is in a list by a face's edges in order, without those of exactly no length.
+    /// Adds a face's edges in order, without those of exactly no length.
     fn exact_edges(&self, plane: u32, edges: &mut Vec<FaceEdge>) {
-        edges.clear();
         for (vertex, k) in self.vertices.face_corners(plane, self.planes.face_vertex(plane)) {
             // the edge from this vertex (plane, p, q) to the next lies on q
             let planes = self.vertices.planes(vertex);
@@ -119,8 +135,35 @@ impl IncrementalPolytope {
 }
 
 /// An edge of a stored face, its ends as slots.
+#[derive(Clone, Copy)]
 struct FaceEdge {
     plane: u32,
     start: u32,
     end: u32,
+}
+
+/// The faces without area that have two edges of the same length: their planes touch in an edge, between two facets or with
+/// more of their kind. What is seen from a facet across its edge lies beyond them.
+#[derive(Default)]
+struct Slivers {
+    /// By plane, ascending, the planes across both edges.
+    sides: Vec<(u32, [u32; 2])>,
+}
+
+impl Slivers {
+    /// Adds the next one; planes are given in ascending order.
+    fn add(&mut self, plane: u32, sides: [u32; 2]) {
+        self.sides.push((plane, sides));
+    }
+
+    /// The plane that is seen beyond an edge from one of two neighbouring planes to the other.
+    fn beyond(&self, mut from: u32, mut plane: u32) -> u32 {
+        // a chain of slivers, each passed from edge to edge, ends at a facet; none comes twice
+        for _ in 0..self.sides.len() {
+            let Ok(found) = self.sides.binary_search_by_key(&plane, |sliver| sliver.0) else { break };
+            let [one, other] = self.sides[found].1;
+            (from, plane) = (plane, if one == from { other } else { one });
+        }
+        plane
+    }
 }
