@@ -53,7 +53,7 @@ fn compare(mesh: &Mesh, seen: &Seen, found: &Buffers, nearer: f64, margin: f64, 
             continue;
         }
         counts[0] += 1;
-        let (depth, face) = (f64::from(found.depth[index]) + nearer, found.faces[index]);
+        let (depth, face) = (found.depth[index] + nearer, found.faces[index]);
         let Some((nearest, expected)) = hits.nearest() else {
             assert_eq!(face, None, "{what}: pixel {x}, {y} shows a face instead of nothing");
             assert_eq!(found.depth[index], f64::INFINITY, "{what}: pixel {x}, {y} has a depth");
@@ -84,7 +84,7 @@ fn orthographic_buffers_agree_with_every_triangle_at_every_pixel() {
             // Where the plane through the eye lies is not said, other than in front of all.
             let first = places(width, height).zip(&found.depth).find_map(|([x, y], &depth)| {
                 let hits = hits(&mesh, &seen, DVec2::new(x.into(), y.into()) + 0.5);
-                (hits.from_edge > 0.2).then(|| hits.nearest()).flatten().map(|(nearest, _)| nearest - f64::from(depth))
+                (hits.from_edge > 0.2).then(|| hits.nearest()).flatten().map(|(nearest, _)| nearest - depth)
             });
             let nearer = first.expect("something is seen");
             let [compared, shown] = compare(&mesh, &seen, &found, nearer, 1e-3, &what);
@@ -150,7 +150,7 @@ fn nearness_is_linear_across_a_face() {
             }
             worst
         };
-        let [depth, nearness] = [bends(f64::from), bends(|depth| 1.0 / f64::from(depth))];
+        let [depth, nearness] = [bends(|depth| depth), bends(|depth| 1.0 / depth)];
         match camera {
             CameraKind::Perspective => assert!(nearness < 1e-5 && depth > 1e-4, "{nearness}, {depth}"),
             CameraKind::Orthographic => assert!(depth < 1e-5 && nearness > 1e-4, "{nearness}, {depth}"),

@@ -66,7 +66,6 @@ pub(crate) fn eye_of(mesh: &Mesh, options: &PreviewOptions, found: &Buffers) -> 
     let equations: Vec<(DVec4, f64)> = seen
         .filter_map(|([x, y], (face, &depth))| {
             let (normal, distance) = plane((*face)?);
-            let depth = f64::from(depth);
             let across = DVec2::new(f64::from(x) + 0.5 - half.x, half.y - f64::from(y) - 0.5) * depth;
             let sideways = axes.x_axis * across.x + axes.y_axis * across.y;
             Some((normal.extend(normal.dot(sideways)), distance - depth * normal.dot(axes.z_axis)))
