@@ -24,10 +24,10 @@ pub struct Buffers {
     pub faces: Vec<Option<u32>>,
 }
 
-/// The depth and the faces of the picture that [`render`](super::render) draws with the same options.
+/// The depth and the faces of the picture that [`render`](crate::render) draws with the same options.
 ///
 /// # Errors
-/// As [`render`](super::render).
+/// As [`render`](crate::render).
 pub fn render_buffers(subject: &Subject<'_>, options: &PreviewOptions) -> Result<Buffers, ExportError> {
     options.check()?;
     let mesh = subject.as_mesh();

@@ -23,7 +23,7 @@ impl<'a> Turntable<'a> {
     /// edge.
     ///
     /// # Errors
-    /// As [`render`](super::render).
+    /// As [`render`](crate::render).
     pub fn new(subject: &'a Subject<'a>, options: &PreviewOptions, frames: u32) -> Result<Self, ExportError> {
         options.check()?;
         let options = PreviewOptions { dimensions: false, ..*options };
@@ -43,7 +43,7 @@ impl<'a> Turntable<'a> {
     /// The picture of one step, counted from 0. The model turns counter-clockwise as seen from above.
     ///
     /// # Errors
-    /// As [`render`](super::render).
+    /// As [`render`](crate::render).
     pub fn frame(&self, number: u32) -> Result<Picture, ExportError> {
         let PreviewOptions { azimuth, elevation, .. } = self.options;
         let azimuth = azimuth - 360.0 * f64::from(number) / f64::from(self.frames.max(1));
