@@ -59,7 +59,7 @@ fn the_largest_examples_come_back_from_every_format() {
     comes_back(examples().into_iter().filter(|model| LARGE.iter().any(|name| model.ends_with(format!("{name}.json")))));
 }
 
-/// OpenSCAD's trees, where they are: the thirty smallest files that hold something.
+/// OpenSCAD's trees, where they are: the thirty that hold something and have the fewest triangles.
 #[test]
 fn trees_of_openscad_come_back() {
     let folders = ["examples", "prusa", "nopscadlib", "dotscad", "bosl2"];
@@ -71,12 +71,14 @@ fn trees_of_openscad_come_back() {
         println!("skipped: no trees in {}", folders[0].display());
         return;
     }
-    trees.sort_by_key(|path| (std::fs::metadata(path).map_or(0, |metadata| metadata.len()), path.clone()));
-    let is_solid = |path: &PathBuf| {
+    let triangles = |path: &PathBuf| {
         let info = planecut(["info".as_ref(), path.as_os_str(), "--quiet".as_ref()]);
-        info.status == 0 && info.json()["mesh"]["triangles"].as_u64().is_some_and(|count| count > 0)
+        let count = if info.status == 0 { info.json()["mesh"]["triangles"].as_u64() } else { None };
+        count.filter(|count| *count > 0)
     };
-    comes_back(trees.into_iter().filter(is_solid).take(30));
+    let mut trees: Vec<(u64, PathBuf)> = trees.into_iter().filter_map(|path| Some((triangles(&path)?, path))).collect();
+    trees.sort();
+    comes_back(trees.into_iter().map(|(_, path)| path).take(30));
 }
 
 #[test]
