@@ -9,13 +9,12 @@ use planecut::export::{ExportOptions, distinct_color};
 use planecut::import::Warning;
 use planecut::import::mesh::{MeshImport, read_parts};
 use planecut::kernel::DVec3;
-use rayon::prelude::*;
 
 use super::args::CoarsenArgs;
 use super::error::CliError;
 use super::input::{Input, InputKind};
 use super::output::{MeshTarget, Output, Target, check_targets};
-use super::pieces::{NUMBER, Pieces, bounded_tree};
+use super::pieces::{NUMBER, Pieces, bounded_tree, brush_meshes};
 use super::product::{Contents, Product, draw, encode, first_written, produce};
 use super::progress::Progress;
 use super::report::{CoarsenPart, milliseconds};
@@ -141,11 +140,7 @@ impl<'a> Plan<'a> {
 
     /// The mesh of each cell that has one, and the same cells as bodies: what is thinner than rounding has none, and gets no number in any format.
     fn cells(&self, coarsened: &Coarsened, solved: &Solved) -> Result<(Pieces, Vec<Brush>), CliError> {
-        let mesh = |cell: &Brush| -> Result<Mesh, EvaluateError> {
-            let model = Model { materials: solved.model.materials.clone(), tree: cell.clone().into() };
-            Ok(evaluate(&model)?.mesh)
-        };
-        let meshes: Result<Vec<Mesh>, EvaluateError> = coarsened.cells.par_iter().map(mesh).collect();
+        let meshes = brush_meshes(&coarsened.cells, &solved.model.materials);
         let meshes = meshes.map_err(|source| CliError::of_evaluation(&self.input.path, source))?;
         let cells = meshes.into_iter().zip(coarsened.cells.iter().cloned());
         let (meshes, bodies) = cells.filter(|(mesh, _)| !mesh.triangles.is_empty()).unzip();

@@ -4,8 +4,9 @@ use std::borrow::Cow;
 use std::time::Instant;
 
 use planecut::csg::check::check_topology;
-use planecut::csg::{Brush, EvaluateError, FaceSource, Mesh, Model, Solid, Tree, evaluate_with};
+use planecut::csg::{Brush, EvaluateError, FaceSource, Material, Mesh, Model, Solid, Tree, evaluate, evaluate_with};
 use planecut::export::Part;
+use rayon::prelude::*;
 
 use super::error::CliError;
 use super::input::{Input, InputKind};
@@ -86,6 +87,18 @@ impl Pieces {
         }
         MeshPart::of_solid(&check_topology(&positions, &triangles), faces)
     }
+}
+
+/// The mesh of each brush by itself, in their order.
+///
+/// # Errors
+/// As [`evaluate`].
+pub(crate) fn brush_meshes(brushes: &[Brush], materials: &[Material]) -> Result<Vec<Mesh>, EvaluateError> {
+    let mesh = |brush: &Brush| {
+        let model = Model { materials: materials.to_vec(), tree: brush.clone().into() };
+        Ok(evaluate(&model)?.mesh)
+    };
+    brushes.par_iter().map(mesh).collect()
 }
 
 /// The solid as convex bodies: the brushes of a union as they are, else disjoint cells.

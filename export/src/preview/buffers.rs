@@ -1,12 +1,12 @@
 //! What pipelines want to know of a picture: how far away the surface is at each pixel, and which face it is.
 
-use image::codecs::png::{CompressionType, FilterType, PngEncoder};
-use image::{ExtendedColorType, ImageEncoder};
+use image::ExtendedColorType;
 
 use crate::ExportError;
 use crate::check::check_mesh;
 use crate::preview::framing;
 use crate::preview::options::PreviewOptions;
+use crate::preview::picture::encode_png;
 use crate::preview::raster::{NO_FACE, Raster, Triangles};
 use crate::preview::subject::Subject;
 
@@ -107,10 +107,6 @@ impl Buffers {
             }
             bytes.extend_from_slice(&(value as u32).to_be_bytes()[1..]);
         }
-        let mut png = Vec::new();
-        PngEncoder::new_with_quality(&mut png, CompressionType::Level(4), FilterType::Adaptive)
-            .write_image(&bytes, self.width, self.height, ExtendedColorType::Rgb8)
-            .map_err(|error| ExportError::Encode { format: "PNG", message: error.to_string() })?;
-        Ok(png)
+        encode_png(&bytes, [self.width, self.height], ExtendedColorType::Rgb8)
     }
 }

@@ -10,6 +10,7 @@ use glam::{DMat3, DVec3};
 
 use crate::preview::lens::{Lens, ORTHOGRAPHIC_DISTANCE, ScreenPoint};
 use crate::preview::options::{CameraKind, PreviewOptions};
+use crate::preview::subject::{box_around, middle};
 
 /// Tangent of half the view angle along the shorter side of the picture, the longer side gets more.
 const HALF_VIEW_TANGENT: f64 = 0.25;
@@ -52,10 +53,8 @@ impl Camera {
     ///
     /// `None` when the points have no extent.
     pub(super) fn framing(points: &[DVec3], options: &PreviewOptions) -> Option<Self> {
-        let first = *points.first()?;
-        let (min, max) = points.iter().fold((first, first), |(min, max), &p| (min.min(p), max.max(p)));
-        // Halved before subtracting, so that no finite box overflows.
-        let (center, half) = (min * 0.5 + max * 0.5, max * 0.5 - min * 0.5);
+        let bounds @ [min, max] = box_around(points.iter().copied())?;
+        let (center, half) = (middle(bounds), max * 0.5 - min * 0.5);
         let largest = half.max_element();
         // Scaled before the length is taken: squares of tiny or huge extents leave the range of numbers.
         let per_radius = 1.0 / ((half / largest).length() * largest);
@@ -95,9 +94,8 @@ impl Camera {
     }
 
     fn frame_in_parallel(&mut self, points: &[DVec3], half_size: [f64; 2], fill: f64) {
-        let first = points.first().map_or(DVec3::ZERO, |&point| self.to_view(point));
         let seen = points.iter().map(|&point| self.to_view(point));
-        let (min, max) = seen.fold((first, first), |(min, max), p| (min.min(p), max.max(p)));
+        let [min, max] = box_around(seen).unwrap_or_default();
         let extent = max - min;
         let pixel = (extent.x / half_size[0]).max(extent.y / half_size[1]) / (2.0 * fill);
         // What has no extent across the view is small, not infinitely large.
@@ -178,19 +176,23 @@ impl Camera {
 
 /// World directions of the view axes, as columns; angles in degrees.
 fn view_axes(azimuth: f64, elevation: f64) -> DMat3 {
+    let [right, towards_eye] = view_directions(azimuth, elevation);
+    DMat3::from_cols(right, towards_eye.cross(right), -towards_eye)
+}
+
+/// World directions to the right of the picture and towards the eye; angles in degrees.
+pub(super) fn view_directions(azimuth: f64, elevation: f64) -> [DVec3; 2] {
     // The functions of a crate, not those of the system: pictures are the same on all machines.
     let (azimuth_sine, azimuth_cosine) = libm::sincos(azimuth.to_radians());
     let (rise, reach) = libm::sincos(elevation.clamp(-90.0, 90.0).to_radians());
     let towards_eye = DVec3::new(reach * azimuth_cosine, reach * azimuth_sine, rise);
-    let right = DVec3::new(-azimuth_sine, azimuth_cosine, 0.0);
-    DMat3::from_cols(right, towards_eye.cross(right), -towards_eye)
+    [DVec3::new(-azimuth_sine, azimuth_cosine, 0.0), towards_eye]
 }
 
 /// Rings that enclose all points however they are turned about the vertical through the middle of their box.
 fn rings_around(points: &[DVec3]) -> Vec<DVec3> {
-    let Some(&first) = points.first() else { return Vec::new() };
-    let (min, max) = points.iter().fold((first, first), |(min, max), &p| (min.min(p), max.max(p)));
-    let middle = min * 0.5 + max * 0.5;
+    let Some(bounds @ [min, max]) = box_around(points.iter().copied()) else { return Vec::new() };
+    let middle = middle(bounds);
     let height = (max.z - min.z).max(f64::MIN_POSITIVE);
     let mut radii = [0.0_f64; RINGS];
     for point in points {

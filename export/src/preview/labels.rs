@@ -7,7 +7,7 @@ use crate::preview::canvas::overlay::{Align, Color, Overlay, TextStyle};
 use crate::preview::canvas::text::text_width;
 use crate::preview::options::{Background, PreviewOptions};
 use crate::preview::picture::Picture;
-use crate::preview::scene::Scene;
+use crate::preview::subject::Subject;
 use crate::preview::{box_corners, scale_of};
 use crate::{ExportError, Unit};
 
@@ -35,7 +35,8 @@ struct Inks {
 /// [`ExportError::ImageSize`]; never expected.
 pub(super) fn draw_labels(
     picture: &mut Picture,
-    scene: &Scene<'_>,
+    subject: &Subject<'_>,
+    camera: &Camera,
     options: &PreviewOptions,
 ) -> Result<(), ExportError> {
     if !options.has_labels() {
@@ -48,10 +49,10 @@ pub(super) fn draw_labels(
     let overlay = Overlay::new(options.width, options.height)?;
     let mut labels = Labels { overlay, inks, scale: scale_of(options.size()).max(0.4), unit: options.unit };
     if options.dimensions {
-        labels.dimensions(scene);
+        labels.dimensions(subject, camera);
     }
     if options.scale_bar {
-        labels.scale_bar(&scene.camera, options);
+        labels.scale_bar(camera, options);
     }
     labels.overlay.draw_onto(picture);
     Ok(())
@@ -67,11 +68,11 @@ struct Labels {
 
 impl Labels {
     /// The extents of the model along the axes, each at an edge of its box that stands out on the picture.
-    fn dimensions(&mut self, scene: &Scene<'_>) {
-        let Some(bounds) = scene.bounds else { return };
+    fn dimensions(&mut self, subject: &Subject<'_>, camera: &Camera) {
+        let Some(bounds) = subject.bounds() else { return };
         let corners = box_corners(bounds);
         let extent = bounds[1] - bounds[0];
-        let seen = corners.map(|corner| scene.camera.see(corner).place());
+        let seen = corners.map(|corner| camera.see(corner).place());
         let middle = seen.iter().sum::<Vec2>() / 8.0;
         for axis in 0..3 {
             if extent[axis] <= 0.0 {

@@ -86,7 +86,7 @@ fn draw(subject: &Subject<'_>, camera: Option<Camera>, options: &PreviewOptions)
     };
     let scene = Scene::new(subject, camera, look);
     let mut picture = Picture { width, height, pixels: draw_scene(&scene, size) };
-    draw_labels(&mut picture, &scene, options)?;
+    draw_labels(&mut picture, subject, &scene.camera, options)?;
     Ok(picture)
 }
 

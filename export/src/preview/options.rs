@@ -1,5 +1,8 @@
 //! What to draw a preview like.
 
+use glam::DVec3;
+
+use crate::preview::camera::view_directions;
 use crate::preview::style::PreviewStyle;
 use crate::{ExportError, Unit};
 
@@ -53,6 +56,19 @@ pub struct PreviewOptions {
     pub unit: Option<Unit>,
 }
 
+/// Sees that a picture of some width and height can be made.
+///
+/// # Errors
+/// [`ExportError::ImageSize`].
+pub(super) fn check_size([width, height]: [u32; 2]) -> Result<(), ExportError> {
+    let sides = 1..=MAX_IMAGE_SIDE;
+    if sides.contains(&width) && sides.contains(&height) {
+        Ok(())
+    } else {
+        Err(ExportError::ImageSize { width, height })
+    }
+}
+
 impl Default for PreviewOptions {
     /// A shaded three-quarter view from above, 1280 × 960.
     fn default() -> Self {
@@ -72,16 +88,19 @@ impl Default for PreviewOptions {
 }
 
 impl PreviewOptions {
+    /// Unit direction from the model to the camera.
+    #[must_use]
+    pub fn towards_camera(&self) -> DVec3 {
+        view_directions(self.azimuth, self.elevation)[1]
+    }
+
     /// Sees that all numbers can be used.
     ///
     /// # Errors
     /// [`ExportError::ImageSize`], [`ExportError::CameraAngle`].
     pub(super) fn check(&self) -> Result<(), ExportError> {
         let Self { width, height, azimuth, elevation, .. } = *self;
-        let sides = 1..=MAX_IMAGE_SIDE;
-        if !(sides.contains(&width) && sides.contains(&height)) {
-            return Err(ExportError::ImageSize { width, height });
-        }
+        check_size([width, height])?;
         match [azimuth, elevation].into_iter().find(|angle| !angle.is_finite()) {
             Some(angle) => Err(ExportError::CameraAngle(angle)),
             None => Ok(()),

@@ -27,21 +27,15 @@ impl Picture {
     /// # Errors
     /// [`ExportError::Encode`] if the number of pixels does not belong to the width and height, or either is 0.
     pub fn to_png(&self) -> Result<Vec<u8>, ExportError> {
-        let unusable = |message| ExportError::Encode { format: "PNG", message };
         if !self.is_complete() {
-            return Err(unusable(self.mismatch()));
+            return Err(ExportError::Encode { format: "PNG", message: self.mismatch() });
         }
         let rgb = self.is_opaque().then(|| self.rgb());
         let (pixels, color) = match &rgb {
             Some(rgb) => (rgb, ExtendedColorType::Rgb8),
             None => (&self.pixels, ExtendedColorType::Rgba8),
         };
-        let mut png = Vec::new();
-        // A tenth of the time of the best compression, for 7 % more bytes.
-        PngEncoder::new_with_quality(&mut png, CompressionType::Level(4), FilterType::Adaptive)
-            .write_image(pixels, self.width, self.height, color)
-            .map_err(|error| unusable(error.to_string()))?;
-        Ok(png)
+        encode_png(pixels, [self.width, self.height], color)
     }
 
     /// One colour all over.
@@ -80,6 +74,23 @@ impl Picture {
     pub(super) fn rgb(&self) -> Vec<u8> {
         self.pixels.as_chunks::<4>().0.iter().flat_map(|&[r, g, b, _]| [r, g, b]).collect()
     }
+}
+
+/// Pixels of 8 bits per channel as a PNG file.
+///
+/// # Errors
+/// [`ExportError::Encode`]; never expected.
+pub(super) fn encode_png(
+    pixels: &[u8],
+    [width, height]: [u32; 2],
+    color: ExtendedColorType,
+) -> Result<Vec<u8>, ExportError> {
+    let mut png = Vec::new();
+    // A tenth of the time of the best compression, for 7 % more bytes.
+    PngEncoder::new_with_quality(&mut png, CompressionType::Level(4), FilterType::Adaptive)
+        .write_image(pixels, width, height, color)
+        .map_err(|error| ExportError::Encode { format: "PNG", message: error.to_string() })?;
+    Ok(png)
 }
 
 /// A colour on top of another, both with alpha that is not premultiplied.

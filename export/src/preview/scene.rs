@@ -25,8 +25,6 @@ pub(super) struct Scene<'a> {
     pub(super) shades: Vec<Shade>,
     /// For each material a number where its faces are hatched: materials of different numbers are told apart.
     pub(super) hatches: Vec<Option<u32>>,
-    /// The box around the subject, in world coordinates, where it is to be known.
-    pub(super) bounds: Option<[DVec3; 2]>,
     /// Unit direction to the key light, in view coordinates.
     pub(super) light: Vec3,
     /// The floor under the model, where the camera looks down on it.
@@ -89,19 +87,7 @@ impl<'a> Scene<'a> {
         let shades = mesh.faces.iter().zip(&normals).map(shade).collect();
         let view: Vec<Vec3> = in_view.iter().map(|p| p.as_vec3()).collect();
         let floor = (look.floor > 0.0).then(|| floor_under(&view, up, &camera)).flatten();
-        Self {
-            mesh,
-            camera,
-            view,
-            screen,
-            normals,
-            shades,
-            hatches,
-            bounds: subject.bounds(),
-            light: lights.key,
-            floor,
-            look,
-        }
+        Self { mesh, camera, view, screen, normals, shades, hatches, light: lights.key, floor, look }
     }
 
     /// The mesh on a picture of `size` samples, with its vertices at `points` of it.

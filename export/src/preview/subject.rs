@@ -37,12 +37,12 @@ impl<'a> Subject<'a> {
     /// `cuts` are hatched.
     #[must_use]
     pub fn of_cells(cells: &[Mesh], spread: f64, cuts: &[MaterialId]) -> Subject<'static> {
-        let boxes: Vec<(DVec3, DVec3)> = cells.iter().filter_map(bounds).collect();
-        let whole = boxes.iter().copied().reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
-        let center = whole.map_or(DVec3::ZERO, middle);
+        let solid = cells.iter().filter(|cell| !cell.triangles.is_empty());
+        let boxes: Vec<[DVec3; 2]> =
+            solid.clone().filter_map(|cell| box_around(cell.positions.iter().copied())).collect();
+        let center = box_around(boxes.iter().flatten().copied()).map_or(DVec3::ZERO, middle);
         let mut mesh = Mesh::default();
         let mut hatched = Vec::new();
-        let solid = cells.iter().filter(|cell| !cell.triangles.is_empty());
         for (number, (cell, own)) in solid.zip(boxes).enumerate() {
             let shift = (middle(own) - center) * spread;
             let (first_vertex, first_face) = (mesh.positions.len() as u32, mesh.faces.len() as u32);
@@ -72,8 +72,7 @@ impl<'a> Subject<'a> {
 
     /// The box around the vertices that triangles use.
     pub(super) fn bounds(&self) -> Option<[DVec3; 2]> {
-        let points = self.mesh.triangles.iter().flatten().map(|&corner| self.mesh.positions[corner as usize]);
-        points.map(|point| [point, point]).reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
+        box_around(self.mesh.triangles.iter().flatten().map(|&corner| self.mesh.positions[corner as usize]))
     }
 
     /// For each material the number of its hatching.
@@ -95,13 +94,12 @@ impl From<Mesh> for Subject<'static> {
     }
 }
 
-fn bounds(mesh: &Mesh) -> Option<(DVec3, DVec3)> {
-    if mesh.triangles.is_empty() {
-        return None;
-    }
-    mesh.positions.iter().map(|&point| (point, point)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+/// The smallest and the largest coordinates of points; `None` where there are none.
+pub(super) fn box_around(points: impl Iterator<Item = DVec3>) -> Option<[DVec3; 2]> {
+    points.map(|point| [point, point]).reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
 }
 
-fn middle((min, max): (DVec3, DVec3)) -> DVec3 {
+/// The middle of a box. Halved before adding, so that no finite box overflows.
+pub(super) fn middle([min, max]: [DVec3; 2]) -> DVec3 {
     min * 0.5 + max * 0.5
 }

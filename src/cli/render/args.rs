@@ -246,14 +246,13 @@ pub(crate) enum Section {
 impl Section {
     /// The half-space to keep of a model between two corners, as the camera sees it.
     pub(crate) fn half_space(self, [min, max]: [DVec3; 2], options: &PreviewOptions) -> Option<HalfSpace> {
-        let (azimuth, elevation) = (options.azimuth.to_radians(), options.elevation.to_radians());
-        let towards_eye = DVec3::new(azimuth.cos() * elevation.cos(), azimuth.sin() * elevation.cos(), elevation.sin());
+        let towards_eye = options.towards_camera();
         let middle = round_middle(min, max);
         let (axis, place) = match self {
             Self::Plane(half_space) => return Some(half_space),
             Self::Axis(axis, place) => (axis, place.unwrap_or(middle[axis])),
             Self::Facing => {
-                let axis = usize::from(azimuth.sin().abs() > azimuth.cos().abs());
+                let axis = usize::from(towards_eye.y.abs() > towards_eye.x.abs());
                 (axis, middle[axis])
             }
         };

@@ -3,11 +3,12 @@
 mod args;
 mod subject;
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use planecut::export::{
-    AnimationFormat, AnimationWriter, Background, PreviewOptions, SheetColors, Tile, Turntable, contact_sheet, render,
-    render_buffers, sheet_layout,
+    AnimationFormat, AnimationWriter, Background, ExportError, Picture, PreviewOptions, SheetColors, Tile, Turntable,
+    contact_sheet, render, render_buffers, sheet_layout,
 };
 use planecut::import::Warning;
 
@@ -124,11 +125,16 @@ impl<'a> Plan<'a> {
             let mut animation = AnimationWriter::new(format, width, height, sequence.frames, sequence.frame_time, out)?;
             // Colours are chosen for all sides of the model.
             let sides = sequence.frames.min(4);
-            for side in 0..sides {
-                animation.learn(&turntable.frame(side * sequence.frames / sides)?);
-            }
+            let samples = (0..sides).map(|side| side * sequence.frames / sides);
+            let drawn = samples.map(|number| Ok((number, turntable.frame(number)?)));
+            let mut drawn = drawn.collect::<Result<BTreeMap<u32, Picture>, ExportError>>()?;
+            drawn.values().for_each(|sample| animation.learn(sample));
             for number in 0..turntable.frames() {
-                animation.frame(&turntable.frame(number)?)?;
+                let frame = match drawn.remove(&number) {
+                    Some(frame) => frame,
+                    None => turntable.frame(number)?,
+                };
+                animation.frame(&frame)?;
             }
             animation.finish()
         })

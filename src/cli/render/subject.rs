@@ -1,18 +1,17 @@
 //! What `render` draws of an input: its mesh, its cells, or what is left of it where it is cut open.
 
 use planecut::csg::{
-    Brush, Cutaway, FaceSource, Material, MaterialId, Mesh, MeshFace, Model, Solid, Tree, evaluate, summarize,
+    Cutaway, FaceSource, Material, MaterialId, Mesh, MeshFace, Model, Solid, Tree, evaluate, summarize,
 };
 use planecut::export::{PreviewOptions, Subject};
 use planecut::import::Warning;
 use planecut::import::mesh::{IndexedMesh, MeshFormat, read_mesh};
 use planecut::kernel::DVec3;
-use rayon::prelude::*;
 
 use super::args::{IdKind, RenderArgs};
 use crate::cli::error::CliError;
 use crate::cli::input::{Input, InputKind};
-use crate::cli::pieces::bounded_tree_of;
+use crate::cli::pieces::{bounded_tree_of, brush_meshes};
 use crate::cli::progress::Progress;
 use crate::cli::solve::{read, solve};
 
@@ -109,10 +108,7 @@ fn inside(
     };
     let cells = if matches!(kind, InputKind::Mesh(_)) && is_union(&model.tree) {
         // A file of convex bodies: they are the cells, even where they overlap.
-        let mesh = |brush: &Brush| {
-            evaluate(&Model { materials: model.materials.clone(), tree: brush.clone().into() }).map(|found| found.mesh)
-        };
-        model.tree.brushes().par_iter().map(mesh).collect::<Result<Vec<Mesh>, _>>()
+        brush_meshes(model.tree.brushes(), &model.materials)
     } else {
         Solid::from_tree(&model.tree).cell_meshes(&model.materials)
     };

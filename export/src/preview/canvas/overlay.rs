@@ -4,7 +4,7 @@ use tiny_skia::{FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, R
 
 use super::text::Face;
 use crate::ExportError;
-use crate::preview::MAX_IMAGE_SIDE;
+use crate::preview::options::{MAX_IMAGE_SIDE, check_size};
 use crate::preview::picture::Picture;
 
 /// Red, green, blue and alpha (sRGB, alpha not premultiplied).
@@ -52,9 +52,8 @@ impl Overlay {
     /// # Errors
     /// [`ExportError::ImageSize`].
     pub(in crate::preview) fn new(width: u32, height: u32) -> Result<Self, ExportError> {
-        let sides = 1..=MAX_IMAGE_SIDE;
-        let pixmap = Pixmap::new(width, height).filter(|_| sides.contains(&width) && sides.contains(&height));
-        let pixmap = pixmap.ok_or(ExportError::ImageSize { width, height })?;
+        check_size([width, height])?;
+        let pixmap = Pixmap::new(width, height).ok_or(ExportError::ImageSize { width, height })?;
         Ok(Self { pixmap, touched: [[u32::MAX, 0]; 2] })
     }
 

@@ -10,7 +10,7 @@ use std::path::Path;
 use self::apng::ApngWriter;
 use self::frames::GifWriter;
 use crate::ExportError;
-use crate::preview::MAX_IMAGE_SIDE;
+use crate::preview::options::check_size;
 use crate::preview::picture::Picture;
 
 /// A format that moves.
@@ -83,10 +83,7 @@ impl<W: Write> AnimationWriter<W> {
         delay_ms: u16,
         out: W,
     ) -> Result<Self, ExportError> {
-        let sides = 1..=MAX_IMAGE_SIDE;
-        if !(sides.contains(&width) && sides.contains(&height)) {
-            return Err(ExportError::ImageSize { width, height });
-        }
+        check_size([width, height])?;
         if frames == 0 {
             return Err(ExportError::FrameCount { found: 0, expected: 1 });
         }

@@ -1,9 +1,9 @@
 //! Contact sheets: several pictures side by side on one, each with its title below.
 
 use crate::ExportError;
-use crate::preview::MAX_IMAGE_SIDE;
 use crate::preview::canvas::overlay::{Align, Color, Overlay, TextStyle};
 use crate::preview::canvas::text::shortened;
+use crate::preview::options::{MAX_IMAGE_SIDE, check_size};
 use crate::preview::picture::Picture;
 
 /// Width and height that a tile should have to one another.
@@ -113,9 +113,7 @@ impl SheetLayout {
 /// [`ExportError::ImageSize`], or [`ExportError::SheetSize`] where there is no tile at all or no room for so many.
 pub fn sheet_layout(count: usize, size: [u32; 2], columns: Option<u32>) -> Result<SheetLayout, ExportError> {
     let [width, height] = size;
-    if size.iter().any(|side| !(1..=MAX_IMAGE_SIDE).contains(side)) {
-        return Err(ExportError::ImageSize { width, height });
-    }
+    check_size(size)?;
     let refused = ExportError::SheetSize { width, height, count, columns };
     // No sheet holds more than a part of that many.
     let count = match u32::try_from(count) {

@@ -7,6 +7,7 @@ use image::codecs::png::PngDecoder;
 use image::{AnimationDecoder, ImageDecoder};
 
 use super::*;
+use crate::preview::MAX_IMAGE_SIDE;
 
 const FORMATS: [AnimationFormat; 2] = AnimationFormat::ALL;
 
