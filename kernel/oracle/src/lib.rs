@@ -31,7 +31,7 @@ pub mod generators;
 mod handles;
 pub mod kernel_calls;
 pub mod outline;
-pub mod random;
+pub use planecut_testkit::random;
 pub mod replay;
 pub mod script;
 pub mod settings;

@@ -1,5 +1,7 @@
 //! A small seeded random number generator, so that a printed seed repeats a test on every machine.
 
+use glam::{DQuat, DVec3};
+
 /// `splitmix64` (Steele, Lea, Flood 2014).
 #[derive(Debug, Clone)]
 pub struct Rng(u64);
@@ -59,6 +61,16 @@ impl Rng {
                 return v.map(|x| x / squared.sqrt());
             }
         }
+    }
+
+    /// A point of the cube `low..high`, component by component.
+    pub fn point(&mut self, low: f64, high: f64) -> DVec3 {
+        DVec3::new(self.float(low, high), self.float(low, high), self.float(low, high))
+    }
+
+    /// A rotation by a uniform angle about a uniform axis.
+    pub fn rotation(&mut self) -> DQuat {
+        DQuat::from_axis_angle(DVec3::from_array(self.direction()).normalize(), self.float(0.0, std::f64::consts::TAU))
     }
 
     /// A non-zero vector of integers in `-reach..=reach`.
