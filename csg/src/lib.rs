@@ -2,7 +2,7 @@
 //!
 //! [`evaluate`] interns the planes of a model ([`PlaneTable`]), builds each brush's body, takes the boundary of the union straight
 //! from brush faces (the skin) and welds it. Boolean operations add no planes, so nothing is ever rounded before the
-//! coordinates of the finished mesh. [`check`] tells whether any mesh is watertight, manifold and free of crossings.
+//! coordinates of the finished mesh.
 //!
 //! ```
 //! use planecut_csg::{Brush, Material, MaterialId, Model, Tree, evaluate};
@@ -26,7 +26,6 @@ mod bounds;
 mod boxes;
 mod brush;
 mod caps;
-pub mod check;
 pub mod coarsen;
 mod collapse;
 mod contract;

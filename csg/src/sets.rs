@@ -24,13 +24,6 @@ impl DisjointSets {
         self.0[a.max(b) as usize] = a.min(b);
     }
 
-    /// Number of sets that hold one of the given elements.
-    ///
-    /// No set may hold both given and other elements: then each set is counted at its root.
-    pub(crate) fn count(&self, elements: impl Iterator<Item = usize>) -> usize {
-        elements.filter(|&i| self.0[i] as usize == i).count()
-    }
-
     /// The number of each element's set, in the order of their least elements, and how many sets there are.
     pub(crate) fn numbered(mut self) -> (Vec<u32>, usize) {
         let mut number = vec![0; self.0.len()];

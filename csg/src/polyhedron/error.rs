@@ -3,7 +3,7 @@
 use planecut_kernel::{DVec3, HalfSpaceError};
 use thiserror::Error;
 
-use crate::check::ContactKind;
+use planecut_check::ContactKind;
 
 /// Why facets bound no solid. Facets and points are numbered as they were given, from 0.
 #[derive(Debug, Clone, PartialEq, Error)]

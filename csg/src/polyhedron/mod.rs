@@ -31,9 +31,9 @@ pub use precision::Precision;
 pub(crate) use sides::cells_within;
 
 use crate::brush::{Brush, MaterialId};
-use crate::check::{CheckOptions, ContactKind, check_mesh};
 use crate::solid::joined;
 use crate::tree::Tree;
+use planecut_check::{CheckOptions, ContactKind, check_mesh};
 use planes::Planes;
 use surface::Surface;
 

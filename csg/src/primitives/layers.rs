@@ -11,9 +11,9 @@ use super::cells::{Side, Surface};
 use super::extruded::{Extrusion, LayerRules, brush_of, ends};
 use super::parameter::{pieces, refuse};
 use crate::brush::{Brush, MaterialId};
-use crate::check::{CheckOptions, check_mesh};
 use crate::outline::largest_coordinate;
 use crate::tree::Tree;
+use planecut_check::{CheckOptions, check_mesh};
 
 /// Of each facet the numbers of its corners, counter-clockwise seen from outside.
 type Facets = Vec<Vec<u32>>;

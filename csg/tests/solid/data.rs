@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use glam::DVec3;
-use planecut_csg::check::check_topology;
+use planecut_check::check_topology;
 use planecut_csg::{Brush, Material, MaterialId, Model, Solid, Tree, evaluate};
 
 use crate::scene::half_space;

@@ -1,8 +1,8 @@
 //! Bodies with planes that touch them without a face of their own: through an edge, or through a corner alone.
 
 use glam::DVec3;
+use planecut_check::check_topology;
 use planecut_csg::Operation::{Difference, Intersection, Union, Xor};
-use planecut_csg::check::check_topology;
 use planecut_csg::primitives::{cone, cylinder, prism, sphere};
 use planecut_csg::{
     Brush, BrushFace, Evaluation, Material, MaterialId, Model, Solid, Transform, Tree, UnboundedBrushes, evaluate_with,
