@@ -67,8 +67,8 @@ impl IncrementalPolytope {
     /// # }
     /// ```
     #[must_use]
-    pub fn clip_ray(&self, origin: DVec3, direction: DVec3) -> Option<ClippedLine> {
-        self.clip(Line { origin, toward: direction, is_segment: false })
+    pub fn clip_ray(&self, origin: impl Into<DVec3>, direction: impl Into<DVec3>) -> Option<ClippedLine> {
+        self.clip(Line { origin: origin.into(), toward: direction.into(), is_segment: false })
     }
 
     /// The part of the segment from `a` (parameter 0) to `b` (parameter 1) that lies in the closed set; `None` where they do
@@ -88,8 +88,8 @@ impl IncrementalPolytope {
     /// # }
     /// ```
     #[must_use]
-    pub fn clip_segment(&self, a: DVec3, b: DVec3) -> Option<ClippedLine> {
-        self.clip(Line { origin: a, toward: b, is_segment: true })
+    pub fn clip_segment(&self, a: impl Into<DVec3>, b: impl Into<DVec3>) -> Option<ClippedLine> {
+        self.clip(Line { origin: a.into(), toward: b.into(), is_segment: true })
     }
 
     fn clip(&self, line: Line) -> Option<ClippedLine> {

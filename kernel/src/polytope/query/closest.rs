@@ -63,7 +63,11 @@ impl IncrementalPolytope {
     /// # }
     /// ```
     #[must_use]
-    pub fn closest_point(&self, point: DVec3) -> Option<ClosestPoint> {
+    pub fn closest_point(&self, point: impl Into<DVec3>) -> Option<ClosestPoint> {
+        self.closest_to(point.into())
+    }
+
+    fn closest_to(&self, point: DVec3) -> Option<ClosestPoint> {
         if self.is_empty() || !point.is_finite() {
             return None;
         }
@@ -97,7 +101,8 @@ impl IncrementalPolytope {
     /// # }
     /// ```
     #[must_use]
-    pub fn distance(&self, point: DVec3) -> f64 {
+    pub fn distance(&self, point: impl Into<DVec3>) -> f64 {
+        let point = point.into();
         if !point.is_finite() {
             return f64::NAN;
         }

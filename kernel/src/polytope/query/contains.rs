@@ -35,7 +35,11 @@ impl IncrementalPolytope {
     /// # }
     /// ```
     #[must_use]
-    pub fn contains(&self, point: DVec3) -> bool {
+    pub fn contains(&self, point: impl Into<DVec3>) -> bool {
+        self.contains_point(point.into())
+    }
+
+    fn contains_point(&self, point: DVec3) -> bool {
         !self.is_empty()
             && point.is_finite()
             && self.face_slots().all(|plane| side_of_point(self.row(plane), point) != Sign::Positive)
@@ -56,7 +60,11 @@ impl IncrementalPolytope {
     /// # }
     /// ```
     #[must_use]
-    pub fn classify(&self, point: DVec3) -> Location {
+    pub fn classify(&self, point: impl Into<DVec3>) -> Location {
+        self.location(point.into())
+    }
+
+    fn location(&self, point: DVec3) -> Location {
         if self.is_empty() || !point.is_finite() {
             return Location::Outside;
         }

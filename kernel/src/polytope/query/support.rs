@@ -59,8 +59,8 @@ impl IncrementalPolytope {
     /// # }
     /// ```
     #[must_use]
-    pub fn support(&self, direction: DVec3) -> Option<Support> {
-        let row = direction_row(direction)?;
+    pub fn support(&self, direction: impl Into<DVec3>) -> Option<Support> {
+        let row = direction_row(direction.into())?;
         Some(self.support_of_row(&row, self.start(&row)))
     }
 
@@ -83,8 +83,8 @@ impl IncrementalPolytope {
     /// # }
     /// ```
     #[must_use]
-    pub fn support_from(&self, direction: DVec3, start: VertexIdx) -> Option<Support> {
-        let row = direction_row(direction)?;
+    pub fn support_from(&self, direction: impl Into<DVec3>, start: VertexIdx) -> Option<Support> {
+        let row = direction_row(direction.into())?;
         let start = if self.vertices.is_live(start.0) { start.0 } else { self.start(&row) };
         Some(self.support_of_row(&row, start))
     }
