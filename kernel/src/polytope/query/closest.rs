@@ -7,9 +7,9 @@
 use dashu_int::IBig;
 use glam::DVec3;
 
-use super::exact::{ExactPoint, integer_row, residual_with_error, side_of_point, square_root_of_quotient};
+use crate::arithmetic::square_root_of_quotient;
 use crate::polytope::{IncrementalPolytope, PlaneIdx, external};
-use crate::sign::Sign;
+use crate::sign::{ExactPoint, Sign, integer_row, residual_with_error, side_of_point};
 
 /// What of the boundary holds a nearest point: the fewest planes whose normals span the way to it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

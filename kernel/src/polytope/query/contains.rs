@@ -2,9 +2,8 @@
 
 use glam::DVec3;
 
-use super::exact::side_of_point;
 use crate::polytope::IncrementalPolytope;
-use crate::sign::Sign;
+use crate::sign::{Sign, side_of_point};
 
 /// Where a point lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

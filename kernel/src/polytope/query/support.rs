@@ -5,13 +5,13 @@ use std::collections::HashSet;
 use dashu_int::IBig;
 use glam::DVec3;
 
-use super::exact::{ExactPoint, integer_row, unit};
+use crate::arithmetic::{big_cross, big_dot, unit_vector};
 use crate::half_space::HalfSpace;
 use crate::meet::meet;
 use crate::polytope::infinity::is_infinity;
 use crate::polytope::store::{BEFORE, NEXT};
 use crate::polytope::{IncrementalPolytope, VertexIdx};
-use crate::sign::{OffsetColumn, Row, Sign, big_cross, big_dot, orient3};
+use crate::sign::{ExactPoint, OffsetColumn, Row, Sign, integer_row, orient3};
 
 /// Where a set lies farthest in a direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -119,7 +119,7 @@ impl IncrementalPolytope {
         let [a, b, c] = planes.map(|plane| integer_row(self.row(plane)));
         let (bc, ca, ab) = (big_cross(&b, &c), big_cross(&c, &a), big_cross(&a, &b));
         let moved = planes.map(|plane| IBig::from(u8::from(is_infinity(plane))));
-        unit(&std::array::from_fn(|k| &moved[0] * &bc[k] + &moved[1] * &ca[k] + &moved[2] * &ab[k]))
+        unit_vector(&std::array::from_fn(|k| &moved[0] * &bc[k] + &moved[1] * &ca[k] + &moved[2] * &ab[k]))
     }
 
     /// Searches the farthest face, which begins at the ideal vertex `top`, for a finite vertex. There is one unless the
