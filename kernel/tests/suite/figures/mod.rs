@@ -3,15 +3,15 @@
 //! Where this fails after a change that is meant, draw them again:
 //! `cargo run -p planecut-kernel --example figures -- docs/figures`.
 
-#[path = "../../examples/figures/body.rs"]
+#[path = "../../../examples/figures/body.rs"]
 mod body;
-#[path = "../../examples/figures/camera.rs"]
+#[path = "../../../examples/figures/camera.rs"]
 mod camera;
-#[path = "../../examples/figures/color.rs"]
+#[path = "../../../examples/figures/color.rs"]
 mod color;
-#[path = "../../examples/figures/scenes/mod.rs"]
+#[path = "../../../examples/figures/scenes/mod.rs"]
 mod scenes;
-#[path = "../../examples/figures/svg.rs"]
+#[path = "../../../examples/figures/svg.rs"]
 mod svg;
 
 use std::collections::BTreeSet;

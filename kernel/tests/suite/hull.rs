@@ -248,7 +248,7 @@ fn a_bipyramid_over_many_points() {
 
 #[test]
 fn what_is_not_accepted() {
-    assert_eq!(hull(&[]).unwrap_err(), HullError::NoInterior { dimension: 0 });
+    assert_eq!(hull::<DVec3>(&[]).unwrap_err(), HullError::NoInterior { dimension: 0 });
     let simplex = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
     assert_eq!(hull(&simplex).map(|p| p.vertex_count()).ok(), Some(4));
     for (bad, finite) in [(f64::NAN, false), (f64::INFINITY, false), (1e300, true), (1e-300, true)] {

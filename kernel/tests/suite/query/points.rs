@@ -6,8 +6,8 @@ use dashu_ratio::RBig;
 use planecut_kernel::{ClosestFeature, DVec3, InteriorPoint, Location, PlaneIdx, Support, VertexIdx};
 use planecut_oracle::random::Rng;
 
-use crate::cases::{self, Case};
-use crate::truth::{
+use super::cases::{self, Case};
+use super::truth::{
     Plane, Vector, closest, contains, dot, faces, is_close, minus, planes, square_root, support, vector, vertices,
 };
 

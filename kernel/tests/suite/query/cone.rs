@@ -3,8 +3,8 @@
 use dashu_ratio::RBig;
 use planecut_kernel::DVec3;
 
-use crate::cases;
-use crate::truth::{Vector, cross, dot, is_zero, planes, solve, subsets};
+use super::cases;
+use super::truth::{Vector, cross, dot, is_zero, planes, solve, subsets};
 
 /// Directions of all extreme rays of a pointed cone, from all pairs of planes.
 fn extreme_rays(normals: &[Vector]) -> Vec<Vector> {

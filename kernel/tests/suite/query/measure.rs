@@ -6,8 +6,8 @@ use dashu_ratio::RBig;
 use planecut_kernel::{DMat3, DVec3, PlaneIdx};
 use planecut_oracle::random::Rng;
 
-use crate::cases::{self, Case, build};
-use crate::truth::{Vector, cross, dot, faces, is_close, minus, planes, rational, square_root, vertices};
+use super::cases::{self, Case, build};
+use super::truth::{Vector, cross, dot, faces, is_close, minus, planes, rational, square_root, vertices};
 
 /// How far off a figure near zero may be, in units of the body.
 const NEAR_ZERO: i32 = -75;

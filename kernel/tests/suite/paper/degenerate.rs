@@ -4,7 +4,7 @@ use planecut_oracle::exact::Coefficients;
 use planecut_oracle::random::Rng;
 use planecut_oracle::settings::first_seed;
 
-use crate::bodies::{CUBE, build, check_history, counts, euler_characteristic, true_counts, without};
+use super::bodies::{CUBE, build, check_history, counts, euler_characteristic, true_counts, without};
 
 /// The corner of the cube all planes below pass through or cut.
 const CORNER: [f64; 3] = [1.0, 1.0, 1.0];

@@ -1,7 +1,5 @@
 //! Arithmetic of about 106 bits: unevaluated sums of two numbers.
 
-use crate::sign::exact_product;
-
 /// An unevaluated sum of two numbers, `|low| ≤ ½ ulp(high)` (Dekker 1971).
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct DoubleDouble {
@@ -69,4 +67,16 @@ impl DoubleDouble {
         let down = self.high + (self.low - error);
         (up == down).then_some(up + 0.0)
     }
+}
+
+/// The product of two numbers as an exact unevaluated sum (Dekker 1971).
+pub(crate) fn exact_product(a: f64, b: f64) -> (f64, f64) {
+    let split = |v: f64| {
+        let t = 134_217_729.0 * v; // 2²⁷ + 1
+        let high = t - (t - v);
+        (high, v - high)
+    };
+    let high = a * b;
+    let ((a1, a0), (b1, b0)) = (split(a), split(b));
+    (high, ((a1 * b1 - high) + a1 * b0 + a0 * b1) + a0 * b0)
 }

@@ -7,7 +7,7 @@ use planecut_oracle::random::Rng;
 use planecut_oracle::settings::first_seed;
 use planecut_oracle::structure::Structure;
 
-use crate::bodies::{build, counts, euler_characteristic, true_counts, without};
+use super::bodies::{build, counts, euler_characteristic, true_counts, without};
 
 /// The paper's sizes (§3.7): each round removes every plane of each once.
 const SIZES: [usize; 4] = [20, 30, 40, 50];
@@ -81,7 +81,7 @@ fn epsilon_sensitivity_analysis() {
 fn edges_between_two_tolerances() {
     let cut = DVec3::new(1.0, 1.0, 0.0);
     let width = 2e-8;
-    let mut planes = crate::bodies::CUBE.to_vec();
+    let mut planes = super::bodies::CUBE.to_vec();
     planes.push([cut.x, cut.y, cut.z, 2.0 - width]);
     let reference = Structure::of_planes(&planes);
     let mut seen = Vec::new();

@@ -2,7 +2,7 @@
 
 use planecut_kernel::{DEFAULT_EPSILON, DVec3, EdgeIdx, EdgeKind, HalfSpace, IncrementalPolytope, PlaneIdx, VertexIdx};
 
-use crate::consistency::{check, compare_with_facets};
+use super::consistency::{check, compare_with_facets};
 
 pub(crate) fn half_space(nx: f64, ny: f64, nz: f64, d: f64) -> HalfSpace {
     HalfSpace::new(DVec3::new(nx, ny, nz), d).expect("an accepted plane")

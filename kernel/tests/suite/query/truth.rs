@@ -5,7 +5,7 @@ use std::array::from_fn;
 use dashu_int::{IBig, UBig, ops::SquareRoot};
 use dashu_ratio::RBig;
 
-use crate::cases::Coefficients;
+use super::cases::Coefficients;
 
 pub(crate) type Vector = [RBig; 3];
 

@@ -4,8 +4,8 @@ use planecut_kernel::{IncrementalPolytope, PlaneIdx};
 use planecut_oracle::random::Rng;
 use planecut_oracle::settings::cases;
 
-use crate::consistency::{check, compare_with_facets};
-use crate::solids::half_space;
+use super::consistency::{check, compare_with_facets};
+use super::solids::half_space;
 
 /// One step of a sequence.
 #[derive(Debug, Clone, Copy)]

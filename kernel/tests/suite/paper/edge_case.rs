@@ -6,7 +6,7 @@ use planecut_oracle::kernel_calls::half_space;
 use planecut_oracle::random::Rng;
 use planecut_oracle::settings::first_seed;
 
-use crate::bodies::{build, check_history, counts, euler_characteristic, true_counts};
+use super::bodies::{build, check_history, counts, euler_characteristic, true_counts};
 
 /// The planes as the paper's code publishes them: two slabs a few hundredths thick, cut by others.
 const PLANES: [Coefficients; 11] = [

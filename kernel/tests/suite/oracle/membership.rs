@@ -11,7 +11,7 @@ use planecut_oracle::replay::Replay;
 use planecut_oracle::settings::{cases, first_seed, operations};
 use planecut_oracle::test_each_category;
 
-use crate::mesh::{Mesh, check_closed, winding_number};
+use super::mesh::{Mesh, check_closed, winding_number};
 
 /// Operations per category unless `PLANECUT_OPS` says otherwise.
 const OPERATIONS: usize = 1_200;

@@ -2,8 +2,8 @@
 
 use planecut_kernel::DVec3;
 
-use crate::cases;
-use crate::truth::{planes, rational, solve, subsets, support, vector};
+use super::cases;
+use super::truth::{planes, rational, solve, subsets, support, vector};
 
 /// Relative to the distance of the planes from each other.
 const TOLERANCE: f64 = 1e-13;
