@@ -78,12 +78,18 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
-/// Trees of set operations, their skin as a mesh and their convex cells, primitives, outlines.
+/// Trees of set operations and all that is made of them: everything of [`planecut_csg`], [`cells`](crate::cells) and
+/// [`shapes`](crate::shapes) under one name.
 pub mod csg {
+    pub use planecut_cells::*;
     pub use planecut_check as check;
     pub use planecut_csg::*;
+    pub use planecut_shapes::*;
 }
+
+pub use planecut_cells as cells;
 pub use planecut_check as check;
 pub use planecut_export as export;
 pub use planecut_import as import;
 pub use planecut_kernel as kernel;
+pub use planecut_shapes as shapes;
