@@ -10,7 +10,8 @@ impl DisjointSets {
         Self((0..count as u32).collect())
     }
 
-    fn root(&mut self, mut i: u32) -> u32 {
+    /// The least element of an element's set.
+    pub fn root(&mut self, mut i: u32) -> u32 {
         while self.0[i as usize] != i {
             let grandparent = self.0[self.0[i as usize] as usize];
             self.0[i as usize] = grandparent;
