@@ -81,7 +81,9 @@ fn outputs_and_warnings_do_not_depend_on_the_comparison() {
             let (files, stderr, report) = written(arguments);
             assert!(files == expected, "{edits}{arguments}");
             assert_eq!(stderr, warnings, "{edits}{arguments}");
-            assert!(report.is_none_or(|report| report["solid"]["volume"].as_f64().is_some_and(|volume| volume <= largest)));
+            assert!(
+                report.is_none_or(|report| report["solid"]["volume"].as_f64().is_some_and(|volume| volume <= largest))
+            );
         }
     }
 }
