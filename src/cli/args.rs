@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use clap::error::ErrorKind;
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, CommandFactory, Parser, Subcommand};
+use clap_complete::Shell;
 use planecut::csg::Tree;
 use planecut::csg::coarsen::{CoarsenOptions, LEAST_MAX_FACES, LEAST_MAX_VERTICES, Side};
 use planecut::export::{MAX_IMAGE_SIDE, PreviewOptions};
@@ -41,6 +42,12 @@ pub(crate) enum Command {
     Coarsen(CoarsenArgs),
     /// Check that a mesh is watertight, manifold and not self-crossing; exit status 1 if not
     Check(CheckArgs),
+    /// Print the JSON Schema of the model file
+    Schema,
+    /// Print a script that completes commands and options in a shell
+    Completions(CompletionsArgs),
+    /// Print the manual page of the program or of a command, or write all of them
+    Man(ManArgs),
 }
 
 /// Arguments of `build`.
@@ -225,6 +232,25 @@ pub(crate) struct CheckArgs {
     pub(crate) common: CommonArgs,
 }
 
+/// Arguments of `completions`.
+#[derive(Debug, Args)]
+pub(crate) struct CompletionsArgs {
+    /// The shell
+    #[arg(value_enum, value_name = "SHELL")]
+    pub(crate) shell: Shell,
+}
+
+/// Arguments of `man`.
+#[derive(Debug, Args)]
+pub(crate) struct ManArgs {
+    /// The command to describe; by default the program as a whole
+    #[arg(value_name = "COMMAND")]
+    pub(crate) command: Option<String>,
+    /// Write all pages to this folder instead: planecut.1, planecut-build.1, …
+    #[arg(long, value_name = "DIR", conflicts_with = "command")]
+    pub(crate) dir: Option<PathBuf>,
+}
+
 /// How to read the input.
 #[derive(Debug, Args)]
 pub(crate) struct ReadingArgs {
@@ -366,6 +392,11 @@ impl Size {
     }
 }
 
+/// The program's arguments as the parser sees them.
+pub(crate) fn command() -> clap::Command {
+    Cli::command()
+}
+
 /// The command to run; `None` where help or the version was asked for and printed.
 pub(crate) fn parse() -> Result<Option<Command>, CliError> {
     match Cli::try_parse() {
@@ -436,8 +467,6 @@ pub(crate) fn parse_size(text: &str) -> Result<Size, String> {
 
 #[cfg(test)]
 mod tests {
-    use clap::CommandFactory;
-
     use super::*;
 
     #[test]
