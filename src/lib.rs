@@ -81,3 +81,8 @@ pub use planecut_csg as csg;
 pub use planecut_export as export;
 pub use planecut_import as import;
 pub use planecut_kernel as kernel;
+
+/// The example of the README, run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}
