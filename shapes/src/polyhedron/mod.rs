@@ -24,7 +24,7 @@ mod sides;
 mod surface;
 
 use planecut_cells::joined;
-use planecut_csg::check::{CheckOptions, ContactKind, check_mesh};
+use planecut_check::{CheckOptions, ContactKind, check_mesh};
 use planecut_csg::{Brush, MaterialId, Tree};
 use planecut_kernel::DVec3;
 
