@@ -1,7 +1,7 @@
 //! Live models against models built anew, edit by edit.
 //!
 //! - [`edits`]: sequences of edits, what they must come to, shrinking and printing them as Rust.
-//! - [`random`]: random sequences; [`cases`]: edits that once went wrong or easily could.
+//! - [`random`]: random sequences, [`large`]: such on brushes of many planes; [`cases`]: edits that once went wrong or easily could.
 
 #[path = "../union/rng.rs"]
 #[allow(dead_code, reason = "shared with the tests of unions")]
@@ -9,4 +9,5 @@ mod rng;
 
 mod cases;
 mod edits;
+mod large;
 mod random;
