@@ -3,17 +3,17 @@
 use planecut_kernel::IncrementalPolytope;
 use rustc_hash::FxHashMap;
 
+use super::LiveModel;
 use super::history::New;
 use super::operand::{Operand, State};
 use super::polytopes::{KeptPolytope, LEAST_PLANES, OUTER_BOX, PLANES_PER_CHANGE};
-use super::LiveModel;
+use crate::base::Bounds;
+use crate::base::map_chunks;
 use crate::body::{Body, BodyFace, BrushBody, built_or_build, mark_of, read};
-use crate::bounds::Bounds;
-use crate::brush::MaterialId;
+use crate::boundary::BoundaryEdge;
 use crate::evaluate::UnboundedBrushes;
-use crate::parallel::map_chunks;
+use crate::model::MaterialId;
 use crate::plane_table::PlaneId;
-use crate::skin::BoundaryEdge;
 use crate::weld::EdgeId;
 
 /// So many brushes are built by several threads.

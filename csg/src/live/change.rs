@@ -7,9 +7,9 @@ use super::operand::{Operand, Role, State};
 use super::planes::{PlaneUse, Settled};
 use super::reach::Reach;
 use super::{BrushId, Change, EditError, LiveModel};
-use crate::brush::Brush;
+use crate::boundary::BoundaryEdge;
 use crate::evaluate::EvaluateError;
-use crate::skin::BoundaryEdge;
+use crate::model::Brush;
 
 impl LiveModel {
     /// Gives brushes other states; gives the ones before.

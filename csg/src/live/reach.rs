@@ -4,9 +4,9 @@ use super::bodies::{MANY, Placed};
 use super::history::New;
 use super::operand::{Operand, Role};
 use super::{LiveModel, body_of};
+use crate::base::Bounds;
 use crate::body::{Body, BodyFace};
-use crate::bounds::Bounds;
-use crate::skin::misses;
+use crate::boundary::misses;
 
 /// How far a change of brushes reaches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -46,7 +46,8 @@ impl LiveModel {
         let is_local = |number: &u32| {
             let operand = self.operand(*number);
             let edited = before.iter().find(|(id, _)| *id == operand.id);
-            let keeps_role = edited.is_none_or(|(_, old)| old.as_ref().is_some_and(|old| old.role == operand.state.role));
+            let keeps_role =
+                edited.is_none_or(|(_, old)| old.as_ref().is_some_and(|old| old.role == operand.state.role));
             keeps_role && self.has_no_equal(operand)
         };
         let few = if changed.len() < MANY { changed } else { &[] };
@@ -82,7 +83,8 @@ impl LiveModel {
             for placed in old {
                 let number = placed.number;
                 let difference = placed.difference.as_ref();
-                let difference = difference.filter(|_| local.contains(&number) && self.has_no_equal(self.operand(number)));
+                let difference =
+                    difference.filter(|_| local.contains(&number) && self.has_no_equal(self.operand(number)));
                 let bodies = [body_of(&self.operands, number), placed.body.as_ref()];
                 match difference {
                     Some(difference) if difference.bounds == Bounds::EMPTY => {}
@@ -93,7 +95,8 @@ impl LiveModel {
                     }
                     None => {
                         for (body, is_last) in bodies.into_iter().zip([reach == Reach::Appended, false]) {
-                            body.into_iter().for_each(|body| self.touch(body, number, &body.bounds, is_last, &mut faces));
+                            body.into_iter()
+                                .for_each(|body| self.touch(body, number, &body.bounds, is_last, &mut faces));
                         }
                         faces.extend(all_of(number));
                     }

@@ -23,13 +23,16 @@ fn lattice_plane(random: &mut Rng) -> Plane {
 
 /// Up to 150 planes of small integers, most of them without a face.
 fn lattice(random: &mut Rng) -> Planes {
-    let mut planes: Planes = [0, 1, 2].iter().flat_map(|axis| {
-        [1.0, -1.0].map(|sign| {
-            let mut normal = [0.0; 3];
-            normal[*axis] = sign;
-            (normal, f64::from(random.integer(2, 4)))
+    let mut planes: Planes = [0, 1, 2]
+        .iter()
+        .flat_map(|axis| {
+            [1.0, -1.0].map(|sign| {
+                let mut normal = [0.0; 3];
+                normal[*axis] = sign;
+                (normal, f64::from(random.integer(2, 4)))
+            })
         })
-    }).collect();
+        .collect();
     let count = random.integer(10, 144);
     planes.extend((0..count).map(|_| lattice_plane(random)));
     planes
@@ -62,7 +65,8 @@ fn over_polygon(random: &mut Rng) -> Planes {
         // the same offset for all, exactly: the apex is a point of all of them
         ([(cosine * 1024.0).round(), (sine * 1024.0).round(), 1024.0 * slope], 2048.0)
     };
-    let ends = [([0.0, 0.0, -1.0], f64::from(random.integer(0, 1))), ([0.0, 0.0, 1.0], f64::from(random.integer(1, 3)))];
+    let ends =
+        [([0.0, 0.0, -1.0], f64::from(random.integer(0, 1))), ([0.0, 0.0, 1.0], f64::from(random.integer(1, 3)))];
     (0..count).map(side).chain(ends).collect()
 }
 

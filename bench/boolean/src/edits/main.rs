@@ -1,5 +1,5 @@
-//! Times edits of live models beside building the same models anew, in one run: on maps, of brushes of many planes, in grids that
-//! grow, and a million times in a row.
+//! Times edits of live models beside building the same models from scratch, in one run: on maps, of brushes of many planes, in
+//! grids that grow, and a million times in a row.
 
 #![forbid(unsafe_code)]
 
@@ -27,7 +27,7 @@ const MAPS: [&str; 3] = ["spacehare/64u_rabbit.map", "romero/e1m1.map", "romero/
 pub(crate) struct Options {
     /// A tenth of the edits, and no million of them.
     is_quick: bool,
-    /// After each edit of a map, compare with the model built anew.
+    /// After each edit of a map, compare with the model built from scratch.
     verifies: bool,
     json: Option<String>,
     markdown: Option<String>,
@@ -98,7 +98,7 @@ fn run(options: &Options) -> Result<(), String> {
             machine::processor(),
             machine::compiler(),
             machine::commit(),
-            if options.verifies { "; every mesh on a map was compared with the one built anew" } else { "" }
+            if options.verifies { "; every mesh on a map was compared with the one built from scratch" } else { "" }
         );
         let parts = [
             ("run", run),
