@@ -20,57 +20,34 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+mod base;
 mod blocks;
 mod body;
-mod bounds;
-mod boxes;
-mod brush;
-mod caps;
+mod boundary;
 pub mod check;
-pub mod coarsen;
-mod collapse;
-mod contract;
-mod corner;
-mod cutaway;
-mod distinct;
 mod evaluate;
 mod expression;
-mod known_planes;
 mod live;
-mod locality;
 mod mesh;
-mod outer;
-pub mod outline;
-mod parallel;
+mod model;
 mod plane_table;
-pub mod polyhedron;
-pub mod primitives;
-mod sets;
-pub mod shaping;
-mod skin;
-mod solid;
-mod source;
-mod sum;
-mod transform;
-mod tree;
+pub mod stages;
 mod weld;
+
+// for `check`, which becomes a crate of its own
+use base::sum;
+use base::union_find as sets;
 
 pub use blocks::{Block, BlockOptions, BlocksError, BlocksSummary, evaluate_in_blocks};
 pub use body::Built;
-pub use brush::{Brush, BrushFace, Material, MaterialId, Model};
-pub use contract::{contract_edges, contract_short_edges};
-pub use cutaway::Cutaway;
 pub use evaluate::{
-    EvaluateError, Evaluation, ModelSummary, SolidMeasures, StageTimes, UnboundedBrushes, evaluate, evaluate_with,
-    summarize,
+    EvaluateError, Evaluation, ModelSummary, StageTimes, UnboundedBrushes, evaluate, evaluate_with, summarize,
 };
 pub use live::{BrushId, Change, Edit, EditError, Edited, FaceId, LiveFace, LiveModel, Role};
-pub use mesh::{Mesh, MeshFace};
-pub use outline::Outline;
+pub use mesh::{Mesh, MeshFace, SolidMeasures, contract_edges, contract_short_edges};
+pub use model::{
+    Brush, BrushFace, Cutaway, FaceSource, Material, MaterialId, Model, Operation, TextureAxes, TextureUnit, Transform,
+    TransformError, Tree, TreeNode, sine_and_cosine,
+};
 pub use plane_table::{PlaneId, PlaneTable, SNAP_TOLERANCE};
-pub use primitives::ShapeError;
-pub use solid::{Cell, CellPlane, CutId, RayHit, Solid};
-pub use source::{FaceSource, TextureAxes, TextureUnit};
-pub use transform::{Transform, TransformError, sine_and_cosine};
-pub use tree::{Operation, Tree, TreeNode};
 pub use weld::WeldError;

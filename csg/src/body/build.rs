@@ -8,11 +8,9 @@ use rayon::prelude::*;
 
 use super::built::{self, BrushShape};
 use super::{Body, BrushBody, Shape};
-use crate::bounds::Bounds;
-use crate::brush::{Brush, BrushFace, MaterialId};
-use crate::locality::renumber_planes;
-use crate::parallel::map_chunks;
-use crate::plane_table::{PlaneId, PlaneTable};
+use crate::base::{Bounds, map_chunks};
+use crate::model::{Brush, BrushFace, MaterialId};
+use crate::plane_table::{PlaneId, PlaneTable, renumber_planes};
 
 /// Bodies that are built in a row have at least about so many planes.
 const PLANES_OF_CHUNK: usize = 100;

@@ -7,8 +7,8 @@ use planecut_kernel::{HalfSpace, IncrementalPolytope};
 
 use super::Shape;
 use super::build::least_of_chunk;
-use crate::brush::{Brush, BrushFace};
-use crate::parallel::map_chunks;
+use crate::base::map_chunks;
+use crate::model::{Brush, BrushFace};
 use crate::plane_table::half_space_of;
 
 /// What a brush is, in numbers of its own.

@@ -6,9 +6,9 @@ use glam::DVec3;
 use planecut_kernel::sign::{Homogeneous, Row};
 use planecut_kernel::{HalfSpace, IncrementalPolytope, PlaneIdx, meet};
 
+use super::Corner;
 use super::gauge::Gauge;
-use crate::bounds::Bounds;
-use crate::corner::Corner;
+use crate::base::Bounds;
 
 /// A bounded convex body with interior, its planes named as in the polytope that it was read from.
 #[derive(Debug, Clone)]

@@ -9,7 +9,7 @@ mod random_trees;
 mod repeats;
 mod restriction;
 
-use crate::tree::{Operation, TreeNode};
+use crate::model::{Operation, TreeNode};
 pub(crate) use restriction::Restriction;
 
 /// No node.

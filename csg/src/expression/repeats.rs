@@ -12,7 +12,7 @@
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::{Expression, NONE};
-use crate::tree::Operation;
+use crate::model::Operation;
 
 impl Expression {
     /// For each leaf whether the tree says the same where it is 0; `kinds` tells which leaves are equal.
@@ -101,7 +101,7 @@ impl Expression {
 mod tests {
     use super::*;
     use crate::expression::random_trees::{Random, random_tree, value};
-    use crate::tree::TreeNode;
+    use crate::model::TreeNode;
 
     #[test]
     fn trees_say_the_same_without_repeated_leaves() {

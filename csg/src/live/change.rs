@@ -8,12 +8,12 @@ use super::history::New;
 use super::operand::{Operand, Role, State};
 use super::planes::Settled;
 use super::{BrushId, Change, EditError, LiveModel};
+use crate::base::map_chunks;
 use crate::body::{Body, BodyFace, BrushBody, built_or_build, mark_of};
-use crate::brush::{Brush, MaterialId};
+use crate::boundary::{BoundaryEdge, misses};
 use crate::evaluate::{EvaluateError, UnboundedBrushes};
-use crate::parallel::map_chunks;
+use crate::model::{Brush, MaterialId};
 use crate::plane_table::PlaneId;
-use crate::skin::{BoundaryEdge, misses};
 use crate::weld::EdgeId;
 
 /// How far a change of brushes reaches.

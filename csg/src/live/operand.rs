@@ -7,10 +7,10 @@ use rstar::RTree;
 use rstar::primitives::{GeomWithData, Rectangle};
 
 use super::planes::PlaneUse;
+use crate::base::Bounds;
 use crate::body::Body;
-use crate::bounds::Bounds;
-use crate::brush::Brush;
-use crate::skin::BoundaryEdge;
+use crate::boundary::BoundaryEdge;
+use crate::model::Brush;
 use crate::weld::EdgeId;
 
 /// What a brush of a live model does to what the brushes before it have made.

@@ -1,5 +1,7 @@
 //! Every plane of a model once: interned exactly up to scale, with noise snapped away.
 
+mod known_planes;
+mod morton;
 mod near;
 mod same;
 mod snapped;
@@ -11,7 +13,10 @@ use planecut_kernel::{DVec3, HalfSpace, meet};
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
-use crate::distinct::sortable;
+use crate::base::sortable;
+pub use known_planes::{KnownPlanes, compare};
+pub use morton::curve_number;
+pub(crate) use morton::renumber_planes;
 use near::NearPlanes;
 pub use near::SNAP_TOLERANCE;
 pub(crate) use near::{NearCells, is_nearly_same, unit};
@@ -29,7 +34,8 @@ impl PlaneId {
     }
 
     /// The unsided plane of an index.
-    pub(crate) fn of_index(index: u32) -> Self {
+    #[must_use]
+    pub fn of_index(index: u32) -> Self {
         Self::new(index as usize, false)
     }
 
@@ -194,13 +200,15 @@ impl PlaneTable {
     }
 
     /// The meeting point of three planes, for asking sides.
-    pub(crate) fn homogeneous(&self, planes: [PlaneId; 3]) -> Homogeneous {
+    #[must_use]
+    pub fn homogeneous(&self, planes: [PlaneId; 3]) -> Homogeneous {
         let [a, b, c] = planes.map(|p| self.row(p));
         Homogeneous::meet(a, b, c)
     }
 
     /// On which side of `plane` the meeting point of a right-handed triple lies: positive is outside.
-    pub(crate) fn side(&self, planes: [PlaneId; 3], point: &Homogeneous, plane: PlaneId) -> Sign {
+    #[must_use]
+    pub fn side(&self, planes: [PlaneId; 3], point: &Homogeneous, plane: PlaneId) -> Sign {
         if planes.iter().any(|p| p.index() == plane.index()) {
             return Sign::Zero;
         }
@@ -218,7 +226,8 @@ impl PlaneTable {
     }
 
     /// The correctly rounded meeting point of three planes.
-    pub(crate) fn position(&self, planes: [PlaneId; 3]) -> Option<DVec3> {
+    #[must_use]
+    pub fn position(&self, planes: [PlaneId; 3]) -> Option<DVec3> {
         let [a, b, c] = planes.map(|p| self.row(p));
         meet(a, b, c)
     }

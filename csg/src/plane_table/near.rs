@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::PlaneId;
-use crate::distinct::{WEIGHTS, sortable};
+use crate::base::{WEIGHTS, sortable};
 
 /// Planes whose unit normals and relative offsets differ by at most this are taken to be one plane that went through
 /// rotations or decimal text, relative to the largest distance of a plane from the origin.

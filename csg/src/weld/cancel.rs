@@ -10,7 +10,7 @@ use super::WeldError;
 use super::crossings::Passed;
 use super::lines::Line;
 use super::points::Points;
-use crate::parallel::map_chunks;
+use crate::base::map_chunks;
 use crate::plane_table::{PlaneId, PlaneTable};
 
 /// A directed piece of a line along which one region ends on one side: a boundary edge, or after cancelling a maximal run.

@@ -8,10 +8,9 @@ use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::points::Points;
-use crate::distinct::{WEIGHTS, distinct};
-use crate::parallel::map_chunks;
+use crate::base::{WEIGHTS, distinct, map_chunks};
+use crate::boundary::BoundaryEdge;
 use crate::plane_table::{PlaneId, PlaneTable};
-use crate::skin::BoundaryEdge;
 
 /// A geometric line, directed so that the component of its first axis is positive.
 #[derive(Debug, Clone, Copy)]

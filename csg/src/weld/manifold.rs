@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use rustc_hash::FxHashSet;
 
 use super::cancel::{HalfEdge, UNPAIRED};
-use crate::distinct::by_group;
+use crate::base::by_group;
 use crate::mesh::Mesh;
 
 /// The vertex at the start of each half-edge; and for each vertex the point it lies on.

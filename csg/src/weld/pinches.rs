@@ -6,8 +6,7 @@ use planecut_kernel::sign::{Counts, Sign};
 use super::cancel::HalfEdge;
 use super::points::Points;
 use super::regions_of;
-use crate::bounds::Bounds;
-use crate::parallel::map_chunks;
+use crate::base::{Bounds, map_chunks};
 use crate::plane_table::PlaneTable;
 
 /// Regions of fewer corners are searched edge by edge.

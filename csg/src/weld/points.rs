@@ -9,12 +9,9 @@ use planecut_kernel::{DVec3, compare_exactly};
 use rayon::prelude::*;
 
 use super::cancel::HalfEdge;
-use crate::bounds::Bounds;
-use crate::distinct::{distinct, sortable};
-use crate::locality::curve_number;
-use crate::parallel::map_chunks;
-use crate::plane_table::{PlaneId, PlaneTable};
-use crate::skin::BoundaryEdge;
+use crate::base::{Bounds, distinct, map_chunks, sortable};
+use crate::boundary::BoundaryEdge;
+use crate::plane_table::{PlaneId, PlaneTable, curve_number};
 
 /// The points of a weld.
 #[derive(Debug, Default)]

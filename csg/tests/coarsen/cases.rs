@@ -1,9 +1,10 @@
 //! Solids whose figures are known.
 
 use glam::DVec3;
-use planecut_csg::coarsen::{CoarsenError, CoarsenOptions, Coarsener, coarsen};
-use planecut_csg::{Brush, MaterialId, Tree, primitives};
+use planecut_cells::coarsen::{CoarsenError, CoarsenOptions, Coarsener, coarsen};
+use planecut_csg::{Brush, MaterialId, Tree};
 use planecut_kernel::HalfSpace;
+use planecut_shapes::primitives;
 
 use crate::judge::{assert_holds_points, assert_sound, volume};
 

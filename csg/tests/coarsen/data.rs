@@ -3,9 +3,11 @@
 use std::path::Path;
 
 use glam::DVec3;
-use planecut_csg::coarsen::{CoarsenOptions, Coarsener};
-use planecut_csg::{Brush, MaterialId, Solid, Tree, primitives};
+use planecut_cells::Solid;
+use planecut_cells::coarsen::{CoarsenOptions, Coarsener};
+use planecut_csg::{Brush, MaterialId, Tree};
 use planecut_kernel::hull;
+use planecut_shapes::primitives;
 
 use crate::judge::assert_holds_points;
 

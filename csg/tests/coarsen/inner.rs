@@ -1,7 +1,8 @@
 //! Cells within the solid.
 
-use planecut_csg::coarsen::{CoarsenOptions, Coarsener, Side, coarsen};
-use planecut_csg::{Solid, Tree};
+use planecut_cells::Solid;
+use planecut_cells::coarsen::{CoarsenOptions, Coarsener, Side, coarsen};
+use planecut_csg::Tree;
 
 use crate::cases::{at_most, block};
 use crate::judge::volume;

@@ -2,8 +2,9 @@
 
 use dashu_ratio::RBig;
 use glam::DVec3;
-use planecut_csg::coarsen::Coarsened;
-use planecut_csg::{Brush, Material, MaterialId, Model, Solid, Tree, evaluate};
+use planecut_cells::Solid;
+use planecut_cells::coarsen::Coarsened;
+use planecut_csg::{Brush, Material, MaterialId, Model, Tree, evaluate};
 use planecut_kernel::HalfSpace;
 
 fn rational(v: f64) -> RBig {

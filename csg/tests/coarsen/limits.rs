@@ -1,8 +1,10 @@
 //! Caps, regions kept clear, materials and thickness.
 
 use glam::DVec3;
-use planecut_csg::coarsen::{CoarsenError, CoarsenOptions, coarsen};
-use planecut_csg::{Brush, Evaluation, Material, MaterialId, Model, Solid, Tree, evaluate, primitives};
+use planecut_cells::Solid;
+use planecut_cells::coarsen::{CoarsenError, CoarsenOptions, coarsen};
+use planecut_csg::{Brush, Evaluation, Material, MaterialId, Model, Tree, evaluate};
+use planecut_shapes::primitives;
 
 use crate::cases::{at_most, block};
 use crate::judge::assert_sound;

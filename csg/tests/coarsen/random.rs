@@ -1,8 +1,9 @@
 //! Hulls of random lattice points, which overlap, touch and lie apart, at every cap.
 
 use glam::DVec3;
-use planecut_csg::coarsen::{CoarsenOptions, Coarsener};
-use planecut_csg::{MaterialId, Tree, primitives};
+use planecut_cells::coarsen::{CoarsenOptions, Coarsener};
+use planecut_csg::{MaterialId, Tree};
+use planecut_shapes::primitives;
 
 use crate::judge::{assert_holds_points, assert_sound};
 use crate::rng::Rng;

@@ -1,9 +1,9 @@
 //! Surfaces that are easily forgotten.
 
 use glam::DVec3;
-use planecut_csg::polyhedron::Precision;
 use planecut_csg::{Brush, Material, MaterialId, Model, PlaneTable, Tree, evaluate};
 use planecut_kernel::HalfSpace;
+use planecut_shapes::polyhedron::Precision;
 
 use crate::judge::{Given, cube, ensure_membership, ensure_skin, evaluated, prism};
 
@@ -173,11 +173,11 @@ fn a_lump_that_stood_in_the_way_of_others() {
     let block = Tree::from(Brush::cuboid(DVec3::ZERO, DVec3::splat(27.0), MaterialId(0)));
     let tree = Tree::difference(std::iter::once(block).chain(bars));
     let sponge = evaluate(&Model { materials: vec![Material::default()], tree }).expect("a bounded solid");
-    let solid = planecut_csg::polyhedron::polyhedron(
+    let solid = planecut_shapes::polyhedron::polyhedron(
         &sponge.mesh.positions,
         &sponge.mesh.triangles,
         &[MaterialId(0)],
-        &planecut_csg::polyhedron::PolyhedronOptions::default(),
+        &planecut_shapes::polyhedron::PolyhedronOptions::default(),
     );
     assert_eq!(solid.map(|solid| solid.volume), Ok(8000.0));
 }

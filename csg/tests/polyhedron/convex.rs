@@ -1,8 +1,8 @@
 //! Convex bodies stay whole.
 
 use glam::{DQuat, DVec3};
-use planecut_csg::polyhedron::Precision;
 use planecut_kernel::hull;
+use planecut_shapes::polyhedron::Precision;
 
 use crate::judge::{Given, prism};
 use crate::rng::Rng;

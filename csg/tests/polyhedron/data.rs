@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use glam::DVec3;
-use planecut_csg::polyhedron::Precision;
+use planecut_shapes::polyhedron::Precision;
 
 use crate::judge::{Given, ensure_membership, ensure_skin};
 

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use planecut_csg::MaterialId;
 use planecut_csg::check::ContactKind;
-use planecut_csg::polyhedron::{PolyhedronError, PolyhedronOptions, Precision, polyhedron};
+use planecut_shapes::polyhedron::{PolyhedronError, PolyhedronOptions, Precision, polyhedron};
 
 use crate::judge::{Given, cube};
 

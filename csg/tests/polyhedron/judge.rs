@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 use planecut_csg::check::check_topology;
-use planecut_csg::polyhedron::{Polyhedron, PolyhedronError, PolyhedronOptions, Precision, polyhedron};
 use planecut_csg::{Brush, Evaluation, Material, MaterialId, Model, Tree, evaluate};
+use planecut_shapes::polyhedron::{Polyhedron, PolyhedronError, PolyhedronOptions, Precision, polyhedron};
 
 use crate::rng::Rng;
 use crate::scene::ensure;

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use planecut_csg::MaterialId;
-use planecut_csg::polyhedron::{PolyhedronOptions, polyhedron};
+use planecut_shapes::polyhedron::{PolyhedronOptions, polyhedron};
 
 use crate::judge::{Given, cube, evaluated, prism};
 

@@ -2,9 +2,9 @@
 
 use glam::{DMat3, DVec3};
 use planecut_csg::check::check_topology;
-use planecut_csg::polyhedron::{PolyhedronError, Precision};
-use planecut_csg::primitives::{cuboid, prism, sphere, torus};
 use planecut_csg::{MaterialId, Model, Operation, Transform, Tree, evaluate};
+use planecut_shapes::polyhedron::{PolyhedronError, Precision};
+use planecut_shapes::primitives::{cuboid, prism, sphere, torus};
 
 use crate::judge::{Given, ensure_membership, ensure_skin};
 use crate::rng::Rng;

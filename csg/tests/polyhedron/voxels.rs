@@ -1,7 +1,7 @@
 //! Unions of lattice cubes, whose faces are counted.
 
 use glam::DVec3;
-use planecut_csg::polyhedron::Precision;
+use planecut_shapes::polyhedron::Precision;
 use rustc_hash::FxHashMap;
 
 use crate::judge::{Given, ensure_skin};

@@ -1,11 +1,11 @@
 //! Convex bodies against formulas.
 
 use glam::DVec3;
-use planecut_csg::primitives::{
+use planecut_csg::{Brush, MaterialId, Tree};
+use planecut_shapes::primitives::{
     RegularSolid, body_of_half_spaces, capsule, cone, cuboid, cylinder, half_space, hull_of_points, prism, pyramid,
     regular, sphere, wedge,
 };
-use planecut_csg::{Brush, MaterialId, Tree};
 
 use crate::judge::{Figures, assert_near, evaluated, figures, sweep};
 use crate::polygon::regular_area;

@@ -1,8 +1,9 @@
 //! Extrusions against the triangles that the page `docs/model-file.md` states.
 
 use glam::{DVec2, DVec3};
-use planecut_csg::primitives::{Extrusion, LayerRules, ShapeError, extrude};
-use planecut_csg::{MaterialId, Outline, Transform};
+use planecut_csg::{MaterialId, Transform};
+use planecut_shapes::Outline;
+use planecut_shapes::primitives::{Extrusion, LayerRules, ShapeError, extrude};
 
 use crate::judge::{assert_near, contains, figures, of_triangles, sweep, winds_around};
 use crate::polygon;

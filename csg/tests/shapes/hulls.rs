@@ -1,9 +1,9 @@
 //! Hulls against their definition.
 
 use glam::DVec3;
-use planecut_csg::primitives::{ShapeError, cuboid, half_space, hull_of_points, sphere, torus};
-use planecut_csg::shaping::hull;
 use planecut_csg::{MaterialId, Transform, Tree};
+use planecut_shapes::primitives::{ShapeError, cuboid, half_space, hull_of_points, sphere, torus};
+use planecut_shapes::shaping::hull;
 
 use crate::judge::{assert_near, evaluated, figures, sweep};
 use crate::rng::Rng;

@@ -1,8 +1,8 @@
 //! Offsets as Clipper makes them, by counts, formulas and distances; hulls and Minkowski sums of outlines by their definitions.
 
 use glam::{DMat2, DVec2};
-use planecut_csg::Outline;
-use planecut_csg::outline::{ClipperJoin, OffsetRule};
+use planecut_shapes::Outline;
+use planecut_shapes::outline::{ClipperJoin, OffsetRule};
 
 use crate::judge::{assert_near, sweep};
 use crate::polygon;

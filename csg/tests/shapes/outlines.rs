@@ -3,8 +3,9 @@
 use std::collections::HashSet;
 
 use glam::{DMat2, DVec2};
-use planecut_csg::outline::{Join, MITER_LIMIT};
-use planecut_csg::{Operation, Outline};
+use planecut_csg::Operation;
+use planecut_shapes::Outline;
+use planecut_shapes::outline::{Join, MITER_LIMIT};
 
 use crate::judge::{assert_near, sweep};
 use crate::polygon;

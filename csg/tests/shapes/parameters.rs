@@ -1,12 +1,13 @@
 //! What is not accepted: a typed error that names the parameter, and never a panic.
 
 use glam::{DVec2, DVec3};
-use planecut_csg::outline::Join;
-use planecut_csg::primitives::{
+use planecut_csg::{MaterialId, Model, Tree, summarize};
+use planecut_shapes::Outline;
+use planecut_shapes::outline::Join;
+use planecut_shapes::primitives::{
     Extrusion, MAX_LENGTH, MAX_SEGMENTS, RegularSolid, ShapeError, body_of_half_spaces, capsule, cone, cuboid,
     cylinder, extrude, hull_of_points, prism, pyramid, regular, revolve, sphere, torus, wedge,
 };
-use planecut_csg::{MaterialId, Model, Outline, Tree, summarize};
 
 use crate::judge::sweep;
 use crate::rng::Rng;

@@ -3,8 +3,9 @@
 use std::collections::HashSet;
 
 use glam::{DMat2, DVec2};
-use planecut_csg::primitives::{Extrusion, extrude};
-use planecut_csg::{Material, MaterialId, Model, Operation, Outline, Tree, TreeNode, evaluate, summarize};
+use planecut_csg::{Material, MaterialId, Model, Operation, Tree, TreeNode, evaluate, summarize};
+use planecut_shapes::Outline;
+use planecut_shapes::primitives::{Extrusion, extrude};
 
 use crate::judge::{assert_near, contains, sweep};
 use crate::polygon;

@@ -2,9 +2,10 @@
 //! `sin α · ∫ x dA` in it.
 
 use glam::{DMat2, DVec2, DVec3};
-use planecut_csg::primitives::{Extrusion, cone, extrude, revolve, revolve_in_steps, torus};
-use planecut_csg::{MaterialId, Outline, Transform, Tree};
+use planecut_csg::{MaterialId, Transform, Tree};
 use planecut_kernel::HalfSpace;
+use planecut_shapes::Outline;
+use planecut_shapes::primitives::{Extrusion, cone, extrude, revolve, revolve_in_steps, torus};
 
 use crate::judge::{assert_near, contains, figures, sweep};
 use crate::polygon;
@@ -187,7 +188,7 @@ fn a_revolution_by_one_step_is_cut_from_a_straight_extrusion() {
     let lay = glam::DMat3::from_cols(DVec3::X * cosine, DVec3::Z, -DVec3::Y);
     let laid = long.transformed(&Transform::new(lay, DVec3::ZERO).expect("a map")).expect("in range");
     let walls = [(DVec3::new(-sine, cosine, 0.0), 0.0), (DVec3::new(-sine, -cosine, 0.0), 0.0)];
-    let wedge = planecut_csg::primitives::body_of_half_spaces(&walls, M).expect("a wedge");
+    let wedge = planecut_shapes::primitives::body_of_half_spaces(&walls, M).expect("a wedge");
     let expected = figures(&Tree::intersection([laid, wedge.into()]));
     assert_near(found.volume, expected.volume, 1e-13, "volume");
     assert_near(found.area, expected.area, 1e-13, "area");

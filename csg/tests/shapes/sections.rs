@@ -1,9 +1,10 @@
 //! Slices and shadows.
 
 use glam::{DVec2, DVec3};
-use planecut_csg::primitives::{Extrusion, ShapeError, cuboid, extrude, half_space, prism, sphere, torus};
-use planecut_csg::shaping::{project, slice};
-use planecut_csg::{MaterialId, Outline, Transform, Tree};
+use planecut_csg::{MaterialId, Transform, Tree};
+use planecut_shapes::Outline;
+use planecut_shapes::primitives::{Extrusion, ShapeError, cuboid, extrude, half_space, prism, sphere, torus};
+use planecut_shapes::shaping::{project, slice};
 
 use crate::judge::{assert_near, contains, sweep};
 use crate::polygon::{self, regular_area};

@@ -1,9 +1,9 @@
 //! Minkowski sums against mixed volumes, support functions and lattices.
 
 use glam::DVec3;
-use planecut_csg::primitives::{ShapeError, cuboid, half_space, hull_of_points, sphere};
-use planecut_csg::shaping::minkowski;
 use planecut_csg::{Brush, MaterialId, Transform, Tree};
+use planecut_shapes::primitives::{ShapeError, cuboid, half_space, hull_of_points, sphere};
+use planecut_shapes::shaping::minkowski;
 
 use crate::judge::{assert_near, evaluated, figures, sweep};
 use crate::rng::Rng;

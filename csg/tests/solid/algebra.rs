@@ -1,6 +1,7 @@
 //! Identities of set algebra on solids: equal sets have an empty difference both ways.
 
-use planecut_csg::{Model, Solid};
+use planecut_cells::Solid;
+use planecut_csg::Model;
 
 use crate::rng::Rng;
 use crate::scene::{Scene, ensure, sweep};

@@ -1,7 +1,8 @@
 //! What is easily forgotten: empty, unbounded, deep and wide.
 
 use glam::DVec3;
-use planecut_csg::{Brush, EvaluateError, Material, MaterialId, Operation, Solid, Tree};
+use planecut_cells::Solid;
+use planecut_csg::{Brush, EvaluateError, Material, MaterialId, Operation, Tree};
 
 use crate::scene::half_space;
 use crate::shape::{ensure_membership, ensure_sound, leaf, node};

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use planecut_csg::{Cell, CutId, Solid};
+use planecut_cells::{Cell, CutId, Solid};
 use planecut_kernel::{HalfSpace, PlaneIdx};
 
 use crate::rng::Rng;

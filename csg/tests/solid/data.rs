@@ -3,8 +3,9 @@
 use std::path::Path;
 
 use glam::DVec3;
+use planecut_cells::Solid;
 use planecut_csg::check::check_topology;
-use planecut_csg::{Brush, Material, MaterialId, Model, Solid, Tree, evaluate};
+use planecut_csg::{Brush, Material, MaterialId, Model, Tree, evaluate};
 
 use crate::scene::half_space;
 

@@ -1,6 +1,7 @@
 //! Trees of all bodies: membership of points, and the skin of the same tree.
 
-use planecut_csg::{Model, Solid, evaluate};
+use planecut_cells::Solid;
+use planecut_csg::{Model, evaluate};
 
 use crate::rng::Rng;
 use crate::scene::{Scene, ensure, scaled, sweep};

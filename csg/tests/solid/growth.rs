@@ -1,7 +1,8 @@
 //! How many cells there are.
 
 use glam::DVec3;
-use planecut_csg::{Brush, CellPlane, MaterialId, Solid, Tree};
+use planecut_cells::{CellPlane, Solid};
+use planecut_csg::{Brush, MaterialId, Tree};
 
 use std::time::Instant;
 

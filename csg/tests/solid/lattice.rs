@@ -1,7 +1,8 @@
 //! Boxes with integer coordinates: volume, area, centroid, inertia and parts are counted.
 
 use glam::{DMat3, DVec3};
-use planecut_csg::{Operation, Solid};
+use planecut_cells::Solid;
+use planecut_csg::Operation;
 use planecut_kernel::Location;
 
 use crate::scene::{ensure, ensure_eq, sweep};

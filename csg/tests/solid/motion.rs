@@ -1,7 +1,8 @@
 //! Moved, turned and mirrored solids.
 
 use glam::{DMat3, DQuat, DVec3};
-use planecut_csg::{Model, Solid, Transform, evaluate};
+use planecut_cells::Solid;
+use planecut_csg::{Model, Transform, evaluate};
 
 use crate::rng::Rng;
 use crate::scene::{Scene, ensure, ensure_eq, sweep};

@@ -1,7 +1,7 @@
 //! Distances, against a search over the half-spaces of the tree.
 
 use glam::DVec3;
-use planecut_csg::Solid;
+use planecut_cells::Solid;
 
 use crate::rng::Rng;
 use crate::scene::{ensure, ensure_eq, sweep};

@@ -1,7 +1,8 @@
 //! Rays against intervals worked out from the half-spaces of the tree.
 
 use glam::DVec3;
-use planecut_csg::{Brush, RayHit, Solid};
+use planecut_cells::{RayHit, Solid};
+use planecut_csg::Brush;
 use planecut_kernel::HalfSpace;
 
 use crate::rng::Rng;

@@ -3,7 +3,8 @@
 use std::fmt::Write;
 
 use glam::DVec3;
-use planecut_csg::{Brush, Cell, Model, Operation, Solid, Tree};
+use planecut_cells::{Cell, Solid};
+use planecut_csg::{Brush, Model, Operation, Tree};
 use planecut_kernel::IncrementalPolytope;
 
 use crate::generate::{ball, sloped_brush, turned_box};

@@ -3,8 +3,8 @@
 use glam::DVec3;
 use planecut_csg::Operation::Xor;
 use planecut_csg::check::{CheckOptions, check_mesh};
-use planecut_csg::primitives::sphere;
 use planecut_csg::{Brush, Material, MaterialId, Model, Transform, Tree, UnboundedBrushes};
+use planecut_shapes::primitives::sphere;
 
 use crate::random::{leaf, node};
 use crate::scene::Scene;

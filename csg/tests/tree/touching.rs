@@ -1,13 +1,14 @@
 //! Bodies with planes that touch them without a face of their own: through an edge, or through a corner alone.
 
 use glam::DVec3;
+use planecut_cells::Solid;
 use planecut_csg::Operation::{Difference, Intersection, Union, Xor};
 use planecut_csg::check::check_topology;
-use planecut_csg::primitives::{cone, cylinder, prism, sphere};
 use planecut_csg::{
-    Brush, BrushFace, Evaluation, Material, MaterialId, Model, Solid, Transform, Tree, UnboundedBrushes, evaluate_with,
+    Brush, BrushFace, Evaluation, Material, MaterialId, Model, Transform, Tree, UnboundedBrushes, evaluate_with,
 };
 use planecut_kernel::{HalfSpace, hull};
+use planecut_shapes::primitives::{cone, cylinder, prism, sphere};
 
 use crate::random::Shape;
 use crate::rng::Rng;

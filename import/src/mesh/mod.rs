@@ -23,7 +23,7 @@ use glam::DVec3;
 use planecut_csg::Material;
 
 pub use error::{MeshError, Place};
-pub use planecut_csg::polyhedron::Precision;
+pub use planecut_shapes::polyhedron::Precision;
 pub use solid::{MeshImport, PartsImport, SolidError, read_parts, read_solid, solid_of_mesh};
 
 use error::Fault;

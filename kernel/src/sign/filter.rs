@@ -6,8 +6,8 @@
 //! that. Underflow cannot matter: the accepted coefficient range (see [`HalfSpace`](crate::HalfSpace)) keeps every
 //! non-zero product of a permanent above `2⁻⁹⁰⁰`, while an underflowed product is off by at most `2⁻¹⁰⁷⁵`.
 
+use super::extended::certain_side;
 use super::{Row, Sign, big, counts, small_int};
-use crate::meet::certain_side;
 
 const U: f64 = f64::EPSILON / 2.0;
 

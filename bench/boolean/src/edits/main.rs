@@ -1,4 +1,4 @@
-//! Times edits of live models beside building the same models anew, in one run: on maps, in grids that grow, and a million
+//! Times edits of live models beside building the same models from scratch, in one run: on maps, in grids that grow, and a million
 //! times in a row.
 
 #![forbid(unsafe_code)]
@@ -26,7 +26,7 @@ const MAPS: [&str; 3] = ["spacehare/64u_rabbit.map", "romero/e1m1.map", "romero/
 pub(crate) struct Options {
     /// A tenth of the edits, and no million of them.
     is_quick: bool,
-    /// After each edit of a map, compare with the model built anew.
+    /// After each edit of a map, compare with the model built from scratch.
     verifies: bool,
     json: Option<String>,
     markdown: Option<String>,
@@ -95,7 +95,7 @@ fn run(options: &Options) -> Result<(), String> {
             machine::processor(),
             machine::compiler(),
             machine::commit(),
-            if options.verifies { "; every mesh on a map was compared with the one built anew" } else { "" }
+            if options.verifies { "; every mesh on a map was compared with the one built from scratch" } else { "" }
         );
         let parts = [
             ("run", run),

@@ -8,7 +8,7 @@ use super::maps::MapTimes;
 
 pub(crate) fn of_map(map: &MapTimes) -> String {
     let mut table = format!(
-        "`{}`: {} brushes, {} triangles; built anew in {:.1} ms, made live in {:.1} ms{}.\n\n",
+        "`{}`: {} brushes, {} triangles; fresh build in {:.1} ms, made live in {:.1} ms{}.\n\n",
         map.name,
         map.brushes,
         map.triangles,
@@ -16,7 +16,7 @@ pub(crate) fn of_map(map: &MapTimes) -> String {
         map.first_ms,
         if map.compared > 0 { format!("; {} meshes compared, all the same", map.compared) } else { String::new() },
     );
-    table += "| edit | how many | median ms | 99 % ms | slowest ms | built anew / median |\n|---|---:|---:|---:|---:|---:|\n";
+    table += "| edit | how many | median ms | 99 % ms | slowest ms | fresh build / median |\n|---|---:|---:|---:|---:|---:|\n";
     for kind in &map.kinds {
         let _ = writeln!(
             table,

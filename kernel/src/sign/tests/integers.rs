@@ -7,6 +7,7 @@ use planecut_oracle::random::Rng;
 use super::super::filter::OffsetColumn;
 use super::super::{Row, Sign, big, small_int, wide};
 use super::{DRAWS, row, rows};
+use crate::arithmetic::big_integers;
 
 /// A permanent for which the floating-point value says nothing.
 const LARGE: f64 = 1e300;
@@ -125,7 +126,7 @@ fn big_integers_are_the_numbers_up_to_one_positive_scale() {
             let number = rng.pick(&[any, small, middle, 0.0, -0.0, f64::MIN_POSITIVE, f64::MAX]);
             if number.is_finite() { number } else { 1.0 }
         });
-        let (found, expected) = (big::integers(numbers), integer_row(numbers));
+        let (found, expected) = (big_integers(numbers), integer_row(numbers));
         for i in 0..4 {
             assert_eq!(truth::sign(&found[i]), truth::sign(&expected[i]), "{numbers:?}");
             for j in 0..i {
