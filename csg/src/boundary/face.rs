@@ -282,7 +282,9 @@ impl<'a> FaceWorker<'a> {
             Some(other) if other.plane == face.plane => Contact::SameWay,
             Some(_) => Contact::OtherWay,
         };
-        Reaching { body, place: self.places[leaf], leaf, contact, turn: self.scene.turn(body, other.unwrap_or(face)) }
+        // a body that crosses the plane has no face there, and its turn is never asked for
+        let turn = self.scene.turn(body, other.unwrap_or(face));
+        Reaching { body, place: self.places[leaf], leaf, contact, turn }
     }
 
     fn cutter(&self, face: &'a BodyFace, by: &Reaching) -> Cutter<'a> {
