@@ -32,6 +32,7 @@ mod mesh;
 mod model;
 mod plane_table;
 pub mod stages;
+pub mod tolerances;
 mod weld;
 
 // for `check`, which becomes a crate of its own
@@ -49,5 +50,6 @@ pub use model::{
     Brush, BrushFace, Cutaway, FaceSource, Material, MaterialId, Model, Operation, TextureAxes, TextureUnit, Transform,
     TransformError, Tree, TreeNode, sine_and_cosine,
 };
-pub use plane_table::{PlaneId, PlaneTable, SNAP_TOLERANCE};
+pub use plane_table::{PlaneId, PlaneTable};
+pub use tolerances::SNAP_TOLERANCE;
 pub use weld::WeldError;

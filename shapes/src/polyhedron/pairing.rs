@@ -3,10 +3,8 @@
 use std::cmp::Ordering;
 use std::f64::consts::PI;
 
+use crate::tolerances::SAME_ANGLE;
 use planecut_kernel::DVec3;
-
-/// Angles at an edge that are this near count as one.
-const SAME_ANGLE: f64 = 1e-7;
 
 /// One side of a triangle.
 #[derive(Debug, Clone, Copy)]
