@@ -42,6 +42,8 @@ pub enum HalfSpaceError {
 /// All coefficients are finite, the normal is not zero, and the magnitudes are within the accepted range
 /// ([`MIN_NORMAL`], [`MAX_NORMAL`], [`MAX_NORMAL_RATIO`], [`MAX_OFFSET_RATIO`]): inside it no product that a sign forms under- or overflows.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "[f64; 4]", into = "[f64; 4]"))]
 pub struct HalfSpace {
     normal: DVec3,
     offset: f64,

@@ -36,6 +36,8 @@ mod redundant;
 mod remove;
 mod remove_large;
 mod remove_many;
+#[cfg(feature = "serde")]
+mod saved;
 mod side;
 mod starts;
 mod store;
@@ -57,12 +59,14 @@ use store::{Change, Link, NONE, PlaneState, PlaneStore, VertexStore};
 
 /// Handle of a plane of one [`IncrementalPolytope`]; given again after the plane was removed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PlaneIdx(pub usize);
 
 /// Handle of a vertex of the simple structure; given again after the vertex was removed.
 ///
 /// Several vertices of the simple structure can coincide and are then seen as one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct VertexIdx(pub u32);
 
 /// What [`IncrementalPolytope::add_plane`] did. The lists live until the next operation.
