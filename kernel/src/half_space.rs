@@ -12,7 +12,7 @@ pub const MAX_NORMAL_RATIO: f64 = f64::from_bits((1023 + 200) << 52);
 /// A non-zero offset may be at most `2^200` times larger or smaller than the largest normal component.
 pub const MAX_OFFSET_RATIO: f64 = f64::from_bits((1023 + 200) << 52);
 
-/// Why a plane was not accepted.
+/// Why a plane was not accepted. `normal.to_array()` gives the three numbers without naming `glam`.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum HalfSpaceError {
     /// A coefficient is NaN or infinite.

@@ -87,7 +87,7 @@ impl Saved {
 }
 
 /// Written are the planes with their handles and stamps, the free handles and the epsilon: of these the structure is a function.
-/// Handles of vertices and edges are given anew when it is read.
+/// Vertices and edges get other handles when it is read.
 impl Serialize for IncrementalPolytope {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         Saved::of(self).serialize(serializer)

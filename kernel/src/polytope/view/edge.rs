@@ -10,7 +10,7 @@ use crate::meet::direction;
 
 /// Handle of an edge: four times the slot of a vertex of the simple structure at one end, plus which of its three edges.
 ///
-/// It is given again after the edge was removed. Several edges of the simple structure can be seen as one.
+/// A removed edge's handle is given to a later one. Several edges of the simple structure can be seen as one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct EdgeIdx(pub u32);

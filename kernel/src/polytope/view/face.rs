@@ -7,7 +7,7 @@ use super::super::store::{BEFORE, NEXT};
 use super::super::{IncrementalPolytope, PlaneIdx, external};
 use super::cluster::{Clusters, Naming};
 
-/// A face as seen from outside.
+/// A face as seen from outside. Faces are listed by plane, in the order of the handles.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Face {
