@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use planecut::csg::{Edit, EditError, Evaluation, LiveModel, Mesh, Model, evaluate_with, summarize};
+use planecut::csg::{Edit, EditError, Evaluation, LiveModel, Mesh, Model, convex_union, evaluate_with, summarize};
 use planecut::export::Part;
 use planecut::import::Warning;
 use planecut::import::edits::{EditsImport, read_edits};
@@ -151,7 +151,7 @@ impl<'a> Plan<'a> {
         progress.stage("encoding");
         let options = self.args.output.assets.options(self.args.output.scale);
         let parts = [Part::new("solid", &mesh)];
-        let brushes = || bounded_tree_of(self.kind, &model, &unbounded).to_convex_union().into_owned();
+        let brushes = || convex_union(&bounded_tree_of(self.kind, &model, &unbounded)).into_owned();
         let contents = Contents { parts: &parts, materials: &model.materials, brushes: &brushes };
         let outputs = encode(&contents, &self.meshes, &options)?;
         let encoding = begin.elapsed();

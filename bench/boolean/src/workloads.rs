@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::path::Path;
 
-use planecut_csg::primitives::capsule;
+use planecut_shapes::primitives::capsule;
 use planecut_csg::{Brush, MaterialId, Transform};
 use planecut_import::map::{MapOptions, read_map};
 use planecut_kernel::{DMat3, DVec3, HalfSpace};
