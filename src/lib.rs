@@ -9,7 +9,7 @@
 //! | module | what it holds |
 //! |---|---|
 //! | [`kernel`] | exact signs, half-spaces, convex polyhedra whose planes can be added, moved and removed |
-//! | [`csg`] | trees of set operations, their skin as a mesh and their convex cells, primitives, outlines |
+//! | [`csg`] | trees of set operations, their boundary as a mesh and their convex cells, primitives, outlines |
 //! | [`check`] | is any mesh watertight, manifold, free of self-intersections |
 //! | [`import`] | readers of the native model file, of OpenSCAD's evaluated trees, of Quake-family `.map` files, and of OBJ, STL, PLY and glTF meshes |
 //! | [`export`] | writers of GLB, glTF, OBJ and STL, and rendered previews |
@@ -83,6 +83,7 @@
 pub mod csg {
     pub use planecut_cells::*;
     pub use planecut_check as check;
+    pub use planecut_csg::tolerances;
     pub use planecut_csg::*;
     pub use planecut_shapes::*;
 }

@@ -31,6 +31,7 @@ mod mesh;
 mod model;
 mod plane_table;
 pub mod stages;
+pub mod tolerances;
 mod weld;
 
 pub use blocks::{Block, BlockOptions, BlocksError, BlocksSummary, evaluate_in_blocks};
@@ -44,5 +45,6 @@ pub use model::{
     Brush, BrushFace, Cutaway, FaceSource, Material, MaterialId, Model, Operation, TextureAxes, TextureUnit, Transform,
     TransformError, Tree, TreeNode, sine_and_cosine,
 };
-pub use plane_table::{PlaneId, PlaneTable, SNAP_TOLERANCE};
+pub use plane_table::{PlaneId, PlaneTable};
+pub use tolerances::SNAP_TOLERANCE;
 pub use weld::WeldError;

@@ -3,11 +3,9 @@
 use std::cmp::Ordering;
 use std::f64::consts::PI;
 
+use crate::tolerances::SAME_ANGLE;
 use planecut_csg::stages::{HalfEdges, NO_TWIN};
 use planecut_kernel::DVec3;
-
-/// Angles at an edge that are this near count as one.
-const SAME_ANGLE: f64 = 1e-7;
 
 /// One side of a triangle.
 #[derive(Debug, Clone, Copy)]
