@@ -5,10 +5,11 @@
 //! - [`flat`] finds for each leaf of a tree the [`formula`] that its part of the solid fulfils, [`carve`] cuts the cells,
 //!   [`order`] chooses along which planes first, [`merge`] joins neighbours, for bodies that are given, too ([`join`]). [`from_tree`] and [`boolean`] are made of these;
 //!   [`boxes`] tells what comes near what.
-//! - [`cuts`], [`divide`] and [`motion`] change a solid; [`measure`], [`query`], [`ray`] and [`components`] ask it; [`skin`] gives its meshes
+//! - [`cuts`], [`divide`] and [`motion`] change a solid; [`measure`], [`query`], [`ray`] and [`components`] ask it; [`boundary`] gives its meshes
 //!   and [`sources`] the brush behind a place on them.
 
 mod boolean;
+mod boundary;
 mod carve;
 mod cell;
 mod components;
@@ -25,7 +26,6 @@ mod motion;
 mod order;
 mod query;
 mod ray;
-mod skin;
 mod sources;
 
 use planecut_csg::stages::{Bounds, Boxes};

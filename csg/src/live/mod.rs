@@ -5,11 +5,12 @@
 //! are worked out again among the bodies near them, and of their edges those that are new or gone are handed to the weld.
 //!
 //! - [`edit`]: what users do, [`history`]: and take back.
-//! - [`change`]: how a change of brushes goes through [`planes`], [`bodies`], [`skin`] and weld; [`polytopes`] are kept to
+//! - [`change`]: how a change of brushes goes through [`planes`], [`bodies`], [`boundary`] and weld; [`polytopes`] are kept to
 //!   build bodies from, [`reach`] tells which faces are to be worked out again.
 //! - [`order`]: how brushes are combined, [`operand`]: what is known of each.
 
 mod bodies;
+mod boundary;
 mod change;
 mod edit;
 mod history;
@@ -18,7 +19,6 @@ mod order;
 mod planes;
 mod polytopes;
 mod reach;
-mod skin;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;

@@ -3,7 +3,7 @@
 //! What is convex is one [`Brush`](planecut_csg::Brush) whose planes come straight from the parameters: a face is one plane however
 //! many corners it has, planes along the axes and of short numbers are exact, and faces that mirror each other do so to the
 //! last bit. What is not convex is a union of touching convex cells whose common walls are the same plane seen from both
-//! sides, so that the skin dissolves them; what lies over holes of an outline is subtracted.
+//! sides, so that they vanish from the boundary; what lies over holes of an outline is subtracted.
 //!
 //! | file | bodies |
 //! |---|---|

@@ -25,7 +25,7 @@ type Found = (Vec<BoundaryEdge>, Vec<usize>);
 
 impl LiveModel {
     /// Works out the boundary on some faces, sorted.
-    pub(super) fn skin(&mut self, faces: &[(u32, u32)]) -> Vec<Found> {
+    pub(super) fn boundary_edges(&mut self, faces: &[(u32, u32)]) -> Vec<Found> {
         let id = |number: u32| self.operands[number as usize].as_ref().map_or(0, |operand| operand.id);
         // what is near the faces of each body
         let mut near: Vec<(u64, u32)> = Vec::new();
