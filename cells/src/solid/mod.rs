@@ -72,7 +72,7 @@ pub struct Solid {
     cells: Vec<Cell>,
     /// Convex bodies, possibly overlapping, whose union the solid is, where it is known to be one of fewer than the cells.
     cover: Option<Vec<Arc<Cell>>>,
-    /// The planes with which it was cut and that can be taken back.
+    /// The planes with which it was cut and that can be removed.
     cuts: Vec<PlaneCut>,
     next_cut: u32,
     /// Where cells were divided, the place of each among the cells as they were before; else empty.

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
-/// So many keys are numbered in a row, about: their map stays at hand.
+/// Number of keys, about, that are numbered in a row: their map stays in the cache.
 const BUCKET: usize = 1 << 13;
 
 /// By which four numbers are multiplied and summed up to one that tells most of them apart: none is a short sum of the others.

@@ -36,7 +36,7 @@ pub(super) struct Cutter<'a> {
 }
 
 impl Clipper {
-    /// Begins with the faces of another body, of so many corners and with so many bodies near.
+    /// Begins with the faces of another body: the number of its corners, and of the bodies near it.
     pub(super) fn begin(&mut self, corners: usize, near: usize) {
         self.corners = if corners.saturating_mul(near) <= MOST { corners } else { 0 };
         self.last.clear();

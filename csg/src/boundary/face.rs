@@ -79,7 +79,7 @@ impl<'a> FaceWorker<'a> {
         }
     }
 
-    /// Begins with the faces of another body; so many bodies are near.
+    /// Begins with the faces of another body; `near` is the number of bodies near it.
     pub(crate) fn begin(&mut self, body: usize, near: usize) {
         self.clipper.begin(self.scene.bodies[body].corner_count(), near);
     }

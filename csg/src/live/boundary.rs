@@ -11,10 +11,10 @@ use crate::expression::Expression;
 use crate::plane_table::PlaneTable;
 use crate::weld::{EdgeId, LiveWeld};
 
-/// From so many faces on they are worked out by several threads: waking them takes as long as a few faces.
+/// Number of faces from which several threads work on them: waking them takes as long as a few faces.
 const FACES_FOR_THREADS: usize = 64;
 
-/// So many faces of a body are worked out in a row then.
+/// Number of faces of a body that a thread works out in a row then.
 const FACES_OF_GROUP: usize = 20;
 
 /// No place.

@@ -223,7 +223,7 @@ impl LiveModel {
         Ok(live)
     }
 
-    /// The same model as a tree, to be evaluated or kept. Brushes are numbered anew, without those that were taken out of a
+    /// The same model as a tree, to be evaluated or kept. Brushes are renumbered, without those that were taken out of a
     /// sequence.
     #[must_use]
     pub fn to_model(&self) -> Model {
@@ -302,7 +302,7 @@ impl LiveModel {
         !self.welded.has_crossings()
     }
 
-    /// The mesh of the solid, equal to that of the same model built anew.
+    /// The mesh of the solid, equal to that of the same model built from scratch.
     ///
     /// # Errors
     /// [`EvaluateError::Weld`]: a bug in this crate.

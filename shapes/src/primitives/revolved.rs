@@ -80,7 +80,7 @@ pub fn revolve(outline: &Outline, angle: f64, segments: u32, material: MaterialI
     turned(outline, Turn { angle, steps }, material)
 }
 
-/// An outline revolved as by [`revolve`], in so many equal steps.
+/// An outline revolved as by [`revolve`], in a number of equal steps.
 ///
 /// # Errors
 /// [`ShapeError::Parameter`] where the outline has a corner at a negative x, the angle is not above 0 and at most 360, or a
