@@ -8,7 +8,7 @@ use planecut_kernel::{HalfSpace, PlaneIdx};
 
 use super::Solid;
 use super::cell::{Cell, CellPlane, Cut};
-use super::convex::{Side, box_side};
+use super::convex::{BodySide, box_side};
 
 /// Handle of a plane with which a [`Solid`] was cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -59,7 +59,7 @@ impl Solid {
         let mut handles = Vec::new();
         // Boxes stay those of the uncut cells, so that what a cut passes by now it passes by whatever is removed.
         for (place, cell) in (0..).zip(&mut self.cells) {
-            if box_side(&self.table, cell.bounds(), cell_plane.plane) != Side::Inside {
+            if box_side(&self.table, cell.bounds(), cell_plane.plane) != BodySide::Inside {
                 let handle = cell.add_again(&self.table, cell_plane).0;
                 handles.push(CutCell { cell: place, handle, is_outside: false });
             }

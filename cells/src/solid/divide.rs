@@ -11,7 +11,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::Solid;
 use super::cell::CellPlane;
-use super::convex::{Side, box_side};
+use super::convex::{BodySide, box_side};
 use super::cuts::{CutCell, CutId, PlaneCut};
 
 impl Solid {
@@ -46,7 +46,7 @@ impl Solid {
         let crossed: FxHashSet<u32> = (0..)
             .zip(self.cells.iter().zip(&self.families))
             .filter(|(place, (cell, _))| {
-                box_side(&self.table, cell.bounds(), plane.plane) == Side::Both
+                box_side(&self.table, cell.bounds(), plane.plane) == BodySide::Both
                     && self.sides_of(*place, plane, &trims) == [true; 2]
             })
             .map(|(_, (_, family))| *family)

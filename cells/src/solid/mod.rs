@@ -2,7 +2,7 @@
 //!
 //! - [`cell`]: a polytope of the kernel that knows the plane and the brush face behind each of its planes; [`convex`]: a body
 //!   that cells are held against.
-//! - [`flat`] finds for each leaf of a tree the [`formula`] that its part of the solid fulfils, [`carve`] cuts the cells,
+//! - [`normal_form`] finds for each leaf of a tree the [`formula`] that its part of the solid fulfils, [`carve`] cuts the cells,
 //!   [`order`] chooses along which planes first, [`merge`] joins neighbours, for bodies that are given, too ([`join`]). [`from_tree`] and [`boolean`] are made of these;
 //!   [`boxes`] tells what comes near what.
 //! - [`cuts`], [`divide`] and [`motion`] change a solid; [`measure`], [`query`], [`ray`] and [`components`] ask it; [`boundary`] gives its meshes
@@ -16,13 +16,13 @@ mod components;
 mod convex;
 mod cuts;
 mod divide;
-mod flat;
 mod formula;
 mod from_tree;
 mod join;
 mod measure;
 mod merge;
 mod motion;
+mod normal_form;
 mod order;
 mod query;
 mod ray;

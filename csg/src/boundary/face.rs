@@ -2,7 +2,7 @@
 
 use super::clip::{Clipper, Cutter};
 use super::contact::{Contact, Facing, misses};
-use super::ownership::{Ownership, Side, Turn};
+use super::ownership::{EdgeSide, Ownership, Turn};
 use super::role::{Pair, Role};
 use super::section::{Clip, Cover, Line, Piece, Polygon};
 use super::sweep::{Context, Sweep};
@@ -215,7 +215,7 @@ impl<'a> FaceWorker<'a> {
 
     /// Which boundary the face is where nothing is covered that depends on several bodies.
     fn emitted_on_region(&mut self) -> Option<Facing> {
-        self.ownership.emitted(self.scene.expression, &mut self.restriction, Side::Left)
+        self.ownership.emitted(self.scene.expression, &mut self.restriction, EdgeSide::Left)
     }
 
     /// Finds the bodies that may reach the face, and their leaves; gives the place of its own body.

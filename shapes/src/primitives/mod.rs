@@ -21,7 +21,6 @@ mod cells;
 mod circle;
 mod error;
 mod extruded;
-mod flat;
 mod layers;
 pub(crate) mod parameter;
 mod partition;
@@ -30,15 +29,16 @@ mod region;
 mod regular;
 mod revolved;
 mod round;
+mod simple;
 mod walls;
 
 pub use error::ShapeError;
 pub use extruded::{Extrusion, LayerRules, extrude};
-pub use flat::{body_of_half_spaces, cuboid, half_space, hull_of_points, wedge};
 pub use parameter::{MAX_LENGTH, MAX_PIECES, MAX_SEGMENTS};
 pub use regular::{RegularSolid, regular};
 pub use revolved::{revolve, revolve_in_steps, torus};
 pub use round::{capsule, cone, cylinder, prism, pyramid, sphere};
+pub use simple::{body_of_half_spaces, cuboid, half_space, hull_of_points, wedge};
 
 pub(crate) use circle::direction;
-pub(crate) use flat::plane;
+pub(crate) use simple::plane;
