@@ -1,4 +1,4 @@
-//! Edits to be taken back and done again.
+//! Undo and redo of edits.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -9,7 +9,7 @@ use super::{Change, EditError, LiveModel};
 /// A brush as it is to be; nothing where it is not to be there.
 pub(super) type New = (u64, Option<Arc<State>>);
 
-/// So many edits can be taken back unless another number is set.
+/// Number of edits that can be undone unless another number is set.
 const LIMIT: usize = 1000;
 
 /// What edits have changed, the last one last.
@@ -32,7 +32,7 @@ impl Default for History {
 }
 
 impl History {
-    /// Notes an edit; what was taken back cannot be done again after it.
+    /// Notes an edit; what was undone cannot be redone after it.
     pub(super) fn note(&mut self, before: Vec<New>, after: Vec<New>) {
         self.undone.clear();
         self.done.push_back(Step { before, after });
@@ -46,7 +46,7 @@ impl History {
 }
 
 impl LiveModel {
-    /// Takes the last edit back that was not yet taken back. Brushes and planes have the numbers again that they had.
+    /// Undoes the last edit that is not yet undone. Brushes and planes have the numbers again that they had.
     ///
     /// # Errors
     /// [`EditError::NothingToUndo`].
@@ -60,7 +60,7 @@ impl LiveModel {
         outcome
     }
 
-    /// Does the edit again that was last taken back.
+    /// Redoes the edit that was last undone.
     ///
     /// # Errors
     /// [`EditError::NothingToRedo`].
@@ -74,7 +74,7 @@ impl LiveModel {
         outcome
     }
 
-    /// How many edits can be taken back at most, 1,000 unless another number is set: a model that is edited for long does not
+    /// Maximum number of edits that can be undone, 1,000 unless another number is set: a model that is edited for long does not
     /// grow.
     pub fn set_history_limit(&mut self, limit: usize) {
         self.history.limit = limit;

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
-/// So many keys are numbered in a row, about: their map stays at hand.
+/// Number of keys, about, that are numbered in a row: their map stays in the cache.
 const BUCKET: usize = 1 << 13;
 
 /// By which four numbers are multiplied and summed up to one that tells most of them apart: none is a short sum of the others.
@@ -16,7 +16,7 @@ pub(crate) const WEIGHTS: [f64; 4] = [0.731_592_653_589, 0.467_182_818_284, 0.61
 ///
 /// Keys are numbered bucket by bucket. `near` tells which keys go together: equal ones have the same number below `bound`,
 /// and those of near numbers are best found near each other.
-pub(crate) fn distinct<K: Copy + Eq + Hash + Send + Sync>(
+pub(crate) fn intern<K: Copy + Eq + Hash + Send + Sync>(
     keys: &[K],
     bound: usize,
     near: impl Fn(&K) -> usize + Sync,
@@ -117,7 +117,7 @@ mod tests {
     fn equal_keys_share_a_number_however_many_there_are() {
         for count in [0, 1, 100, BUCKET as u64 - 1, BUCKET as u64 + 1, 5 * BUCKET as u64 + 3] {
             let keys: Vec<u64> = (0..count).map(|k| k.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 50).collect();
-            let (found, numbers) = distinct(&keys, 1 << 14, |key| *key as usize);
+            let (found, numbers) = intern(&keys, 1 << 14, |key| *key as usize);
             assert!(keys.iter().zip(&numbers).all(|(key, number)| found[*number as usize] == *key));
             let mut sorted = found.clone();
             sorted.sort_unstable();

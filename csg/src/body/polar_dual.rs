@@ -20,7 +20,7 @@ const U: f64 = f64::EPSILON / 2.0;
 
 /// The faces of a body, as the vertices of its polar dual.
 #[derive(Debug, Clone)]
-pub(crate) struct Gauge {
+pub(crate) struct PolarDual {
     center: DVec3,
     /// `nᵢ / (dᵢ − nᵢ·c)` for each face.
     duals: Vec<DVec3>,
@@ -46,7 +46,7 @@ pub(crate) enum Place {
     Unknown,
 }
 
-impl Gauge {
+impl PolarDual {
     /// That of a body of many faces which is not too thin for its numbers; of each face the half-space, and which of the edges of the
     /// body it has.
     pub(super) fn new<'a, H: ExactSizeIterator<Item = &'a HalfSpace>>(
@@ -69,7 +69,7 @@ impl Gauge {
         if !half_spaces().zip(&duals).all(is_inside) {
             return None;
         }
-        let mut gauge = Self {
+        let mut dual = Self {
             center,
             reach: duals.iter().map(|dual| dual.abs().element_sum()).fold(0.0, f64::max),
             duals,
@@ -89,15 +89,15 @@ impl Gauge {
                 edges.iter().all(|plane| face_of[plane.0].is_some()),
                 "an edge without a face on its other side"
             );
-            gauge.neighbours.extend(edges.iter().filter_map(|plane| face_of[plane.0]));
-            gauge.starts.push(gauge.neighbours.len() as u32);
+            dual.neighbours.extend(edges.iter().filter_map(|plane| face_of[plane.0]));
+            dual.starts.push(dual.neighbours.len() as u32);
         }
         for octant in 0..8_usize {
             let sign = |axis: usize| if octant >> axis & 1 == 1 { -1.0 } else { 1.0 };
-            let before = gauge.seeds[octant.saturating_sub(1)];
-            gauge.seeds[octant] = gauge.climb(DVec3::new(sign(0), sign(1), sign(2)), before, 0.0).0;
+            let before = dual.seeds[octant.saturating_sub(1)];
+            dual.seeds[octant] = dual.climb(DVec3::new(sign(0), sign(1), sign(2)), before, 0.0).0;
         }
-        Some(gauge)
+        Some(dual)
     }
 
     /// A face from which the climb to a point is short.

@@ -11,10 +11,10 @@ use crate::expression::Expression;
 use crate::plane_table::PlaneTable;
 use crate::weld::{EdgeId, LiveWeld};
 
-/// From so many faces on they are worked out by several threads: waking them takes as long as a few faces.
+/// Number of faces from which several threads work on them: waking them takes as long as a few faces.
 const FACES_FOR_THREADS: usize = 64;
 
-/// So many faces of a body are worked out in a row then.
+/// Number of faces of a body that a thread works out in a row then.
 const FACES_OF_GROUP: usize = 20;
 
 /// No place.
@@ -25,11 +25,11 @@ type Found = (Vec<BoundaryEdge>, Vec<usize>);
 
 impl LiveModel {
     /// Works out the boundary on some faces, sorted.
-    pub(super) fn skin(&mut self, faces: &[(u32, u32)]) -> Vec<Found> {
+    pub(super) fn boundary_edges(&mut self, faces: &[(u32, u32)]) -> Vec<Found> {
         let id = |number: u32| self.operands[number as usize].as_ref().map_or(0, |operand| operand.id);
         // what is near the faces of each body
         let mut near: Vec<(u64, u32)> = Vec::new();
-        let mut groups: Vec<Group> = Vec::new();
+        let mut groups: Vec<FaceBatch> = Vec::new();
         for of_body in faces.chunk_by(|a, b| a.0 == b.0) {
             let number = of_body[0].0;
             let Some(body) = body_of(&self.operands, number) else { continue };
@@ -38,7 +38,7 @@ impl LiveModel {
             let (start, first) = (near.len(), groups.last().map_or(0, |group| group.faces.end));
             near.extend(self.places.near(&bounds).map(|number| (id(number), number)));
             near[start..].sort_unstable();
-            groups.push(Group { number, near: start..near.len(), faces: first..first + of_body.len() });
+            groups.push(FaceBatch { number, near: start..near.len(), faces: first..first + of_body.len() });
         }
         let mut members = near.clone();
         members.sort_unstable();
@@ -68,10 +68,10 @@ impl LiveModel {
         let bodies: Vec<&Body> = leaves.iter().filter_map(|leaf| member(*leaf).body.as_ref()).collect();
         let table = &self.planes.table;
         let scene = Scene::of_some(table, bodies, &leaves, &expression, &self.bodies_on_plane, &self.rank);
-        let emit = |groups: &[Group]| {
+        let emit = |groups: &[FaceBatch]| {
             let mut worker = FaceWorker::new(&scene);
             let (mut found, mut ends, mut near_here) = (Vec::new(), Vec::new(), Vec::new());
-            for Group { number, near: range, faces: of_group } in groups {
+            for FaceBatch { number, near: range, faces: of_group } in groups {
                 let own = place[*number as usize];
                 near_here.clear();
                 let places = near[range.clone()].iter().map(|(_, number)| place[*number as usize]);
@@ -93,7 +93,7 @@ impl LiveModel {
         let parts = if faces.len() < FACES_FOR_THREADS {
             vec![emit(&groups)]
         } else {
-            let groups: Vec<Group> = groups.into_iter().flat_map(Group::split).collect();
+            let groups: Vec<FaceBatch> = groups.into_iter().flat_map(FaceBatch::split).collect();
             map_chunks(&groups, 1, emit).0
         };
         for (_, number) in &members {
@@ -118,13 +118,13 @@ impl LiveModel {
 }
 
 /// Faces of one body that are worked out in a row: a range among the faces, and one among the bodies near.
-struct Group {
+struct FaceBatch {
     number: u32,
     near: Range<usize>,
     faces: Range<usize>,
 }
 
-impl Group {
+impl FaceBatch {
     /// Groups of a few faces each.
     fn split(self) -> impl Iterator<Item = Self> {
         let Self { number, near, faces } = self;

@@ -17,7 +17,7 @@ impl Solid {
     /// list, and [`EvaluateError::Weld`] where the boundary does not close: a bug in this crate.
     pub fn mesh(&self, materials: &[Material]) -> Result<(Mesh, SolidMeasures), EvaluateError> {
         self.check_materials(materials.len())?;
-        self.skin(materials, |plane| plane)
+        self.boundary(materials, |plane| plane)
     }
 
     /// The area of the boundary: walls between cells do not count.
@@ -26,7 +26,7 @@ impl Solid {
     /// [`EvaluateError::Unbounded`], and [`EvaluateError::Weld`] where the boundary does not close: a bug in this crate.
     pub fn area(&self) -> Result<f64, EvaluateError> {
         let one = [Material::default()];
-        Ok(self.skin(&one, |_| MaterialId(0))?.1.area)
+        Ok(self.boundary(&one, |_| MaterialId(0))?.1.area)
     }
 
     /// One closed mesh for each cell, in their order.
@@ -44,7 +44,7 @@ impl Solid {
         cells.into_par_iter().map(mesh).collect()
     }
 
-    fn skin(
+    fn boundary(
         &self,
         materials: &[Material],
         material: impl Fn(MaterialId) -> MaterialId + Sync,

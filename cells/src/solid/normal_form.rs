@@ -57,13 +57,13 @@ pub(super) struct Owner {
 }
 
 /// The tree.
-pub(super) struct FlatTree {
+pub(super) struct NormalForm {
     nodes: Vec<Node>,
     /// The leaf of each body.
     node_of: Vec<u32>,
 }
 
-/// Buffers for [`FlatTree::formula`].
+/// Buffers for [`NormalForm::formula`].
 #[derive(Default)]
 pub(super) struct Scratch {
     /// For each node the mark of the call that used it last.
@@ -75,13 +75,13 @@ pub(super) struct Scratch {
     heap: std::collections::BinaryHeap<u32>,
 }
 
-impl FlatTree {
+impl NormalForm {
     /// Of each leaf the number of its body, `None` where that is empty; and the sizes of the bodies.
     pub(super) fn new(tree: &Tree, bodies: &[Option<u32>], sizes: &[f64], rule: Rule) -> Self {
-        let mut flat = Self { nodes: Vec::new(), node_of: vec![NONE; sizes.len()] };
-        flat.read(tree, bodies);
-        flat.measure(sizes, rule);
-        flat
+        let mut form = Self { nodes: Vec::new(), node_of: vec![NONE; sizes.len()] };
+        form.read(tree, bodies);
+        form.measure(sizes, rule);
+        form
     }
 
     /// Reads the postfix order backwards: each operation before its operands, the last operand first.
