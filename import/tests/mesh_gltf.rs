@@ -212,7 +212,8 @@ fn errors_name_the_place() {
         (r#""count": 36"#, r#""count": 35"#, "file: meshes/0/primitives/0: found 35 indices, expected a multiple of 3"),
         (r#""VEC3""#, r#""VEC2""#, "file: accessors/0: found the type `VEC2`, expected `VEC3`"),
         ("5126", "5124", "file: accessors/0: found component type 5124, expected 5120 to 5123, 5125 or 5126"),
-        ("5123", "5126", "file: accessors/1: found 36 values at byte 0, expected a range within the 72 bytes"),
+        ("5123", "5126", "file: accessors/1: found component type 5126, expected 5121, 5123 or 5125 for indices"),
+        ("5123", "5125", "file: accessors/1: found 36 values at byte 0, expected a range within the 72 bytes"),
         (
             r#""byteLength": 288"#,
             r#""byteLength": 9999"#,
