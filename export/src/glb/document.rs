@@ -8,7 +8,6 @@ use gltf_json::accessor::{ComponentType, GenericComponentType, IndexComponentTyp
 use gltf_json::buffer::{Stride, Target, View};
 use gltf_json::extensions::buffer::{Buffer as BufferExtensions, View as ViewExtensions};
 use gltf_json::extensions::mesh::Mesh as MeshExtensions;
-use gltf_json::extras::RawValue;
 use gltf_json::material::{PbrBaseColorFactor, PbrMetallicRoughness, StrengthFactor};
 use gltf_json::mesh::{Mode, Primitive, Semantic};
 use gltf_json::validation::{Checked, USize64};
@@ -19,7 +18,7 @@ use rustc_hash::FxHashMap;
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::geometry::{Geometry, Run};
+use super::geometry::Geometry;
 use super::packed::Packed;
 use super::repeats::Repeats;
 use super::sections::{Kind, Section, Width};
@@ -133,9 +132,9 @@ impl<'a> Document<'a> {
     /// The document as JSON bytes; `uri` is that of the buffer when it is not a GLB chunk.
     pub(super) fn to_json(&self, uri: Option<&str>) -> Result<Vec<u8>, ExportError> {
         let failed = |error: serde_json::Error| ExportError::Encode { format: "glTF", message: error.to_string() };
-        // Through text, so that single-precision numbers keep their short decimals.
-        let text = serde_json::to_vec(&self.root).map_err(failed)?;
-        let mut json: Value = serde_json::from_slice(&text).map_err(failed)?;
+        let mut json = serde_json::to_value(&self.root).map_err(failed)?;
+        self.shorten_factors(&mut json);
+        self.name_sources(&mut json);
         // The transforms in double precision: readers that compute in it then get the exact frame.
         // A quarter turn about X takes Z-up to Y-up.
         json["nodes"][0]["rotation"] = json!([-FRAC_1_SQRT_2, 0.0, 0.0, FRAC_1_SQRT_2]);
@@ -155,6 +154,29 @@ impl<'a> Document<'a> {
             json["buffers"][0]["uri"] = uri.into();
         }
         serde_json::to_vec(&json).map_err(failed)
+    }
+
+    /// Gives the single-precision factors of materials their short decimals: 0.1, where JSON values would hold all digits of the number in double precision.
+    fn shorten_factors(&self, json: &mut Value) {
+        let values = json.get_mut("materials").and_then(Value::as_array_mut).into_iter().flatten();
+        for (value, material) in values.zip(&self.root.materials) {
+            let factors = &material.pbr_metallic_roughness;
+            let value = &mut value["pbrMetallicRoughness"];
+            value["baseColorFactor"] = json!(factors.base_color_factor.0.map(short));
+            value["metallicFactor"] = json!(short(factors.metallic_factor.0));
+            value["roughnessFactor"] = json!(short(factors.roughness_factor.0));
+        }
+    }
+
+    /// Says in the extras of primitives what their triangles come from: `{"faces": [[triangles, brush, plane], …]}`.
+    fn name_sources(&self, json: &mut Value) {
+        let values = json.get_mut("meshes").and_then(Value::as_array_mut).into_iter().flatten();
+        let described = self.meshes.iter().filter(|mesh| !mesh.vertices.corners.is_empty());
+        for (value, mesh) in values.zip(described) {
+            for (number, run) in mesh.runs.iter().enumerate().filter(|(_, run)| !run.sources.is_empty()) {
+                value["primitives"][number]["extras"] = json!({"faces": run.sources});
+            }
+        }
     }
 
     /// Describes sections: in the buffer where they are, or, packed, in one that nobody sees, with where they really are beside it.
@@ -188,7 +210,7 @@ impl<'a> Document<'a> {
                 name: None,
                 target: target.map(Checked::Valid),
                 extensions: packed.map(|value| ViewExtensions { others: extension(MESHOPT, value) }),
-                extras: None,
+                extras: Default::default(),
             });
             plain_end += section.bytes().next_multiple_of(ALIGNED);
         }
@@ -200,7 +222,7 @@ impl<'a> Document<'a> {
             name: None,
             uri: None,
             extensions: None,
-            extras: None,
+            extras: Default::default(),
         };
         self.root.buffers.push(buffer(self.buffer_bytes()));
         if is_packed {
@@ -218,8 +240,7 @@ impl<'a> Document<'a> {
         for run in &mesh.runs {
             let indices = self.root.push(indices.part(run.corners.start, run.corners.len()));
             let material = self.material(&mesh.mesh.materials[run.material as usize]);
-            primitives
-                .push(Primitive { extras: sources(run), ..primitive(attributes.clone(), indices, Some(material)) });
+            primitives.push(primitive(attributes.clone(), indices, Some(material)));
         }
         let manifold = mesh.merges.as_ref().map(|merges| {
             let positions = attributes.iter().find(|(semantic, _)| *semantic == Semantic::Positions);
@@ -228,7 +249,7 @@ impl<'a> Document<'a> {
         });
         self.root.push(Mesh {
             extensions: manifold.map(|value| MeshExtensions { others: extension(MESH_MANIFOLD, value) }),
-            extras: None,
+            extras: Default::default(),
             name: name(called),
             primitives,
             weights: None,
@@ -390,7 +411,7 @@ impl Array {
             count: USize64::from(count),
             component_type: Checked::Valid(GenericComponentType(self.component)),
             extensions: None,
-            extras: None,
+            extras: Default::default(),
             type_: Checked::Valid(Type::Scalar),
             min: None,
             max: None,
@@ -406,10 +427,9 @@ impl Array {
     }
 }
 
-/// What the triangles of a primitive come from: `{"faces": [[triangles, brush, plane], …]}`.
-fn sources(run: &Run) -> Option<Box<RawValue>> {
-    let faces = json!({"faces": run.sources});
-    (!run.sources.is_empty()).then(|| RawValue::from_string(faces.to_string()).ok()).flatten()
+/// The number whose shortest decimal in double precision is that of `factor` in single precision.
+fn short(factor: f32) -> f64 {
+    factor.to_string().parse().unwrap_or(f64::from(factor))
 }
 
 fn extension(name: &str, value: Value) -> serde_json::Map<String, Value> {
@@ -423,7 +443,7 @@ fn share(factor: Option<f32>) -> Option<f32> {
 
 fn new_root() -> Root {
     let generator = Some(concat!("planecut ", env!("CARGO_PKG_VERSION")).to_owned());
-    let scene = Scene { extensions: None, extras: None, name: None, nodes: vec![Index::new(0)] };
+    let scene = Scene { extensions: None, extras: Default::default(), name: None, nodes: vec![Index::new(0)] };
     Root {
         asset: Asset { generator, ..Default::default() },
         scene: Some(Index::new(0)),
@@ -448,7 +468,7 @@ fn primitive(
     Primitive {
         attributes: BTreeMap::from_iter(attributes.into_iter().map(|(key, at)| (Checked::Valid(key), at))),
         extensions: None,
-        extras: None,
+        extras: Default::default(),
         indices: Some(indices),
         material,
         mode: Checked::Valid(Mode::Triangles),
@@ -464,16 +484,16 @@ fn sparse_merges(places: &Array, vertices: &Array) -> sparse::Sparse {
             byte_offset: places.offset(0),
             component_type: Checked::Valid(IndexComponentType(places.component)),
             extensions: None,
-            extras: None,
+            extras: Default::default(),
         },
         values: sparse::Values {
             buffer_view: vertices.view,
             byte_offset: vertices.offset(0),
             extensions: None,
-            extras: None,
+            extras: Default::default(),
         },
         extensions: None,
-        extras: None,
+        extras: Default::default(),
     }
 }
 

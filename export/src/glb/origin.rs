@@ -39,16 +39,15 @@ fn power_of_two_at_most(value: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use planecut_testkit::random::Rng;
+
     use super::*;
 
     /// Random boxes of integer coordinates at all distances: shifted positions and their way back are exact.
     #[test]
     fn integer_grids_survive_the_shift() {
-        let mut state = 7_u64;
-        let mut random = |below: i64| {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-            (state >> 33) as i64 % below
-        };
+        let mut rng = Rng::new(7);
+        let mut random = |below: i64| rng.integer(0, below - 1);
         for round in 0..20_000 {
             let extent = 1 + random(1 << (1 + round % 22));
             let offset = random(1 << 31) - (1 << 30);

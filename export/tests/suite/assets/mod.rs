@@ -1,0 +1,9 @@
+//! What assets have beside triangles, read again: normals, texture coordinates, tangents, colours, sources, packed buffers, shared
+//! meshes; and the formats of printers and scanners.
+
+mod attributes;
+mod held;
+mod packages;
+mod packed;
+mod shared;
+mod support;

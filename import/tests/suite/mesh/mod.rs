@@ -1,0 +1,9 @@
+//! Triangle meshes: OBJ, STL, PLY and glTF.
+
+mod damaged;
+mod files;
+mod formats;
+mod gltf;
+mod packed;
+mod solid;
+mod support;
