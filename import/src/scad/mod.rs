@@ -16,7 +16,6 @@ mod error;
 mod evaluate;
 mod extrusion;
 mod flat;
-mod font;
 mod fragments;
 mod frame;
 mod import;
@@ -26,6 +25,7 @@ mod polyhedron;
 mod problem;
 mod solid;
 mod syntax;
+#[cfg_attr(not(feature = "text"), path = "text_missing.rs")]
 mod text;
 mod token;
 mod turn;

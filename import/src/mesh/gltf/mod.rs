@@ -15,6 +15,7 @@ mod accessor;
 mod container;
 mod document;
 mod geometry;
+#[cfg_attr(not(feature = "meshopt"), path = "packed_missing.rs")]
 mod packed;
 mod transform;
 

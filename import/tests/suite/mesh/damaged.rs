@@ -4,6 +4,7 @@
 use planecut_import::mesh::{MeshFormat, read_mesh};
 use planecut_testkit::random::Rng;
 
+#[cfg(feature = "meshopt")]
 use super::support::packed::{Positions, packed_cube};
 use super::support::{glb, obj, ply, split_cube, stl_ascii, stl_binary};
 
@@ -12,9 +13,7 @@ fn files() -> Vec<(MeshFormat, Vec<u8>)> {
         r#""scenes": [{"nodes": [0]}], "nodes": [{"children": [1]}, {"mesh": 0, "rotation": [0, 0, 1, 0], "scale": [1, 2, 3]}]"#,
         "",
     );
-    let (packed_json, packed) = packed_cube(Positions::Exponential, "TRIANGLES", 2);
-    let (sequence_json, sequence) = packed_cube(Positions::Shorts, "INDICES", 4);
-    vec![
+    let mut files = vec![
         (MeshFormat::Obj, obj().into_bytes()),
         (MeshFormat::Stl, stl_binary()),
         (MeshFormat::Stl, stl_ascii().into_bytes()),
@@ -22,9 +21,22 @@ fn files() -> Vec<(MeshFormat, Vec<u8>)> {
         (MeshFormat::Ply, ply("binary_little_endian")),
         (MeshFormat::Ply, ply("binary_big_endian")),
         (MeshFormat::Gltf, glb(&json, &buffer)),
-        (MeshFormat::Gltf, glb(&packed_json, &packed)),
-        (MeshFormat::Gltf, glb(&sequence_json, &sequence)),
-    ]
+    ];
+    files.extend(packed_files());
+    files
+}
+
+#[cfg(feature = "meshopt")]
+fn packed_files() -> Vec<(MeshFormat, Vec<u8>)> {
+    let cubes = [(Positions::Exponential, "TRIANGLES", 2), (Positions::Shorts, "INDICES", 4)];
+    let files = cubes.map(|(positions, mode, width)| packed_cube(positions, mode, width));
+    files.map(|(json, buffer)| (MeshFormat::Gltf, glb(&json, &buffer))).to_vec()
+}
+
+/// Without the feature that reads them there are none to damage.
+#[cfg(not(feature = "meshopt"))]
+fn packed_files() -> Vec<(MeshFormat, Vec<u8>)> {
+    Vec::new()
 }
 
 /// Reads what may be damaged; whether it could be read.

@@ -246,3 +246,15 @@ fn shared_nodes_are_refused_before_they_multiply() {
         split_cube(&format!(r#""scenes": [{{"nodes": [0]}}], "nodes": [{}, {{"mesh": 0}}]"#, nodes.join(", ")), "");
     assert!(error(&glb(&json, &buffer)).contains("a node with two parents"));
 }
+
+#[cfg(not(feature = "meshopt"))]
+#[test]
+fn packed_buffers_need_a_feature() {
+    let (json, buffer) = split_cube(ONE_NODE, "");
+    let packed = r#""extensions": {"EXT_meshopt_compression": {"buffer": 0, "byteLength": 9, "byteStride": 12, "count": 24, "mode": "ATTRIBUTES"}}"#;
+    let json = json.replace(r#""byteLength": 288}"#, &format!(r#""byteLength": 288, {packed}}}"#));
+    assert_eq!(
+        error(&glb(&json, &buffer)),
+        "file: bufferViews/0/extensions/EXT_meshopt_compression: found packed bytes, and a program built without the feature `meshopt`, expected one that is built with it"
+    );
+}

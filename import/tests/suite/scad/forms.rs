@@ -64,3 +64,10 @@ fn texts_keep_what_was_escaped() {
     let message = refused(br#"import(file = "a\"b\\c\n.dxf");"#).to_string();
     assert!(message.contains(r#"a\"b\\c\n.dxf"#), "{message}");
 }
+
+#[cfg(not(feature = "text"))]
+#[test]
+fn letters_need_a_feature() {
+    let error = refused(b"linear_extrude(height = 1) { text(text = \"A\", size = 10); }").to_string();
+    assert!(error.contains("found a text, and a program built without the feature `text`"), "{error}");
+}

@@ -1,5 +1,6 @@
 //! Writers of small mesh files, made for the tests of the readers: each file is put together from its specification.
 
+#[cfg(feature = "meshopt")]
 pub(crate) mod packed;
 
 use planecut_csg::check::{CheckOptions, CheckReport, TOLERANCE_F32, check_mesh};

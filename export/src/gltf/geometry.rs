@@ -9,8 +9,9 @@ use rayon::prelude::*;
 
 use super::rounding::Rounding;
 use super::tangents::tangents;
-use crate::surface::{Looks, Vertices};
-use crate::topology::is_oriented_manifold;
+use crate::material::Looks;
+use crate::surface::Vertices;
+use crate::surface::is_oriented_manifold;
 use crate::{ExportError, ExportOptions, Part};
 
 /// Marks a vertex that no triangle has used yet.
@@ -145,6 +146,16 @@ fn sources_of(part: &Part<'_>, mesh: &Mesh, triangles: &[u32]) -> Vec<[u32; 3]> 
     runs.filter_map(|run| source(&run[0]).map(|[brush, plane]| [run.len() as u32, brush, plane])).collect()
 }
 
+/// Puts triangles into an order that suits the caches of graphics cards; `count` is more than any number of a vertex.
+#[cfg(feature = "meshopt")]
+fn order_for_cache(corners: &mut [u32], count: usize) {
+    meshopt::optimize_vertex_cache_in_place(corners, count);
+}
+
+/// Without the library that knows a better order triangles keep theirs.
+#[cfg(not(feature = "meshopt"))]
+fn order_for_cache(_: &mut [u32], _: usize) {}
+
 /// Puts the triangles of each run into an order that suits the caches of graphics cards, and vertices into that of their use.
 fn order_for_caches(vertices: &mut Vertices, runs: &[Run]) {
     let mut rest = vertices.corners.as_mut_slice();
@@ -159,7 +170,7 @@ fn order_for_caches(vertices: &mut Vertices, runs: &[Run]) {
         let first = corners.iter().min().copied().unwrap_or(0);
         let count = corners.iter().max().map_or(0, |last| last - first + 1);
         corners.iter_mut().for_each(|corner| *corner -= first);
-        meshopt::optimize_vertex_cache_in_place(corners, count as usize);
+        order_for_cache(corners, count as usize);
         corners.iter_mut().for_each(|corner| *corner += first);
     });
     vertices.renumber();

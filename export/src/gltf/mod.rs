@@ -12,6 +12,7 @@ mod base64;
 mod document;
 mod geometry;
 mod origin;
+#[cfg_attr(not(feature = "meshopt"), path = "packed_missing.rs")]
 mod packed;
 mod repeats;
 mod rounding;

@@ -6,7 +6,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHasher};
 
-use crate::surface::Looks;
+use crate::material::Looks;
 use crate::{ExportOptions, Part};
 
 /// Corners of parts that are alike lie no farther apart than this part of the size, which is below single precision.

@@ -9,7 +9,7 @@ use std::io::{self, Write};
 use glam::DVec3;
 use planecut_csg::Mesh;
 
-use crate::single_precision::without_lost_edges;
+use crate::surface::without_lost_edges;
 use crate::{ExportError, ExportOptions, Part, Written};
 
 const HEADER_BYTES: usize = 80;

@@ -22,7 +22,7 @@ use super::geometry::Geometry;
 use super::packed::Packed;
 use super::repeats::Repeats;
 use super::sections::{Kind, Section, Width};
-use crate::color::material_color;
+use crate::material::material_color;
 use crate::{ExportError, ExportOptions, Part, Unit};
 
 /// Name of the extension that says that a mesh is a closed, oriented 2-manifold, and which split vertices are one.

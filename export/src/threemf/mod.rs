@@ -7,10 +7,10 @@ use std::io::{self, Write};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
-use crate::color::{linear_to_srgb, material_color};
 use crate::decimal::{write_decimal, write_digits};
-use crate::library::Library;
-use crate::options::{ExportOptions, Unit};
+use crate::material::Library;
+use crate::material::{linear_to_srgb, material_color};
+use crate::part::{ExportOptions, Unit};
 use crate::{ExportError, Part};
 
 const CONTENT_TYPES: &str = concat!(

@@ -27,7 +27,7 @@ pub struct ExportOptions {
     /// Positions in 16 bits, normals, tangents and colours in 8 (`KHR_mesh_quantization`): glTF. Positions lie on a grid whose step is a power of
     /// two: coordinates on a coarser one stay exact.
     pub quantize: bool,
-    /// Buffers packed by `EXT_meshopt_compression`: glTF.
+    /// Buffers packed by `EXT_meshopt_compression`: glTF. Needs the feature `meshopt`, else writers give [`ExportError::MissingFeature`].
     pub meshopt: bool,
     /// Says of each part that it is a convex collider: in glTF by `{"collider": "convex"}` in the extras of its node. Other formats have no
     /// place for it.

@@ -7,7 +7,7 @@ use planecut_csg::Mesh;
 
 use super::origin::choose_origin;
 use crate::ExportOptions;
-use crate::single_precision::without_lost_edges;
+use crate::surface::without_lost_edges;
 
 /// The farthest that a position of 16 bits reaches.
 const REACH: f64 = i16::MAX as f64;

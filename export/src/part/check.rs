@@ -2,7 +2,28 @@
 
 use planecut_csg::Mesh;
 
+use super::{ExportOptions, Part};
 use crate::ExportError;
+
+/// Checks options, meshes and their sources.
+///
+/// # Errors
+/// The first defect.
+pub(crate) fn check_parts(parts: &[Part<'_>], options: &ExportOptions) -> Result<(), ExportError> {
+    options.check()?;
+    parts.iter().try_for_each(|part| {
+        check_mesh(part.mesh)?;
+        check_sources(part)
+    })
+}
+
+fn check_sources(part: &Part<'_>) -> Result<(), ExportError> {
+    let (sources, materials) = (part.sources.len(), part.mesh.materials.len());
+    if sources == 0 || sources == materials {
+        return Ok(());
+    }
+    Err(ExportError::InvalidMesh(format!("{materials} materials but {sources} sources, expected as many")))
+}
 
 /// Checks that every index of `mesh` points at something and every number is finite.
 ///

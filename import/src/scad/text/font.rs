@@ -8,7 +8,7 @@ use std::rc::Rc;
 use fontdb::{Database, FaceInfo, Style};
 use rustc_hash::FxHashMap;
 
-use super::text::TextError;
+use super::TextError;
 
 /// The font that OpenSCAD takes where none is named.
 const DEFAULT: &str = "Liberation Sans";
@@ -39,7 +39,7 @@ pub(super) struct Font {
 
 /// The fonts of the system; nothing is read before the first one is asked for.
 #[derive(Default)]
-pub(super) struct Fonts {
+pub(in crate::scad) struct Fonts {
     database: Option<Database>,
     found: FxHashMap<String, Rc<Font>>,
 }

@@ -6,10 +6,10 @@
 
 use std::io::{self, Write};
 
-use crate::color::{linear_to_srgb, material_color};
 use crate::decimal::{write_decimal, write_digits, write_point};
-use crate::library::Library;
-use crate::options::{ExportOptions, Shading};
+use crate::material::Library;
+use crate::material::{linear_to_srgb, material_color};
+use crate::part::{ExportOptions, Shading};
 use crate::surface::Vertices;
 use crate::{ExportError, Part};
 

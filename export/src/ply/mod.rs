@@ -4,9 +4,9 @@ use std::io::Write;
 
 use planecut_csg::Mesh;
 
-use crate::color::{linear_to_srgb, material_color};
 use crate::decimal::{write_decimal, write_digits};
-use crate::options::{ExportOptions, Shading};
+use crate::material::{linear_to_srgb, material_color};
+use crate::part::{ExportOptions, Shading};
 use crate::surface::Vertices;
 use crate::{ExportError, Part};
 

@@ -3,8 +3,8 @@
 use planecut_csg::{Material, MaterialId};
 use rustc_hash::{FxHashMap, FxHashSet};
 
+use super::looks;
 use crate::Part;
-use crate::surface::looks;
 
 /// Materials and their names in a file.
 #[derive(Debug)]

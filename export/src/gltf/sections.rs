@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use super::geometry::Geometry;
-use crate::color::material_color;
+use crate::material::material_color;
 
 /// The largest vertex number that 16-bit indices can name: 65535 is reserved by glTF for primitive restart.
 const MAX_SHORT_INDEX: usize = 65_534;

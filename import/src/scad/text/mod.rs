@@ -6,6 +6,8 @@
 //!
 //! Source: the OpenSCAD User Manual, "Text", and the behaviour of OpenSCAD 2021.01.
 
+mod font;
+
 use std::str::FromStr;
 
 use harfrust::{Direction, GlyphInfo, GlyphPosition, Language, Script, ShaperData, UnicodeBuffer};
@@ -17,10 +19,10 @@ use skrifa::{FontRef, GlyphId, MetadataProvider};
 use thiserror::Error;
 
 use super::arguments::Arguments;
-use super::font::Fonts;
 use super::fragments::Fragments;
 use super::problem::Problem;
 use super::syntax::Node;
+pub(super) use font::Fonts;
 
 /// The size that is asked for, in 64ths of a point, at 100 dots per inch; a text of size 1 has this many units.
 const UNITS: f64 = 1e5;
@@ -83,7 +85,7 @@ pub(super) fn text(node: &Node<'_>, fonts: &mut Fonts) -> Result<(Outline, Vec<S
 
 /// Why a text has no outline.
 #[derive(Debug, Clone, PartialEq, Error)]
-pub(super) enum TextError {
+enum TextError {
     /// The system has no fonts at all.
     #[error("a text, and a system without fonts, even `{0}`")]
     NoFont(String),

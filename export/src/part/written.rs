@@ -3,8 +3,8 @@
 use glam::DVec3;
 use planecut_csg::Mesh;
 
-use crate::format::check_parts;
-use crate::{ExportError, ExportOptions, Format, Part, glb, stl};
+use super::Part;
+use crate::ExportError;
 
 /// The triangles of some parts as a file holds them, in the units of the parts.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -39,18 +39,5 @@ impl Written {
         self.faces += mesh.faces.len();
         self.is_reduced |= self.triangles.len() - before < part.mesh.triangles.len();
         Ok(())
-    }
-}
-
-/// What [`write_parts`](crate::write_parts) puts into a file. `None` for formats in double precision: they hold the meshes as they are.
-///
-/// # Errors
-/// As for [`encode`](crate::encode).
-pub fn written(parts: &[Part<'_>], format: Format, options: &ExportOptions) -> Result<Option<Written>, ExportError> {
-    check_parts(parts, options)?;
-    match format {
-        Format::Glb | Format::Gltf => glb::written(parts, options).map(Some),
-        Format::Stl => stl::written(parts, options).map(Some),
-        Format::Obj | Format::ThreeMf | Format::Ply => Ok(None),
     }
 }
