@@ -181,6 +181,7 @@ impl Section {
     }
 
     /// The numbers of a section of indices, those of all meshes.
+    #[cfg(feature = "meshopt")]
     pub(super) fn numbers(&self, meshes: &[Geometry]) -> Vec<u32> {
         let mesh = |mesh: &Geometry| -> Vec<u32> {
             match self.kind {

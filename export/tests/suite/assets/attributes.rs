@@ -169,3 +169,11 @@ fn numbers_that_mean_nothing_are_refused() {
     let tangents = ExportOptions { tangents: true, ..ExportOptions::default() };
     assert!(matches!(refused(tangents), ExportError::TangentsWithoutTexture));
 }
+
+#[cfg(not(feature = "meshopt"))]
+#[test]
+fn packed_buffers_need_a_feature() {
+    let options = ExportOptions { meshopt: true, ..ExportOptions::default() };
+    let error = encode(&cube_with_hole(), Format::Glb, &options).expect_err("no library").to_string();
+    assert_eq!(error, "EXT_meshopt_compression is not in this build, expected one with the feature `meshopt`");
+}

@@ -4,6 +4,7 @@
 mod attributes;
 mod held;
 mod packages;
+#[cfg(feature = "meshopt")]
 mod packed;
 mod shared;
 mod support;
