@@ -4,12 +4,13 @@
 //! decision is the exact sign of a small determinant of plane coefficients; coordinates are computed for people and for
 //! files, and decide nothing. So no tolerance is needed, and the mesh that leaves is closed by construction.
 //!
-//! This crate gathers the four crates of the project under one name and adds the command line:
+//! This crate gathers the crates of the project under one name and adds the command line:
 //!
 //! | module | what it holds |
 //! |---|---|
-//! | [`kernel`] | exact signs, half-spaces, convex polyhedra that planes are added to and taken back from |
-//! | [`csg`] | trees of set operations, their skin as a mesh and their convex cells, primitives, outlines, checks of any mesh |
+//! | [`kernel`] | exact signs, half-spaces, convex polyhedra whose planes can be added, moved and removed |
+//! | [`csg`] | trees of set operations, their boundary as a mesh and their convex cells, primitives, outlines |
+//! | [`check`] | is any mesh watertight, manifold, free of self-intersections |
 //! | [`import`] | readers of the native model file, of OpenSCAD's evaluated trees, of Quake-family `.map` files, and of OBJ, STL, PLY and glTF meshes |
 //! | [`export`] | writers of GLB, glTF, OBJ and STL, and rendered previews |
 //!
@@ -39,7 +40,7 @@
 //! let glb = encode(&evaluation.mesh, Format::Glb, &ExportOptions::default())?;
 //! assert!(glb.starts_with(b"glTF"));
 //!
-//! // Its cells: convex and disjoint. Planes cut them in place, and are taken back.
+//! // Its cells: convex and disjoint. Planes cut them in place and can be removed again.
 //! let mut solid = Solid::from_tree(&model.tree);
 //! let whole = solid.volume();
 //! let cut = solid.add_plane(&HalfSpace::new(DVec3::X, 20.0)?);
@@ -77,7 +78,23 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
-pub use planecut_csg as csg;
+/// Trees of set operations and all that is made of them: everything of [`planecut_csg`], [`cells`](crate::cells) and
+/// [`shapes`](crate::shapes) under one name.
+pub mod csg {
+    pub use planecut_cells::*;
+    pub use planecut_check as check;
+    pub use planecut_csg::*;
+    pub use planecut_shapes::*;
+}
+
+pub use planecut_cells as cells;
+pub use planecut_check as check;
 pub use planecut_export as export;
 pub use planecut_import as import;
 pub use planecut_kernel as kernel;
+pub use planecut_shapes as shapes;
+
+/// The example of the README, run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}

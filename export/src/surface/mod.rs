@@ -1,19 +1,17 @@
 //! A mesh as renderers want it: vertices with normals, texture coordinates and colours, split where these differ.
 //!
 //! - `smooth`: which corners of triangles share a normal; `texture`: coordinates by projection.
-//! - `single_precision`: edges too short for it; `topology`: whether triangles form a closed surface.
+//! - `single_precision`: edges too short for it.
 
 mod single_precision;
 mod smooth;
 mod texture;
-mod topology;
 
 use glam::{DVec2, DVec3};
 use planecut_csg::{FaceSource, Mesh};
 use rustc_hash::FxHashMap;
 
 pub(crate) use single_precision::without_lost_edges;
-pub(crate) use topology::is_oriented_manifold;
 
 use crate::part::{ExportOptions, Shading};
 use smooth::SharedNormals;

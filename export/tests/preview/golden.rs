@@ -6,9 +6,11 @@ use std::fs;
 use std::path::Path;
 
 use glam::DVec3;
-use planecut_csg::{Brush, Material, MaterialId, Model, Solid, Transform, Tree, evaluate, primitives};
+use planecut_cells::Solid;
+use planecut_csg::{Brush, Material, MaterialId, Model, Transform, Tree, evaluate};
 use planecut_export::{Background, CameraKind, Picture, PreviewOptions, PreviewStyle, Subject, Unit, render};
 use planecut_kernel::HalfSpace;
+use planecut_shapes::primitives;
 
 use crate::support::SMALL;
 

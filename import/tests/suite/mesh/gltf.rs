@@ -1,7 +1,7 @@
 //! glTF: containers, transforms, primitive modes, sparse accessors, and `EXT_mesh_manifold`.
 
 use glam::DVec3;
-use planecut_csg::check::TopologyDefect;
+use planecut_check::TopologyDefect;
 use planecut_import::mesh::{IndexedMesh, MeshFormat, Precision, read_mesh};
 
 use super::support::{CUBE_QUADS, assert_sound, check, cube_corners, cube_triangles, floats, glb, shorts, split_cube};

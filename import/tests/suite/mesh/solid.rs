@@ -1,7 +1,8 @@
 //! Closed meshes as models: objects, materials, precision, and what is said of meshes that are no solid.
 
 use glam::DVec3;
-use planecut_csg::{Material, Solid};
+use planecut_cells::Solid;
+use planecut_csg::Material;
 use planecut_import::mesh::{MeshFormat, MeshImport, read_parts, read_solid};
 use planecut_kernel::IncrementalPolytope;
 
