@@ -34,7 +34,7 @@ const MESH_MANIFOLD: &str = "EXT_mesh_manifold";
 const QUANTIZATION: &str = "KHR_mesh_quantization";
 const MESHOPT: &str = "EXT_meshopt_compression";
 
-/// Arrays begin at multiples of so many bytes, more than any component has.
+/// Alignment of arrays in bytes: no component is larger.
 const ALIGNED: usize = 4;
 
 /// What a material is where it does not say: matt and no metal.

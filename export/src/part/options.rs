@@ -1,9 +1,12 @@
 //! How to write a mesh.
 
+use serde::{Deserialize, Serialize};
+
 use crate::ExportError;
 
 /// How to write a mesh. Each format takes what it has a place for.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct ExportOptions {
     /// Factor from the input's units to those of the file: 1 keeps them, 0.0254 turns inches into metres.
     ///
@@ -56,7 +59,8 @@ impl Default for ExportOptions {
 }
 
 /// A unit of length.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Unit {
     /// 10⁻⁶ m.
     Micron,
@@ -101,11 +105,12 @@ impl Unit {
 }
 
 /// Which way the normals of vertices point.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Shading {
     /// Each face has its own: edges are seen.
     Flat,
-    /// Faces that meet at an angle of no more than so many degrees share theirs: what stands for something round looks so.
+    /// Faces that meet at no more than the crease angle share theirs: what approximates a curved surface looks smooth.
     Smooth {
         /// The crease angle, between the normals of both faces, from 0 to 180.
         crease: f64,
@@ -113,17 +118,18 @@ pub enum Shading {
 }
 
 /// Where texture coordinates come from.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct TextureMapping {
     /// How they follow from positions.
     pub projection: Projection,
-    /// So long is what a texture covers once: in units of the input, in texels where the source counts in these. Where it counts in whole
+    /// Length that a texture covers once: in units of the input, in texels where the source counts in these. Where it counts in whole
     /// pictures this has no say.
     pub size: f64,
 }
 
 /// How textures are projected onto faces.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Projection {
     /// As the source says: the axes of a map's faces. Faces of which nothing is known get [`Projection::Box`].
     Source,
@@ -134,7 +140,7 @@ pub enum Projection {
 }
 
 impl ExportOptions {
-    /// Sees that all numbers can be used.
+    /// Checks that all numbers can be used.
     pub(crate) fn check(&self) -> Result<(), ExportError> {
         // NaN fails these comparisons as well. The bounds keep the scale and its inverse normal in single precision.
         let usable = 1e-30..=1e30;
@@ -151,5 +157,25 @@ impl ExportOptions {
             None if self.tangents => Err(ExportError::TangentsWithoutTexture),
             _ => Ok(()),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn options_go_through_json_and_what_is_not_said_is_the_default() {
+        let options: ExportOptions =
+            serde_json::from_str(r#"{"unit": "inch", "shading": {"smooth": {"crease": 30.0}}}"#).expect("options");
+        let expected = ExportOptions {
+            unit: Some(Unit::Inch),
+            shading: Shading::Smooth { crease: 30.0 },
+            ..ExportOptions::default()
+        };
+        assert_eq!(options, expected);
+        let text = serde_json::to_string(&options).expect("JSON");
+        assert_eq!(serde_json::from_str::<ExportOptions>(&text).expect("options"), expected);
+        serde_json::from_str::<ExportOptions>(r#"{"units": "inch"}"#).expect_err("an unknown field");
     }
 }

@@ -248,7 +248,7 @@ impl Drawing {
         (self.min, self.max) = (min.floor() * (DOT / UNITS), max.ceil() * (DOT / UNITS));
     }
 
-    /// The loops in dots, each curve cut into so many segments of equal parameter.
+    /// The loops in dots, each curve cut into this number of segments of equal parameter.
     fn loops(&self, segments: u32) -> Vec<Vec<DVec2>> {
         let mut loops: Vec<Vec<DVec2>> = Vec::new();
         let mut pen = DVec2::ZERO;
