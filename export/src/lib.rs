@@ -44,3 +44,8 @@ pub use preview::{
     sheet_layout,
 };
 pub use written::{Written, written};
+
+/// The example of the README, run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}
