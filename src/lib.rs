@@ -83,6 +83,7 @@
 pub mod csg {
     pub use planecut_cells::*;
     pub use planecut_check as check;
+    pub use planecut_csg::tolerances;
     pub use planecut_csg::*;
     pub use planecut_shapes::*;
 }

@@ -3,11 +3,8 @@
 use std::cmp::Ordering;
 use std::f64::consts::PI;
 
-<<<<<<< HEAD
-use planecut_csg::stages::{HalfEdges, NO_TWIN};
-=======
 use crate::tolerances::SAME_ANGLE;
->>>>>>> e1b3e14012183f333cbd5b8482824bd8ace49722
+use planecut_csg::stages::{HalfEdges, NO_TWIN};
 use planecut_kernel::DVec3;
 
 /// One side of a triangle.

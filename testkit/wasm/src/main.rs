@@ -6,8 +6,10 @@
 //! the message as well.
 #![forbid(unsafe_code)]
 
+mod csg;
 mod kernel;
 
 fn main() {
     kernel::check();
+    csg::check();
 }
