@@ -48,3 +48,8 @@ pub use model::{
 pub use plane_table::{PlaneId, PlaneTable};
 pub use tolerances::SNAP_TOLERANCE;
 pub use weld::WeldError;
+
+/// The example of the README, run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}

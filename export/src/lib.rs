@@ -39,3 +39,8 @@ pub use preview::{
     PreviewStyle, SheetColors, SheetLayout, Subject, Tile, Turntable, contact_sheet, render, render_buffers,
     sheet_layout,
 };
+
+/// The example of the README, run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}

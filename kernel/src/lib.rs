@@ -73,3 +73,8 @@ pub use polytope::{
     Location, Measures, MovePlaneResult, PlaneIdx, RecessionCone, RemovePlaneResult, RemovePlanesResult, Support,
     TopologyError, Validation, ValidationError, Vertex, VertexIdx,
 };
+
+/// The example of the README, run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}

@@ -23,3 +23,8 @@ pub mod tolerances;
 
 pub use outline::Outline;
 pub use primitives::ShapeError;
+
+/// The example of the README, run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}

@@ -1,22 +1,23 @@
-//! Maps that others made, in `../shared/data/map` beside the project; skipped, with a line that says so, where absent.
+//! Maps that others made, in the data folder; ignored where it is absent.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use planecut_import::map::{MapImport, MapOptions, read_map};
+use planecut_testkit::data::data;
 use serde_json::Value;
 
-fn folder() -> Option<PathBuf> {
-    let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared/data/map"));
-    if !folder.is_dir() {
-        println!("skipped: {} is absent", folder.display());
-        return None;
-    }
-    Some(folder.to_owned())
-}
+planecut_testkit::tests_on_data!(
+    brush_counts_are_those_of_the_reference,
+    counts_are_those_of_the_comments,
+    lines_are_those_of_opening_braces,
+    boxes_have_the_bounds_of_the_reference,
+    editor_fixtures,
+    a_quoted_template_read_as_a_map
+);
 
 /// All maps, as `folder/file` and text, by name.
 fn maps() -> Vec<(String, Vec<u8>)> {
-    let Some(folder) = folder() else { return Vec::new() };
+    let folder = data("map");
     let entries = |path: &Path| std::fs::read_dir(path).expect("a folder").map(|e| e.expect("an entry").path());
     let files = entries(&folder).filter(|path| path.is_dir()).flat_map(|path| entries(&path).collect::<Vec<_>>());
     let mut maps: Vec<(String, Vec<u8>)> = files
@@ -30,19 +31,18 @@ fn maps() -> Vec<(String, Vec<u8>)> {
     maps
 }
 
-fn reference() -> Option<Value> {
-    let text = std::fs::read(folder()?.join("reference.json")).expect("reference.json");
-    Some(serde_json::from_slice(&text).expect("JSON"))
+fn reference() -> Value {
+    let text = std::fs::read(data("map/reference.json")).expect("reference.json");
+    serde_json::from_slice(&text).expect("JSON")
 }
 
-fn read(name: &str) -> Option<MapImport> {
-    let text = std::fs::read(folder()?.join(name)).expect("a readable file");
-    Some(read_map(&text, name, &MapOptions::default()).unwrap_or_else(|error| panic!("{error}")))
+fn read(name: &str) -> MapImport {
+    let text = std::fs::read(data("map").join(name)).expect("a readable file");
+    read_map(&text, name, &MapOptions::default()).unwrap_or_else(|error| panic!("{error}"))
 }
 
-#[test]
 fn brush_counts_are_those_of_the_reference() {
-    let Some(reference) = reference() else { return };
+    let reference = reference();
     let mut compared = 0;
     for (name, text) in maps() {
         let Some(brushes) = reference[&name]["brushes"].as_u64() else { continue };
@@ -56,7 +56,6 @@ fn brush_counts_are_those_of_the_reference() {
 }
 
 /// An editor's map says so itself: it numbers entities and brushes in comments.
-#[test]
 fn counts_are_those_of_the_comments() {
     for (name, text) in maps() {
         let Ok(import) = read_map(&text, &name, &MapOptions::default()) else { continue };
@@ -69,7 +68,6 @@ fn counts_are_those_of_the_comments() {
     }
 }
 
-#[test]
 fn lines_are_those_of_opening_braces() {
     for (name, text) in maps() {
         let Ok(import) = read_map(&text, &name, &MapOptions::default()) else { continue };
@@ -83,11 +81,10 @@ fn lines_are_those_of_opening_braces() {
 }
 
 /// The bounds of a box are the offsets of its axis planes.
-#[test]
 fn boxes_have_the_bounds_of_the_reference() {
-    let Some(reference) = reference() else { return };
+    let reference = reference();
     for name in ["ericw/q1_cube.map", "trenchbroom/cube.map"] {
-        let import = read(name).expect("the folder is there");
+        let import = read(name);
         let mut bounds = [f64::NAN; 6];
         for face in &import.model.tree.brushes()[0].faces {
             let normal = face.half_space.normal().to_array();
@@ -101,7 +98,6 @@ fn boxes_have_the_bounds_of_the_reference() {
 }
 
 /// Every editor fixture gives what is stated here: `Ok((brushes, patches, faces left out))` or the line of the error.
-#[test]
 fn editor_fixtures() {
     let expected = [
         ("01_Worldspawn_and_one_brush", Ok((1, 0, 0))),
@@ -130,10 +126,8 @@ fn editor_fixtures() {
     }
 }
 
-#[test]
 fn a_quoted_template_read_as_a_map() {
-    let Some(folder) = folder() else { return };
-    let template = std::fs::read_to_string(folder.join("tb_worldreader/20_Quoted_material_names.map")).expect("a text");
+    let template = std::fs::read_to_string(data("map/tb_worldreader/20_Quoted_material_names.map")).expect("a text");
     let text = template.replace("{{", "{").replace("}}", "}").replace("{0}", r#""some \"quoted\" {name}""#);
     let import = read_map(text.as_bytes(), "m", &MapOptions::default()).expect("a map");
     let names: Vec<&str> = import.model.materials.iter().map(|material| material.name.as_str()).collect();

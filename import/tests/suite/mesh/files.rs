@@ -1,4 +1,4 @@
-//! Convex decompositions that others wrote: `../shared/data/convex` beside the workspace. Skipped where it is absent.
+//! Convex decompositions that others wrote: in the data folder; ignored where it is absent.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -6,6 +6,9 @@ use std::path::{Path, PathBuf};
 use glam::DVec3;
 use planecut_check::{CheckOptions, check_mesh};
 use planecut_import::mesh::{IndexedMesh, MeshFormat, read_mesh};
+use planecut_testkit::data::data;
+
+planecut_testkit::tests_on_data!(decompositions_read_as_closed_objects);
 
 fn obj_files(folder: &Path) -> Vec<PathBuf> {
     let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
@@ -37,14 +40,9 @@ fn volume(mesh: &IndexedMesh, triangles: &[[u32; 3]]) -> f64 {
     triangles.iter().map(|&[a, b, c]| (at(a) - apex).dot((at(b) - apex).cross(at(c) - apex)) / 6.0).sum()
 }
 
-#[test]
 fn decompositions_read_as_closed_objects() {
-    let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared/data/convex"));
-    let files = obj_files(folder);
-    if files.is_empty() {
-        println!("skipped: no files under {}", folder.display());
-        return;
-    }
+    let files = obj_files(&data("convex"));
+    assert!(!files.is_empty());
     for file in files {
         let name = file.display().to_string();
         let bytes = std::fs::read(&file).expect("the file was listed");

@@ -1,12 +1,14 @@
 //! Real trees, held against volumes that others computed.
 
 use std::fs;
-use std::path::PathBuf;
 
 use planecut_check::check_topology;
 use planecut_csg::evaluate;
 use planecut_import::scad::{ScadOptions, read_scad};
+use planecut_testkit::data::data;
 use serde_json::Value;
+
+planecut_testkit::tests_on_data!(volumes_are_those_of_the_reference);
 
 /// What differs, and why.
 const KNOWN: [(&str, &str); 3] = [
@@ -15,13 +17,9 @@ const KNOWN: [(&str, &str); 3] = [
     ("examples/rotate_extrude.csg", "OpenSCAD's font renderer rounds the outlines of letters"),
 ];
 
-#[test]
 fn volumes_are_those_of_the_reference() {
-    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../shared/data/csg");
-    let Ok(reference) = fs::read(folder.join("reference.json")) else {
-        println!("skipped: there is no ../shared/data/csg");
-        return;
-    };
+    let folder = data("csg");
+    let reference = fs::read(folder.join("reference.json")).expect("reference.json");
     let reference: Vec<Value> = serde_json::from_slice(&reference).expect("JSON");
     let mut failures = Vec::new();
     for entry in &reference {
