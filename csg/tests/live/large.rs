@@ -72,7 +72,7 @@ fn over_polygon(random: &mut Rng) -> Planes {
 
 /// A plane that leaves nothing of most brushes, or little.
 fn emptying(random: &mut Rng) -> Plane {
-    let normal = random.pick(&[DVec3::X, DVec3::NEG_Y, DVec3::new(1.0, 2.0, -1.0)]);
+    let normal = *random.pick(&[DVec3::X, DVec3::NEG_Y, DVec3::new(1.0, 2.0, -1.0)]);
     (normal.to_array(), -6.0 + 3.0 * f64::from(random.integer(0, 2)))
 }
 

@@ -55,7 +55,8 @@ use crate::sign::Homogeneous;
 use redundant::Certificates;
 use store::{Change, Link, NONE, PlaneState, PlaneStore, VertexStore};
 
-/// Handle of a plane of one [`IncrementalPolytope`]; given again after the plane was removed.
+/// Handle of a plane of one [`IncrementalPolytope`], given again after the plane was removed; or of a brush of a live model, where none is
+/// given again.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct PlaneIdx(pub usize);
 
