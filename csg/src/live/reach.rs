@@ -50,7 +50,8 @@ impl LiveModel {
                 edited.is_none_or(|(_, old)| old.as_ref().is_some_and(|old| old.role == operand.state.role));
             keeps_role && self.has_no_equal(operand)
         };
-        let few = if changed.len() < MANY { changed } else { &[] };
+        // in nested operations it depends on what is near a face which of two bodies speaks for a plane of both
+        let few = if changed.len() < MANY && self.base.is_none() { changed } else { &[] };
         few.iter().copied().filter(is_local).collect()
     }
 
