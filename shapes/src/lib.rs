@@ -19,6 +19,7 @@ pub mod outline;
 pub mod polyhedron;
 pub mod primitives;
 pub mod shaping;
+pub mod tolerances;
 
 pub use outline::Outline;
 pub use primitives::ShapeError;

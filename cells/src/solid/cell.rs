@@ -9,7 +9,7 @@ use planecut_kernel::{AddPlaneResult, DVec3, IncrementalPolytope, PlaneIdx};
 const EVERYWHERE: Bounds = Bounds { min: DVec3::NEG_INFINITY, max: DVec3::INFINITY };
 
 /// Widens coordinates that were rounded once.
-const ROUNDING: f64 = 4.0 * f64::EPSILON;
+const COORDINATE_BOUND: f64 = 4.0 * f64::EPSILON;
 
 /// A plane of a [`Cell`], and where it comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -99,7 +99,7 @@ impl Cell {
         self.add_again(table, plane).1
     }
 
-    /// The same, whether or not the plane is there already, so that it can be taken back.
+    /// The same, whether or not the plane is there already, so that it can be removed.
     pub(super) fn add_again(&mut self, table: &PlaneTable, plane: CellPlane) -> (PlaneIdx, Cut) {
         let (handle, cut) = match self.polytope.add_plane(*table.half_space(plane.plane)) {
             AddPlaneResult::Added { plane, .. } => (plane, Cut::Face),
@@ -133,7 +133,7 @@ impl Cell {
         self.polytope.facets().iter().filter_map(|(handle, _)| self.plane(*handle).copied()).collect()
     }
 
-    /// Makes the cell ready after cuts: its box is taken anew, and planes without a face that no longer touch it are
+    /// Makes the cell ready after cuts: its box is computed again, and planes without a face that no longer touch it are
     /// dropped.
     ///
     /// Those that touch it in a corner or an edge stay. They hide nothing now, but when coefficients are rounded (a turned
@@ -155,7 +155,7 @@ impl Cell {
             return corners.iter().fold(Bounds::EMPTY, |bounds, (_, point)| bounds.with_point(point));
         }
         let Some(bounds) = self.polytope.bounding_box() else { return Bounds::EMPTY };
-        let margin = |v: DVec3| v.abs() * ROUNDING;
+        let margin = |v: DVec3| v.abs() * COORDINATE_BOUND;
         Bounds { min: bounds.min - margin(bounds.min), max: bounds.max + margin(bounds.max) }
     }
 

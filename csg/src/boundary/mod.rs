@@ -5,11 +5,13 @@
 //! ends: pieces of the face's own edges, and pieces of the section edges, each clipped in one dimension. Mostly each body
 //! alone decides what is inside or outside of its polygon, and intervals are subtracted; where several decide together,
 //! [`sweep`] evaluates the tree along each edge. Only the part of the tree that reaches a face is ever looked at. Of coplanar
-//! faces one owner emits ([`contact`]).
+//! faces one owner emits ([`ownership`]); what most bodies do to a face is told without the others ([`role`]).
 
 mod clip;
 mod contact;
 mod face;
+mod ownership;
+mod role;
 mod section;
 mod sweep;
 
@@ -18,13 +20,14 @@ use std::borrow::Cow;
 use planecut_kernel::sign::Counts;
 
 use crate::base::{Boxes, map_chunks};
-use crate::body::{Body, BodyFace, Gauge};
-use crate::expression::{Expression, Flat, Polarity};
+use crate::body::{Body, BodyFace, PolarDual};
+use crate::expression::{Expression, OneLevel, Polarity};
 use crate::model::MaterialId;
 use crate::plane_table::{PlaneId, PlaneTable};
+use contact::Facing;
 pub(crate) use contact::misses;
-use contact::{Facing, Owner};
 pub(crate) use face::FaceWorker;
+use ownership::{Turn, material_of};
 
 /// A piece of the boundary of the kept region of a plane: on the line of `face` and `edge`, directed along
 /// `n_face × n_edge`, so that the region lies to the left.
@@ -45,7 +48,7 @@ impl BoundaryEdge {
     /// The edge of a region that lies left of `n_face × n_edge`, from `start` to `end` in that direction; `facing` tells
     /// whether the region faces as `face` does.
     fn left(face: &BodyFace, facing: Facing, edge: PlaneId, start: PlaneId, end: PlaneId) -> Self {
-        let BodyFace { plane, material, .. } = *face;
+        let (plane, material) = (face.plane, material_of(face));
         match facing {
             Facing::Out => Self { face: plane, edge, start, end, material },
             // seen from the other side it runs back
@@ -67,7 +70,7 @@ pub(crate) struct Scene<'a> {
     pub(crate) leaf_of_body: &'a [u32],
     pub(crate) expression: &'a Expression,
     /// Where the expression is of one level, what it does.
-    flat: Option<Flat>,
+    one_level: Option<OneLevel>,
     /// How many bodies have a face on each plane; 255 stands for more as well.
     bodies_on_plane: Cow<'a, [u8]>,
     /// Orders materials: where coplanar faces overlap, the lower rank wins, so that the outcome does not depend on the
@@ -100,12 +103,12 @@ impl<'a> Scene<'a> {
         bodies_on_plane: impl Into<Cow<'a, [u8]>>,
         rank: &'a [u32],
     ) -> Self {
-        let (flat, bodies_on_plane) = (expression.flat(), bodies_on_plane.into());
-        Self { table, bodies, leaf_of_body, expression, flat, bodies_on_plane, rank }
+        let (one_level, bodies_on_plane) = (expression.one_level(), bodies_on_plane.into());
+        Self { table, bodies, leaf_of_body, expression, one_level, bodies_on_plane, rank }
     }
 
-    fn gauge(&self, body: usize) -> Option<&'a Gauge> {
-        self.bodies[body].gauge(self.table)
+    fn polar_dual(&self, body: usize) -> Option<&'a PolarDual> {
+        self.bodies[body].polar_dual(self.table)
     }
 
     /// Whether bodies other than the face's own may have a face on its plane.
@@ -117,13 +120,14 @@ impl<'a> Scene<'a> {
         self.expression.polarity(self.leaf_of_body[body])
     }
 
-    fn owner(&self, body: usize, face: &BodyFace) -> Owner {
-        (self.polarity(body), self.rank[face.material.0 as usize], body)
+    /// When a face of a body has its turn among those on its plane.
+    fn turn(&self, body: usize, face: &BodyFace) -> Turn {
+        Turn { polarity: self.polarity(body), material_rank: self.rank[face.material.0 as usize], body }
     }
 }
 
 /// The boundary edges of a tree of bodies.
-pub(crate) fn skin(scene: &Scene<'_>) -> (Vec<BoundaryEdge>, Counts) {
+pub(crate) fn boundary_edges(scene: &Scene<'_>) -> (Vec<BoundaryEdge>, Counts) {
     let bodies = &scene.bodies;
     let boxes = Boxes::new(bodies.iter().map(|body| body.bounds).collect());
     // in the order of space, so that what is near is at hand
@@ -146,9 +150,9 @@ pub(crate) fn skin(scene: &Scene<'_>) -> (Vec<BoundaryEdge>, Counts) {
 }
 
 /// The boundary edges of the union of bodies.
-pub(crate) fn skin_of_union(table: &PlaneTable, bodies: &[Body], rank: &[u32]) -> (Vec<BoundaryEdge>, Counts) {
+pub(crate) fn boundary_of_union(table: &PlaneTable, bodies: &[Body], rank: &[u32]) -> (Vec<BoundaryEdge>, Counts) {
     let count = bodies.len();
     let leaves: Vec<u32> = (0..count as u32).collect();
     let expression = Expression::union_of(count);
-    skin(&Scene::new(table, bodies, &leaves, &expression, rank))
+    boundary_edges(&Scene::new(table, bodies, &leaves, &expression, rank))
 }

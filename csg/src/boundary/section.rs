@@ -3,7 +3,7 @@
 use planecut_kernel::sign::{Homogeneous, Sign};
 
 use crate::base::Bounds;
-use crate::body::{Corner, Sieve};
+use crate::body::{Corner, PlaneFilter};
 use crate::plane_table::{PlaneId, PlaneTable};
 
 /// A convex polygon on `plane`: edge `i` lies on the line of `edges[i]`, whose normal points away from the polygon;
@@ -48,10 +48,10 @@ impl Polygon {
         let (mut some_inside, mut some_outside) = (false, false);
         // Which corners are strictly inside; polygons of more than 128 corners take the slow way.
         let mut inside = Inside::new(n);
-        let sieve = Sieve::new(table.half_space(cut));
+        let filter = PlaneFilter::new(table.half_space(cut));
         for i in 0..n {
             let corner = &self.corners[i];
-            let side = match sieve.side(corner) {
+            let side = match filter.side(corner) {
                 Sign::Zero => table.side(self.corner(plane, i), &corner.point, cut),
                 certain => certain,
             };
@@ -73,8 +73,9 @@ impl Polygon {
         spare.edges.clear();
         spare.corners.clear();
         // The last corner strictly inside before the cut begins; edge `i` runs from corner `i − 1` to corner `i`.
-        let last = (0..n).find(|i| inside.get(*i) && !inside.get((i + 1) % n)).unwrap_or(0);
-        let first = (1..=n).map(|k| (last + k) % n).find(|i| inside.get(*i)).unwrap_or(last);
+        let last = (0..n).find(|i| inside.get(*i) && !inside.get((i + 1) % n));
+        let last = last.expect("some corners are strictly inside and some are not");
+        let first = (1..=n).map(|k| (last + k) % n).find(|i| inside.get(*i)).expect("the last corner inside is one");
         // Kept are the edges that touch a corner strictly inside: from edge `first` to edge `last + 1`.
         let mut i = first;
         while i != last {

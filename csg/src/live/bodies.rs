@@ -16,7 +16,7 @@ use crate::model::MaterialId;
 use crate::plane_table::PlaneId;
 use crate::weld::EdgeId;
 
-/// So many brushes are built by several threads.
+/// Number of brushes from which several threads build them.
 pub(super) const MANY: usize = 32;
 
 /// No face.

@@ -1,4 +1,4 @@
-//! How a change of brushes goes through planes, bodies, skin and weld.
+//! How a change of brushes goes through planes, bodies, boundary and weld.
 
 use std::sync::Arc;
 
@@ -28,7 +28,7 @@ impl LiveModel {
         let bodies = self.build(&changed, &before);
         let old = self.place(bodies);
         let faces = self.faces_to_redo(&changed, &old, reach, &local);
-        let found = self.skin(&faces);
+        let found = self.boundary_edges(&faces);
         let outer = &self.outer;
         let is_outside =
             |edge: &BoundaryEdge| [edge.face, edge.edge, edge.start, edge.end].iter().any(|plane| outer.holds(*plane));

@@ -5,11 +5,12 @@
 //! are worked out again among the bodies near them, and of their edges those that are new or gone are handed to the weld.
 //!
 //! - [`edit`]: what users do, [`history`]: and take back.
-//! - [`change`]: how a change of brushes goes through [`planes`], [`bodies`], [`skin`] and weld; [`polytopes`] are kept to
+//! - [`change`]: how a change of brushes goes through [`planes`], [`bodies`], [`boundary`] and weld; [`polytopes`] are kept to
 //!   build bodies from, [`reach`] tells which faces are to be worked out again.
 //! - [`order`]: how brushes are combined, [`operand`]: what is known of each.
 
 mod bodies;
+mod boundary;
 mod change;
 mod edit;
 mod history;
@@ -18,7 +19,6 @@ mod order;
 mod planes;
 mod polytopes;
 mod reach;
-mod skin;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -223,7 +223,7 @@ impl LiveModel {
         Ok(live)
     }
 
-    /// The same model as a tree, to be evaluated or kept. Brushes are numbered anew, without those that were taken out of a
+    /// The same model as a tree, to be evaluated or kept. Brushes are renumbered, without those that were taken out of a
     /// sequence.
     #[must_use]
     pub fn to_model(&self) -> Model {
@@ -302,7 +302,7 @@ impl LiveModel {
         !self.welded.has_crossings()
     }
 
-    /// The mesh of the solid, equal to that of the same model built anew.
+    /// The mesh of the solid, equal to that of the same model built from scratch.
     ///
     /// # Errors
     /// [`EvaluateError::Weld`]: a bug in this crate.

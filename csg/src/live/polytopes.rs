@@ -14,7 +14,7 @@ use crate::plane_table::PlaneId;
 /// polytope, which would take several kilobytes for each brush that was edited once (docs/edits.md has the figures).
 pub(super) const LEAST_PLANES: usize = 16;
 
-/// Where more than one plane in so many is another, a polytope is built from all of them: it takes about as long to add three
+/// Where more than one in this number of planes is another, a polytope is built from all of them: it takes about as long to add three
 /// planes to an empty polytope as to change one of a complete one.
 pub(super) const PLANES_PER_CHANGE: usize = 4;
 

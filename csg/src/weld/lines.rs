@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::points::Points;
-use crate::base::{WEIGHTS, distinct, map_chunks};
+use crate::base::{WEIGHTS, intern, map_chunks};
 use crate::boundary::BoundaryEdge;
 use crate::plane_table::{PlaneId, PlaneTable};
 
@@ -29,7 +29,7 @@ pub(super) type Key = (usize, [u64; 4]);
 /// Numbers the lines of edges; gives the lines and the number of the line of each edge, in order.
 pub(super) fn identify(table: &PlaneTable, edges: &[BoundaryEdge]) -> (Vec<Line>, Vec<u32>, Counts) {
     let keys: Vec<u64> = edges.par_iter().with_min_len(1024).map(pair).collect();
-    let (different, of_pair) = distinct(&keys, table.len(), |key| (key >> 32) as usize);
+    let (different, of_pair) = intern(&keys, table.len(), |key| (key >> 32) as usize);
     let (lines, of_different, counts) = number(table, &different);
     (lines, of_pair.into_par_iter().with_min_len(1024).map(|k| of_different[k as usize]).collect(), counts)
 }
@@ -227,7 +227,7 @@ fn mark(table: &PlaneTable, line: &Line) -> Mark {
 /// From the determinants of the planes' columns in plain numbers, where these are well conditioned: each is off by less than
 /// three roundings of its permanent, the quotient by those of both and its own.
 fn rounded_mark(table: &PlaneTable, line: &Line) -> Option<(f64, f64)> {
-    const ROUNDING: f64 = 4.0 * f64::EPSILON;
+    const DETERMINANT_BOUND: f64 = 4.0 * f64::EPSILON;
     const WELL: f64 = 1e4;
     let [a, b] = line.planes.map(|plane| table.row(plane).coefficients());
     let (u, v) = ((line.axis + 1) % 3, (line.axis + 2) % 3);
@@ -244,7 +244,8 @@ fn rounded_mark(table: &PlaneTable, line: &Line) -> Option<(f64, f64)> {
         let (value, permanent) = minor(i, j);
         let quotient = value / whole;
         mark += weight * quotient;
-        error += ROUNDING * (permanent + quotient.abs() * whole_permanent) / whole.abs() + ROUNDING * quotient.abs();
+        error += DETERMINANT_BOUND * (permanent + quotient.abs() * whole_permanent) / whole.abs()
+            + DETERMINANT_BOUND * quotient.abs();
     }
     mark.is_finite().then_some((mark, 2.0 * error))
 }

@@ -3,13 +3,13 @@
 //! The sides of a layer are planar or cut along a diagonal; between two planes across z they are a closed surface, which is
 //! cut into convex cells loop by loop. Without change of scale all layers are one, turned.
 
-use planecut_csg::check::{CheckOptions, check_mesh};
+use planecut_check::{CheckOptions, check_mesh};
 use planecut_csg::{Brush, MaterialId, Tree};
 use planecut_kernel::{DVec2, DVec3};
 use robust::{Coord3D, orient3d};
 
 use super::ShapeError;
-use super::cells::{Side, Surface};
+use super::cells::{PlaneSide, Surface};
 use super::extruded::{Extrusion, LayerRules, brush_of, ends};
 use super::parameter::{pieces, refuse};
 use crate::outline::largest_coordinate;
@@ -23,7 +23,7 @@ struct Ring {
     corners: [Vec<DVec2>; 2],
     is_hole: bool,
     /// The facets and cells of the layer before, where all layers are alike.
-    known: Option<(Facets, Vec<Vec<Side>>)>,
+    known: Option<(Facets, Vec<Vec<PlaneSide>>)>,
     brushes: Vec<Brush>,
 }
 

@@ -30,7 +30,7 @@ pub(super) struct PlaneUse {
 #[derive(Default)]
 pub(super) struct LivePlanes {
     pub(super) table: PlaneTable,
-    groups: Vec<Group>,
+    groups: Vec<EqualRows>,
     free_groups: Vec<u32>,
     by_key: FxHashMap<Key, Vec<u32>>,
     /// The distances from the origin, each with the number of groups that have it.
@@ -46,7 +46,7 @@ pub(super) struct LivePlanes {
 
 /// Rows of exactly one plane, on its side with a positive first coefficient.
 #[derive(Default)]
-struct Group {
+struct EqualRows {
     /// One of them, in use or not.
     plane: Option<Row>,
     /// Each with how often it is used; the least stands for the plane.
@@ -71,7 +71,7 @@ pub(super) struct Settled {
     pub(super) retired: Vec<u32>,
 }
 
-impl Group {
+impl EqualRows {
     fn is_plane_of(&self, row: &Row) -> bool {
         self.plane.as_ref().is_some_and(|plane| plane.is_same_plane(row))
     }
@@ -95,7 +95,7 @@ impl LivePlanes {
         let known = alike.iter().copied().find(|group| self.groups[*group as usize].is_plane_of(&row));
         let number = known.unwrap_or_else(|| {
             let number = self.free_groups.pop().unwrap_or_else(|| {
-                self.groups.push(Group::default());
+                self.groups.push(EqualRows::default());
                 self.groups.len() as u32 - 1
             });
             self.groups[number as usize].plane = Some(row);

@@ -14,14 +14,15 @@ mod sides;
 
 use planecut_kernel::DVec2;
 
-use super::cells::Side;
+use super::cells::PlaneSide;
 use crate::outline::signed_area;
+use crate::tolerances::{PARTITION_AREA, PARTITION_CONVEX};
 use polygon::Cutter;
 use sides::Sides;
 
 /// Convex cells of a loop that runs counter-clockwise and does not cross itself, each as sides of its sides' lines; `lines`
 /// has of each side the number of its line. `None` where the loop is not what it should be.
-pub(super) fn partition(corners: &[DVec2], lines: &[u32]) -> Option<Vec<Vec<Side>>> {
+pub(super) fn partition(corners: &[DVec2], lines: &[u32]) -> Option<Vec<Vec<PlaneSide>>> {
     let mut cutter = Cutter::new(Sides::new(corners, lines));
     let cells = cutter.cells()?;
     // A loop that runs through one point several times, or into itself, may be cut wrongly. Cells that overlap or leave gaps
@@ -29,7 +30,7 @@ pub(super) fn partition(corners: &[DVec2], lines: &[u32]) -> Option<Vec<Vec<Side
     let area = signed_area(corners);
     let found: f64 = cells.iter().map(|cell| cutter.area(cell).max(0.0)).sum();
     let size = corners.iter().map(|p| (*p - corners[0]).abs().max_element()).fold(0.0, f64::max);
-    let is_whole = (found - area).abs() <= 1e-12 * corners.len() as f64 * size * size;
-    let is_sound = is_whole && cells.iter().all(|cell| cutter.is_convex(cell, 1e-9 * size));
+    let is_whole = (found - area).abs() <= PARTITION_AREA * corners.len() as f64 * size * size;
+    let is_sound = is_whole && cells.iter().all(|cell| cutter.is_convex(cell, PARTITION_CONVEX * size));
     is_sound.then(|| cells.iter().map(|cell| cell.sides()).collect())
 }
