@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
+use super::LiveModel;
 use super::order::{restricted, sequence};
-use super::{LiveModel, body_of};
 use crate::base::{Bounds, map_chunks};
 use crate::body::{Body, kinds};
 use crate::boundary::{BoundaryEdge, FaceWorker, Scene};
@@ -26,13 +26,14 @@ type Found = (Vec<BoundaryEdge>, Vec<usize>);
 impl LiveModel {
     /// Works out the boundary on some faces, sorted.
     pub(super) fn boundary_edges(&mut self, faces: &[(u32, u32)]) -> Vec<Found> {
-        let id = |number: u32| self.operands[number as usize].as_ref().map_or(0, |operand| operand.id);
+        let mut place = std::mem::take(&mut self.buffers.place);
+        let id = |number: u32| self.operand(number).id;
         // what is near the faces of each body
         let mut near: Vec<(u64, u32)> = Vec::new();
         let mut groups: Vec<FaceBatch> = Vec::new();
         for of_body in faces.chunk_by(|a, b| a.0 == b.0) {
             let number = of_body[0].0;
-            let Some(body) = body_of(&self.operands, number) else { continue };
+            let body = self.body_at(number);
             let boxes = of_body.iter().map(|(_, face)| &body.faces[*face as usize].bounds);
             let bounds = boxes.fold(Bounds::EMPTY, |all, bounds| all.union(bounds));
             let (start, first) = (near.len(), groups.last().map_or(0, |group| group.faces.end));
@@ -48,24 +49,22 @@ impl LiveModel {
         if let Some((id, _)) = far {
             members.retain(|member| member.0 > *id);
         }
-        let operand = |number: u32| self.operands[number as usize].as_ref().expect("what is near is there");
-        let member = |leaf: u32| operand(members[leaf as usize].1);
+        let member = |leaf: u32| self.operand(members[leaf as usize].1);
+        let body = |leaf: u32| self.body_at(members[leaf as usize].1);
         let is_member = |leaf: u32| members.binary_search_by_key(&u64::from(leaf), |member| member.0).is_ok();
         let base = self.base.as_ref().filter(|_| far.is_none()).map(|base| restricted(&base.nodes, is_member));
         let in_base = self.base.as_ref().map_or(0, |base| u64::from(base.leaves));
         let in_sequence = members.partition_point(|member| member.0 < in_base) as u32..members.len() as u32;
         let roles = in_sequence.map(|leaf| member(leaf).state.role);
         let expression = Expression::new(&sequence(base.unwrap_or_default(), roles));
-        let faces_of = |leaf: u32| member(leaf).body.as_ref().map_or(&[][..], |body| &body.faces);
-        let kinds = kinds(members.len(), faces_of, |leaf| member(leaf).mark);
+        let kinds = kinds(members.len(), |leaf| &body(leaf).faces, |leaf| member(leaf).mark);
         let repeated = expression.repeated_leaves(&kinds);
         let leaves: Vec<u32> = (0..members.len() as u32).filter(|leaf| !repeated[*leaf as usize]).collect();
-        let place = &mut self.buffers.place;
         place.resize(self.operands.len(), NOWHERE);
         for (k, leaf) in (0..).zip(&leaves) {
             place[members[*leaf as usize].1 as usize] = k;
         }
-        let bodies: Vec<&Body> = leaves.iter().filter_map(|leaf| member(*leaf).body.as_ref()).collect();
+        let bodies: Vec<&Body> = leaves.iter().map(|leaf| body(*leaf)).collect();
         let table = &self.planes.table;
         let scene = Scene::of_some(table, bodies, &leaves, &expression, &self.bodies_on_plane, &self.rank);
         let emit = |groups: &[FaceBatch]| {
@@ -99,6 +98,7 @@ impl LiveModel {
         for (_, number) in &members {
             place[*number as usize] = NOWHERE;
         }
+        self.buffers.place = place;
         parts
     }
 

@@ -61,7 +61,8 @@ impl LiveModel {
         let (mut before, mut numbers) = (Vec::with_capacity(new.len()), Vec::with_capacity(new.len()));
         for (id, state) in new {
             let known = self.by_id.get(&id).copied();
-            let Some(number) = known.or_else(|| state.as_ref().map(|_| self.make_room(id))) else { continue };
+            assert!(known.is_some() || state.is_some(), "a brush that is to go is there");
+            let number = known.unwrap_or_else(|| self.make_room(id));
             let is_in_sequence = self.is_in_sequence(id);
             let operand = self.operands[number as usize].as_mut().expect("the brush is there");
             // planes that stay are in use all the time

@@ -51,7 +51,8 @@ impl LiveModel {
     /// # Errors
     /// [`EditError::NothingToUndo`].
     pub fn undo(&mut self) -> Result<Change, EditError> {
-        let step = self.history.done.pop_back().ok_or(EditError::NothingToUndo)?;
+        let mut step = self.history.done.pop_back().ok_or(EditError::NothingToUndo)?;
+        self.keep_handles(&step.before, &mut step.after);
         let outcome = self.go_to(&step.before);
         match outcome {
             Ok(_) => self.history.undone.push(step),
@@ -65,7 +66,8 @@ impl LiveModel {
     /// # Errors
     /// [`EditError::NothingToRedo`].
     pub fn redo(&mut self) -> Result<Change, EditError> {
-        let step = self.history.undone.pop().ok_or(EditError::NothingToRedo)?;
+        let mut step = self.history.undone.pop().ok_or(EditError::NothingToRedo)?;
+        self.keep_handles(&step.after, &mut step.before);
         let outcome = self.go_to(&step.after);
         match outcome {
             Ok(_) => self.history.done.push_back(step),
@@ -81,11 +83,24 @@ impl LiveModel {
         self.history.shorten();
     }
 
+    /// Brushes that are there now and not in the states to come have given handles of planes since they were in the states to
+    /// come back to: those are not given again.
+    fn keep_handles(&self, to_come: &[New], to_come_back: &mut [New]) {
+        for ((id, coming), (_, state)) in to_come.iter().zip(to_come_back) {
+            if let (None, Some(state), Some(number)) = (coming, state, self.by_id.get(id)) {
+                let next_plane = self.operand(*number).state.next_plane;
+                if state.next_plane < next_plane {
+                    Arc::make_mut(state).next_plane = next_plane;
+                }
+            }
+        }
+    }
+
     fn go_to(&mut self, states: &[New]) -> Result<Change, EditError> {
         let again = |(id, state): &New| {
             let known = self.by_id.get(id).and_then(|number| self.operands[*number as usize].as_ref());
             let next_plane = known.map_or(0, |operand| operand.state.next_plane);
-            // no number of a plane is given twice
+            // no handle of a plane is given twice
             let state = state.as_ref().map(|state| match state.next_plane < next_plane {
                 true => Arc::new(State { next_plane, ..State::clone(state) }),
                 false => Arc::clone(state),

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use planecut_csg::{Brush, BrushFace, BrushId, Edit, Material, MaterialId, Role, Transform};
-use planecut_kernel::{DMat3, DVec3, HalfSpace};
+use planecut_kernel::{DMat3, DVec3, HalfSpace, PlaneIdx};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -200,8 +200,12 @@ fn read_edit(text: &[u8], names: &mut Names) -> Result<Edit, Fault> {
             half_space: half_space(plane)?,
             material: material.map(|name| names.number(&name)),
         },
-        Record::RemovePlane { brush, plane } => Edit::RemovePlane { brush: BrushId(brush), plane },
-        Record::MovePlane { brush, plane, offset } => Edit::MovePlane { brush: BrushId(brush), plane, offset },
+        Record::RemovePlane { brush, plane } => {
+            Edit::RemovePlane { brush: BrushId(brush), plane: PlaneIdx(plane as usize) }
+        }
+        Record::MovePlane { brush, plane, offset } => {
+            Edit::MovePlane { brush: BrushId(brush), plane: PlaneIdx(plane as usize), offset }
+        }
         Record::AddBrush { planes, material, name, role } => {
             Edit::AddBrush { brush: brush(&planes, material, name, names)?, role: role.into() }
         }
@@ -280,9 +284,11 @@ impl Record {
             Edit::AddPlane { brush, half_space, material } => {
                 Self::AddPlane { brush: brush.0, plane: plane(half_space), material: material.and_then(name) }
             }
-            Edit::RemovePlane { brush, plane } => Self::RemovePlane { brush: brush.0, plane: *plane },
+            Edit::RemovePlane { brush, plane } => {
+                Self::RemovePlane { brush: brush.0, plane: u32::try_from(plane.0).ok()? }
+            }
             Edit::MovePlane { brush, plane, offset } => {
-                Self::MovePlane { brush: brush.0, plane: *plane, offset: *offset }
+                Self::MovePlane { brush: brush.0, plane: u32::try_from(plane.0).ok()?, offset: *offset }
             }
             Edit::AddBrush { brush, role } => Self::AddBrush {
                 planes: planes(brush),

@@ -2,7 +2,7 @@
 
 use planecut_csg::{Brush, BrushId, Edit, EditError, LiveModel, Material, MaterialId, Role, Transform};
 use planecut_import::edits::{read_edits, write_edits};
-use planecut_kernel::{DVec3, HalfSpace};
+use planecut_kernel::{DVec3, HalfSpace, PlaneIdx};
 use planecut_testkit::random::Rng;
 
 fn model() -> LiveModel {
@@ -19,7 +19,7 @@ fn edits(seed: u64) -> Vec<Edit> {
     let mut edit = || {
         let mut place = || DVec3::new(below(40) as f64, below(40) as f64, below(40) as f64) / 9.7;
         let (at, size) = (place(), 0.3 + place() / 3.0);
-        let (brush, plane) = (BrushId(below(9)), below(8) as u32);
+        let (brush, plane) = (BrushId(below(9)), PlaneIdx(below(8) as usize));
         let material = MaterialId(below(2) as u32);
         let role = match below(24) {
             0 => Role::Intersect,

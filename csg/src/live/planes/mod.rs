@@ -291,10 +291,10 @@ impl LivePlanes {
         });
         let mut leaders: Vec<u32> = Vec::new();
         for number in order {
-            let Some((unit, is_exact)) = self.groups[number as usize].hashed else { continue };
+            let (unit, is_exact) = self.groups[number as usize].hashed.expect("what is in a cluster is hashed");
             let leads = |flipped: bool| {
                 let is_near = |leader: &&u32| {
-                    let other = self.groups[**leader as usize].hashed.map_or([f64::NAN; 4], |place| place.0);
+                    let (other, _) = self.groups[**leader as usize].hashed.expect("what leads a cluster is hashed");
                     is_nearly_same(&unit, &other, flipped, self.reach)
                 };
                 leaders.iter().find(is_near).map(|leader| (*leader, flipped))
@@ -326,14 +326,13 @@ impl LivePlanes {
         }
         let row = *group.row().expect("what is settled is in use");
         let is_same = |index: &&u32| self.table.row(PlaneId::of_index(**index)).is_same_plane(&row);
-        let index = match (kept.iter().find(is_same), self.free_indices.last()) {
-            (Some(index), _) => *index,
-            (None, Some(_)) => {
-                let index = self.free_indices.pop().unwrap_or_default();
-                self.table.put(index, &row);
-                index
-            }
-            (None, None) => self.table.push(&row).index(),
+        let index = if let Some(index) = kept.iter().find(is_same) {
+            *index
+        } else if let Some(index) = self.free_indices.pop() {
+            self.table.put(index, &row);
+            index
+        } else {
+            self.table.push(&row).index()
         };
         self.groups[number as usize].own = Some(index);
         index
@@ -344,12 +343,11 @@ impl LivePlanes {
         let group = &mut self.groups[number as usize];
         settled.retired.extend(group.own.take());
         group.id = None;
-        let Some(row) = group.plane.take() else { return };
-        if let Some(alike) = self.by_key.get_mut(&key(&row)) {
-            alike.retain(|other| *other != number);
-            if alike.is_empty() {
-                self.by_key.remove(&key(&row));
-            }
+        let row = group.plane.take().expect("a group that was used has a plane");
+        let alike = self.by_key.get_mut(&key(&row)).expect("a group is found by its plane");
+        alike.retain(|other| *other != number);
+        if alike.is_empty() {
+            self.by_key.remove(&key(&row));
         }
         self.free_groups.push(number);
     }
