@@ -4,14 +4,15 @@
 //! decision is the exact sign of a small determinant of plane coefficients; coordinates are computed for people and for
 //! files, and decide nothing. So no tolerance is needed, and the mesh that leaves is closed by construction.
 //!
-//! This crate gathers the four crates of the project under one name and adds the command line:
+//! This crate gathers the crates of the project under one name and adds the command line:
 //!
 //! | module | what it holds |
 //! |---|---|
 //! | [`kernel`] | exact signs, half-spaces, convex polyhedra that planes are added to and taken back from |
 //! | [`csg`] | trees of set operations, their skin as a mesh and their convex cells, primitives, outlines, checks of any mesh |
 //! | [`import`] | readers of the native model file, of OpenSCAD's evaluated trees, of Quake-family `.map` files, and of OBJ, STL, PLY and glTF meshes |
-//! | [`export`] | writers of GLB, glTF, OBJ and STL, and rendered previews |
+//! | [`export`] | writers of GLB, glTF, OBJ and STL |
+//! | `picture` | pictures of meshes and cells (feature `picture`, on unless turned off) |
 //!
 //! # Example
 //!
@@ -78,6 +79,16 @@
 #![deny(missing_docs)]
 
 pub use planecut_csg as csg;
-pub use planecut_export as export;
 pub use planecut_import as import;
 pub use planecut_kernel as kernel;
+
+pub mod export {
+    //! What leaves: mesh files, convex bodies and, with the feature `picture`, what [`picture`](crate::picture) holds.
+    pub use planecut_export::*;
+
+    #[cfg(feature = "picture")]
+    #[doc(no_inline)]
+    pub use crate::picture::*;
+}
+#[cfg(feature = "picture")]
+pub mod picture;

@@ -59,7 +59,7 @@ pub use blocks::{Block, BlockOptions, BlocksError, BlocksSummary, evaluate_in_bl
 pub use body::Built;
 pub use brush::{Brush, BrushFace, Material, MaterialId, Model};
 pub use contract::{contract_edges, contract_short_edges};
-pub use cutaway::Cutaway;
+pub use cutaway::{CutMaterial, Cutaway};
 pub use evaluate::{
     EvaluateError, Evaluation, ModelSummary, SolidMeasures, StageTimes, UnboundedBrushes, evaluate, evaluate_with,
     summarize,
