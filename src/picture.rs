@@ -118,3 +118,62 @@ impl From<Mesh> for Subject<'static> {
         Self::new(positions, mesh.triangles, mesh.triangle_faces, &mesh.faces, &mesh.materials)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use planecut_csg::{Brush, MaterialId, Model, evaluate};
+    use planecut_kernel::{DVec3, HalfSpace};
+
+    use super::*;
+
+    const RED: [f32; 3] = [0.8, 0.1, 0.1];
+
+    /// Three cubes along x: of a material with a colour, of one without, and of both; cut in half along z.
+    fn cut_cubes() -> (Mesh, Vec<CutMaterial>) {
+        let cube = |x: f64, material: u32| {
+            let low = DVec3::new(x, 0.0, 0.0);
+            Brush::cuboid(low, low + DVec3::ONE, MaterialId(material))
+        };
+        let mut mixed = cube(4.0, 0);
+        mixed.faces[0].material = MaterialId(1);
+        let red = Material { color: Some(RED), ..Material::named("red") };
+        let tree = planecut_csg::Tree::union_of(vec![cube(0.0, 0), cube(2.0, 1), mixed]);
+        let model = Model { materials: vec![red, Material::named("oak")], tree };
+        let cut = model.cut_open(&HalfSpace::new(DVec3::Z, 0.5).expect("a plane"));
+        (evaluate(&cut.model).expect("closed").mesh, cut.cuts)
+    }
+
+    #[test]
+    fn cuts_look_like_what_was_cut() {
+        let (mesh, cuts) = cut_cubes();
+        let oak = Tint::Derived(material_color(&Material::named("oak")));
+        let subject = Subject::of_mesh(&mesh).hatching(&cuts);
+        let tints: Vec<Tint> = subject.paints().iter().map(|paint| paint.tint).collect();
+        assert_eq!(tints, [Tint::Stated(RED), oak, Tint::Stated(RED), oak, Tint::Clay]);
+        let hatchings: Vec<Option<u32>> = subject.paints().iter().map(|paint| paint.hatching).collect();
+        assert_eq!(hatchings, [None, None, Some(0), Some(1), Some(2)]);
+        let paints: Vec<u32> = subject.faces().iter().map(|face| face.paint).collect();
+        assert_eq!(paints, mesh.faces.iter().map(|face| face.material.0).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn hatching_a_material_that_is_not_there_changes_nothing() {
+        let (mesh, _) = cut_cubes();
+        let unknown = CutMaterial { id: MaterialId(70), of: None };
+        let [plain, hatched] = [Vec::new(), vec![unknown]].map(|cuts| Subject::of_mesh(&mesh).hatching(&cuts));
+        assert_eq!(plain.paints(), hatched.paints());
+    }
+
+    #[test]
+    fn cells_have_two_paints_each() {
+        let (mesh, cuts) = cut_cubes();
+        let empty = Mesh { triangles: Vec::new(), triangle_faces: Vec::new(), ..mesh.clone() };
+        let subject = Subject::of_cells(&[mesh.clone(), empty, mesh.clone()], 0.5, &cuts);
+        let paint =
+            |number: usize, hatching: Option<u32>| Paint { tint: Tint::Stated(distinct_color(number)), hatching };
+        assert_eq!(subject.paints(), [paint(0, None), paint(0, Some(0)), paint(1, None), paint(1, Some(1))]);
+        let is_cut = mesh.faces.iter().map(|face| u32::from(face.material.0 > 1));
+        let expected: Vec<u32> = is_cut.clone().chain(is_cut.map(|paint| paint + 2)).collect();
+        assert_eq!(subject.faces().iter().map(|face| face.paint).collect::<Vec<_>>(), expected);
+    }
+}

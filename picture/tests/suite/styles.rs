@@ -224,7 +224,7 @@ fn only_faces_of_the_materials_named_are_hatched() {
                     assert!(is_near, "{style:?} {camera:?}: pixel {x}, {y} is not of {named:?}");
                 }
                 // Dark lines run across each row of the faces.
-                for &number in named.iter().filter(|&&number| number < 3) {
+                for &number in &named {
                     let (mut lines, mut pixels) = (0, 0);
                     for y in 0..480 {
                         for x in (1..639).filter(|&x| (x - 1..=x + 1).all(|x| material(x, y) == Some(number))) {
@@ -237,7 +237,7 @@ fn only_faces_of_the_materials_named_are_hatched() {
                     let apart = f64::from(pixels) / f64::from(lines.max(1));
                     assert!(pixels > 2_000 && apart > 4.0 && apart < 16.0, "{style:?} {named:?}: {lines} in {pixels}");
                 }
-                assert_eq!(changed.is_empty(), named == [7], "{style:?} {named:?}");
+                assert!(!changed.is_empty(), "{style:?} {named:?}");
             }
         }
     }

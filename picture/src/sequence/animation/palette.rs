@@ -2,6 +2,9 @@
 //!
 //! Colours between two of the palette become a pattern of both that is fixed on the picture (ordered dithering): what does
 //! not move keeps its pixels from frame to frame, where diffusing the error would make it shimmer.
+//!
+//! Own code instead of a crate for colour quantisation: one palette serves all frames of a file and grows with samples, the same frames give the
+//! same bytes on every machine, and colours are matched to pairs of colours, for the patterns, not to single ones.
 
 use rustc_hash::FxHashMap;
 
