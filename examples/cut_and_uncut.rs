@@ -1,4 +1,4 @@
-//! Cutting and un-cutting: planes are added to a solid and taken back in place, about a microsecond for each cell they reach.
+//! Cutting and un-cutting: planes are added to a solid and removed again in place, about a microsecond for each cell they reach.
 //!
 //! ```sh
 //! cargo run --release --example cut_and_uncut
@@ -33,7 +33,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     // Not nearly the same: the same.
     assert_eq!(solid.volume(), Some(whole));
 
-    // Several cuts at once, taken back in any order.
+    // Several cuts at once, removed in any order.
     let begin = Instant::now();
     let planes = (0..STEPS).map(|step| {
         let angle = f64::from(step) * std::f64::consts::TAU / f64::from(STEPS);

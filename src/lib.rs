@@ -8,8 +8,9 @@
 //!
 //! | module | what it holds |
 //! |---|---|
-//! | [`kernel`] | exact signs, half-spaces, convex polyhedra that planes are added to and taken back from |
-//! | [`csg`] | trees of set operations, their skin as a mesh and their convex cells, primitives, outlines, checks of any mesh |
+//! | [`kernel`] | exact signs, half-spaces, convex polyhedra whose planes can be added, moved and removed |
+//! | [`csg`] | trees of set operations, their boundary as a mesh and their convex cells, primitives, outlines |
+//! | [`check`] | is any mesh watertight, manifold, free of self-intersections |
 //! | [`import`] | readers of the native model file, of OpenSCAD's evaluated trees, of Quake-family `.map` files, and of OBJ, STL, PLY and glTF meshes |
 //! | [`export`] | writers of GLB, glTF, OBJ and STL |
 //! | `picture` | pictures of meshes and cells (feature `picture`, on unless turned off) |
@@ -40,7 +41,7 @@
 //! let glb = encode(&evaluation.mesh, Format::Glb, &ExportOptions::default())?;
 //! assert!(glb.starts_with(b"glTF"));
 //!
-//! // Its cells: convex and disjoint. Planes cut them in place, and are taken back.
+//! // Its cells: convex and disjoint. Planes cut them in place and can be removed again.
 //! let mut solid = Solid::from_tree(&model.tree);
 //! let whole = solid.volume();
 //! let cut = solid.add_plane(&HalfSpace::new(DVec3::X, 20.0)?);
@@ -78,9 +79,20 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
-pub use planecut_csg as csg;
+/// Trees of set operations and all that is made of them: everything of [`planecut_csg`], [`cells`](crate::cells) and
+/// [`shapes`](crate::shapes) under one name.
+pub mod csg {
+    pub use planecut_cells::*;
+    pub use planecut_check as check;
+    pub use planecut_csg::*;
+    pub use planecut_shapes::*;
+}
+
+pub use planecut_cells as cells;
+pub use planecut_check as check;
 pub use planecut_import as import;
 pub use planecut_kernel as kernel;
+pub use planecut_shapes as shapes;
 
 pub mod export {
     //! What leaves: mesh files, convex bodies and, with the feature `picture`, what [`picture`](crate::picture) holds.
@@ -92,3 +104,8 @@ pub mod export {
 }
 #[cfg(feature = "picture")]
 pub mod picture;
+
+/// The example of the README, run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}

@@ -2,18 +2,15 @@
 
 use std::time::{Duration, Instant};
 
-use glam::DVec3;
 use planecut_kernel::sign::Counts;
 use thiserror::Error;
 
-use crate::body::{Body, BrushBodies, BrushBody, build_bodies, kinds, mark_of};
-use crate::brush::{Material, MaterialId, Model};
+use crate::body::{Body, BrushBodies, BrushBody, OuterBox, build_bodies, kinds, mark_of};
+use crate::boundary::{BoundaryEdge, Scene, skin, skin_of_union};
 use crate::expression::Expression;
-use crate::mesh::Mesh;
-use crate::outer::OuterBox;
+use crate::mesh::{Mesh, SolidMeasures};
+use crate::model::{Material, MaterialId, Model, Operation, Tree, TreeNode};
 use crate::plane_table::PlaneTable;
-use crate::skin::{BoundaryEdge, Scene, skin};
-use crate::tree::{Operation, Tree, TreeNode};
 use crate::weld::{WeldError, Welded, weld};
 
 /// What a model holds.
@@ -33,21 +30,6 @@ pub struct ModelSummary {
     pub snapped_planes: usize,
     /// The sum of the volumes of the bounded brushes.
     pub brush_volume_sum: f64,
-}
-
-/// Measures of a solid, taken from its boundary before triangulation; lengths in the input's units.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct SolidMeasures {
-    /// Volume.
-    pub volume: f64,
-    /// Area of the boundary.
-    pub area: f64,
-    /// Centroid; the origin for an empty solid.
-    pub centroid: DVec3,
-    /// Smallest coordinates; the origin for an empty solid.
-    pub min: DVec3,
-    /// Largest coordinates; the origin for an empty solid.
-    pub max: DVec3,
 }
 
 /// How long each stage took.
@@ -127,7 +109,10 @@ pub fn evaluate(model: &Model) -> Result<Evaluation, EvaluateError> {
 }
 
 /// The solid of a tree, whatever its materials.
-pub(crate) fn evaluate_shape(tree: Tree) -> Result<Evaluation, EvaluateError> {
+///
+/// # Errors
+/// As [`evaluate`].
+pub fn evaluate_shape(tree: Tree) -> Result<Evaluation, EvaluateError> {
     evaluate(&Model { materials: vec![Material::named("any")], tree: tree.with_material(MaterialId(0)) })
 }
 
@@ -186,8 +171,26 @@ pub fn evaluate_with(model: &Model, unbounded: UnboundedBrushes) -> Result<Evalu
     Ok(Evaluation { mesh, solid, model: summary, signs, times })
 }
 
+/// The boundary of the union of bodies as a watertight mesh, and the measures taken from it; `ranks` are the [`material_ranks`].
+///
+/// # Errors
+/// [`WeldError`] where the boundary does not close: a bug in this crate.
+pub fn mesh_of_union(
+    table: &PlaneTable,
+    bodies: &[Body],
+    ranks: &[u32],
+    materials: &[Material],
+) -> Result<(Mesh, SolidMeasures), WeldError> {
+    let (edges, _) = skin_of_union(table, bodies, ranks);
+    let Welded { mesh, solid, .. } = weld(table, &edges, ranks, materials)?;
+    Ok((mesh, solid))
+}
+
 /// Refuses materials that are not among the first `count`.
-pub(crate) fn check_materials(mut used: impl Iterator<Item = MaterialId>, count: usize) -> Result<(), EvaluateError> {
+///
+/// # Errors
+/// [`EvaluateError::UnknownMaterial`].
+pub fn check_materials(mut used: impl Iterator<Item = MaterialId>, count: usize) -> Result<(), EvaluateError> {
     match used.find(|material| material.0 as usize >= count) {
         Some(material) => Err(EvaluateError::UnknownMaterial { material, count }),
         None => Ok(()),
@@ -255,7 +258,8 @@ fn summary_of(table: &PlaneTable, brushes: &[BrushBody]) -> ModelSummary {
 }
 
 /// The place of each material by name: an order that does not depend on that of the brushes.
-pub(crate) fn material_ranks(materials: &[Material]) -> Vec<u32> {
+#[must_use]
+pub fn material_ranks(materials: &[Material]) -> Vec<u32> {
     let mut order: Vec<usize> = (0..materials.len()).collect();
     order.sort_by(|a, b| materials[*a].name.cmp(&materials[*b].name));
     let mut rank = vec![0; order.len()];

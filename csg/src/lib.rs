@@ -2,7 +2,7 @@
 //!
 //! [`evaluate`] interns the planes of a model ([`PlaneTable`]), builds each brush's body, takes the boundary of the union straight
 //! from brush faces (the skin) and welds it. Boolean operations add no planes, so nothing is ever rounded before the
-//! coordinates of the finished mesh. [`check`] tells whether any mesh is watertight, manifold and free of crossings.
+//! coordinates of the finished mesh.
 //!
 //! ```
 //! use planecut_csg::{Brush, Material, MaterialId, Model, Tree, evaluate};
@@ -20,57 +20,31 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+mod base;
 mod blocks;
 mod body;
-mod bounds;
-mod boxes;
-mod brush;
-mod caps;
-pub mod check;
-pub mod coarsen;
-mod collapse;
-mod contract;
-mod corner;
-mod cutaway;
-mod distinct;
+mod boundary;
 mod evaluate;
 mod expression;
-mod known_planes;
 mod live;
-mod locality;
 mod mesh;
-mod outer;
-pub mod outline;
-mod parallel;
+mod model;
 mod plane_table;
-pub mod polyhedron;
-pub mod primitives;
-mod sets;
-pub mod shaping;
-mod skin;
-mod solid;
-mod source;
-mod sum;
-mod transform;
-mod tree;
+pub mod stages;
+pub mod tolerances;
 mod weld;
 
 pub use blocks::{Block, BlockOptions, BlocksError, BlocksSummary, evaluate_in_blocks};
 pub use body::Built;
-pub use brush::{Brush, BrushFace, Material, MaterialId, Model};
-pub use contract::{contract_edges, contract_short_edges};
-pub use cutaway::{CutMaterial, Cutaway};
 pub use evaluate::{
-    EvaluateError, Evaluation, ModelSummary, SolidMeasures, StageTimes, UnboundedBrushes, evaluate, evaluate_with,
-    summarize,
+    EvaluateError, Evaluation, ModelSummary, StageTimes, UnboundedBrushes, evaluate, evaluate_with, summarize,
 };
 pub use live::{BrushId, Change, Edit, EditError, Edited, FaceId, LiveFace, LiveModel, Role};
-pub use mesh::{Mesh, MeshFace};
-pub use outline::Outline;
-pub use plane_table::{PlaneId, PlaneTable, SNAP_TOLERANCE};
-pub use primitives::ShapeError;
-pub use solid::{Cell, CellPlane, CutId, RayHit, Solid};
-pub use source::{FaceSource, TextureAxes, TextureUnit};
-pub use transform::{Transform, TransformError, sine_and_cosine};
-pub use tree::{Operation, Tree, TreeNode};
+pub use mesh::{Mesh, MeshFace, SolidMeasures, contract_edges, contract_short_edges};
+pub use model::{
+    Brush, BrushFace, CutMaterial, Cutaway, FaceSource, Material, MaterialId, Model, Operation, TextureAxes,
+    TextureUnit, Transform, TransformError, Tree, TreeNode, sine_and_cosine,
+};
+pub use plane_table::{PlaneId, PlaneTable};
+pub use tolerances::SNAP_TOLERANCE;
 pub use weld::WeldError;

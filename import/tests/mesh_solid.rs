@@ -4,7 +4,8 @@ mod mesh_support;
 
 use glam::DVec3;
 use mesh_support::{obj, ply, split_cube, stl_ascii, stl_binary};
-use planecut_csg::{Material, Solid};
+use planecut_cells::Solid;
+use planecut_csg::Material;
 use planecut_import::mesh::{MeshFormat, MeshImport, read_parts, read_solid};
 use planecut_kernel::IncrementalPolytope;
 

@@ -52,7 +52,39 @@ impl HalfSpace {
     ///
     /// # Errors
     /// [`HalfSpaceError`] where a coefficient is not finite, the normal is zero, or the magnitudes are out of range.
-    pub fn new(normal: DVec3, offset: f64) -> Result<Self, HalfSpaceError> {
+    ///
+    /// ```
+    /// use planecut_kernel::HalfSpace;
+    ///
+    /// # fn main() -> Result<(), planecut_kernel::HalfSpaceError> {
+    /// let half_space = HalfSpace::new([0.0, 0.0, 2.0], 3.0)?;
+    /// assert_eq!(half_space.normal().to_array(), [0.0, 0.0, 2.0]);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn new(normal: impl Into<DVec3>, offset: f64) -> Result<Self, HalfSpaceError> {
+        Self::checked(normal.into(), offset)
+    }
+
+    /// The half-space `nx·x + ny·y + nz·z ≤ d` of the four numbers `[nx, ny, nz, d]`.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    ///
+    /// ```
+    /// use planecut_kernel::{HalfSpace, HalfSpaceError};
+    ///
+    /// # fn main() -> Result<(), HalfSpaceError> {
+    /// assert_eq!(HalfSpace::from_array([1.0, 2.0, 3.0, 4.0])?.to_array(), [1.0, 2.0, 3.0, 4.0]);
+    /// assert_eq!(HalfSpace::from_array([0.0, 0.0, 0.0, 4.0]), Err(HalfSpaceError::ZeroNormal));
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn from_array([nx, ny, nz, d]: [f64; 4]) -> Result<Self, HalfSpaceError> {
+        Self::checked(DVec3::new(nx, ny, nz), d)
+    }
+
+    fn checked(normal: DVec3, offset: f64) -> Result<Self, HalfSpaceError> {
         if !normal.is_finite() || !offset.is_finite() {
             return Err(HalfSpaceError::NotFinite { normal, offset });
         }
@@ -83,6 +115,12 @@ impl HalfSpace {
         self.offset
     }
 
+    /// The four numbers `[nx, ny, nz, d]`, as given.
+    #[must_use]
+    pub fn to_array(&self) -> [f64; 4] {
+        [self.normal.x, self.normal.y, self.normal.z, self.offset]
+    }
+
     /// The complement's closure, `-n·x ≤ -d`.
     #[must_use]
     pub fn flipped(&self) -> Self {
@@ -91,7 +129,21 @@ impl HalfSpace {
 
     /// Signed Euclidean distance of a point from the plane, positive outside. For display, never for decisions.
     #[must_use]
-    pub fn signed_distance(&self, point: DVec3) -> f64 {
-        (self.normal.dot(point) - self.offset) / self.normal.length()
+    pub fn signed_distance(&self, point: impl Into<DVec3>) -> f64 {
+        (self.normal.dot(point.into()) - self.offset) / self.normal.length()
+    }
+}
+
+impl TryFrom<[f64; 4]> for HalfSpace {
+    type Error = HalfSpaceError;
+
+    fn try_from(coefficients: [f64; 4]) -> Result<Self, HalfSpaceError> {
+        Self::from_array(coefficients)
+    }
+}
+
+impl From<HalfSpace> for [f64; 4] {
+    fn from(half_space: HalfSpace) -> Self {
+        half_space.to_array()
     }
 }

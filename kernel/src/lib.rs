@@ -29,7 +29,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
-mod double_double;
+mod arithmetic;
 mod half_space;
 mod hull;
 mod meet;

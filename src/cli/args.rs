@@ -1,9 +1,10 @@
-//! What may stand on the command line. The doc comments here are the help texts.
+//! The arguments of every command. The doc comments here are the help texts.
 
 use std::path::{Path, PathBuf};
 
 use clap::error::ErrorKind;
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, CommandFactory, Parser, Subcommand};
+use clap_complete::Shell;
 use planecut::csg::Tree;
 use planecut::csg::coarsen::{CoarsenOptions, LEAST_MAX_FACES, LEAST_MAX_VERTICES, Side};
 use planecut::import::map::MapOptions;
@@ -29,18 +30,24 @@ struct Cli {
 /// One variant for each command.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// Make the solid of a model or a map and write it as a mesh
+    /// Evaluate a model or a map and write its boundary as a mesh
     Build(BuildArgs),
     /// Print what a file holds as JSON: the report that `build` would write
     Info(InfoArgs),
-    /// Draw the solid of a model or a map as a picture
+    /// Render a model or a map as a picture
     Render(RenderArgs),
-    /// Apply edits to a model, each at the cost of what it touches, and write what it is then
+    /// Apply edits to a model incrementally and write the result
     Edit(EditArgs),
-    /// Make few convex cells of a solid or of a convex decomposition, within a stated error: colliders
+    /// Reduce a solid or a convex decomposition to few convex cells within an error bound, for colliders
     Coarsen(CoarsenArgs),
     /// Check that a mesh is watertight, manifold and not self-crossing; exit status 1 if not
     Check(CheckArgs),
+    /// Print the JSON Schema of the model file
+    Schema,
+    /// Print a script that completes commands and options in a shell
+    Completions(CompletionsArgs),
+    /// Print the manual page of the program or of a command, or write all of them
+    Man(ManArgs),
 }
 
 /// Arguments of `build`.
@@ -51,10 +58,10 @@ pub(crate) struct BuildArgs {
     pub(crate) input: PathBuf,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
-    /// Write the convex cells of the solid, one mesh each, instead of its skin
+    /// Write the convex cells of the solid, one mesh each, instead of its boundary
     #[arg(long)]
     pub(crate) cells: bool,
-    /// Write each part that has a name of its own as a solid of its own, instead of their union
+    /// Write each named part as a solid of its own, instead of their union
     #[arg(long, conflicts_with = "cells")]
     pub(crate) parts: bool,
     #[command(flatten)]
@@ -68,8 +75,8 @@ pub(crate) struct BuildArgs {
 /// Where meshes and the report go.
 #[derive(Debug, Args)]
 pub(crate) struct OutputArgs {
-    /// Mesh to write, by its ending .glb, .gltf, .obj, .stl, .3mf or .ply, or convex bodies, .map or .csg; may be given several times; `-` is standard output. Of `coarsen` a name with
-    /// `{}` is a file for each cell, `{}` standing for its number
+    /// Output file: a mesh (.glb, .gltf, .obj, .stl, .3mf or .ply) or convex bodies (.map or .csg); may be given several times; `-` is standard output. With `coarsen`,
+    /// a name with `{}` writes a file for each cell, `{}` standing for its number
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1)]
     pub(crate) outputs: Vec<PathBuf>,
     /// Format of `-o -`: glb, gltf, obj, stl, 3mf, ply, map or csg
@@ -78,7 +85,7 @@ pub(crate) struct OutputArgs {
     /// Factor from the input's units to those of the meshes
     #[arg(long, value_name = "S", default_value_t = 1.0, value_parser = parse_scale)]
     pub(crate) scale: f64,
-    /// Also write counts, measures and times as JSON
+    /// Also write a report as JSON: counts, measures and times
     #[arg(long, value_name = "JSON")]
     pub(crate) report: Option<PathBuf>,
     #[command(flatten)]
@@ -98,7 +105,7 @@ impl OutputArgs {
 /// A picture beside the meshes.
 #[derive(Debug, Args)]
 pub(crate) struct PictureArgs {
-    /// Also draw a picture (.png); of `coarsen` each cell in a colour of its own
+    /// Also render a picture (.png); `coarsen` gives each cell a colour of its own
     #[arg(long, value_name = "PNG")]
     pub(crate) preview: Option<PathBuf>,
     /// Size of the picture in pixels
@@ -116,7 +123,7 @@ impl PictureArgs {
 /// Arguments of `info`.
 #[derive(Debug, Args)]
 pub(crate) struct InfoArgs {
-    /// The file to look into (.json, .map, .csg, .obj, .stl, .ply, .glb, .gltf); `-` is standard input
+    /// The file to examine (.json, .map, .csg, .obj, .stl, .ply, .glb, .gltf); `-` is standard input
     #[arg(value_name = "INPUT")]
     pub(crate) input: PathBuf,
     #[command(flatten)]
@@ -136,7 +143,7 @@ pub(crate) struct EditArgs {
     pub(crate) edits: PathBuf,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
-    /// After each edit, compare with the same model built anew
+    /// After each edit, compare the mesh with that of a fresh build of the edited model
     #[arg(long)]
     pub(crate) verify: bool,
     #[command(flatten)]
@@ -166,29 +173,29 @@ pub(crate) struct CoarsenArgs {
     pub(crate) common: CommonArgs,
 }
 
-/// What cells may be.
+/// Limits on cells.
 #[derive(Debug, Args)]
-#[command(next_help_heading = "Limits; without any, cells are merged as long as that adds nothing")]
+#[command(next_help_heading = "Limits; without any, cells are merged as long as that adds no volume")]
 pub(crate) struct CoarsenLimits {
-    /// At most so many cells; as many as there are, or more, changes nothing
+    /// Maximum number of cells; a number that is not below the present one changes nothing
     #[arg(long, value_name = "N", value_parser = parse_count::<1>)]
     pub(crate) max_cells: Option<usize>,
-    /// At most so much volume added, as a part of the solid's: 0.1 is a tenth; goes before --max-cells
+    /// Maximum added volume, relative to that of the solid (0.1: a tenth); takes precedence over --max-cells
     #[arg(long, value_name = "R", value_parser = parse_ratio)]
     pub(crate) max_excess: Option<f64>,
-    /// At most so many faces of each cell, 6 or more
+    /// Maximum number of faces of a cell, 6 or more
     #[arg(long, value_name = "N", value_parser = parse_count::<LEAST_MAX_FACES>)]
     pub(crate) max_faces: Option<usize>,
-    /// At most so many vertices of each cell, 8 or more
+    /// Maximum number of vertices of a cell, 8 or more
     #[arg(long, value_name = "N", value_parser = parse_count::<LEAST_MAX_VERTICES>)]
     pub(crate) max_vertices: Option<usize>,
-    /// A solid that no cell may grow into, as door and window openings, in the units of the input; may be given several times
+    /// A solid that cells must not grow into, such as door and window openings, in the units of the input; may be given several times
     #[arg(long, value_name = "FILE", num_args = 1)]
     pub(crate) keep_clear: Vec<PathBuf>,
-    /// Merge no cells of different materials
+    /// Do not merge cells of different materials
     #[arg(long)]
     pub(crate) by_material: bool,
-    /// Make cells that are thinner than this so thick, in the units of the input
+    /// Minimum thickness of a cell, in the units of the input; thinner cells are thickened
     #[arg(long, value_name = "T", value_parser = parse_thickness)]
     pub(crate) min_thickness: Option<f64>,
     /// Cells within the solid instead of around it
@@ -218,17 +225,36 @@ pub(crate) struct CheckArgs {
     /// The mesh to check (.obj, .stl, .ply, .glb, .gltf)
     #[arg(value_name = "MESH")]
     pub(crate) mesh: PathBuf,
-    /// Depth up to which crossings count as touching, relative to the size; by default what the format's precision asks for
+    /// Depth up to which crossings count as touching, relative to the size of the mesh; by default it follows the precision of the format
     #[arg(long, value_name = "T", value_parser = parse_tolerance)]
     pub(crate) tolerance: Option<f64>,
     #[command(flatten)]
     pub(crate) common: CommonArgs,
 }
 
+/// Arguments of `completions`.
+#[derive(Debug, Args)]
+pub(crate) struct CompletionsArgs {
+    /// The shell
+    #[arg(value_enum, value_name = "SHELL")]
+    pub(crate) shell: Shell,
+}
+
+/// Arguments of `man`.
+#[derive(Debug, Args)]
+pub(crate) struct ManArgs {
+    /// The command to describe; by default the program as a whole
+    #[arg(value_name = "COMMAND")]
+    pub(crate) command: Option<String>,
+    /// Write all pages to this folder instead: planecut.1, planecut-build.1, …
+    #[arg(long, value_name = "DIR", conflicts_with = "command")]
+    pub(crate) dir: Option<PathBuf>,
+}
+
 /// How to read the input.
 #[derive(Debug, Args)]
 pub(crate) struct ReadingArgs {
-    /// What the input is, whatever its name; by default what its ending says, and json for `-`
+    /// Format of the input; by default from the ending of its name, and json for `-`
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub(crate) input_format: Option<InputKind>,
     #[command(flatten)]
@@ -326,7 +352,7 @@ impl MapArgs {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Options for .csg")]
 struct ScadArgs {
-    /// Leave out, with a warning, what is not supported or cannot be made, instead of failing
+    /// Leave out, with a warning, what is not supported or fails, instead of failing as a whole
     #[arg(long)]
     keep_going: bool,
 }
@@ -338,7 +364,7 @@ pub(crate) struct CommonArgs {
     /// Number of threads, 1 to 1024; by default as many as there are cores
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) threads: Option<u16>,
-    /// No warnings and no progress on standard error
+    /// Print no warnings and no progress to standard error
     #[arg(short, long)]
     pub(crate) quiet: bool,
 }
@@ -350,7 +376,7 @@ pub(crate) struct Size {
     height: u32,
 }
 
-/// Most pixels of a picture: drawing takes about 40 bytes for each.
+/// Maximum number of pixels of a picture: drawing takes about 40 bytes for each.
 const MAX_PIXELS: u64 = 1 << 26;
 
 impl Size {
@@ -364,6 +390,11 @@ impl Size {
     pub(crate) fn preview(self) -> PreviewOptions {
         PreviewOptions { width: self.width, height: self.height, ..PreviewOptions::default() }
     }
+}
+
+/// The program's arguments as the parser sees them.
+pub(crate) fn command() -> clap::Command {
+    Cli::command()
 }
 
 /// The command to run; `None` where help or the version was asked for and printed.
@@ -436,8 +467,6 @@ pub(crate) fn parse_size(text: &str) -> Result<Size, String> {
 
 #[cfg(test)]
 mod tests {
-    use clap::CommandFactory;
-
     use super::*;
 
     #[test]

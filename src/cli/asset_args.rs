@@ -1,30 +1,30 @@
-//! What may be asked of the meshes that are written. The doc comments here are the help texts.
+//! The options for meshes that are written. The doc comments here are the help texts.
 
 use clap::{Args, ValueEnum};
 use planecut::export::{ExportOptions, Projection, Shading, TextureMapping, Unit};
 
 use super::error::CliError;
 
-/// What is wanted of meshes, as far as formats have a place for it.
+/// What meshes should hold, as far as their format can.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Options for meshes")]
 pub(crate) struct AssetArgs {
-    /// What the lengths are in: glTF is scaled to metres, 3MF names it
+    /// Unit of length: glTF is scaled to metres, 3MF names it
     #[arg(long, value_enum, value_name = "UNIT")]
     unit: Option<UnitName>,
     /// Write the materials of each OBJ file beside it, with the ending .mtl
     #[arg(long)]
     pub(crate) mtl: bool,
-    /// Text instead of binary: STL, PLY
+    /// Write text instead of binary: STL, PLY
     #[arg(long)]
     text: bool,
-    /// Smooth normals across edges of no more than so many degrees, instead of flat faces: glTF, OBJ, PLY
+    /// Smooth normals across edges up to this angle in degrees, instead of flat faces: glTF, OBJ, PLY
     #[arg(long, value_name = "DEGREES")]
     smooth: Option<f64>,
-    /// Texture coordinates: as a map says, by the nearest side of a box, or from above: glTF, OBJ, PLY
+    /// Texture coordinates: those of the map, by the nearest side of a box, or projected along z: glTF, OBJ, PLY
     #[arg(long, value_enum, value_name = "HOW")]
     uv: Option<Uv>,
-    /// So long is a texture: in texels for faces of a map (64), else in units of the input (1)
+    /// Size of a texture: in texels for faces of a map (default 64), else in units of the input (default 1)
     #[arg(long, value_name = "LENGTH", requires = "uv")]
     uv_size: Option<f64>,
     /// Tangents, for normal maps: glTF
@@ -58,11 +58,11 @@ pub(crate) enum UnitName {
 /// Where texture coordinates come from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Uv {
-    /// As the faces of a map say; box where nothing is said
+    /// As stated by the faces of a map; otherwise as box
     Source,
-    /// By the side of a box that a face is nearest to
+    /// By the nearest side of a box
     Box,
-    /// Along z
+    /// Projected along z
     Planar,
 }
 

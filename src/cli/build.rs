@@ -83,6 +83,6 @@ impl<'a> Plan<'a> {
             outputs.push(draw(&Subject::of_mesh(&solved.mesh), target, &self.args.picture.options())?);
             solved.report.time_ms.preview = milliseconds(drawing.elapsed());
         }
-        Ok(Product { solved, outputs, encoding })
+        Ok(Product { warnings: solved.warnings, report: Some(solved.report), outputs, encoding })
     }
 }

@@ -111,7 +111,7 @@ impl<'a> Plan<'a> {
         }
         // the names of single cells are known by now
         self.check(&outputs.iter().map(Output::target).collect::<Vec<_>>())?;
-        Ok(Product { solved, outputs, encoding })
+        Ok(Product { warnings: solved.warnings, report: Some(solved.report), outputs, encoding })
     }
 
     /// The model, and the points that its cells must hold.

@@ -3,19 +3,20 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use planecut::csg::{EditError, LiveModel, Mesh, evaluate_with};
+use planecut::csg::{Edit, EditError, Evaluation, LiveModel, Mesh, Model, convex_union, evaluate_with, summarize};
 use planecut::export::Part;
+use planecut::import::Warning;
 use planecut::import::edits::{EditsImport, read_edits};
 
 use super::args::EditArgs;
 use super::error::CliError;
 use super::input::{Input, InputKind};
 use super::output::{MeshTarget, Target, check_targets};
-use super::pieces::brushes;
+use super::pieces::bounded_tree_of;
 use super::product::{Contents, Product, encode, first_written, produce};
 use super::progress::Progress;
-use super::report::{EditPart, milliseconds};
-use super::solve::{Read, read, solve_read, unbounded_of};
+use super::report::{EditPart, Report, evaluation_time, milliseconds};
+use super::solve::{Read, Solved, evaluate_model, read, solid_warnings, solved, unbounded_of};
 
 /// What is to be written where.
 struct Plan<'a> {
@@ -64,54 +65,121 @@ impl<'a> Plan<'a> {
             read_edits(&text, &self.args.edits.display().to_string(), &model.materials)?;
         let import_time = begin.elapsed();
         progress.stage("evaluating");
-        let mut live = LiveModel::from_model_with(model, unbounded_of(self.kind)).map_err(|error| match error {
-            EditError::Evaluate(source) => CliError::of_evaluation(&self.input.path, source),
-            source => CliError::Edit { path: self.input.path.clone(), line: 0, source },
-        })?;
+        let mut live = self.live(model)?;
         for material in materials {
             live.add_material(material);
         }
         progress.stage("editing");
-        let mut times = Vec::with_capacity(edits.len());
-        let mut fresh_times = Vec::new();
+        let done = self.edit(&mut live, edits)?;
+        let mesh = mesh_of(&live, &self.args.edits, 0)?;
+        let read = Read { model: live.to_model(), warnings, ..Read::default() };
+        let edited = if self.report.is_some() || self.args.verify {
+            self.compared(mesh, read, done, import_time, progress)?
+        } else {
+            self.without_comparison(mesh, read)
+        };
+        self.encode(edited, progress)
+    }
+
+    fn live(&self, model: Model) -> Result<LiveModel, CliError> {
+        LiveModel::from_model_with(model, unbounded_of(self.kind)).map_err(|error| match error {
+            EditError::Evaluate(source) => CliError::of_evaluation(&self.input.path, source),
+            source => CliError::Edit { path: self.input.path.clone(), line: 0, source },
+        })
+    }
+
+    /// Applies edits, each given with its line; with `--verify` each result is compared with a fresh build.
+    fn edit(&self, live: &mut LiveModel, edits: Vec<(u32, Edit)>) -> Result<Done, CliError> {
+        let mut done = Done { times: Vec::with_capacity(edits.len()), fresh_times: Vec::new(), fresh: None };
         for (line, edit) in edits {
             let refused = |source| CliError::Edit { path: self.args.edits.clone(), line, source };
             let before = Instant::now();
             live.apply(edit).map_err(refused)?;
-            times.push(before.elapsed());
+            done.times.push(before.elapsed());
             if self.args.verify {
-                let before = Instant::now();
                 let fresh = evaluate_with(&live.to_model(), unbounded_of(self.kind));
-                fresh_times.push(before.elapsed());
                 let fresh = fresh.map_err(|source| refused(source.into()))?;
-                check_same(&mesh_of(&live, &self.args.edits, line)?, &fresh.mesh, &self.args.edits, line)?;
+                check_same(&mesh_of(live, &self.args.edits, line)?, &fresh.mesh, &self.args.edits, line)?;
+                done.fresh_times.push(evaluation_time(&fresh.times));
+                done.fresh = Some(fresh);
             }
         }
-        let mesh = mesh_of(&live, &self.args.edits, 0)?;
-        let read = Read { model: live.to_model(), warnings, ..Read::default() };
-        let mut solved = solve_read(&self.input, self.kind, read, import_time, progress)?;
-        check_same(&mesh, &solved.mesh, &self.args.edits, 0)?;
+        Ok(done)
+    }
+
+    /// The edited model and the report on it, compared with a fresh build.
+    fn compared(
+        &self,
+        mesh: Mesh,
+        read: Read,
+        mut done: Done,
+        import_time: Duration,
+        progress: &Progress,
+    ) -> Result<Edited, CliError> {
+        let fresh = match done.fresh {
+            // the last edit was compared already
+            Some(fresh) => fresh,
+            None => {
+                let fresh = evaluate_model(&self.input, self.kind, &read.model)?;
+                check_same(&mesh, &fresh.mesh, &self.args.edits, 0)?;
+                done.fresh_times.push(evaluation_time(&fresh.times));
+                fresh
+            }
+        };
+        let mut solved = solved(&self.input, self.kind, read, fresh, import_time, progress);
         solved.report.set_edit(EditPart {
-            edits: times.len(),
-            median_ms: quantile(&mut times, 0.5),
-            p99_ms: quantile(&mut times, 0.99),
-            fresh_ms: quantile(&mut fresh_times, 0.5).unwrap_or(solved.report.time_ms.of_evaluation()),
+            edits: done.times.len(),
+            median_ms: quantile(&mut done.times, 0.5),
+            p99_ms: quantile(&mut done.times, 0.99),
+            fresh_ms: quantile(&mut done.fresh_times, 0.5),
             same_as_fresh: true,
         });
+        let Solved { model, unbounded, report, warnings, .. } = solved;
+        Ok(Edited { model, mesh, unbounded, warnings, report: Some(report) })
+    }
+
+    /// The edited model where no comparison is asked for: nothing but its brushes is looked at again, for the warnings.
+    fn without_comparison(&self, mesh: Mesh, Read { model, mut warnings, .. }: Read) -> Edited {
+        let summary = summarize(&model);
+        warnings.extend(solid_warnings(self.kind, &model, &summary, &mesh));
+        Edited { model, mesh, unbounded: summary.unbounded, warnings, report: None }
+    }
+
+    fn encode(&self, edited: Edited, progress: &Progress) -> Result<Product, CliError> {
+        let Edited { model, mesh, unbounded, warnings, mut report } = edited;
         let begin = Instant::now();
         progress.stage("encoding");
         let options = self.args.output.assets.options(self.args.output.scale);
-        let parts = [Part::new("solid", &solved.mesh)];
-        let contents =
-            Contents { parts: &parts, materials: &solved.model.materials, brushes: &|| brushes(self.kind, &solved) };
+        let parts = [Part::new("solid", &mesh)];
+        let brushes = || convex_union(&bounded_tree_of(self.kind, &model, &unbounded)).into_owned();
+        let contents = Contents { parts: &parts, materials: &model.materials, brushes: &brushes };
         let outputs = encode(&contents, &self.meshes, &options)?;
         let encoding = begin.elapsed();
         let first = self.meshes.first().filter(|_| self.report.is_some());
-        if let Some(written) = first_written(first, &parts, &options)? {
-            solved.report.set_written(&written);
+        if let (Some(written), Some(report)) = (first_written(first, &parts, &options)?, &mut report) {
+            report.set_written(&written);
         }
-        Ok(Product { solved, outputs, encoding })
+        Ok(Product { warnings, report, outputs, encoding })
     }
+}
+
+/// Edits that were applied, and how long each took.
+struct Done {
+    times: Vec<Duration>,
+    /// How long a fresh build took after each edit, where it was compared with one.
+    fresh_times: Vec<Duration>,
+    /// The last of these builds.
+    fresh: Option<Evaluation>,
+}
+
+/// The model after all edits.
+struct Edited {
+    model: Model,
+    mesh: Mesh,
+    /// Numbers of the brushes that are not bounded.
+    unbounded: Vec<usize>,
+    warnings: Vec<Warning>,
+    report: Option<Report>,
 }
 
 fn mesh_of(live: &LiveModel, path: &Path, line: u32) -> Result<Mesh, CliError> {
@@ -122,7 +190,7 @@ fn check_same(mesh: &Mesh, fresh: &Mesh, path: &Path, line: u32) -> Result<(), C
     if mesh == fresh { Ok(()) } else { Err(CliError::NotFresh { path: path.to_owned(), line }) }
 }
 
-/// The smallest time that such a share of all does not exceed, in milliseconds; nothing of none.
+/// The smallest time that a share `share` of all times does not exceed, in milliseconds; `None` of no times.
 fn quantile(times: &mut [Duration], share: f64) -> Option<f64> {
     times.sort_unstable();
     let place = (share * times.len() as f64).ceil() as usize;

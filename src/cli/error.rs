@@ -3,7 +3,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use planecut::csg::check::MeshProblem;
+use planecut::check::MeshProblem;
 use planecut::csg::coarsen::CoarsenError;
 use planecut::csg::{EditError, EvaluateError};
 use planecut::export::ExportError;
@@ -81,8 +81,8 @@ pub(crate) enum CliError {
         /// Why.
         source: EditError,
     },
-    /// After an edit the model is not the one built anew.
-    #[error("{}{}: found a bug in planecut: a mesh that differs from that of the model built anew", .path.display(), at_line(*.line))]
+    /// After an edit the mesh is not that of a fresh build.
+    #[error("{}{}: found a bug in planecut: a mesh that differs from that of a fresh build", .path.display(), at_line(*.line))]
     NotFresh {
         /// The edits.
         path: PathBuf,

@@ -7,10 +7,12 @@ mod asset_args;
 mod build;
 mod check;
 mod coarsen;
+mod completions;
 mod edit;
 mod error;
 mod info;
 mod input;
+mod man;
 mod output;
 mod pieces;
 mod pool;
@@ -18,6 +20,7 @@ mod product;
 mod progress;
 mod render;
 mod report;
+mod schema;
 mod solve;
 mod terminal;
 
@@ -51,6 +54,9 @@ fn parse_and_run() -> Result<(), CliError> {
         Command::Edit(args) => edit::run(&args),
         Command::Coarsen(args) => coarsen::run(&args),
         Command::Check(args) => check::run(&args),
+        Command::Schema => schema::run(),
+        Command::Completions(args) => completions::run(&args),
+        Command::Man(args) => man::run(&args),
     }
 }
 

@@ -3,8 +3,10 @@
 use std::borrow::Cow;
 use std::time::Instant;
 
-use planecut::csg::check::check_topology;
-use planecut::csg::{Brush, EvaluateError, FaceSource, Material, Mesh, Model, Solid, Tree, evaluate, evaluate_with};
+use planecut::check::check_topology;
+use planecut::csg::{
+    Brush, EvaluateError, FaceSource, Material, Mesh, Model, Solid, Tree, convex_union, evaluate, evaluate_with,
+};
 use planecut::export::Part;
 use rayon::prelude::*;
 
@@ -103,7 +105,7 @@ pub(crate) fn brush_meshes(brushes: &[Brush], materials: &[Material]) -> Result<
 
 /// The solid as convex bodies: the brushes of a union as they are, else disjoint cells.
 pub(crate) fn brushes(kind: InputKind, solved: &Solved) -> Vec<Brush> {
-    bounded_tree(kind, solved).to_convex_union().into_owned()
+    convex_union(&bounded_tree(kind, solved)).into_owned()
 }
 
 /// The tree of an input, of a map without what is not bounded.

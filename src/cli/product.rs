@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 
 use planecut::csg::{Brush, Material};
 use planecut::export::{ExportOptions, Part, Written, write_brushes, write_mtl, write_parts, written};
+use planecut::import::Warning;
 use planecut::picture::{PictureError, PreviewOptions, Subject, render};
 
 use super::args::CommonArgs;
@@ -13,13 +14,14 @@ use super::input::Input;
 use super::output::{MeshTarget, Output, OutputFormat, Target};
 use super::pool::on_threads;
 use super::progress::Progress;
-use super::report::milliseconds;
-use super::solve::Solved;
+use super::report::{Report, milliseconds};
 use super::terminal;
 
 /// What is there before the first file gets its name.
 pub(crate) struct Product {
-    pub(crate) solved: Solved,
+    pub(crate) warnings: Vec<Warning>,
+    /// Without the times of writing; nothing where it is not asked for.
+    pub(crate) report: Option<Report>,
     pub(crate) outputs: Vec<Output>,
     /// How long the meshes took to encode.
     pub(crate) encoding: Duration,
@@ -30,14 +32,13 @@ impl Product {
     ///
     /// # Errors
     /// [`CliError::Write`] or [`CliError::Stdout`] where the system refuses.
-    fn commit(mut self, input: &str, is_quiet: bool, report: Option<&Target>, begin: Instant) -> Result<(), CliError> {
+    fn commit(self, input: &str, is_quiet: bool, target: Option<&Target>, begin: Instant) -> Result<(), CliError> {
         if !is_quiet {
-            terminal::print_warnings(input, &self.solved.warnings);
+            terminal::print_warnings(input, &self.warnings);
         }
         let writing = Instant::now();
         self.outputs.into_iter().try_for_each(Output::commit)?;
-        if let Some(target) = report {
-            let report = &mut self.solved.report;
+        if let (Some(target), Some(mut report)) = (target, self.report) {
             report.time_ms.export = milliseconds(self.encoding + writing.elapsed());
             report.time_ms.total = milliseconds(begin.elapsed());
             // Last, so that a report is a sign that all else is there.

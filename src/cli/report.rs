@@ -5,7 +5,7 @@
 
 use std::time::Duration;
 
-use planecut::csg::check::{Measures, TopologyReport, check_topology, measure_triangles};
+use planecut::check::{Measures, TopologyReport, check_topology, measure_triangles};
 use planecut::csg::coarsen::Coarsened;
 use planecut::csg::{Evaluation, ModelSummary, SolidMeasures, StageTimes};
 use planecut::export::Written;
@@ -81,7 +81,7 @@ impl Report {
     /// The report on a mesh that was read from a file of the given format.
     pub(crate) fn of_mesh(input: String, format: &'static str, topology: &TopologyReport) -> Self {
         let Measures { volume, area, centroid, min, max } = topology.measures;
-        let measures = SolidMeasures { volume, area, centroid, min, max };
+        let measures = SolidMeasures { volume, area, centroid: centroid.into(), min: min.into(), max: max.into() };
         Self {
             planecut: env!("CARGO_PKG_VERSION"),
             input,
@@ -261,8 +261,8 @@ pub(crate) struct EditPart {
     /// `null` where there were none.
     pub(crate) median_ms: Option<f64>,
     pub(crate) p99_ms: Option<f64>,
-    /// How long the same model takes to be built anew: the median, where that was done after each edit.
-    pub(crate) fresh_ms: f64,
+    /// How long the evaluation of the same model takes: the median, where that was done after each edit.
+    pub(crate) fresh_ms: Option<f64>,
     pub(crate) same_as_fresh: bool,
 }
 
@@ -324,11 +324,11 @@ impl Times {
             ..Self::default()
         }
     }
+}
 
-    /// From the model in memory to its mesh.
-    pub(crate) fn of_evaluation(&self) -> f64 {
-        self.evaluate + self.weld + self.triangulate
-    }
+/// How long an evaluation took: from the model in memory to its mesh.
+pub(crate) fn evaluation_time(times: &StageTimes) -> Duration {
+    times.evaluate + times.weld + times.triangulate
 }
 
 /// A duration in milliseconds, to the microsecond.

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use planecut::csg::check::check_topology;
+use planecut::check::check_topology;
 use planecut::csg::{Evaluation, FaceSource, Mesh, Model, ModelSummary, TextureAxes, UnboundedBrushes, evaluate_with};
 use planecut::import::Warning;
 use planecut::import::map::{MapImport, read_map};
@@ -64,31 +64,39 @@ pub(crate) fn solve(
 pub(crate) fn solve_read(
     input: &Input,
     kind: InputKind,
-    Read { model, mut warnings, .. }: Read,
+    read: Read,
     import_time: Duration,
     progress: &Progress,
 ) -> Result<Solved, CliError> {
     progress.stage("evaluating");
-    let evaluation = evaluate_model(input, kind, &model)?;
+    let evaluation = evaluate_model(input, kind, &read.model)?;
+    Ok(solved(input, kind, read, evaluation, import_time, progress))
+}
+
+/// The solid of a model that was evaluated, with the report on it.
+pub(crate) fn solved(
+    input: &Input,
+    kind: InputKind,
+    Read { model, mut warnings, .. }: Read,
+    evaluation: Evaluation,
+    import_time: Duration,
+    progress: &Progress,
+) -> Solved {
     progress.stage("checking");
     let topology = check_topology(&evaluation.mesh.positions, &evaluation.mesh.triangles);
-
-    warnings.extend(brush_warnings(kind, &model, &evaluation.model));
-    if evaluation.mesh.triangles.is_empty() {
-        warnings.push(Warning { line: 0, message: "the result is empty".to_owned() });
-    }
+    warnings.extend(solid_warnings(kind, &model, &evaluation.model, &evaluation.mesh));
     let mesh = MeshPart::of_solid(&topology, evaluation.mesh.faces.len());
     let mut report = Report::of_model(input.given(), kind.name(), model.materials.len(), &evaluation, mesh);
     report.time_ms.import = milliseconds(import_time);
     report.warnings = warnings.iter().map(ToString::to_string).collect();
-    Ok(Solved {
+    Solved {
         model,
         sources: Vec::new(),
         mesh: evaluation.mesh,
         unbounded: evaluation.model.unbounded,
         report,
         warnings,
-    })
+    }
 }
 
 /// What was read of an input.
@@ -127,7 +135,11 @@ pub(crate) fn read(input: &Input, kind: InputKind, reading: &ReadingArgs) -> Res
     Ok(Read { model, warnings, ..Read::default() })
 }
 
-fn evaluate_model(input: &Input, kind: InputKind, model: &Model) -> Result<Evaluation, CliError> {
+/// Evaluates the tree of a model on the current thread pool.
+///
+/// # Errors
+/// [`CliError::Evaluate`] for a solid without a mesh, [`CliError::Bug`] for a bug.
+pub(crate) fn evaluate_model(input: &Input, kind: InputKind, model: &Model) -> Result<Evaluation, CliError> {
     evaluate_with(model, unbounded_of(kind)).map_err(|source| CliError::of_evaluation(&input.path, source))
 }
 
@@ -138,6 +150,15 @@ pub(crate) fn unbounded_of(kind: InputKind) -> UnboundedBrushes {
         // Nobody means half of space in a map: the brush lacks a face.
         InputKind::Map => UnboundedBrushes::LeaveOut,
     }
+}
+
+/// What is doubtful about a solid: brushes that add nothing to it, and an empty result.
+pub(crate) fn solid_warnings(kind: InputKind, model: &Model, summary: &ModelSummary, mesh: &Mesh) -> Vec<Warning> {
+    let mut warnings: Vec<Warning> = brush_warnings(kind, model, summary).collect();
+    if mesh.triangles.is_empty() {
+        warnings.push(Warning { line: 0, message: "the result is empty".to_owned() });
+    }
+    warnings
 }
 
 /// One warning for each kind of brush that adds nothing to the solid, on the line of the first of them.

@@ -63,6 +63,11 @@ impl Rng {
         }
     }
 
+    /// The same as a vector.
+    pub fn unit(&mut self) -> DVec3 {
+        DVec3::from_array(self.direction()).normalize()
+    }
+
     /// A point of the cube `low..high`, component by component.
     pub fn point(&mut self, low: f64, high: f64) -> DVec3 {
         DVec3::new(self.float(low, high), self.float(low, high), self.float(low, high))
@@ -70,7 +75,7 @@ impl Rng {
 
     /// A rotation by a uniform angle about a uniform axis.
     pub fn rotation(&mut self) -> DQuat {
-        DQuat::from_axis_angle(DVec3::from_array(self.direction()).normalize(), self.float(0.0, std::f64::consts::TAU))
+        DQuat::from_axis_angle(self.unit(), self.float(0.0, std::f64::consts::TAU))
     }
 
     /// A non-zero vector of integers in `-reach..=reach`.

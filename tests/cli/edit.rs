@@ -24,7 +24,7 @@ fn report(folder: &Path) -> Value {
 #[test]
 fn edits_are_done_one_after_another() {
     let folder = folder();
-    // the plate half as long, a corner cut off and back, the hole turned by hand, a peg, and one edit that is taken back
+    // the plate half as long, a corner cut off and back, the hole turned by hand, a peg, and one edit that is undone
     let edits = r#"{"op": "move_plane", "brush": 0, "plane": 0, "offset": 5}
 {"op": "add_plane", "brush": 0, "plane": [-1, -1, 0, -4]}
 {"op": "remove_plane", "brush": 0, "plane": 6}
@@ -56,6 +56,36 @@ fn edits_are_done_one_after_another() {
     let read = |name: &str| std::fs::read(folder.path().join(name)).expect(name);
     assert!(read("a.glb") == read("b.glb"));
     assert!(read("a.obj") == read("b.obj"));
+}
+
+/// Without `--verify` and `--report` the mesh is that of the live model and no fresh build is made: nothing that is written or said may differ.
+#[test]
+fn outputs_and_warnings_do_not_depend_on_the_comparison() {
+    let names = ["a.glb", "a.obj", "a.stl", "a.csg", "a.map"];
+    let outputs = names.map(|name| format!("-o {name}")).join(" ");
+    let cases = [
+        (r#"{"op": "add_plane", "brush": 0, "plane": [1, 2, 3, 9]}"#, 192.0),
+        (r#"{"op": "move_plane", "brush": 1, "plane": 0, "offset": 2}"#, 200.0),
+        (r#"{"op": "remove_brush", "brush": 0}"#, 0.0),
+    ];
+    for (edits, largest) in cases {
+        let written = |arguments: &str| {
+            let folder = folder();
+            let run = edit(folder.path(), edits, &format!("{outputs}{arguments}"));
+            assert_eq!(run.status, 0, "{}", run.stderr);
+            let files = names.map(|name| std::fs::read(folder.path().join(name)).expect(name));
+            (files, run.stderr, arguments.contains("--report").then(|| report(folder.path())))
+        };
+        let (expected, warnings, _) = written("");
+        for arguments in [" --verify", " --report r.json", " --verify --report r.json"] {
+            let (files, stderr, report) = written(arguments);
+            assert!(files == expected, "{edits}{arguments}");
+            assert_eq!(stderr, warnings, "{edits}{arguments}");
+            assert!(
+                report.is_none_or(|report| report["solid"]["volume"].as_f64().is_some_and(|volume| volume <= largest))
+            );
+        }
+    }
 }
 
 #[test]
@@ -112,14 +142,16 @@ fn brushes_of_a_map_that_lose_their_end_are_left_out() {
     let folder = folder();
     write_map(folder.path(), "m.map", &[block([0; 3], [2; 3], "a"), block([1; 3], [4; 3], "b")]);
     std::fs::write(folder.path().join("e.jsonl"), r#"{"op": "remove_plane", "brush": 1, "plane": 5}"#).expect("a file");
-    let arguments = "edit m.map e.jsonl -o a.glb --verify --report r.json";
-    let run = finish(command().current_dir(folder.path()).args(arguments.split(' ')));
-    assert_eq!((run.status, run.stderr.contains("left out a brush that is not bounded")), (0, true), "{}", run.stderr);
+    for arguments in ["edit m.map e.jsonl -o b.glb", "edit m.map e.jsonl -o a.glb --verify --report r.json"] {
+        let run = finish(command().current_dir(folder.path()).args(arguments.split(' ')));
+        let is_left_out = run.stderr.contains("left out a brush that is not bounded");
+        assert_eq!((run.status, is_left_out), (0, true), "{}", run.stderr);
+    }
     assert_eq!(report(folder.path())["solid"]["volume"], json!(8.0));
 }
 
 #[test]
-fn edits_of_a_shared_map_are_those_of_a_model_built_anew() {
+fn edits_of_a_shared_map_give_the_mesh_of_a_fresh_build() {
     let Some(map) = shared_maps().map(|maps| maps.join("spacehare/64u_rabbit.map")) else { return };
     let folder = folder();
     let mut edits = String::new();

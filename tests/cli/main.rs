@@ -11,6 +11,7 @@ mod examples;
 mod meshes;
 mod model;
 mod outputs;
+mod reference;
 mod render;
 mod report;
 mod shared_maps;

@@ -61,7 +61,7 @@ IDENTITIES = {
 
 
 def check_identity(seed: int, most_leaves: int, options: Options) -> tuple[Result, dict]:
-    """One identity over three random solids of at most so many leaves each, and the model whose sides differ."""
+    """One identity over three random solids with a maximum number of leaves each, and the model whose sides differ."""
     name = list(IDENTITIES)[seed % len(IDENTITIES)]
     random = np.random.default_rng(seed)
     family = FAMILIES[int(random.integers(len(FAMILIES)))]

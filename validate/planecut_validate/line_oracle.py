@@ -14,7 +14,7 @@ from .mesh import Mesh
 from .mesh_lines import TriangleTree
 
 _TRIES = 8
-"""How often an unclear line is drawn anew."""
+"""How often an unclear line is drawn again."""
 
 
 class Covered(Protocol):
@@ -124,7 +124,7 @@ def _redraw(model: Covered, drawn: Drawn, random: np.random.Generator) -> Drawn:
 
 
 def _replaced(old: Coverage, which: np.ndarray, new: Coverage) -> Coverage:
-    """The coverage with the lines `which` told anew."""
+    """The coverage with the lines `which` told again."""
     before, after = old.crossings, new.crossings
     keep = ~np.isin(before.line, which)
     line = np.concatenate([before.line[keep], which[after.line]])

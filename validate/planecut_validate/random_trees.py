@@ -8,13 +8,13 @@ boxes and spheres of which no two faces lie in one plane."""
 
 
 def random_document(seed: int, most_leaves: int) -> dict:
-    """A model file with a bounded tree of at most so many leaves; the same seed gives the same one."""
+    """A model file with a bounded tree with a maximum number of leaves; the same seed gives the same one."""
     maker = _Maker(random.Random(seed), FAMILIES[seed % len(FAMILIES)])
     return document(maker.bounded(maker.random.randint(2, max(2, most_leaves))))
 
 
 def random_node(seed: int, leaves: int, family: str = "mixed") -> dict:
-    """A bounded NODE with so many leaves."""
+    """A bounded NODE with this number of leaves."""
     return _Maker(random.Random(seed), family).bounded(leaves)
 
 

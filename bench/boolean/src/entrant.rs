@@ -24,7 +24,7 @@ pub(crate) struct Entrant {
 /// When an entrant has had enough.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Limits {
-    /// No further run begins that would probably end after so much time in runs.
+    /// No further run begins that would probably end after the time limit.
     pub(crate) total: Duration,
     /// A run that takes longer is ended, and its process with it.
     pub(crate) single: Duration,

@@ -63,7 +63,7 @@ pub(crate) fn has(program: &str) -> bool {
     command.status().is_ok()
 }
 
-/// A command that stays on the first so many cores where `taskset` is there, else one that may use all.
+/// A command that is limited to a number of cores where `taskset` is there, else one that may use all.
 pub(crate) fn pinned(program: &str, cores: usize) -> Command {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let list = status.lines().find_map(|line| line.strip_prefix("Cpus_allowed_list:"));

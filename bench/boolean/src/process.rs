@@ -90,7 +90,7 @@ impl Process {
         match self.answer(limit)? {
             Answer::Ok(outcome) => Ok(outcome),
             Answer::Err(error) => Err(Failure::Refused(error)),
-            Answer::Ready => Err(Failure::of("it began anew")),
+            Answer::Ready => Err(Failure::of("it began again")),
         }
     }
 

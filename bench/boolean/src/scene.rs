@@ -28,7 +28,7 @@ pub(crate) enum Action {
     Subtract,
 }
 
-/// One entry of a tree in postfix order: the next body, or an operation on so many results before it.
+/// One entry of a tree in postfix order: the next body, or an operation on a number of results before it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum Entry {
@@ -46,7 +46,7 @@ pub(crate) enum Plan {
     Tree(Vec<Entry>),
     /// One body after another, by number; the result of each step is materialised.
     Steps(Vec<(Action, u32)>),
-    /// The union of the first so many bodies is there already; each further body then takes the place of the first, one after
+    /// the union of a number of first bodies is there already; each further body then takes the place of the first, one after
     /// another, and each result is materialised.
     Moves(u32),
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::path::Path;
 
-use planecut_csg::primitives::capsule;
+use planecut_shapes::primitives::capsule;
 use planecut_csg::{Brush, MaterialId, Transform};
 use planecut_import::map::{MapOptions, read_map};
 use planecut_kernel::{DMat3, DVec3, HalfSpace};
@@ -238,7 +238,7 @@ fn sponge_holes(depth: u32) -> Vec<[f64; 3]> {
     holes
 }
 
-/// Two equal spheres of tangent planes, each of so many triangles, that overlap by more than a radius.
+/// Two equal spheres of tangent planes, each with the given number of triangles, that overlap by more than a radius.
 pub(crate) fn dense_spheres(triangles: usize) -> Task {
     // each vertex has three planes, so f planes make 4f − 12 triangles
     let planes = (triangles + 12) / 4;

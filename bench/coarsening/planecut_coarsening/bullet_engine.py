@@ -72,7 +72,7 @@ def _bullet(file: str, begins: np.ndarray, ends: np.ndarray) -> tuple[int, np.nd
 
 
 def _entries(bodies: list[Body], begins: np.ndarray, ends: np.ndarray, larger: float) -> np.ndarray:
-    """The same by the planes of the cells, each moved outwards by so much."""
+    """The same by the planes of the cells, each moved outwards by a distance."""
     least = np.full(len(begins), np.inf)
     for body in bodies:
         planes = ConvexHull(body.corners).equations

@@ -62,7 +62,7 @@ def row_of(name: str, entrant: str, settings: str, asked: int, run: Run, referen
 
 
 def planecut_rows(setting: Setting, name: str, path: Path, cap: int, reference: Reference) -> list[Row]:
-    """planecut's run on a file with at most so many cells, measured and checked; nothing where it failed."""
+    """planecut's run on a file with a maximum number of cells, measured and checked; nothing where it failed."""
     try:
         run = planecut(setting.binary, path, setting.scratch, "--max-cells", str(cap))
         row = row_of(name, "planecut", "", cap, run, reference)

@@ -1,4 +1,4 @@
-//! Several planes at once: `remove_planes` against single removals and against building the rest anew.
+//! Several planes at once: `remove_planes` against single removals and against building the rest from scratch.
 
 use crate::case::{Sampler, half_spaces, microseconds};
 use crate::plan::Case;

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 /// How long a case is sampled in one round; one sample is always taken.
 const SLICE: Duration = Duration::from_millis(10);
 
-/// Samples of polytopes with so many planes fill a large part of the caches: they are taken after a while.
+/// Samples of polytopes with this many planes fill a large part of the caches: they are taken after a while.
 const LARGE: usize = 10_000;
 const WARM_UP: Duration = Duration::from_millis(30);
 

@@ -4,9 +4,9 @@
 use planecut_kernel::{DVec3, HalfSpace};
 use rustc_hash::FxHashMap;
 
+use crate::base::Bounds;
 use crate::body::{BrushBody, build_bodies};
-use crate::bounds::Bounds;
-use crate::brush::{Brush, BrushFace, MaterialId};
+use crate::model::{Brush, BrushFace, MaterialId};
 
 /// So many brushes are built at a time to know where they are.
 const AT_A_TIME: usize = 1 << 13;

@@ -13,11 +13,11 @@ mod seams;
 use glam::DVec3;
 use thiserror::Error;
 
-use crate::bounds::Bounds;
-use crate::brush::{Brush, Material, MaterialId, Model};
+use crate::base::Bounds;
 use crate::evaluate::{EvaluateError, check_materials, evaluate};
 use crate::expression::Expression;
 use crate::mesh::Mesh;
+use crate::model::{Brush, Material, MaterialId, Model};
 use crate::plane_table::Snapped;
 use grid::{Grid, bounds_of};
 use seams::Seams;

@@ -1,7 +1,6 @@
 //! What a tree is where only some of its brushes are.
 
-use crate::brush::Brush;
-use crate::tree::{Operation, Tree, TreeNode};
+use crate::model::{Brush, Operation, Tree, TreeNode};
 
 /// The tree of the brushes numbered by `members`, ascending, all others being nothing; `brush` makes the brush of a number.
 pub(super) fn tree_of_some(nodes: &[TreeNode], members: &[u32], brush: impl Fn(u32) -> Brush) -> Tree {
@@ -68,8 +67,8 @@ impl Pruned {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::brush::MaterialId;
     use crate::expression::Expression;
+    use crate::model::MaterialId;
 
     /// The value of a tree for leaves that are given, by definition.
     fn value(nodes: &[TreeNode], mut leaves: impl Iterator<Item = bool>) -> bool {

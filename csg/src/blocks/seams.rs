@@ -2,9 +2,9 @@
 
 use rustc_hash::FxHashMap;
 
-use crate::brush::MaterialId;
-use crate::distinct::sortable;
+use crate::base::sortable;
 use crate::mesh::Mesh;
+use crate::model::MaterialId;
 
 /// Both ends of an edge, the lesser one first.
 type Edge = [[u64; 3]; 2];

@@ -3,12 +3,12 @@
 use std::sync::Arc;
 
 use planecut_kernel::sign::Row;
-use planecut_kernel::{HalfSpace, IncrementalPolytope};
+use planecut_kernel::{HalfSpace, IncrementalPolytope, PlaneIdx};
 
 use super::Shape;
 use super::build::least_of_chunk;
-use crate::brush::{Brush, BrushFace};
-use crate::parallel::map_chunks;
+use crate::base::map_chunks;
+use crate::model::{Brush, BrushFace};
 use crate::plane_table::half_space_of;
 
 /// What a brush is, in numbers of its own.
@@ -82,9 +82,17 @@ pub(super) fn shape_of_planes<'a>(
     for k in 0..count {
         polytope.add_plane(*plane(k).1);
     }
+    shape_of_polytope(polytope, |idx| plane(idx.0))
+}
+
+/// What a polytope is, whose planes have these coefficients.
+pub(super) fn shape_of_polytope<'a>(
+    polytope: &IncrementalPolytope,
+    plane: impl Fn(PlaneIdx) -> (&'a Row, &'a HalfSpace),
+) -> BrushShape {
     if polytope.is_empty() {
         return BrushShape::Empty;
     }
-    let shape = if polytope.is_bounded() { Shape::of(polytope, |idx| plane(idx.0)) } else { None };
+    let shape = if polytope.is_bounded() { Shape::of(polytope, plane) } else { None };
     shape.map_or(BrushShape::Unbounded, BrushShape::Bounded)
 }

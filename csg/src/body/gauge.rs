@@ -11,8 +11,8 @@ use std::ops::Range;
 
 use planecut_kernel::{DVec3, HalfSpace};
 
+use super::Corner;
 use super::shape::Corners;
-use crate::corner::Corner;
 
 /// Bodies of fewer faces are asked plane by plane.
 const MANY: usize = 14;

@@ -5,7 +5,7 @@ use std::hash::BuildHasher;
 use rustc_hash::{FxBuildHasher, FxHashMap};
 
 use super::BodyFace;
-use crate::brush::MaterialId;
+use crate::model::MaterialId;
 use crate::plane_table::PlaneId;
 
 /// Numbers that are equal for bodies with the same faces of the same materials, and for no others; `faces` gives those of a

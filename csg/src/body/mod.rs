@@ -6,25 +6,28 @@
 
 mod build;
 mod built;
+mod corner;
 mod gauge;
 mod kinds;
+mod outer;
 mod shape;
 
 use std::sync::{Arc, OnceLock};
 
-use planecut_kernel::PlaneIdx;
 use planecut_kernel::sign::Sign;
+use planecut_kernel::{IncrementalPolytope, PlaneIdx};
 
-use crate::bounds::Bounds;
-use crate::brush::MaterialId;
-use crate::corner::{Corner, Sieve};
+use crate::base::Bounds;
+use crate::model::MaterialId;
 use crate::plane_table::{PlaneId, PlaneTable};
 
-pub(crate) use build::{BrushBodies, build, build_bodies, built_or_build};
+pub(crate) use build::{BrushBodies, build, build_bodies, built_or_build, read};
 pub use built::Built;
 pub(crate) use built::build_ahead;
+pub(crate) use corner::{Corner, Sieve};
 pub(crate) use gauge::{Gauge, Place};
 pub(crate) use kinds::{kinds, mark_of};
+pub(crate) use outer::OuterBox;
 use shape::Corners;
 pub(crate) use shape::Shape;
 
@@ -41,7 +44,7 @@ pub(crate) struct BodyFace {
 
 /// A bounded convex body with interior.
 #[derive(Debug, Clone)]
-pub(crate) struct Body {
+pub struct Body {
     pub(crate) faces: Vec<BodyFace>,
     /// The planes of the edges, face by face.
     edges: Vec<PlaneId>,
@@ -53,6 +56,24 @@ pub(crate) struct Body {
 }
 
 impl Body {
+    /// The body of a polytope whose planes are in a table: `face_of` gives the id and the material of each; nothing where the polytope is not
+    /// bounded.
+    #[must_use]
+    pub fn of_polytope(
+        table: &PlaneTable,
+        polytope: &IncrementalPolytope,
+        face_of: impl Fn(PlaneIdx) -> (PlaneId, MaterialId),
+    ) -> Option<Self> {
+        if !polytope.is_bounded() {
+            return None;
+        }
+        let plane = |handle: PlaneIdx| {
+            let id = face_of(handle).0;
+            (table.row(id), table.half_space(id))
+        };
+        Some(Self::new(&Shape::of(polytope, plane)?, face_of))
+    }
+
     /// A shape whose planes are in a table: `face_of` gives the id and the material of each.
     pub(crate) fn new(shape: &Shape, face_of: impl Fn(PlaneIdx) -> (PlaneId, MaterialId)) -> Self {
         let corners = &shape.corners;
@@ -141,4 +162,14 @@ pub(crate) enum BrushBody {
     Empty,
     /// Not bounded.
     Unbounded,
+}
+
+impl BrushBody {
+    /// The bounded body, where it is one.
+    pub(crate) fn bounded(self) -> Option<Body> {
+        match self {
+            Self::Bounded(body, _) => Some(body),
+            Self::Empty | Self::Unbounded => None,
+        }
+    }
 }

@@ -6,9 +6,9 @@ use glam::DVec3;
 use planecut_kernel::sign::{Homogeneous, Row};
 use planecut_kernel::{HalfSpace, IncrementalPolytope, PlaneIdx, meet};
 
+use super::Corner;
 use super::gauge::Gauge;
-use crate::bounds::Bounds;
-use crate::corner::Corner;
+use crate::base::Bounds;
 
 /// A bounded convex body with interior, its planes named as in the polytope that it was read from.
 #[derive(Debug, Clone)]
@@ -100,6 +100,19 @@ impl Shape {
         let mut shape = Self { faces, corners: Arc::new(corners), bounds: Bounds::EMPTY, volume: volume.six / 6.0 };
         shape.tighten_bounds(|idx| plane(idx).1);
         Some(shape)
+    }
+
+    /// Brings the faces into the order that their planes have.
+    pub(super) fn sort_faces(&mut self, place_of: impl Fn(PlaneIdx) -> usize) {
+        let planes = &self.corners.planes;
+        if planes.is_sorted_by_key(|plane| place_of(*plane)) {
+            return;
+        }
+        let mut order: Vec<usize> = (0..planes.len()).collect();
+        order.sort_unstable_by_key(|face| place_of(planes[*face]));
+        let planes = order.iter().map(|face| planes[*face]).collect();
+        self.faces = order.iter().map(|face| self.faces[*face].clone()).collect();
+        Arc::get_mut(&mut self.corners).expect("a shape that was made just now shares nothing").planes = planes;
     }
 
     pub(crate) fn bounds(&self) -> &Bounds {

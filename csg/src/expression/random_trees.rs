@@ -1,6 +1,6 @@
 //! Random trees, and what they say by the definitions.
 
-use crate::tree::{Operation, TreeNode};
+use crate::model::{Operation, TreeNode};
 
 /// Small random numbers (Marsaglia's xorshift).
 pub(super) struct Random(pub(super) u64);

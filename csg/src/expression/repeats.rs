@@ -12,7 +12,7 @@
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::{Expression, NONE};
-use crate::tree::Operation;
+use crate::model::Operation;
 
 impl Expression {
     /// For each leaf whether the tree says the same where it is 0; `kinds` tells which leaves are equal.
@@ -45,6 +45,7 @@ impl Expression {
                     around.entry(*number).and_modify(|count| *count -= 1);
                 }
             }
+            // a number that no union around has is there no time
             let others = around.get(&numbers[k]).copied().unwrap_or(0) - u32::from(is_operand(k));
             // without its leaves it must come to nothing
             if (is_again[k] || others > 0) && !node.base {
@@ -101,7 +102,7 @@ impl Expression {
 mod tests {
     use super::*;
     use crate::expression::random_trees::{Random, random_tree, value};
-    use crate::tree::TreeNode;
+    use crate::model::TreeNode;
 
     #[test]
     fn trees_say_the_same_without_repeated_leaves() {

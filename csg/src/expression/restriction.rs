@@ -1,7 +1,7 @@
 //! What a few leaves leave of an expression while all others are 0.
 
 use super::{Expression, NONE, Node};
-use crate::tree::Operation;
+use crate::model::Operation;
 
 /// One evaluation among several that are kept side by side.
 pub(crate) type Channel = usize;
@@ -262,7 +262,7 @@ impl Branch {
 mod tests {
     use super::*;
     use crate::expression::random_trees::{Random, random_tree, value};
-    use crate::tree::TreeNode;
+    use crate::model::TreeNode;
 
     #[test]
     fn restrictions_follow_random_trees() {

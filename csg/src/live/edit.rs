@@ -7,8 +7,7 @@ use planecut_kernel::HalfSpace;
 use super::history::New;
 use super::operand::State;
 use super::{BrushId, Change, EditError, LiveModel, Role};
-use crate::brush::{Brush, BrushFace, MaterialId};
-use crate::transform::Transform;
+use crate::model::{Brush, BrushFace, MaterialId, Transform};
 
 /// An edit, to be kept in a list and applied again: see [`LiveModel::apply`].
 #[derive(Debug, Clone, PartialEq)]

@@ -1,7 +1,7 @@
 //! How the brushes of a live model are combined: one after another, or first as in a tree.
 
 use super::operand::Role;
-use crate::tree::{Operation, Tree, TreeNode};
+use crate::model::{Operation, Tree, TreeNode};
 
 /// The roles of a tree's brushes where it does no more than to add, subtract and intersect one brush after another; nothing
 /// where it does more.
@@ -170,7 +170,7 @@ fn combine(operation: Operation, operands: &[Option<bool>], rest: &mut Vec<TreeN
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::brush::Brush;
+    use crate::model::Brush;
 
     fn leaf() -> Tree {
         Tree::from(Brush::default())

@@ -4,12 +4,11 @@ use std::ops::Range;
 
 use super::order::{restricted, sequence};
 use super::{LiveModel, body_of};
+use crate::base::{Bounds, map_chunks};
 use crate::body::{Body, kinds};
-use crate::bounds::Bounds;
+use crate::boundary::{BoundaryEdge, FaceWorker, Scene};
 use crate::expression::Expression;
-use crate::parallel::map_chunks;
 use crate::plane_table::PlaneTable;
-use crate::skin::{BoundaryEdge, FaceWorker, Scene};
 use crate::weld::{EdgeId, LiveWeld};
 
 /// From so many faces on they are worked out by several threads: waking them takes as long as a few faces.

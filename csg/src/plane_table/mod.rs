@@ -1,5 +1,7 @@
 //! Every plane of a model once: interned exactly up to scale, with noise snapped away.
 
+mod known_planes;
+mod morton;
 mod near;
 mod same;
 mod snapped;
@@ -11,9 +13,11 @@ use planecut_kernel::{DVec3, HalfSpace, meet};
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
-use crate::distinct::sortable;
+use crate::base::sortable;
+pub use known_planes::{KnownPlanes, compare};
+pub use morton::curve_number;
+pub(crate) use morton::renumber_planes;
 use near::NearPlanes;
-pub use near::SNAP_TOLERANCE;
 pub(crate) use near::{NearCells, is_nearly_same, unit};
 use same::group_exactly;
 pub(crate) use same::{Key, compare_coefficients, first_side, is_exact, is_reversed, key};
@@ -29,7 +33,8 @@ impl PlaneId {
     }
 
     /// The unsided plane of an index.
-    pub(crate) fn of_index(index: u32) -> Self {
+    #[must_use]
+    pub fn of_index(index: u32) -> Self {
         Self::new(index as usize, false)
     }
 
@@ -98,7 +103,7 @@ impl PlaneTable {
     }
 
     /// The id of a half-space, whose plane is added where it is not there yet. A plane that is nearly the same as one that
-    /// is there ([`SNAP_TOLERANCE`], relative to the largest distance from the origin so far) is taken to be that one,
+    /// is there ([`SNAP_TOLERANCE`](crate::SNAP_TOLERANCE), relative to the largest distance from the origin so far) is taken to be that one,
     /// unless its normal is made of short integers.
     ///
     /// ```
@@ -194,13 +199,15 @@ impl PlaneTable {
     }
 
     /// The meeting point of three planes, for asking sides.
-    pub(crate) fn homogeneous(&self, planes: [PlaneId; 3]) -> Homogeneous {
+    #[must_use]
+    pub fn homogeneous(&self, planes: [PlaneId; 3]) -> Homogeneous {
         let [a, b, c] = planes.map(|p| self.row(p));
         Homogeneous::meet(a, b, c)
     }
 
     /// On which side of `plane` the meeting point of a right-handed triple lies: positive is outside.
-    pub(crate) fn side(&self, planes: [PlaneId; 3], point: &Homogeneous, plane: PlaneId) -> Sign {
+    #[must_use]
+    pub fn side(&self, planes: [PlaneId; 3], point: &Homogeneous, plane: PlaneId) -> Sign {
         if planes.iter().any(|p| p.index() == plane.index()) {
             return Sign::Zero;
         }
@@ -218,7 +225,8 @@ impl PlaneTable {
     }
 
     /// The correctly rounded meeting point of three planes.
-    pub(crate) fn position(&self, planes: [PlaneId; 3]) -> Option<DVec3> {
+    #[must_use]
+    pub fn position(&self, planes: [PlaneId; 3]) -> Option<DVec3> {
         let [a, b, c] = planes.map(|p| self.row(p));
         meet(a, b, c)
     }

@@ -6,7 +6,7 @@ use planecut_kernel::sign::Row;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
-use crate::distinct::distinct;
+use crate::base::distinct;
 
 /// Planes whose normal has coprime integer components of at most this many bits are exact and never snapped onto others:
 /// what went through rotations or decimal text is hardly ever that short.

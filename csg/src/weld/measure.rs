@@ -4,8 +4,8 @@ use planecut_kernel::DVec3;
 
 use super::cancel::HalfEdge;
 use super::nest::Faces;
-use crate::evaluate::SolidMeasures;
-use crate::sum::CompensatedSum;
+use crate::base::CompensatedSum;
+use crate::mesh::SolidMeasures;
 
 /// The part of one face in the measures of a solid.
 #[derive(Debug, Clone, Copy)]

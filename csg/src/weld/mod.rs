@@ -33,16 +33,12 @@ use planecut_kernel::sign::Counts;
 use rayon::prelude::*;
 use thiserror::Error;
 
-use crate::brush::{Material, MaterialId};
-use crate::caps::flip_caps;
-use crate::collapse::collapse_thin;
-use crate::contract::contract_short_edges;
-use crate::distinct::by_group;
-use crate::evaluate::SolidMeasures;
-use crate::mesh::{Mesh, MeshFace};
-use crate::parallel::map_chunks;
+use crate::base::{by_group, map_chunks};
+use crate::boundary::BoundaryEdge;
+use crate::mesh::{Mesh, MeshFace, SolidMeasures, collapse_thin, contract_short_edges, flip_caps};
+use crate::model::{Material, MaterialId};
 use crate::plane_table::{PlaneId, PlaneTable};
-use crate::skin::BoundaryEdge;
+use crate::tolerances::CONTRACTION;
 use cancel::{HalfEdge, Pieces, Run};
 pub(crate) use live::{EdgeId, LiveWeld};
 pub use live::{FaceId, LiveFace};
@@ -86,10 +82,6 @@ pub enum WeldError {
         to: u32,
     },
 }
-
-/// Edges shorter than this share of the largest coordinate come from planes that were meant to meet in a point: noise of
-/// decimal text or rotations is some `1e-15`, what anybody models is far longer.
-const CONTRACTION: f64 = 1e-12;
 
 /// What the weld gives.
 pub(crate) struct Welded {
@@ -144,7 +136,7 @@ impl Regions {
         keys.dedup();
         let mut numbers = Vec::with_capacity(edges.len());
         for edges in same_face() {
-            let number = keys.binary_search(&key(&edges[0])).unwrap_or_default() as u32;
+            let number = keys.binary_search(&key(&edges[0])).expect("the region of each edge is among the keys") as u32;
             numbers.extend(std::iter::repeat_n(number, edges.len()));
         }
         let regions = Self {

@@ -6,8 +6,7 @@ use planecut_kernel::sign::{Counts, Sign};
 use super::cancel::HalfEdge;
 use super::points::Points;
 use super::regions_of;
-use crate::bounds::Bounds;
-use crate::parallel::map_chunks;
+use crate::base::{Bounds, map_chunks};
 use crate::plane_table::PlaneTable;
 
 /// Regions of fewer corners are searched edge by edge.
@@ -87,7 +86,7 @@ impl<'a> PinchFinder<'a> {
                 let length = sorted[axis][start..].partition_point(|p| value(p) <= max[axis]);
                 &sorted[axis][start..start + length]
             };
-            let fewest = (0..3).map(range).min_by_key(|range| range.len()).unwrap_or_default();
+            let fewest = (0..3).map(range).min_by_key(|range| range.len()).expect("a point has three planes");
             self.touching(piece, fewest);
         }
         self.sorted = sorted;

@@ -9,12 +9,9 @@ use planecut_kernel::{DVec3, compare_exactly};
 use rayon::prelude::*;
 
 use super::cancel::HalfEdge;
-use crate::bounds::Bounds;
-use crate::distinct::{distinct, sortable};
-use crate::locality::curve_number;
-use crate::parallel::map_chunks;
-use crate::plane_table::{PlaneId, PlaneTable};
-use crate::skin::BoundaryEdge;
+use crate::base::{Bounds, distinct, map_chunks, sortable};
+use crate::boundary::BoundaryEdge;
+use crate::plane_table::{PlaneId, PlaneTable, curve_number};
 
 /// The points of a weld.
 #[derive(Debug, Default)]
@@ -134,6 +131,7 @@ impl Points {
             let is_certain = self.exact[p as usize] & self.exact[q as usize] & 1 << *axis != 0;
             if by_rounded.is_ne() || is_certain { by_rounded } else { compare_exactly(rows(p), rows(q), &[*axis]) }
         };
+        // points that agree in all of these coordinates
         axes.iter().map(by_axis).find(|order| order.is_ne()).unwrap_or(Ordering::Equal)
     }
 

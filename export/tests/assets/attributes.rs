@@ -1,8 +1,9 @@
 //! Normals, texture coordinates, tangents, colours and sources.
 
 use glam::{DVec2, DVec3, DVec4};
-use planecut_csg::{Brush, Material, MaterialId, Mesh, Model, TextureAxes, TextureUnit, Tree, evaluate, primitives};
+use planecut_csg::{Brush, Material, MaterialId, Mesh, Model, TextureAxes, TextureUnit, Tree, evaluate};
 use planecut_export::{ExportError, ExportOptions, Format, Part, Projection, Shading, TextureMapping, encode};
+use planecut_shapes::primitives;
 
 use super::common::{box_mesh, cube_with_hole, random_boxes};
 use super::support::written;

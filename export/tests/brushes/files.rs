@@ -3,7 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use planecut_csg::{Brush, BrushFace, Cell, Model, Solid, Tree};
+use planecut_cells::{Cell, Solid};
+use planecut_csg::{Brush, BrushFace, Model, Tree};
 use planecut_export::BrushFormat;
 use planecut_import::map::{MapOptions, read_map};
 use planecut_import::scad::{ScadOptions, read_scad};

@@ -1,8 +1,9 @@
 //! Random bodies at odd scales and places.
 
-use planecut_csg::{Brush, MaterialId, primitives};
+use planecut_csg::{Brush, MaterialId};
 use planecut_export::BrushFormat;
 use planecut_kernel::{DVec3, HalfSpace};
+use planecut_shapes::primitives;
 
 use crate::common::Random;
 use crate::support::{back, body, extent, polygons, volume};

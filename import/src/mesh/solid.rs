@@ -1,9 +1,9 @@
 //! Closed meshes as models of convex cells.
 
 use glam::DVec3;
-use planecut_csg::polyhedron::{PolyhedronError, PolyhedronOptions, polyhedron};
 use planecut_csg::{Brush, Material, MaterialId, Model, Tree};
 use planecut_kernel::hull;
+use planecut_shapes::polyhedron::{PolyhedronError, PolyhedronOptions, polyhedron};
 use rustc_hash::FxHashMap;
 use thiserror::Error;
 

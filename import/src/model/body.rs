@@ -1,10 +1,10 @@
 //! Bodies that a NODE makes by itself, from its numbers.
 
 use glam::DVec3;
-use planecut_csg::outline::{Join, Outline};
-use planecut_csg::primitives::{self, Extrusion, MAX_SEGMENTS, RegularSolid, ShapeError};
 use planecut_csg::{Brush, MaterialId, Tree};
 use planecut_kernel::{HalfSpaceError, HullError};
+use planecut_shapes::outline::{Join, Outline};
+use planecut_shapes::primitives::{self, Extrusion, MAX_SEGMENTS, RegularSolid, ShapeError};
 
 use super::error::{Checked, Fault};
 use super::json::{Document, Entry, Kind};

@@ -3,7 +3,8 @@
 //! Nodes are listed before those within them. So what they inherit is handed down in the order of the list, and what they make
 //! is handed up in the reverse order: when a node's turn comes, its children have had theirs.
 
-use planecut_csg::{Brush, Model, Outline, Tree};
+use planecut_csg::{Brush, Model, Tree};
+use planecut_shapes::Outline;
 
 use super::error::Fault;
 use super::font::Fonts;

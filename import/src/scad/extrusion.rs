@@ -1,9 +1,10 @@
 //! Solids from regions of the plane.
 
-use planecut_csg::outline::Outline;
-use planecut_csg::primitives::{self, Extrusion, LayerRules};
-use planecut_csg::{ShapeError, Transform, Tree, sine_and_cosine};
+use planecut_csg::{Transform, Tree, sine_and_cosine};
 use planecut_kernel::{DVec2, DVec3};
+use planecut_shapes::ShapeError;
+use planecut_shapes::outline::Outline;
+use planecut_shapes::primitives::{self, Extrusion, LayerRules};
 
 use super::arguments::Arguments;
 use super::evaluate::Evaluator;

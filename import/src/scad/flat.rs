@@ -1,7 +1,8 @@
 //! Regions of the plane from regions of the plane.
 
-use planecut_csg::outline::{ClipperJoin, OffsetRule, Outline};
-use planecut_csg::{Operation, ShapeError};
+use planecut_csg::Operation;
+use planecut_shapes::ShapeError;
+use planecut_shapes::outline::{ClipperJoin, OffsetRule, Outline};
 
 use super::arguments::Arguments;
 use super::fragments::Fragments;

@@ -2,8 +2,8 @@
 //!
 //! Source: the OpenSCAD User Manual, "Special variables", and the lengths of a helix and of Archimedes' spiral.
 
-use planecut_csg::primitives::MAX_SEGMENTS;
 use planecut_kernel::DVec2;
+use planecut_shapes::primitives::MAX_SEGMENTS;
 
 use super::arguments::Arguments;
 

@@ -3,9 +3,10 @@
 //! Sizes of zero and below, and infinite ones, give an empty object, as in OpenSCAD. Shapes have OpenSCAD's corners: a sphere
 //! is `⌊(n + 1) / 2⌋` rings, half a step from the poles.
 
-use planecut_csg::outline::Outline;
-use planecut_csg::{MaterialId, Tree, primitives};
+use planecut_csg::{MaterialId, Tree};
 use planecut_kernel::{DVec2, DVec3};
+use planecut_shapes::outline::Outline;
+use planecut_shapes::primitives;
 
 use super::arguments::Arguments;
 use super::fragments::Fragments;

@@ -1,8 +1,8 @@
 //! `polyhedron`: a solid of given corners and faces.
 
 use planecut_csg::MaterialId;
-use planecut_csg::polyhedron::{Polyhedron, PolyhedronError, PolyhedronOptions, Precision, polyhedron};
 use planecut_kernel::DVec3;
+use planecut_shapes::polyhedron::{Polyhedron, PolyhedronError, PolyhedronOptions, Precision, polyhedron};
 use rustc_hash::FxHashMap;
 
 use super::arguments::Arguments;

@@ -1,8 +1,9 @@
 //! What cannot be made of a node.
 
-use planecut_csg::outline::Outline;
-use planecut_csg::{ShapeError, Tree};
+use planecut_csg::Tree;
 use planecut_kernel::DVec3;
+use planecut_shapes::ShapeError;
+use planecut_shapes::outline::Outline;
 
 use super::fragments::TooMany;
 
@@ -73,7 +74,7 @@ impl From<ShapeError> for Problem {
 
 impl From<TooMany> for Problem {
     fn from(TooMany(count): TooMany) -> Self {
-        let limit = planecut_csg::primitives::MAX_SEGMENTS;
+        let limit = planecut_shapes::primitives::MAX_SEGMENTS;
         Self::new(format!("{count} segments by `$fn`, `$fa` and `$fs`"), format!("at most {limit}"))
     }
 }

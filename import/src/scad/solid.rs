@@ -1,8 +1,10 @@
 //! Solids from solids.
 
-use planecut_csg::outline::Outline;
-use planecut_csg::{Material, MaterialId, Model, Operation, ShapeError, Solid, Transform, Tree, evaluate, shaping};
+use planecut_cells::Solid;
+use planecut_csg::{Material, MaterialId, Model, Operation, Transform, Tree, evaluate};
 use planecut_kernel::{DVec2, DVec3};
+use planecut_shapes::outline::Outline;
+use planecut_shapes::{ShapeError, shaping};
 
 use super::arguments::Arguments;
 use super::problem::{Body, Geometry, Made, Problem};

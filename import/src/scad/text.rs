@@ -9,8 +9,8 @@
 use std::str::FromStr;
 
 use harfrust::{Direction, GlyphInfo, GlyphPosition, Language, Script, ShaperData, UnicodeBuffer};
-use planecut_csg::{Outline, ShapeError};
 use planecut_kernel::DVec2;
+use planecut_shapes::{Outline, ShapeError};
 use skrifa::instance::{LocationRef, Size};
 use skrifa::outline::{DrawSettings, HintingInstance, HintingOptions, OutlineGlyphCollection, OutlinePen};
 use skrifa::{FontRef, GlyphId, MetadataProvider};

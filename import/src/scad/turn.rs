@@ -1,7 +1,7 @@
 //! A node whose turn it is, and where what it makes is put.
 
-use planecut_csg::Outline;
 use planecut_kernel::MAX_COORDINATE;
+use planecut_shapes::Outline;
 
 use super::frame::Frame;
 use super::problem::{Body, Geometry, Made};

@@ -5,9 +5,9 @@ use std::collections::HashMap;
 
 use planecut_kernel::{DVec2, DVec3, Edge, IncrementalPolytope, PlaneIdx, VertexIdx};
 
-use crate::camera::Camera;
-use crate::color::Color;
-use crate::svg::{Stroke, Svg};
+use super::camera::Camera;
+use super::color::Color;
+use super::svg::{Stroke, Svg};
 
 /// Draws the faces of the near side, each in the colour of its role, where it has one.
 pub(crate) fn faces(

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use planecut_kernel::DVec2;
 
-use crate::color::{Color, INK};
+use super::color::{Color, INK};
 
 /// How a line is drawn.
 #[derive(Debug, Clone)]

@@ -66,10 +66,10 @@ pub enum HullError {
 /// [`HullError`] where a point is not finite or out of range, or the hull has no interior.
 ///
 /// ```
-/// use planecut_kernel::{DVec3, HullError, hull};
+/// use planecut_kernel::{HullError, hull};
 ///
 /// # fn main() -> Result<(), HullError> {
-/// let mut points: Vec<DVec3> = (0..27).map(|k| DVec3::new((k % 3) as f64, (k / 3 % 3) as f64, (k / 9) as f64)).collect();
+/// let mut points: Vec<[f64; 3]> = (0..27).map(|k| [k % 3, k / 3 % 3, k / 9].map(f64::from)).collect();
 /// let cube = hull(&points)?;
 /// assert_eq!((cube.vertex_count(), cube.planes().count()), (8, 6));
 /// points.truncate(9);
@@ -77,7 +77,11 @@ pub enum HullError {
 /// # Ok(())
 /// # }
 /// ```
-pub fn hull(points: &[DVec3]) -> Result<IncrementalPolytope, HullError> {
+pub fn hull<P: Into<DVec3> + Copy>(points: &[P]) -> Result<IncrementalPolytope, HullError> {
+    hull_of(&vectors(points))
+}
+
+fn hull_of(points: &[DVec3]) -> Result<IncrementalPolytope, HullError> {
     check_range(points)?;
     let triangulation = Triangulation::of(points)?;
     let (low, high) = bounds(points);
@@ -115,17 +119,22 @@ pub fn hull(points: &[DVec3]) -> Result<IncrementalPolytope, HullError> {
 /// As [`hull`].
 ///
 /// ```
-/// use planecut_kernel::{DVec3, HullError, hull_triangles};
+/// use planecut_kernel::{HullError, hull_triangles};
 ///
 /// # fn main() -> Result<(), HullError> {
-/// let corners: Vec<DVec3> = (0..8).map(|k| DVec3::new((k & 1) as f64, (k >> 1 & 1) as f64, (k >> 2) as f64)).collect();
+/// let corners: Vec<[f64; 3]> = (0..8).map(|k| [k & 1, k >> 1 & 1, k >> 2].map(f64::from)).collect();
 /// assert_eq!(hull_triangles(&corners)?.len(), 12);
 /// # Ok(())
 /// # }
 /// ```
-pub fn hull_triangles(points: &[DVec3]) -> Result<Vec<[u32; 3]>, HullError> {
-    check_range(points)?;
-    Ok(Triangulation::of(points)?.triangles().collect())
+pub fn hull_triangles<P: Into<DVec3> + Copy>(points: &[P]) -> Result<Vec<[u32; 3]>, HullError> {
+    let points = vectors(points);
+    check_range(&points)?;
+    Ok(Triangulation::of(&points)?.triangles().collect())
+}
+
+fn vectors<P: Into<DVec3> + Copy>(points: &[P]) -> Vec<DVec3> {
+    points.iter().map(|point| (*point).into()).collect()
 }
 
 /// In rounds that double, each in the order given: a random half of all last, a random half of the others before that, and so

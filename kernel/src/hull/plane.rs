@@ -8,11 +8,9 @@ use std::array::from_fn;
 use dashu_int::{IBig, UBig, ops::BitTest, ops::Gcd};
 use glam::DVec3;
 
-use crate::double_double::DoubleDouble;
+use crate::arithmetic::{DoubleDouble, big_integers, exponent, lowest_bit, round_quotient};
 use crate::half_space::HalfSpace;
-use crate::meet::round_quotient;
-use crate::polytope::exact_side;
-use crate::sign::{Row, Sign, big_integers, exponent, lowest_bit};
+use crate::sign::{Row, Sign, side_of_point};
 
 use super::neighbours::Neighbours;
 
@@ -230,7 +228,7 @@ fn containing(normal: DVec3, point: DVec3) -> HalfSpace {
             offset = if offset > 0.0 { SMALLEST_OFFSET } else { 0.0 };
         }
         let half_space = HalfSpace::new(normal, offset).expect("the points are in the accepted range");
-        if exact_side(&Row::new(&half_space), point) != Sign::Positive {
+        if side_of_point(&Row::new(&half_space), point) != Sign::Positive {
             return half_space;
         }
         offset = offset.next_up();

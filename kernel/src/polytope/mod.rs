@@ -43,7 +43,6 @@ mod validate;
 mod view;
 
 pub use measure::Measures;
-pub(crate) use query::exact_side;
 pub use query::{
     BoundaryLine, BoundingBox, ClippedLine, ClosestFeature, ClosestPoint, FacePolygon, InscribedBall, InteriorPoint,
     Location, RecessionCone, Support,

@@ -3,7 +3,7 @@
 //! A plane enters as four numbers `[nx, ny, nz, d]` that are taken as exact ([`Row`]). [`orient3`] is the sign of the
 //! determinant of three normals, [`orient4`] that of four whole rows. Each is answered by the first tier that can:
 //!
-//! 1. floating point with a proven error bound (`filter`), sides of planes also by sums of two numbers each (`crate::meet`);
+//! 1. floating point with a proven error bound (`filter`), sides of planes also in twice the precision (`extended`);
 //! 2. `i128`, where the rows are small integers (`small_int`): on grids about a fifth of all signs are true zeros;
 //! 3. longer integers (`big`), always: of a fixed length (`wide`) or, where that does not suffice, of any.
 //!
@@ -12,20 +12,27 @@
 
 mod big;
 mod counts;
+mod extended;
 mod filter;
+mod point;
 mod row;
 mod small_int;
 #[cfg(test)]
 mod tests;
 mod wide;
 
+use std::cmp::Ordering;
+
+use dashu_int::IBig;
+
 pub use counts::Counts;
 pub use row::Row;
-pub(crate) use row::{exact_product, exponent, lowest_bit};
 
-pub(crate) use big::{cross as big_cross, dot as big_dot, integers as big_integers, sign as big_sign};
+pub(crate) use big::homogeneous as homogeneous_exactly;
+pub(crate) use extended::{DOUBLE_DOUBLE_BOUND, homogeneous as homogeneous_in_double_doubles, minor};
 pub use filter::Homogeneous;
 pub(crate) use filter::{Ascent, BEFORE, NEXT, OffsetColumn, Probe, Slope, cross};
+pub(crate) use point::{ExactPoint, POINT_BOUND, UNDERFLOW, integer_row, residual_with_error, side_of_point};
 
 /// A three-way sign.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -49,6 +56,15 @@ impl Sign {
             Self::Negative
         } else {
             Self::Zero
+        }
+    }
+
+    /// The sign of a big integer.
+    pub(crate) fn of_big(value: &IBig) -> Self {
+        match value.cmp(&IBig::ZERO) {
+            Ordering::Less => Self::Negative,
+            Ordering::Equal => Self::Zero,
+            Ordering::Greater => Self::Positive,
         }
     }
 
@@ -130,32 +146,4 @@ pub fn cross_component(i: &Row, j: &Row, axis: usize) -> Sign {
     }
     counts::note_big();
     big::det2(i, j, [u, v])
-}
-
-/// The sign of `det(n_i, n_j, nₐ × n_b)`: where positive, `n_j` lies counter-clockwise of `n_i` seen along the line of
-/// `a` and `b` from the tip of `nₐ × n_b`. Degree 4 in the normals.
-#[must_use]
-pub fn radial(i: &Row, j: &Row, a: &Row, b: &Row) -> Sign {
-    // (n_i × n_j)·(n_a × n_b) = (n_i·n_a)(n_j·n_b) − (n_i·n_b)(n_j·n_a)
-    let dot = |p: &Row, q: &Row| {
-        let (p, q) = (p.coefficients(), q.coefficients());
-        let terms = [p[0] * q[0], p[1] * q[1], p[2] * q[2]];
-        (terms[0] + terms[1] + terms[2], terms[0].abs() + terms[1].abs() + terms[2].abs())
-    };
-    let ((ia, pia), (jb, pjb)) = (dot(i, a), dot(j, b));
-    let ((ib, pib), (ja, pja)) = (dot(i, b), dot(j, a));
-    let (value, permanent) = (ia * jb - ib * ja, pia * pjb + pib * pja);
-    counts::note_total();
-    if value.abs() > filter::RADIAL_BOUND * permanent {
-        return Sign::of(value);
-    }
-    if permanent == 0.0 {
-        return Sign::Zero;
-    }
-    if let Some(sign) = small_int::radial(i, j, a, b) {
-        counts::note_small_int();
-        return sign;
-    }
-    counts::note_big();
-    big::radial(i, j, a, b)
 }

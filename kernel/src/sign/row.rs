@@ -1,5 +1,6 @@
 //! A plane's coefficients, prepared for signs.
 
+use crate::arithmetic::{exact_product, exponent, lowest_bit};
 use crate::half_space::HalfSpace;
 
 /// Integer rows keep every coefficient below two to this power. Longer ones would not fit the integer tier anyway, and
@@ -161,42 +162,10 @@ fn above(v: f64) -> f32 {
     f32::from_bits((v as f32).to_bits() + 1)
 }
 
-/// `⌊log₂|v|⌋` of a normal number.
-pub(crate) fn exponent(v: f64) -> i32 {
-    ((v.to_bits() >> 52) & 0x7ff) as i32 - 1023
-}
-
-/// The exponent of the lowest set bit of a non-zero normal number.
-pub(crate) fn lowest_bit(v: f64) -> i32 {
-    let (mantissa, exponent) = decompose(v);
-    exponent + mantissa.trailing_zeros() as i32
-}
-
-/// `v = mantissa · 2^exponent` for a finite number.
-pub(super) fn decompose(v: f64) -> (i64, i32) {
-    let bits = v.to_bits();
-    let field = ((bits >> 52) & 0x7ff) as i32;
-    let fraction = (bits & ((1 << 52) - 1)) as i64;
-    let (mantissa, exponent) = if field == 0 { (fraction, -1074) } else { (fraction | (1 << 52), field - 1075) };
-    (if v.is_sign_negative() { -mantissa } else { mantissa }, exponent)
-}
-
 /// `v · 2^power`, exact while neither side under- or overflows, which the accepted coefficient range ensures.
 fn scale(v: f64, power: i32) -> f64 {
     debug_assert!(power.abs() <= 1022);
     v * f64::from_bits(((1023 + power) as u64) << 52)
-}
-
-/// The product of two numbers as an exact unevaluated sum (Dekker 1971).
-pub(crate) fn exact_product(a: f64, b: f64) -> (f64, f64) {
-    let split = |v: f64| {
-        let t = 134_217_729.0 * v; // 2²⁷ + 1
-        let high = t - (t - v);
-        (high, v - high)
-    };
-    let high = a * b;
-    let ((a1, a0), (b1, b0)) = (split(a), split(b));
-    (high, ((a1 * b1 - high) + a1 * b0 + a0 * b1) + a0 * b0)
 }
 
 fn gcd(mut a: u64, mut b: u64) -> u64 {

@@ -4,8 +4,8 @@
 //! Each function gives `None` where they do not.
 
 use super::filter::{BEFORE, NEXT, OffsetColumn};
-use super::row::{decompose, exponent, lowest_bit};
 use super::{Row, Sign};
+use crate::arithmetic::{decompose, exponent, lowest_bit};
 
 /// A row's coefficients are below two to this power, so that two words hold them, and eight a 4×4 determinant: 24 products
 /// of four.

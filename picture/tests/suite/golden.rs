@@ -6,10 +6,12 @@ use std::fs;
 use std::path::Path;
 
 use glam::DVec3;
-use planecut_csg::{Brush, CutMaterial, Material, MaterialId, Model, Solid, Transform, Tree, evaluate, primitives};
+use planecut_cells::Solid;
+use planecut_csg::{Brush, CutMaterial, Material, MaterialId, Model, Transform, Tree, evaluate};
 use planecut_export::distinct_color;
 use planecut_kernel::HalfSpace;
 use planecut_picture::{Background, CameraKind, PaintedMesh, Picture, PreviewOptions, PreviewStyle, render};
+use planecut_shapes::primitives;
 
 use crate::support::{SMALL, hatched, in_one_color};
 

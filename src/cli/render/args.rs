@@ -92,7 +92,7 @@ impl RenderArgs {
     }
 }
 
-/// How far `exploded` moves cells: their distances from the middle grow by so much of what they are.
+/// How far `exploded` moves cells: their distances from the middle grow by this factor of what they are.
 const DEFAULT_SPREAD: f64 = 0.5;
 
 /// Where from and on what ground.

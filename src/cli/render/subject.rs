@@ -123,5 +123,5 @@ fn bounds(mesh: &Mesh) -> Option<[DVec3; 2]> {
 
 /// Whether a tree is the union of several brushes, all as they are.
 fn is_union(tree: &Tree) -> bool {
-    tree.brushes().len() > 1 && matches!(tree.to_convex_union(), std::borrow::Cow::Borrowed(_))
+    tree.brushes().len() > 1 && tree.is_union()
 }

@@ -13,7 +13,7 @@ modifiers, nothing, and things that have no size; and all of these."""
 
 
 def random_nodes(seed: int, most_leaves: int) -> list[Node]:
-    """The nodes at the top of a file with about so many leaves at most; the same seed gives the same ones."""
+    """The nodes at the top of a file with about this number of leaves at most; the same seed gives the same ones."""
     maker = _Maker(random.Random(seed), FAMILIES[seed % len(FAMILIES)])
     top = [maker.solid(n) for n in maker.shares(maker.random.randint(1, max(1, most_leaves)))]
     return [_still(node) for node in top]

@@ -14,7 +14,7 @@ def flag(value, default: bool = False) -> bool:
 
 
 def vector(value, count: int) -> list[float] | None:
-    """A list of just so many numbers, else nothing."""
+    """A list of exactly this many numbers, else None."""
     fits = isinstance(value, list) and len(value) == count and all(isinstance(v, float) for v in value)
     return value if fits else None
 

@@ -102,7 +102,7 @@ class _Glyph:
         face.glyph.outline.decompose(None, *take)
 
     def loops(self, steps: int) -> Loops:
-        """The outline with so many straight pieces for each curve."""
+        """The outline with a number of straight pieces for each curve."""
         if steps not in self._loops:
             pieces = [_straight(curves, steps) for curves in self._curves]
             self._loops[steps] = [loop / _UNIT for loop in pieces if len(loop) > 2]

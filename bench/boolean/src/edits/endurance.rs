@@ -9,7 +9,7 @@ use serde::Serialize;
 use super::draw::{Draw, Kind};
 use super::maps::{milliseconds, quantile};
 
-/// How things stand after so many edits.
+/// How things stand after a number of edits.
 #[derive(Debug, Clone, Serialize)]
 pub(crate) struct Stand {
     pub(crate) edits: usize,

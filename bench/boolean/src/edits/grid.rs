@@ -10,7 +10,7 @@ use super::maps::{milliseconds, quantile};
 
 const EDITS: u32 = 400;
 
-/// A grid of so many capsules a side.
+/// a grid with a number of capsules a side.
 #[derive(Debug, Clone, Serialize)]
 pub(crate) struct GridTimes {
     pub(crate) side: u32,

@@ -1,5 +1,5 @@
-//! Times edits of live models beside building the same models anew, in one run: on maps, in grids that grow, and a million
-//! times in a row.
+//! Times edits of live models beside building the same models from scratch, in one run: on maps, of brushes of many planes, in
+//! grids that grow, and a million times in a row.
 
 #![forbid(unsafe_code)]
 
@@ -7,6 +7,7 @@
 #[allow(dead_code, reason = "shared with the benchmark of Booleans")]
 mod machine;
 
+mod bodies;
 mod draw;
 mod endurance;
 mod grid;
@@ -26,7 +27,7 @@ const MAPS: [&str; 3] = ["spacehare/64u_rabbit.map", "romero/e1m1.map", "romero/
 pub(crate) struct Options {
     /// A tenth of the edits, and no million of them.
     is_quick: bool,
-    /// After each edit of a map, compare with the model built anew.
+    /// After each edit of a map, compare with the model built from scratch.
     verifies: bool,
     json: Option<String>,
     markdown: Option<String>,
@@ -77,13 +78,15 @@ fn run(options: &Options) -> Result<(), String> {
         println!("\n{}", table::of_map(&outcome));
         of_maps.push(outcome);
     }
+    let bodies = bodies::measure(options.is_quick)?;
+    println!("\n{}", table::of_bodies(&bodies));
     let sides: &[u32] = if options.is_quick { &[4, 8] } else { &[4, 8, 12, 16, 20] };
     let grids = grid::measure(sides)?;
     println!("\n{}", table::of_grids(&grids));
     let seconds = begin.elapsed().as_secs_f64();
     if let Some(file) = &options.json {
         let json = serde_json::json!({
-            "maps": of_maps, "grids": grids, "endurance": endurance, "seconds": seconds, "verified": options.verifies,
+            "maps": of_maps, "bodies": bodies, "grids": grids, "endurance": endurance, "seconds": seconds, "verified": options.verifies,
             "processor": machine::processor(), "compiler": machine::compiler(), "commit": machine::commit(),
         });
         write(file, &format!("{json:#}\n"))?;
@@ -95,11 +98,12 @@ fn run(options: &Options) -> Result<(), String> {
             machine::processor(),
             machine::compiler(),
             machine::commit(),
-            if options.verifies { "; every mesh on a map was compared with the one built anew" } else { "" }
+            if options.verifies { "; every mesh on a map was compared with the one built from scratch" } else { "" }
         );
         let parts = [
             ("run", run),
             ("maps", maps.join("\n")),
+            ("bodies", table::of_bodies(&bodies)),
             ("grids", table::of_grids(&grids)),
             ("endurance", table::of_endurance(&endurance)),
         ];

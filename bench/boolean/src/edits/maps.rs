@@ -1,4 +1,4 @@
-//! Edits of maps: so many of each kind, each taken back before the next.
+//! Edits of maps: a number of each kind, each undone before the next.
 
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -17,7 +17,7 @@ pub(crate) struct Times {
     pub(crate) median_ms: f64,
     pub(crate) p99_ms: f64,
     pub(crate) max_ms: f64,
-    /// How often the median goes into the time of a model that is built anew.
+    /// How often the median goes into the time of a model that is built from scratch.
     pub(crate) fresh_ratio: f64,
 }
 
@@ -27,12 +27,12 @@ pub(crate) struct MapTimes {
     pub(crate) name: String,
     pub(crate) brushes: usize,
     pub(crate) triangles: usize,
-    /// The model built anew: the median.
+    /// The model built from scratch: the median.
     pub(crate) fresh_ms: f64,
     /// The first build of the live model.
     pub(crate) first_ms: f64,
     pub(crate) kinds: Vec<Times>,
-    /// Meshes that were compared with those of models built anew.
+    /// Meshes that were compared with those of models built from scratch.
     pub(crate) compared: usize,
 }
 
@@ -44,7 +44,7 @@ pub(crate) fn measure(file: &Path, edits: usize, verifies: bool) -> Result<MapTi
     let begin = Instant::now();
     let mut live = LiveModel::from_model_with(model.clone(), UnboundedBrushes::LeaveOut).map_err(|e| e.to_string())?;
     let first_ms = milliseconds(begin.elapsed());
-    let anew = live.mesh().map_err(|error| error.to_string())?;
+    let first = live.mesh().map_err(|error| error.to_string())?;
     let mut fresh: Vec<Duration> = Vec::new();
     let mut of_kind: Vec<(&'static str, Vec<Duration>)> = Vec::new();
     let mut undone: Vec<Duration> = Vec::new();
@@ -54,14 +54,14 @@ pub(crate) fn measure(file: &Path, edits: usize, verifies: bool) -> Result<MapTi
         of_kind.push((kind.name(), done));
         undone.extend(back);
         fresh.push(build(&live.to_model())?.0);
-        if live.mesh().map_err(|error| error.to_string())? != anew {
+        if live.mesh().map_err(|error| error.to_string())? != first {
             return Err(format!("{name}: after {} and undo the mesh is another", kind.name()));
         }
     }
     of_kind.push(("undo", undone));
     let mut compared = 0;
     if verifies {
-        // the same edits again: building anew in between would take away what is at hand
+        // the same edits again: building from scratch in between would take away what is at hand
         let mut draw = Draw::new(&model, 1);
         for kind in Kind::ALL {
             edit(&mut live, &mut draw, kind, edits, |live, shown| {
@@ -76,10 +76,10 @@ pub(crate) fn measure(file: &Path, edits: usize, verifies: bool) -> Result<MapTi
         Times { name, edits: times.len(), median_ms, p99_ms, max_ms, fresh_ratio: fresh_ms / median_ms }
     };
     let kinds = of_kind.into_iter().map(times).collect();
-    Ok(MapTimes { name, brushes, triangles: anew.triangles.len(), fresh_ms, first_ms, kinds, compared })
+    Ok(MapTimes { name, brushes, triangles: first.triangles.len(), fresh_ms, first_ms, kinds, compared })
 }
 
-/// Does edits of a kind, each taken back before the next; how long each took, and each undo. `look` sees the model after each.
+/// Does edits of a kind, each undone before the next; how long each took, and each undo. `look` sees the model after each.
 fn edit(
     live: &mut LiveModel,
     draw: &mut Draw,
@@ -114,7 +114,7 @@ fn edit(
     Ok([done, undone])
 }
 
-/// A model built anew, and how long that takes.
+/// A model built from scratch, and how long that takes.
 fn build(model: &Model) -> Result<(Duration, Mesh), String> {
     let begin = Instant::now();
     let evaluation = evaluate_with(model, UnboundedBrushes::LeaveOut).map_err(|error| error.to_string())?;
@@ -124,7 +124,11 @@ fn build(model: &Model) -> Result<(Duration, Mesh), String> {
 fn compare(live: &LiveModel, edit: &str) -> Result<(), String> {
     let (_, fresh) = build(&live.to_model())?;
     let mesh = live.mesh().map_err(|error| error.to_string())?;
-    if mesh == fresh { Ok(()) } else { Err(format!("after {edit} the mesh is not that of the model built anew")) }
+    if mesh == fresh {
+        Ok(())
+    } else {
+        Err(format!("after {edit} the mesh is not that of the model built from scratch"))
+    }
 }
 
 /// The smallest time that such a share of all does not exceed.

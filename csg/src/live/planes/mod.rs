@@ -14,7 +14,7 @@ use planecut_kernel::HalfSpace;
 use planecut_kernel::sign::Row;
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use crate::distinct::sortable;
+use crate::base::sortable;
 use crate::plane_table::{
     Key, NearCells, PlaneId, PlaneTable, compare_coefficients, first_side, is_exact, is_nearly_same, key, unit,
 };

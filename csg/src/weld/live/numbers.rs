@@ -6,11 +6,10 @@ use planecut_kernel::{DVec3, compare_exactly};
 use rustc_hash::FxHashMap;
 
 use super::names::{NameId, Names, place};
-use crate::brush::MaterialId;
-use crate::distinct::sortable;
-use crate::locality::curve_number;
-use crate::plane_table::{PlaneId, PlaneTable};
-use crate::skin::BoundaryEdge;
+use crate::base::sortable;
+use crate::boundary::BoundaryEdge;
+use crate::model::MaterialId;
+use crate::plane_table::{PlaneId, PlaneTable, curve_number};
 use crate::weld::cancel::Run;
 use crate::weld::lines::{self, AxisPlanes, Line};
 use crate::weld::points::{self, Named, Points};

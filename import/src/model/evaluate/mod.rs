@@ -6,8 +6,9 @@
 
 mod outline;
 
-use planecut_csg::outline::Outline;
-use planecut_csg::{MaterialId, Operation, Transform, Tree, shaping};
+use planecut_csg::{MaterialId, Operation, Transform, Tree};
+use planecut_shapes::outline::Outline;
+use planecut_shapes::shaping;
 use rustc_hash::FxHashMap;
 
 use crate::Warning;

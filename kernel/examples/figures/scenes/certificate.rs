@@ -2,11 +2,11 @@
 
 use planecut_kernel::{DVec2, DVec3, HalfSpace, HalfSpaceError, IncrementalPolytope, PlaneIdx, Support};
 
+use super::super::body::{edges, faces, middle, normal, outline};
+use super::super::camera::Camera;
+use super::super::color::Color;
+use super::super::svg::{Stroke, Svg, Word};
 use super::add;
-use crate::body::{edges, faces, middle, normal, outline};
-use crate::camera::Camera;
-use crate::color::Color;
-use crate::svg::{Stroke, Svg, Word};
 
 /// A box with slightly tilted faces; the last three meet at the corner that faces the viewer.
 const SIDES: [([f64; 3], f64); 6] = [
@@ -128,5 +128,5 @@ fn normals(
             svg.word(camera.project(corner + direction * 0.62), name, Word::Name);
         }
     }
-    svg.dot(camera.project(corner), crate::color::INK, false);
+    svg.dot(camera.project(corner), super::super::color::INK, false);
 }

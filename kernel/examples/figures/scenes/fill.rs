@@ -2,11 +2,11 @@
 
 use planecut_kernel::{DVec2, DVec3, HalfSpaceError, IncrementalPolytope, PlaneIdx, VertexIdx};
 
+use super::super::body::{edges, faces, middle, normal, outline};
+use super::super::camera::Camera;
+use super::super::color::Color;
+use super::super::svg::{Stroke, Svg, Word};
 use super::{LETTERS, roof};
-use crate::body::{edges, faces, middle, normal, outline};
-use crate::camera::Camera;
-use crate::color::Color;
-use crate::svg::{Stroke, Svg, Word};
 
 /// The sides around the face that is removed, counter-clockwise.
 const SIDES: [([f64; 3], f64); 7] = [

@@ -2,11 +2,11 @@
 
 use planecut_kernel::{DVec2, DVec3, Edge, EdgeKind, HalfSpace, HalfSpaceError, IncrementalPolytope, PlaneIdx, Vertex};
 
+use super::super::body::{edges, faces, middle, normal, outlines, positions};
+use super::super::camera::Camera;
+use super::super::color::{Color, INK};
+use super::super::svg::{Stroke, Svg, Word};
 use super::add;
-use crate::body::{edges, faces, middle, normal, outlines, positions};
-use crate::camera::Camera;
-use crate::color::{Color, INK};
-use crate::svg::{Stroke, Svg, Word};
 
 /// A cup: a floor and sides that lean outward; one of them cuts a corner off the floor.
 const CUP: [([f64; 3], f64); 6] = [

@@ -2,11 +2,11 @@
 
 use planecut_kernel::{DVec2, DVec3, HalfSpaceError, IncrementalPolytope, PlaneIdx};
 
+use super::super::body::{edges, faces, middle, normal, outline, ring};
+use super::super::camera::Camera;
+use super::super::color::Color;
+use super::super::svg::{Stroke, Svg, Word};
 use super::{LETTERS, ball};
-use crate::body::{edges, faces, middle, normal, outline, ring};
-use crate::camera::Camera;
-use crate::color::Color;
-use crate::svg::{Stroke, Svg, Word};
 
 const TOWARD: DVec3 = DVec3::new(0.35, -0.8, 0.62);
 

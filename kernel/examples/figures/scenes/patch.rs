@@ -2,11 +2,11 @@
 
 use planecut_kernel::{DVec2, DVec3, HalfSpaceError, PlaneIdx};
 
+use super::super::body::{edges, faces, middle, normal, outline, positions, ring};
+use super::super::camera::Camera;
+use super::super::color::Color;
+use super::super::svg::{Stroke, Svg, Word};
 use super::ball;
-use crate::body::{edges, faces, middle, normal, outline, positions, ring};
-use crate::camera::Camera;
-use crate::color::Color;
-use crate::svg::{Stroke, Svg, Word};
 
 const TOWARD: DVec3 = DVec3::new(0.3, -0.8, 0.5);
 /// So many faces leave.

@@ -4,11 +4,11 @@ use std::collections::HashMap;
 
 use planecut_kernel::{DVec2, DVec3, HalfSpaceError, IncrementalPolytope, PlaneIdx, VertexIdx};
 
+use super::super::body::{edges, faces, middle, normal, outline, positions};
+use super::super::camera::Camera;
+use super::super::color::Color;
+use super::super::svg::{Stroke, Svg, Word};
 use super::{LETTERS, roof};
-use crate::body::{edges, faces, middle, normal, outline, positions};
-use crate::camera::Camera;
-use crate::color::Color;
-use crate::svg::{Stroke, Svg, Word};
 
 /// The sides around the face that is removed.
 const SIDES: [([f64; 3], f64); 5] = [

@@ -10,10 +10,10 @@ use planecut_oracle::settings::{cases, first_seed};
 
 use super::corners::Corners;
 use super::double::DoubleSums;
-use crate::double_double::DoubleDouble;
+use crate::arithmetic::{DoubleDouble, ldexp};
 use crate::half_space::HalfSpace;
-use crate::meet::{homogeneous_exactly, ldexp};
 use crate::polytope::IncrementalPolytope;
+use crate::sign::homogeneous_exactly;
 
 type Plane = [f64; 4];
 

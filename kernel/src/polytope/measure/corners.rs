@@ -8,10 +8,10 @@ use std::array::from_fn;
 
 use glam::DVec3;
 
-use crate::double_double::DoubleDouble;
-use crate::meet::{ldexp, meet};
+use crate::arithmetic::{DoubleDouble, exact_product, exponent, ldexp};
+use crate::meet::meet;
 use crate::polytope::IncrementalPolytope;
-use crate::sign::{exact_product, exponent};
+use crate::sign::minor;
 
 /// Error of a corner's double-double evaluation in units of the magnitudes of its terms: at most 16 times `2⁻¹⁰⁶` (operations
 /// of relative error `3·2⁻¹⁰⁶` and `5·2⁻¹⁰⁶`: Joldes, Muller, Popescu 2017), with room for the rounding of the magnitudes.
@@ -115,9 +115,6 @@ impl IncrementalPolytope {
     /// A vertex counted from a reference, given the distances of its three planes from there, with bounds of the errors.
     pub(super) fn double_corner(&self, vertex: u32, from: [Bounded; 3]) -> Option<(Corner, [f64; 3])> {
         let [a, b, c] = self.vertices.planes(vertex).map(|plane| self.row(plane).coefficients());
-        let minor = |p: &[f64; 4], q: &[f64; 4], u: usize, v: usize| {
-            DoubleDouble::product(p[u], q[v]).plus(DoubleDouble::product(p[v], q[u]).negated())
-        };
         let (mut w, mut w_size) = (DoubleDouble::default(), 0.0);
         let mut numerators = [Bounded::default(); 3];
         for (axis, numerator) in numerators.iter_mut().enumerate() {

@@ -8,10 +8,8 @@ use std::array::from_fn;
 
 use super::corners::{Bounded, Corner, Corners, distance, scaled};
 use super::moments::Sums;
-use crate::double_double::DoubleDouble;
-use crate::meet::ldexp;
+use crate::arithmetic::{DoubleDouble, exponent, ldexp};
 use crate::polytope::IncrementalPolytope;
-use crate::sign::exponent;
 
 /// Relative error of a double-double product or sum (`5·2⁻¹⁰⁶` at most, Joldes, Muller, Popescu 2017), with room.
 const ROUNDING: f64 = f64::from_bits((1023 - 103) << 52);

@@ -2,10 +2,8 @@
 
 use std::array::from_fn;
 
+use crate::arithmetic::{DoubleDouble, ldexp};
 use glam::{DMat3, DVec3};
-
-use crate::double_double::DoubleDouble;
-use crate::meet::ldexp;
 
 /// A relative error that moves a result by less than half a unit in its last place.
 const CERTAIN: f64 = f64::from_bits((1023 - 55) << 52);

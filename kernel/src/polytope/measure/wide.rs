@@ -6,11 +6,10 @@ use dashu_int::{IBig, UBig, ops::BitTest, ops::SquareRoot};
 use glam::DVec3;
 
 use super::moments::{PAIRS, Sums};
-use crate::double_double::DoubleDouble;
-use crate::meet::{homogeneous_exactly, ldexp, meet, round_quotient};
+use crate::arithmetic::{DoubleDouble, big_integers, exponent, ldexp, round_quotient};
+use crate::meet::meet;
 use crate::polytope::IncrementalPolytope;
-use crate::polytope::query::exact::integer_row;
-use crate::sign::{big_integers, exponent};
+use crate::sign::{homogeneous_exactly, integer_row};
 
 /// Corners as integers in units of `2^(exponent − width)` of each axis, counted from the first of them (rounded).
 pub(super) struct WideCorners {

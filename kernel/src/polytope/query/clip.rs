@@ -5,10 +5,9 @@ use std::cmp::Ordering;
 use dashu_int::IBig;
 use glam::DVec3;
 
-use super::exact::{POINT_BOUND, UNDERFLOW, integer_row, residual_with_error};
-use crate::meet::round_quotient;
+use crate::arithmetic::{big_integers, round_quotient};
 use crate::polytope::{IncrementalPolytope, PlaneIdx, external};
-use crate::sign::{Row, Sign, big_integers};
+use crate::sign::{POINT_BOUND, Row, Sign, UNDERFLOW, integer_row, residual_with_error, side_of_point};
 
 /// The part of a ray or a segment that lies in the closed set, by its parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -67,8 +66,8 @@ impl IncrementalPolytope {
     /// # }
     /// ```
     #[must_use]
-    pub fn clip_ray(&self, origin: DVec3, direction: DVec3) -> Option<ClippedLine> {
-        self.clip(Line { origin, toward: direction, is_segment: false })
+    pub fn clip_ray(&self, origin: impl Into<DVec3>, direction: impl Into<DVec3>) -> Option<ClippedLine> {
+        self.clip(Line { origin: origin.into(), toward: direction.into(), is_segment: false })
     }
 
     /// The part of the segment from `a` (parameter 0) to `b` (parameter 1) that lies in the closed set; `None` where they do
@@ -88,8 +87,8 @@ impl IncrementalPolytope {
     /// # }
     /// ```
     #[must_use]
-    pub fn clip_segment(&self, a: DVec3, b: DVec3) -> Option<ClippedLine> {
-        self.clip(Line { origin: a, toward: b, is_segment: true })
+    pub fn clip_segment(&self, a: impl Into<DVec3>, b: impl Into<DVec3>) -> Option<ClippedLine> {
+        self.clip(Line { origin: a.into(), toward: b.into(), is_segment: true })
     }
 
     fn clip(&self, line: Line) -> Option<ClippedLine> {
@@ -175,7 +174,7 @@ impl Line {
     }
 
     fn residual_sign(&self, row: &Row) -> Sign {
-        super::exact::side_of_point(row, self.origin)
+        side_of_point(row, self.origin)
     }
 
     /// The sign of the slope along the line, and the parameter where the line crosses the plane, within bounds.
@@ -194,7 +193,7 @@ impl Line {
         let mut parameter = Parameter { plane: Some(plane), low: f64::NEG_INFINITY, high: f64::INFINITY, exact: None };
         let certain = slope.abs() > slope_error;
         if !certain {
-            return (crate::sign::big_sign(&self.exact(row).1), parameter);
+            return (Sign::of_big(&self.exact(row).1), parameter);
         }
         let at = -start / slope;
         let error = 1.01 * (start_error + at.abs() * slope_error) / (slope.abs() - slope_error)

@@ -7,9 +7,9 @@
 use dashu_int::IBig;
 use glam::DVec3;
 
-use super::exact::{ExactPoint, integer_row, residual_with_error, side_of_point, square_root_of_quotient};
+use crate::arithmetic::square_root_of_quotient;
 use crate::polytope::{IncrementalPolytope, PlaneIdx, external};
-use crate::sign::Sign;
+use crate::sign::{ExactPoint, Sign, integer_row, residual_with_error, side_of_point};
 
 /// What of the boundary holds a nearest point: the fewest planes whose normals span the way to it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -63,7 +63,11 @@ impl IncrementalPolytope {
     /// # }
     /// ```
     #[must_use]
-    pub fn closest_point(&self, point: DVec3) -> Option<ClosestPoint> {
+    pub fn closest_point(&self, point: impl Into<DVec3>) -> Option<ClosestPoint> {
+        self.closest_to(point.into())
+    }
+
+    fn closest_to(&self, point: DVec3) -> Option<ClosestPoint> {
         if self.is_empty() || !point.is_finite() {
             return None;
         }
@@ -97,7 +101,8 @@ impl IncrementalPolytope {
     /// # }
     /// ```
     #[must_use]
-    pub fn distance(&self, point: DVec3) -> f64 {
+    pub fn distance(&self, point: impl Into<DVec3>) -> f64 {
+        let point = point.into();
         if !point.is_finite() {
             return f64::NAN;
         }

@@ -5,11 +5,11 @@ use std::collections::BTreeSet;
 use dashu_int::{IBig, UBig, ops::Gcd};
 use glam::DVec3;
 
-use super::exact::{integer_row, unit};
+use crate::arithmetic::{big_cross, big_dot, unit_vector};
 use crate::polytope::IncrementalPolytope;
 use crate::polytope::infinity::is_infinity;
 use crate::polytope::store::{BEFORE, NEXT};
-use crate::sign::{big_cross, big_dot};
+use crate::sign::integer_row;
 
 /// The recession cone `{r : x + t·r in the set for all x in it and t ≥ 0}`: the sum of the lines and rays listed.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -67,7 +67,7 @@ impl IncrementalPolytope {
     /// All normals are parallel: a half-space or a slab.
     fn half_space_cone(&self, normal: &[IBig; 4]) -> RecessionCone {
         let inward: Vector = std::array::from_fn(|k| -&normal[k]);
-        let direction = unit(&inward);
+        let direction = unit_vector(&inward);
         let (u, v) = direction.any_orthonormal_pair();
         let rays = if self.is_recession_direction(&inward) { vec![direction] } else { Vec::new() };
         RecessionCone { rays, lines: vec![u, v] }
@@ -94,7 +94,7 @@ impl IncrementalPolytope {
             let opposite: Vector = std::array::from_fn(|k| -&side[k]);
             rays.extend([side, opposite].into_iter().filter(|ray| self.is_recession_direction(ray)).map(primitive));
         }
-        RecessionCone { rays: rays.iter().map(unit).collect(), lines: vec![unit(line)] }
+        RecessionCone { rays: rays.iter().map(unit_vector).collect(), lines: vec![unit_vector(line)] }
     }
 
     /// The set has a vertex: the extreme rays of the cone are the directions of its unbounded edges.
@@ -110,7 +110,7 @@ impl IncrementalPolytope {
             let [b, c] = [planes[NEXT[k]], planes[BEFORE[k]]].map(|plane| integer_row(self.row(plane)));
             rays.insert(primitive(big_cross(&b, &c)));
         }
-        RecessionCone { rays: rays.iter().map(unit).collect(), lines: Vec::new() }
+        RecessionCone { rays: rays.iter().map(unit_vector).collect(), lines: Vec::new() }
     }
 
     fn is_recession_direction(&self, ray: &Vector) -> bool {

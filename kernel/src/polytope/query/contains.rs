@@ -2,9 +2,8 @@
 
 use glam::DVec3;
 
-use super::exact::side_of_point;
 use crate::polytope::IncrementalPolytope;
-use crate::sign::Sign;
+use crate::sign::{Sign, side_of_point};
 
 /// Where a point lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -35,7 +34,11 @@ impl IncrementalPolytope {
     /// # }
     /// ```
     #[must_use]
-    pub fn contains(&self, point: DVec3) -> bool {
+    pub fn contains(&self, point: impl Into<DVec3>) -> bool {
+        self.contains_point(point.into())
+    }
+
+    fn contains_point(&self, point: DVec3) -> bool {
         !self.is_empty()
             && point.is_finite()
             && self.face_slots().all(|plane| side_of_point(self.row(plane), point) != Sign::Positive)
@@ -56,7 +59,11 @@ impl IncrementalPolytope {
     /// # }
     /// ```
     #[must_use]
-    pub fn classify(&self, point: DVec3) -> Location {
+    pub fn classify(&self, point: impl Into<DVec3>) -> Location {
+        self.location(point.into())
+    }
+
+    fn location(&self, point: DVec3) -> Location {
         if self.is_empty() || !point.is_finite() {
             return Location::Outside;
         }

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::contains::Location;
 use super::linear_program::{Constraint, Program};
-use crate::double_double::DoubleDouble;
+use crate::arithmetic::DoubleDouble;
 use crate::meet::meet;
 use crate::polytope::IncrementalPolytope;
 

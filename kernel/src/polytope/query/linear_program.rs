@@ -6,11 +6,9 @@
 
 use std::array::from_fn;
 
+use crate::arithmetic::{big_integers, round_quotient};
 use dashu_int::IBig;
 use glam::DVec3;
-
-use crate::meet::round_quotient;
-use crate::sign::big_integers;
 
 /// Normals are rounded to integers of this many bits.
 const SCALE: f64 = (1u64 << 60) as f64;

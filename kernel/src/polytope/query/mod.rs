@@ -8,7 +8,6 @@ mod clip;
 mod closest;
 mod cone;
 mod contains;
-pub(super) mod exact;
 mod face;
 mod interior;
 mod linear_program;
@@ -23,8 +22,6 @@ pub use contains::Location;
 pub use face::{BoundaryLine, FacePolygon};
 pub use interior::{InscribedBall, InteriorPoint};
 pub use support::Support;
-
-pub(crate) use exact::side_of_point as exact_side;
 
 use super::IncrementalPolytope;
 use super::infinity::is_infinity;

@@ -5,13 +5,13 @@ use std::collections::HashSet;
 use dashu_int::IBig;
 use glam::DVec3;
 
-use super::exact::{ExactPoint, integer_row, unit};
+use crate::arithmetic::{big_cross, big_dot, unit_vector};
 use crate::half_space::HalfSpace;
 use crate::meet::meet;
 use crate::polytope::infinity::is_infinity;
 use crate::polytope::store::{BEFORE, NEXT};
 use crate::polytope::{IncrementalPolytope, VertexIdx};
-use crate::sign::{OffsetColumn, Row, Sign, big_cross, big_dot, orient3};
+use crate::sign::{ExactPoint, OffsetColumn, Row, Sign, integer_row, orient3};
 
 /// Where a set lies farthest in a direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -59,8 +59,8 @@ impl IncrementalPolytope {
     /// # }
     /// ```
     #[must_use]
-    pub fn support(&self, direction: DVec3) -> Option<Support> {
-        let row = direction_row(direction)?;
+    pub fn support(&self, direction: impl Into<DVec3>) -> Option<Support> {
+        let row = direction_row(direction.into())?;
         Some(self.support_of_row(&row, self.start(&row)))
     }
 
@@ -83,8 +83,8 @@ impl IncrementalPolytope {
     /// # }
     /// ```
     #[must_use]
-    pub fn support_from(&self, direction: DVec3, start: VertexIdx) -> Option<Support> {
-        let row = direction_row(direction)?;
+    pub fn support_from(&self, direction: impl Into<DVec3>, start: VertexIdx) -> Option<Support> {
+        let row = direction_row(direction.into())?;
         let start = if self.vertices.is_live(start.0) { start.0 } else { self.start(&row) };
         Some(self.support_of_row(&row, start))
     }
@@ -119,7 +119,7 @@ impl IncrementalPolytope {
         let [a, b, c] = planes.map(|plane| integer_row(self.row(plane)));
         let (bc, ca, ab) = (big_cross(&b, &c), big_cross(&c, &a), big_cross(&a, &b));
         let moved = planes.map(|plane| IBig::from(u8::from(is_infinity(plane))));
-        unit(&std::array::from_fn(|k| &moved[0] * &bc[k] + &moved[1] * &ca[k] + &moved[2] * &ab[k]))
+        unit_vector(&std::array::from_fn(|k| &moved[0] * &bc[k] + &moved[1] * &ca[k] + &moved[2] * &ab[k]))
     }
 
     /// Searches the farthest face, which begins at the ideal vertex `top`, for a finite vertex. There is one unless the

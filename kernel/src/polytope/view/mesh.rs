@@ -24,7 +24,11 @@ impl IncrementalPolytope {
     /// A box without interior, and one that the set does not reach into, give an empty mesh. Bounds that are farther away
     /// than the accepted offsets count as the farthest accepted ones.
     #[must_use]
-    pub fn to_mesh_clipped(&self, min: DVec3, max: DVec3) -> (Vec<DVec3>, Vec<Vec<usize>>) {
+    pub fn to_mesh_clipped(&self, min: impl Into<DVec3>, max: impl Into<DVec3>) -> (Vec<DVec3>, Vec<Vec<usize>>) {
+        self.mesh_in_box(min.into(), max.into())
+    }
+
+    fn mesh_in_box(&self, min: DVec3, max: DVec3) -> (Vec<DVec3>, Vec<Vec<usize>>) {
         if self.is_bounded() {
             return self.to_mesh();
         }

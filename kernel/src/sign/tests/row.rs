@@ -4,9 +4,9 @@ use dashu_int::{IBig, ops::BitTest, ops::Gcd};
 use planecut_oracle::exact::{self as truth, integer_row};
 use planecut_oracle::random::Rng;
 
-use super::super::row::{exact_product, exponent};
 use super::super::{Row, Sign};
 use super::{DRAWS, exact, plane, row};
+use crate::arithmetic::{exact_product, exponent};
 use crate::half_space::{HalfSpace, MAX_NORMAL, MIN_NORMAL};
 
 /// Planes of all kinds: decimal numbers, integers with common divisors, of all lengths up to beyond the limit, scaled.

@@ -1,0 +1,91 @@
+//! Merges that add nothing: the hull of both lies within the solid.
+
+use std::ops::ControlFlow;
+
+use planecut_kernel::{DVec3, HalfSpace};
+
+use super::CoarsenError;
+use super::clear::Clear;
+use super::enclose::enclose;
+use super::hull::Hull;
+use super::merge::{Merge, Merger};
+use super::part::{Part, built, most};
+use super::search::Search;
+use super::subtract::for_each_left;
+use crate::tolerances::{FILLED_TOUCHING, NO_VOLUME};
+
+/// A body that is left in more pieces, though all of them are nothing, is not looked into further.
+const MOST_PIECES: usize = 1000;
+/// Before a hull is built exactly, so many points between the corners of both bodies are looked at.
+const LOOKED_AT: usize = 64;
+/// Merges parts as long as that adds nothing to their union.
+pub(super) fn merge_freely(search: &Search) -> Result<Vec<Part>, CoarsenError> {
+    let groups = (0..search.parts.len() as u32).map(|part| search.single(part)).collect();
+    let mut merger = Merger::new(search, groups, vec![0; search.probes.words()]);
+    // what the groups are by now: fewer bodies than parts, and larger
+    let mut bodies: Vec<Option<Part>> = search.parts.iter().cloned().map(Some).collect();
+    while let Some((Merge { kept, gone }, hull)) = merger.step_freely(|pair, hull| exact_hull(&bodies, pair, hull)) {
+        let members = std::iter::once(&kept).chain(&gone).filter_map(|place| bodies[*place as usize].take());
+        bodies[kept as usize] = Some(merged(hull, &members.collect::<Vec<_>>())?);
+    }
+    Ok(bodies.into_iter().flatten().collect())
+}
+
+/// The hull of two bodies, exactly; `None` where the solid does not hold it.
+fn exact_hull(bodies: &[Option<Part>], pair: [u32; 2], hull: &Hull) -> Option<Vec<HalfSpace>> {
+    let [a, b] = pair.map(|place| bodies[place as usize].as_ref());
+    let (a, b) = (a?, b?);
+    let is_other = |place: &usize| !pair.contains(&(*place as u32));
+    let others = (0..bodies.len()).filter(is_other).filter_map(|place| bodies[place].as_ref());
+    // both first, and then what may fill most of the rest
+    let mut near: Vec<&Part> = others.filter(|other| other.bounds.touches(&hull.bounds)).collect();
+    near.sort_by_cached_key(|other| {
+        let common = other.bounds.intersection(&hull.bounds);
+        std::cmp::Reverse(((common.max - common.min).element_product()).to_bits())
+    });
+    let filling: Vec<&Part> = [a, b].into_iter().chain(near).collect();
+    if !is_filled_between(a, b, &filling, FILLED_TOUCHING * hull.size()) {
+        return None;
+    }
+    // within the solid nothing is to stay clear
+    let half_spaces = enclose(&[a, b], &Clear::default()).ok()?;
+    is_filled(&half_spaces, &filling, NO_VOLUME * hull.volume).then_some(half_spaces)
+}
+
+/// One part for some; the hull is that of the first two.
+fn merged(hull: Vec<HalfSpace>, members: &[Part]) -> Result<Part, CoarsenError> {
+    let material = most(members.iter().map(|member| (member.material, member.volume())));
+    let hull =
+        if let [_, _] = members { hull } else { enclose(&members.iter().collect::<Vec<_>>(), &Clear::default())? };
+    let part = Part::of_cell(hull, material)?;
+    let points = members.iter().flat_map(|member| &member.points).copied();
+    // the hull holds them, but by what it is made of, not by what it is
+    let points = points.filter(|point| !part.polytope.contains(*point)).collect();
+    Ok(Part { points, ..part })
+}
+
+/// Whether parts seem to hold what lies half way between corners of two of them.
+fn is_filled_between(a: &Part, b: &Part, parts: &[&Part], margin: f64) -> bool {
+    let (a, b) = (&a.corners, &b.corners);
+    let step = (a.len() * b.len()).div_ceil(LOOKED_AT);
+    let holds = |part: &Part, point: DVec3| {
+        let is_within = |plane: &HalfSpace| plane.signed_distance(point) <= margin;
+        part.half_spaces.iter().all(is_within)
+    };
+    (0..a.len() * b.len()).step_by(step.max(1)).all(|k| {
+        let middle = 0.5 * (a[k / b.len()] + b[k % b.len()]);
+        parts.iter().any(|part| holds(part, middle))
+    })
+}
+
+/// Whether parts fill a body, but for a volume that is nothing. Where that takes too long to find out, they do not.
+fn is_filled(half_spaces: &[HalfSpace], parts: &[&Part], nothing: f64) -> bool {
+    let (mut outside, mut pieces) = (0.0, 0);
+    let body = built(half_spaces.iter().copied());
+    let filled = for_each_left(&body, parts, |piece| {
+        outside += piece.measures().map_or(f64::INFINITY, |measures| measures.volume);
+        pieces += 1;
+        if outside <= nothing && pieces <= MOST_PIECES { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    });
+    filled.is_continue()
+}

@@ -1,0 +1,188 @@
+//! Points spread over the space that coarsening may fill: how many of them a body covers says how much it adds.
+//!
+//! Probes rank candidates, nothing more: what is reported was measured exactly.
+
+use planecut_csg::stages::{Bounds, curve_number};
+use planecut_kernel::{DVec3, HalfSpace};
+use rayon::prelude::*;
+
+use super::hull::Hull;
+use super::part::{Part, bounds_of, boxes_of};
+
+/// Probes in a word of a set.
+const WORD: usize = 64;
+/// Words in a block that is passed over as a whole.
+const BLOCK: usize = 16;
+/// At most so many points are drawn for each probe that is wanted.
+const DRAWN: usize = 24;
+/// The root of `x⁴ = x + 1`: its powers give the additive sequence that fills three dimensions most evenly (Roberts 2018).
+const ROOT: f64 = 1.220_744_084_605_759_5;
+
+/// Points outside of all parts and within their hull, those that are near each other in a row.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Probes {
+    /// Coordinates from the origin below, a word of one axis after another: single precision does for ranking.
+    coordinates: Vec<[[f32; WORD]; 3]>,
+    origin: DVec3,
+    words: Vec<Bounds>,
+    blocks: Vec<Bounds>,
+    /// The volume that a probe stands for.
+    pub(super) unit: f64,
+}
+
+/// Some of the probes: the words that are not empty, in order.
+pub(super) type Coverage = Vec<(u32, u64)>;
+
+impl Probes {
+    /// About `wanted` probes around parts.
+    pub(super) fn around(parts: &[Part], wanted: usize) -> Self {
+        let points: Vec<DVec3> = parts.iter().flat_map(Part::all_points).collect();
+        let hull = Hull::of(&points, &Self::default());
+        let size = hull.bounds.max - hull.bounds.min;
+        let boxes = boxes_of(parts);
+        let solids: Vec<Vec<(DVec3, f64)>> = parts.par_iter().map(|part| unit_planes(&part.half_spaces)).collect();
+        let drawn = DRAWN * wanted;
+        let step = DVec3::new(1.0 / ROOT, 1.0 / (ROOT * ROOT), 1.0 / (ROOT * ROOT * ROOT));
+        let at = |k: usize| hull.bounds.min + (step * k as f64 + 0.5).fract() * size;
+        let is_free = |point: &DVec3, near: &mut Vec<u32>| {
+            if !is_inside(&hull.planes, *point) {
+                return false;
+            }
+            boxes.touching(&Bounds { min: *point, max: *point }, near);
+            !near.iter().any(|part| is_inside(&solids[*part as usize], *point))
+        };
+        // by rounds, so that the outcome does not depend on the number of threads
+        let (mut free, mut count) = (Vec::new(), 0);
+        while free.len() < wanted && count < drawn {
+            let round = wanted.min(drawn - count);
+            let found = (count..count + round).into_par_iter().map_init(Vec::new, |near, k| {
+                let point = at(k);
+                is_free(&point, near).then_some(point)
+            });
+            let found: Vec<Option<DVec3>> = found.collect();
+            let lacking = wanted - free.len();
+            let mut taken = 0;
+            for point in found {
+                if taken == lacking {
+                    break;
+                }
+                count += 1;
+                taken += usize::from(point.is_some());
+                free.extend(point);
+            }
+        }
+        let unit = size.element_product() / count.max(1) as f64;
+        // from one to two, so that all steps of the curve are of one length
+        free.sort_by_cached_key(|point| curve_number(DVec3::ONE + (*point - hull.bounds.min) / size.max_element()));
+        Self::of_points(free, unit)
+    }
+
+    fn of_points(mut points: Vec<DVec3>, unit: f64) -> Self {
+        points.truncate(points.len() / WORD * WORD);
+        let origin = bounds_of(&points).center();
+        let words: Vec<Bounds> = points.chunks(WORD).map(bounds_of).collect();
+        let blocks =
+            words.chunks(BLOCK).map(|words| words.iter().fold(Bounds::EMPTY, |all, one| all.union(one))).collect();
+        let axis = |word: &[DVec3], axis: usize| std::array::from_fn(|k| (word[k] - origin)[axis] as f32);
+        let coordinates = points.chunks(WORD).map(|word| std::array::from_fn(|k| axis(word, k))).collect();
+        Self { coordinates, origin, words, blocks, unit }
+    }
+
+    /// How many words a set of all probes has.
+    pub(super) fn words(&self) -> usize {
+        self.words.len()
+    }
+
+    /// The probes within a convex body, given by unit normals and offsets, and its box.
+    pub(super) fn within(&self, planes: &[(DVec3, f64)], bounds: &Bounds) -> Coverage {
+        let (mut covered, mut of_block, mut of_word) = (Coverage::new(), Vec::new(), Vec::new());
+        for (block, block_bounds) in self.blocks.iter().enumerate() {
+            if !block_bounds.touches(bounds) || !crossing(planes, block_bounds, &mut of_block) {
+                continue;
+            }
+            let first = block * BLOCK;
+            let last = (first + BLOCK).min(self.words.len());
+            for word in first..last {
+                let of_box = &self.words[word];
+                if !of_box.touches(bounds) || !crossing(&of_block, of_box, &mut of_word) {
+                    continue;
+                }
+                let bits = self.bits_within(word, &of_word);
+                if bits != 0 {
+                    covered.push((word as u32, bits));
+                }
+            }
+        }
+        covered
+    }
+
+    /// The probes of a word within planes.
+    fn bits_within(&self, word: usize, planes: &[(DVec3, f64)]) -> u64 {
+        let [x, y, z] = &self.coordinates[word];
+        let mut farthest = [f32::NEG_INFINITY; WORD];
+        for (normal, offset) in planes {
+            let offset = (offset - normal.dot(self.origin)) as f32;
+            let [a, b, c] = normal.to_array().map(|v| v as f32);
+            for k in 0..WORD {
+                farthest[k] = farthest[k].max(a * x[k] + b * y[k] + c * z[k] - offset);
+            }
+        }
+        (0..WORD).fold(0, |bits, k| bits | u64::from(farthest[k] <= 0.0) << k)
+    }
+
+    /// The volume that probes stand for.
+    pub(super) fn volume(&self, count: u32) -> f64 {
+        f64::from(count) * self.unit
+    }
+}
+
+/// Adds probes to a set.
+pub(super) fn add(set: &mut [u64], coverage: &Coverage) {
+    coverage.iter().for_each(|(word, bits)| set[*word as usize] |= bits);
+}
+
+/// How many probes a set lacks.
+pub(super) fn count_fresh(set: &[u64], coverage: &Coverage) -> u32 {
+    coverage.iter().map(|(word, bits)| (bits & !set[*word as usize]).count_ones()).sum()
+}
+
+/// The probes that are in any of some sets, and those that are in more than one.
+pub(super) fn once_and_twice<'a>(words: usize, sets: impl Iterator<Item = &'a Coverage>) -> (Vec<u64>, Vec<u64>) {
+    let (mut once, mut twice) = (vec![0_u64; words], vec![0_u64; words]);
+    for (word, bits) in sets.flatten() {
+        let word = *word as usize;
+        twice[word] |= once[word] & bits;
+        once[word] |= bits;
+    }
+    (once, twice)
+}
+
+/// The planes that cross a box; false where one of them has all of the box outside.
+fn crossing(planes: &[(DVec3, f64)], bounds: &Bounds, found: &mut Vec<(DVec3, f64)>) -> bool {
+    found.clear();
+    let (center, half) = (bounds.center(), 0.5 * (bounds.max - bounds.min));
+    for (normal, offset) in planes {
+        let (distance, reach) = (normal.dot(center) - offset, normal.abs().dot(half));
+        if distance > reach {
+            return false;
+        }
+        if distance > -reach {
+            found.push((*normal, *offset));
+        }
+    }
+    true
+}
+
+fn is_inside(planes: &[(DVec3, f64)], point: DVec3) -> bool {
+    planes.iter().all(|(normal, offset)| normal.dot(point) <= *offset)
+}
+
+/// Unit normals and offsets of half-spaces.
+pub(super) fn unit_planes(half_spaces: &[HalfSpace]) -> Vec<(DVec3, f64)> {
+    let unit = |half_space: &HalfSpace| {
+        let scale = half_space.normal().abs().max_element();
+        let length = scale * (half_space.normal() / scale).length();
+        (half_space.normal() / length, half_space.offset() / length)
+    };
+    half_spaces.iter().map(unit).collect()
+}

@@ -1,0 +1,136 @@
+//! What the search works on: the parts, how they may be grouped, and what a group costs.
+
+use planecut_kernel::{DVec3, HalfSpace};
+use rayon::prelude::*;
+use rustc_hash::FxHashMap;
+
+use super::CoarsenOptions;
+use super::clear::Clear;
+use super::hull::Hull;
+use super::part::{Part, built};
+use super::probes::Probes;
+use crate::tolerances::CLEAR_TOUCHING;
+
+/// What a volume that is covered twice costs, where one that is added costs 1: of covers that add the same, the one whose cells overlap
+/// less is better, and hulls that are smaller leave more choice.
+const OVERLAP: f64 = 1.0 / 8.0;
+/// The same where nothing is left but to better what there is.
+const LAST_OVERLAP: f64 = 1.0 / 64.0;
+/// So many hulls of two parts are kept, some kilobytes each.
+pub(super) const MOST_PAIRS: usize = 10_000;
+
+/// Parts, and what holds for every group of them.
+#[derive(Debug)]
+pub(super) struct Search<'a> {
+    pub(super) parts: &'a [Part],
+    pub(super) probes: &'a Probes,
+    clear: &'a Clear,
+    by_material: bool,
+    hulls: &'a Hulls,
+    overlap: f64,
+}
+
+/// Hulls that are asked for often.
+#[derive(Debug, Default)]
+pub(super) struct Hulls {
+    /// Of each part.
+    singles: Vec<Hull>,
+    /// Of two parts; those that may not be joined are not among them.
+    pairs: FxHashMap<[u32; 2], Hull>,
+}
+
+impl Hulls {
+    pub(super) fn of(parts: &[Part], probes: &Probes) -> Self {
+        let hull = |part: &Part| Hull::of(&part.all_points().collect::<Vec<_>>(), probes);
+        Self { singles: parts.par_iter().map(hull).collect(), pairs: FxHashMap::default() }
+    }
+
+    /// Keeps hulls of two parts.
+    pub(super) fn keep(&mut self, pairs: Vec<([u32; 2], Hull)>) {
+        self.pairs.extend(pairs);
+    }
+}
+
+/// Parts that are to become one cell.
+#[derive(Debug, Clone)]
+pub(super) struct Group {
+    pub(super) parts: Vec<u32>,
+    pub(super) hull: Hull,
+}
+
+impl<'a> Search<'a> {
+    pub(super) fn new(
+        parts: &'a [Part],
+        hulls: &'a Hulls,
+        probes: &'a Probes,
+        clear: &'a Clear,
+        options: &CoarsenOptions,
+    ) -> Self {
+        Self { parts, probes, clear, by_material: options.by_material, hulls, overlap: OVERLAP }
+    }
+
+    /// The same with overlaps of less weight.
+    pub(super) fn last(&self) -> Self {
+        Self { overlap: LAST_OVERLAP, ..*self }
+    }
+
+    /// The group of one part.
+    pub(super) fn single(&self, part: u32) -> Group {
+        Group { parts: vec![part], hull: self.hull(part).clone() }
+    }
+
+    /// The hull of a part.
+    pub(super) fn hull(&self, part: u32) -> &Hull {
+        &self.hulls.singles[part as usize]
+    }
+
+    /// The group of some parts.
+    pub(super) fn group(&self, parts: Vec<u32>) -> Group {
+        let points: Vec<DVec3> = parts.iter().flat_map(|part| self.hull(*part).corners.iter().copied()).collect();
+        Group { hull: Hull::of(&points, self.probes), parts }
+    }
+
+    /// The hull of two groups; `None` where it may not be.
+    pub(super) fn joined_groups(&self, a: &Group, b: &Group) -> Option<Hull> {
+        let known = match (&a.parts[..], &b.parts[..]) {
+            ([a], [b]) => self.hulls.pairs.get(&[*a.min(b), *a.max(b)]).cloned(),
+            _ => None,
+        };
+        known.or_else(|| self.joined(&a.hull, &b.hull))
+    }
+
+    /// The hull of two hulls; `None` where it may not be.
+    pub(super) fn joined(&self, a: &Hull, b: &Hull) -> Option<Hull> {
+        let points: Vec<DVec3> = a.corners.iter().chain(&b.corners).copied().collect();
+        let hull = Hull::of(&points, self.probes);
+        self.is_clear(&hull).then_some(hull)
+    }
+
+    /// Whether two groups are of one material, where that matters.
+    pub(super) fn may_join(&self, a: u32, b: u32) -> bool {
+        !self.by_material || self.parts[a as usize].material == self.parts[b as usize].material
+    }
+
+    /// What hulls cost that cover so many probes which nothing else covers.
+    pub(super) fn cost(&self, fresh: u32, volume: f64) -> f64 {
+        self.probes.volume(fresh) + self.overlap * volume
+    }
+
+    /// The least difference in cost that is worth a change.
+    pub(super) fn least_gain(&self) -> f64 {
+        0.5 * self.probes.unit
+    }
+
+    /// Whether a hull keeps out of what is to stay clear.
+    fn is_clear(&self, hull: &Hull) -> bool {
+        if self.clear.is_empty() {
+            return true;
+        }
+        let margin = CLEAR_TOUCHING * hull.size();
+        self.clear.near(&hull.bounds).all(|region| {
+            let shrunk =
+                hull.planes.iter().filter_map(|(normal, offset)| HalfSpace::new(*normal, offset - margin).ok());
+            built(region.half_spaces.iter().copied().chain(shrunk)).is_empty()
+        })
+    }
+}

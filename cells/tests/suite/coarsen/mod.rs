@@ -1,0 +1,12 @@
+//! Coarsening, against oracles that share no code with it.
+//!
+//! - [`judge`]: whether cells hold points, in exact rationals; whether they leave anything of the solid out.
+//! - [`cases`]: solids whose figures are known; [`limits`]: caps, regions kept clear, materials, thickness; [`inner`]: cells within;
+//!   [`random`]: hulls of random lattice points at every cap; [`data`]: decompositions that others made.
+
+mod cases;
+mod data;
+mod inner;
+mod judge;
+mod limits;
+mod random;

@@ -1,0 +1,4 @@
+//! The tests of the crate, one module for each subject.
+
+mod coarsen;
+mod solid;

@@ -1,0 +1,136 @@
+//! Which of many boxes touch a box.
+
+use super::Bounds;
+
+/// Leaves hold at most this many boxes.
+const LEAF: usize = 4;
+
+#[derive(Debug, Clone, Copy)]
+struct Node {
+    bounds: Bounds,
+    start: u32,
+    end: u32,
+    /// Index of the second child (the first follows the node); 0 for a leaf.
+    second: u32,
+}
+
+/// A hierarchy of boxes, split at the median of the longest axis. Infinite boxes are kept beside it.
+#[derive(Debug, Clone, Default)]
+pub struct Boxes {
+    boxes: Vec<Bounds>,
+    order: Vec<u32>,
+    nodes: Vec<Node>,
+    infinite: Vec<u32>,
+}
+
+impl Boxes {
+    /// Boxes are numbered in the order given; empty ones touch nothing.
+    #[must_use]
+    pub fn new(boxes: Vec<Bounds>) -> Self {
+        let mut tree = Self { boxes, ..Self::default() };
+        for (number, bounds) in (0..).zip(&tree.boxes) {
+            if bounds.min.is_finite() && bounds.max.is_finite() {
+                tree.order.push(number);
+            } else if bounds.min.cmple(bounds.max).all() {
+                tree.infinite.push(number);
+            }
+        }
+        tree.split_all();
+        tree
+    }
+
+    /// Splits ranges until they are short; the first half of each directly follows it.
+    fn split_all(&mut self) {
+        // (start, end, the node whose second child this is)
+        let mut waiting = vec![(0, self.order.len(), None)];
+        while let Some((start, end, second_of)) = waiting.pop() {
+            if start == end {
+                continue;
+            }
+            let node = self.nodes.len();
+            if let Some(parent) = second_of {
+                let parent: &mut Node = &mut self.nodes[parent];
+                parent.second = node as u32;
+            }
+            let (boxes, range) = (&self.boxes, &mut self.order[start..end]);
+            let bounds = range.iter().fold(Bounds::EMPTY, |bounds, k| bounds.union(&boxes[*k as usize]));
+            self.nodes.push(Node { bounds, start: start as u32, end: end as u32, second: 0 });
+            if end - start > LEAF {
+                let axis = (bounds.max - bounds.min).max_position();
+                let half = range.len() / 2;
+                let key = |k: &u32| boxes[*k as usize].center()[axis];
+                range.select_nth_unstable_by(half, |a, b| key(a).total_cmp(&key(b)).then(a.cmp(b)));
+                waiting.extend([(start + half, end, Some(node)), (start, start + half, None)]);
+            }
+        }
+    }
+
+    /// All boxes that are not empty, those that are near each other in a row.
+    pub fn in_order(&self) -> impl Iterator<Item = u32> + '_ {
+        self.order.iter().chain(&self.infinite).copied()
+    }
+
+    /// The box of a number.
+    #[must_use]
+    pub fn get(&self, number: u32) -> &Bounds {
+        &self.boxes[number as usize]
+    }
+
+    /// The boxes that touch a box, ascending.
+    pub fn touching(&self, bounds: &Bounds, found: &mut Vec<u32>) {
+        self.find(|other| other.touches(bounds), found);
+    }
+
+    /// The boxes that fulfil a condition which holds for a box wherever it holds for one within, ascending.
+    pub fn find(&self, condition: impl Fn(&Bounds) -> bool, found: &mut Vec<u32>) {
+        let fulfils = |number: &u32| condition(self.get(*number));
+        found.clear();
+        found.extend(self.infinite.iter().copied().filter(fulfils));
+        let mut waiting: Vec<u32> = if self.nodes.is_empty() { Vec::new() } else { vec![0] };
+        while let Some(number) = waiting.pop() {
+            let node = &self.nodes[number as usize];
+            if !condition(&node.bounds) {
+                continue;
+            }
+            if node.second != 0 {
+                waiting.extend([number + 1, node.second]);
+            } else {
+                found.extend(self.order[node.start as usize..node.end as usize].iter().copied().filter(fulfils));
+            }
+        }
+        found.sort_unstable();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use planecut_kernel::DVec3;
+
+    #[test]
+    fn the_same_boxes_are_found_as_by_asking_each() {
+        let mut state = 7_u64;
+        let mut number = || {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (state >> 40) as f64 / f64::from(1 << 24)
+        };
+        let mut boxes: Vec<Bounds> = Vec::new();
+        for k in 0..300 {
+            let min = DVec3::new(number(), number(), number());
+            let max = min + 0.1 * DVec3::new(number(), number(), number());
+            boxes.push(match k % 50 {
+                7 => Bounds { min, max: DVec3::new(f64::INFINITY, max.y, max.z) },
+                9 => Bounds::EMPTY,
+                _ => Bounds { min, max },
+            });
+        }
+        let tree = Boxes::new(boxes.clone());
+        let mut found = Vec::new();
+        for wanted in &boxes {
+            tree.touching(wanted, &mut found);
+            let each =
+                (0..300_u32).filter(|k| boxes[*k as usize].touches(wanted) && boxes[*k as usize] != Bounds::EMPTY);
+            assert!(found.iter().copied().eq(each), "{wanted:?}");
+        }
+    }
+}

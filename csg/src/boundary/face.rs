@@ -1,0 +1,372 @@
+//! One face of one body: which part of it is boundary, and where that part ends.
+
+use super::clip::{Clipper, Cutter};
+use super::contact::{Contact, Facing, misses};
+use super::ownership::{Ownership, Side, Turn};
+use super::role::{Pair, Role};
+use super::section::{Clip, Cover, Line, Piece, Polygon};
+use super::sweep::{Context, Sweep};
+use super::{BoundaryEdge, Scene};
+use crate::base::Bounds;
+use crate::body::BodyFace;
+use crate::expression::{Flat, Restriction};
+use crate::plane_table::PlaneTable;
+
+/// A body that reaches the plane of the face.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Reaching {
+    body: usize,
+    /// Its place among the bodies near.
+    place: usize,
+    /// Its place among the leaves of the restriction.
+    pub(super) leaf: usize,
+    pub(super) contact: Contact,
+    /// When its face on the plane has its turn, where it has one.
+    pub(super) turn: Turn,
+}
+
+/// A part of the face that another body covers.
+#[derive(Debug, Clone)]
+pub(super) struct Section {
+    pub(super) polygon: Polygon,
+    pub(super) bounds: Bounds,
+    pub(super) of: Reaching,
+}
+
+/// Emits the boundary edges of faces, reusing its buffers.
+pub(crate) struct FaceWorker<'a> {
+    scene: &'a Scene<'a>,
+    restriction: Restriction,
+    bodies: Vec<usize>,
+    /// The places of these among the bodies near.
+    places: Vec<usize>,
+    leaves: Vec<u32>,
+    others: Vec<Reaching>,
+    covering: Vec<Reaching>,
+    open: Vec<Reaching>,
+    /// Bodies that hold both sides of all of the region.
+    holding: Vec<usize>,
+    region: Polygon,
+    part: Polygon,
+    sections: Vec<Section>,
+    live: usize,
+    clipper: Clipper,
+    pieces: Vec<Piece>,
+    ownership: Ownership,
+    sweep: Sweep,
+}
+
+impl<'a> FaceWorker<'a> {
+    pub(crate) fn new(scene: &'a Scene<'a>) -> Self {
+        Self {
+            scene,
+            restriction: Restriction::default(),
+            bodies: Vec::new(),
+            places: Vec::new(),
+            leaves: Vec::new(),
+            others: Vec::new(),
+            covering: Vec::new(),
+            open: Vec::new(),
+            holding: Vec::new(),
+            region: Polygon::default(),
+            part: Polygon::default(),
+            sections: Vec::new(),
+            live: 0,
+            clipper: Clipper::default(),
+            pieces: Vec::new(),
+            ownership: Ownership::default(),
+            sweep: Sweep::default(),
+        }
+    }
+
+    /// Begins with the faces of another body; so many bodies are near.
+    pub(crate) fn begin(&mut self, body: usize, near: usize) {
+        self.clipper.begin(self.scene.bodies[body].corner_count(), near);
+    }
+
+    /// Emits the boundary of what face `face` of body `body` is of the boundary; `near` are the bodies whose boxes touch it,
+    /// by number, its own among them.
+    pub(crate) fn emit(&mut self, body: usize, face: usize, near: &[u32], out: &mut Vec<BoundaryEdge>) {
+        let scene = self.scene;
+        let solid = scene.bodies[body];
+        let this = &solid.faces[face];
+        let own = self.gather(body, this, near);
+        self.region.set(solid.edges(this), solid.corners(this));
+        if let Some(flat) = scene.flat
+            && !scene.is_plane_shared(this)
+        {
+            if let Some(facing) = self.sort_out_flat(own, this, flat)
+                && self.cover_region(this)
+            {
+                self.emit_own_edges(this, facing, out);
+                self.emit_section_edges(this, facing, out);
+            }
+            return;
+        }
+        self.restriction.restrict(scene.expression, &self.leaves);
+        if !self.restriction.matters(own) {
+            return;
+        }
+        let turn = scene.turn(body, this);
+        let own = Reaching { body, place: 0, leaf: own, contact: Contact::SameWay, turn };
+        self.ownership.begin(scene.expression, &mut self.restriction, &own);
+        if !self.sort_out(&own, this) {
+            return;
+        }
+        if self.open.is_empty() && self.emitted_on_region().is_none() {
+            return;
+        }
+        if !self.cover_region(this) {
+            return;
+        }
+        let covering = self.live;
+        for k in 0..self.open.len() {
+            if self.is_silenced(self.open[k].leaf) {
+                continue;
+            }
+            match self.cover(this, self.open[k]) {
+                Clip::Whole => self.hold(self.open[k]),
+                Clip::Part => self.live += 1,
+                Clip::Nothing => {}
+            }
+        }
+        for k in (covering..self.live).rev() {
+            if self.is_silenced(self.sections[k].of.leaf) {
+                self.live -= 1;
+                self.sections.swap(k, self.live);
+            }
+        }
+        if self.live > covering {
+            let context = Context { scene, face: this, sections: &self.sections[..self.live], covering };
+            self.sweep.emit(&context, &self.region, &mut self.restriction, &mut self.ownership, out);
+        } else if let Some(facing) = self.emitted_on_region() {
+            self.emit_own_edges(this, facing, out);
+            self.emit_section_edges(this, facing, out);
+        }
+    }
+
+    /// Finds what covering bodies leave of the region; false where that is nothing.
+    fn cover_region(&mut self, face: &'a BodyFace) -> bool {
+        self.live = 0;
+        for k in 0..self.covering.len() {
+            let cutter = self.cutter(face, &self.covering[k]);
+            if self.clipper.surely_holds(cutter, &self.region) {
+                return false;
+            }
+        }
+        for k in 0..self.covering.len() {
+            match self.cover(face, self.covering[k]) {
+                Clip::Whole => return false,
+                Clip::Part => self.live += 1,
+                Clip::Nothing => {}
+            }
+        }
+        true
+    }
+
+    /// What [`sort_out`](Self::sort_out) finds where the tree has one level and no other face lies on the plane; and which
+    /// boundary the face is, where it is any.
+    fn sort_out_flat(&mut self, own: usize, face: &'a BodyFace, flat: Flat) -> Option<Facing> {
+        self.covering.clear();
+        let is_tool = flat == Flat::Difference && self.leaves[own] != 0;
+        let mut is_in_first = !is_tool;
+        for leaf in 0..self.bodies.len() {
+            if leaf == own {
+                continue;
+            }
+            let (body, place) = (self.bodies[leaf], self.places[leaf]);
+            let across = Reaching { body, place, leaf, contact: Contact::Across, turn: self.scene.turn(body, face) };
+            if is_tool && self.leaves[leaf] == 0 {
+                if !self.require(face, &across) {
+                    return None;
+                }
+                is_in_first = true;
+            } else {
+                self.covering.push(across);
+            }
+        }
+        is_in_first.then_some(if is_tool { Facing::In } else { Facing::Out })
+    }
+
+    /// Cuts the region down to what lies in a body; false where that is nothing.
+    fn require(&mut self, face: &'a BodyFace, by: &Reaching) -> bool {
+        let cutter = self.cutter(face, by);
+        match self.clipper.clip(cutter, &self.region, &mut self.part) {
+            Clip::Nothing => return false,
+            Clip::Part => std::mem::swap(&mut self.region, &mut self.part),
+            Clip::Whole => {}
+        }
+        true
+    }
+
+    /// Takes a body as covering all of the region.
+    fn hold(&mut self, reaching: Reaching) {
+        self.ownership.cover_both(self.scene.expression, &mut self.restriction, &reaching);
+        if reaching.contact == Contact::Across {
+            self.holding.push(reaching.leaf);
+        }
+    }
+
+    /// Whether a body changes nothing within the region, as others hold all of it.
+    fn is_silenced(&self, leaf: usize) -> bool {
+        let silences = |other: &usize| self.restriction.forces(self.scene.expression, *other, true, leaf).is_some();
+        self.holding.iter().any(silences)
+    }
+
+    /// Which boundary the face is where nothing is covered that depends on several bodies.
+    fn emitted_on_region(&mut self) -> Option<Facing> {
+        self.ownership.emitted(self.scene.expression, &mut self.restriction, Side::Left)
+    }
+
+    /// Finds the bodies that may reach the face, and their leaves; gives the place of its own body.
+    fn gather(&mut self, body: usize, face: &BodyFace, near: &[u32]) -> usize {
+        let scene = self.scene;
+        let half_space = scene.table.half_space(face.plane);
+        let (normal, offset) = (half_space.normal(), half_space.offset());
+        let reaches = |other: usize| {
+            let bounds = &scene.bodies[other].bounds;
+            bounds.may_share_area(&face.bounds) && !misses(bounds, normal, offset)
+        };
+        self.bodies.clear();
+        self.places.clear();
+        let mut own = 0;
+        for (place, other) in near.iter().enumerate().map(|(place, other)| (place, *other as usize)) {
+            if other == body {
+                own = self.bodies.len();
+            }
+            if other == body || reaches(other) {
+                self.bodies.push(other);
+                self.places.push(place);
+            }
+        }
+        self.leaves.clear();
+        self.leaves.extend(self.bodies.iter().map(|body| scene.leaf_of_body[*body]));
+        own
+    }
+
+    /// Finds what each body does to the face and cuts the face down to what is required; false where nothing is left.
+    fn sort_out(&mut self, own: &Reaching, face: &'a BodyFace) -> bool {
+        self.covering.clear();
+        self.open.clear();
+        self.holding.clear();
+        self.others.clear();
+        for leaf in 0..self.bodies.len() {
+            if leaf != own.leaf && self.restriction.matters(leaf) {
+                self.others.push(self.reaching(leaf, face));
+            }
+        }
+        let coplanar = self.others.iter().filter(|other| other.contact != Contact::Across).count();
+        for k in 0..self.others.len() {
+            let reaching = self.others[k];
+            match Pair::new(self.scene.expression, &self.restriction, own, &reaching, coplanar).role() {
+                Role::None => {}
+                Role::Covers => self.covering.push(reaching),
+                Role::Open => self.open.push(reaching),
+                Role::Required => {
+                    if !self.require(face, &reaching) {
+                        return false;
+                    }
+                    self.hold(reaching);
+                }
+            }
+        }
+        true
+    }
+
+    fn reaching(&self, leaf: usize, face: &BodyFace) -> Reaching {
+        let body = self.bodies[leaf];
+        let is_shared = self.scene.is_plane_shared(face);
+        let other = if is_shared { self.scene.bodies[body].face_on(face.plane) } else { None };
+        let contact = match other {
+            None => Contact::Across,
+            Some(other) if other.plane == face.plane => Contact::SameWay,
+            Some(_) => Contact::OtherWay,
+        };
+        // a body that crosses the plane has no face there, and its turn is never asked for
+        let turn = self.scene.turn(body, other.unwrap_or(face));
+        Reaching { body, place: self.places[leaf], leaf, contact, turn }
+    }
+
+    fn cutter(&self, face: &'a BodyFace, by: &Reaching) -> Cutter<'a> {
+        Cutter { scene: self.scene, face, body: by.body, place: by.place }
+    }
+
+    /// Clips the region by a body into the next free section.
+    fn cover(&mut self, face: &'a BodyFace, of: Reaching) -> Clip {
+        if self.sections.len() == self.live {
+            self.sections.push(Section { polygon: Polygon::default(), bounds: Bounds::EMPTY, of });
+        }
+        let cutter = self.cutter(face, &of);
+        let section = &mut self.sections[self.live];
+        section.of = of;
+        let clip = self.clipper.clip(cutter, &self.region, &mut section.polygon);
+        if clip == Clip::Part {
+            section.bounds = section.polygon.bounds();
+        }
+        clip
+    }
+
+    /// The pieces of the region's own edges along which nothing is covered.
+    fn emit_own_edges(&mut self, face: &BodyFace, facing: Facing, out: &mut Vec<BoundaryEdge>) {
+        let table = self.scene.table;
+        for (i, &edge) in self.region.edges.iter().enumerate() {
+            let line = Line { plane: face.plane, edge };
+            self.pieces.clear();
+            self.pieces.push(Piece::of_edge(&self.region, i));
+            for section in &self.sections[..self.live] {
+                let polygon = &section.polygon;
+                if let Some(k) = polygon.edges.iter().position(|other| *other == edge) {
+                    let covered = Piece::of_edge(polygon, k);
+                    line.subtract(table, &mut self.pieces, &covered);
+                }
+            }
+            out.extend(self.pieces.iter().map(|piece| BoundaryEdge::left(face, facing, edge, piece.start, piece.end)));
+        }
+    }
+
+    /// The pieces of section edges outside of which nothing is covered: there the boundary ends, too.
+    fn emit_section_edges(&mut self, face: &BodyFace, facing: Facing, out: &mut Vec<BoundaryEdge>) {
+        let sections = &self.sections[..self.live];
+        for (k, section) in sections.iter().enumerate() {
+            for (i, &edge) in section.polygon.edges.iter().enumerate() {
+                if self.region.edges.contains(&edge) {
+                    continue;
+                }
+                let line = Line { plane: face.plane, edge };
+                self.pieces.clear();
+                self.pieces.push(Piece::of_edge(&section.polygon, i));
+                subtract_others(self.scene.table, line, sections, [k, i], &mut self.pieces);
+                let right = |piece: &Piece| BoundaryEdge::right(face, facing, edge, piece.start, piece.end);
+                out.extend(self.pieces.iter().map(right));
+            }
+        }
+    }
+}
+
+/// Takes out of `pieces`, which lie on edge `edge` of section `own`, what other sections cover on the outer side.
+///
+/// Along a shared edge line a section on the outer side covers; of two on the same side the first keeps the edge.
+fn subtract_others(
+    table: &PlaneTable,
+    line: Line,
+    sections: &[Section],
+    [own, edge]: [usize; 2],
+    pieces: &mut Vec<Piece>,
+) {
+    let Some(whole) = pieces.first().copied() else { return };
+    let bounds = sections[own].polygon.edge_bounds(edge);
+    for (k, other) in sections.iter().enumerate() {
+        if k == own || pieces.is_empty() || !other.bounds.touches(&bounds) {
+            continue;
+        }
+        match line.cover(table, &whole, &bounds, &other.polygon) {
+            Cover::Apart => {}
+            Cover::Across(part) => line.subtract(table, pieces, &part),
+            Cover::Along(part, edge) => {
+                if !line.is_same_side(table, edge) || k < own {
+                    line.subtract(table, pieces, &part);
+                }
+            }
+        }
+    }
+}

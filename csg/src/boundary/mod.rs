@@ -1,0 +1,158 @@
+//! The boundary of a tree of bodies, as directed boundary edges of the kept regions; no cells, no fragments.
+//!
+//! A place on a face is boundary where the tree differs between just inside and just outside. On each face of each body
+//! ([`face`]) other bodies cover convex polygons ([`section`]). What the weld needs are only the edges where the boundary
+//! ends: pieces of the face's own edges, and pieces of the section edges, each clipped in one dimension. Mostly each body
+//! alone decides what is inside or outside of its polygon, and intervals are subtracted; where several decide together,
+//! [`sweep`] evaluates the tree along each edge. Only the part of the tree that reaches a face is ever looked at. Of coplanar
+//! faces one owner emits ([`ownership`]); what most bodies do to a face is told without the others ([`role`]).
+
+mod clip;
+mod contact;
+mod face;
+mod ownership;
+mod role;
+mod section;
+mod sweep;
+
+use std::borrow::Cow;
+
+use planecut_kernel::sign::Counts;
+
+use crate::base::{Boxes, map_chunks};
+use crate::body::{Body, BodyFace, Gauge};
+use crate::expression::{Expression, Flat, Polarity};
+use crate::model::MaterialId;
+use crate::plane_table::{PlaneId, PlaneTable};
+use contact::Facing;
+pub(crate) use contact::misses;
+pub(crate) use face::FaceWorker;
+use ownership::{Turn, material_of};
+
+/// A piece of the boundary of the kept region of a plane: on the line of `face` and `edge`, directed along
+/// `n_face × n_edge`, so that the region lies to the left.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct BoundaryEdge {
+    /// The plane of the region, outward.
+    pub(crate) face: PlaneId,
+    /// The plane that ends the region, oriented away from it.
+    pub(crate) edge: PlaneId,
+    /// The plane that ends the piece at its start.
+    pub(crate) start: PlaneId,
+    /// The plane that ends the piece at its end.
+    pub(crate) end: PlaneId,
+    pub(crate) material: MaterialId,
+}
+
+impl BoundaryEdge {
+    /// The edge of a region that lies left of `n_face × n_edge`, from `start` to `end` in that direction; `facing` tells
+    /// whether the region faces as `face` does.
+    fn left(face: &BodyFace, facing: Facing, edge: PlaneId, start: PlaneId, end: PlaneId) -> Self {
+        let (plane, material) = (face.plane, material_of(face));
+        match facing {
+            Facing::Out => Self { face: plane, edge, start, end, material },
+            // seen from the other side it runs back
+            Facing::In => Self { face: plane.flipped(), edge, start: end, end: start, material },
+        }
+    }
+
+    /// The same for a region to the right.
+    fn right(face: &BodyFace, facing: Facing, edge: PlaneId, start: PlaneId, end: PlaneId) -> Self {
+        Self::left(face, facing, edge.flipped(), end, start)
+    }
+}
+
+/// Bodies, and the tree over them.
+pub(crate) struct Scene<'a> {
+    pub(crate) table: &'a PlaneTable,
+    pub(crate) bodies: Vec<&'a Body>,
+    /// The leaf of each body, ascending.
+    pub(crate) leaf_of_body: &'a [u32],
+    pub(crate) expression: &'a Expression,
+    /// Where the expression is of one level, what it does.
+    flat: Option<Flat>,
+    /// How many bodies have a face on each plane; 255 stands for more as well.
+    bodies_on_plane: Cow<'a, [u8]>,
+    /// Orders materials: where coplanar faces overlap, the lower rank wins, so that the outcome does not depend on the
+    /// order of the bodies.
+    pub(crate) rank: &'a [u32],
+}
+
+impl<'a> Scene<'a> {
+    pub(crate) fn new(
+        table: &'a PlaneTable,
+        bodies: &'a [Body],
+        leaf_of_body: &'a [u32],
+        expression: &'a Expression,
+        rank: &'a [u32],
+    ) -> Self {
+        let mut bodies_on_plane = vec![0_u8; table.len()];
+        for face in bodies.iter().flat_map(|body| &body.faces) {
+            let count = &mut bodies_on_plane[face.plane.index() as usize];
+            *count = count.saturating_add(1);
+        }
+        Self::of_some(table, bodies.iter().collect(), leaf_of_body, expression, bodies_on_plane, rank)
+    }
+
+    /// Some of many bodies; how many of all have a face on each plane is known.
+    pub(crate) fn of_some(
+        table: &'a PlaneTable,
+        bodies: Vec<&'a Body>,
+        leaf_of_body: &'a [u32],
+        expression: &'a Expression,
+        bodies_on_plane: impl Into<Cow<'a, [u8]>>,
+        rank: &'a [u32],
+    ) -> Self {
+        let (flat, bodies_on_plane) = (expression.flat(), bodies_on_plane.into());
+        Self { table, bodies, leaf_of_body, expression, flat, bodies_on_plane, rank }
+    }
+
+    fn gauge(&self, body: usize) -> Option<&'a Gauge> {
+        self.bodies[body].gauge(self.table)
+    }
+
+    /// Whether bodies other than the face's own may have a face on its plane.
+    fn is_plane_shared(&self, face: &BodyFace) -> bool {
+        self.bodies_on_plane[face.plane.index() as usize] > 1
+    }
+
+    fn polarity(&self, body: usize) -> Polarity {
+        self.expression.polarity(self.leaf_of_body[body])
+    }
+
+    /// When a face of a body has its turn among those on its plane.
+    fn turn(&self, body: usize, face: &BodyFace) -> Turn {
+        Turn { polarity: self.polarity(body), material_rank: self.rank[face.material.0 as usize], body }
+    }
+}
+
+/// The boundary edges of a tree of bodies.
+pub(crate) fn skin(scene: &Scene<'_>) -> (Vec<BoundaryEdge>, Counts) {
+    let bodies = &scene.bodies;
+    let boxes = Boxes::new(bodies.iter().map(|body| body.bounds).collect());
+    // in the order of space, so that what is near is at hand
+    let in_order: Vec<u32> = boxes.in_order().collect();
+    let (parts, counts) = map_chunks(&in_order, 1, |chunk| {
+        let mut edges = Vec::new();
+        let mut worker = FaceWorker::new(scene);
+        let mut near = Vec::new();
+        for body in chunk.iter().map(|body| *body as usize) {
+            boxes.find(|other| other.may_share_area(&bodies[body].bounds), &mut near);
+            worker.begin(body, near.len());
+            for face in 0..bodies[body].faces.len() {
+                worker.emit(body, face, &near, &mut edges);
+            }
+        }
+        edges
+    });
+    let edges = parts.concat();
+    (edges, counts)
+}
+
+/// The boundary edges of the union of bodies.
+pub(crate) fn skin_of_union(table: &PlaneTable, bodies: &[Body], rank: &[u32]) -> (Vec<BoundaryEdge>, Counts) {
+    let count = bodies.len();
+    let leaves: Vec<u32> = (0..count as u32).collect();
+    let expression = Expression::union_of(count);
+    skin(&Scene::new(table, bodies, &leaves, &expression, rank))
+}

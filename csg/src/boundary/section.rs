@@ -1,0 +1,304 @@
+//! A convex polygon on a plane, bounded by the lines of other planes.
+
+use planecut_kernel::sign::{Homogeneous, Sign};
+
+use crate::base::Bounds;
+use crate::body::{Corner, Sieve};
+use crate::plane_table::{PlaneId, PlaneTable};
+
+/// A convex polygon on `plane`: edge `i` lies on the line of `edges[i]`, whose normal points away from the polygon;
+/// corner `i` lies between the edges `i` and `i + 1`, where `plane`, `edges[i]`, `edges[i + 1]` are right-handed.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Polygon {
+    pub(super) edges: Vec<PlaneId>,
+    pub(super) corners: Vec<Corner>,
+}
+
+/// What clipping left of a polygon.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Clip {
+    /// All of it.
+    Whole,
+    /// A part.
+    Part,
+    /// Nothing with an area.
+    Nothing,
+}
+
+impl Polygon {
+    pub(super) fn copy_from(&mut self, other: &Self) {
+        self.set(&other.edges, other.corners.iter());
+    }
+
+    pub(super) fn set<'a>(&mut self, edges: &[PlaneId], corners: impl Iterator<Item = &'a Corner>) {
+        self.edges.clear();
+        self.edges.extend_from_slice(edges);
+        self.corners.clear();
+        self.corners.extend(corners.copied());
+    }
+
+    /// The three planes of corner `i`.
+    pub(super) fn corner(&self, plane: PlaneId, i: usize) -> [PlaneId; 3] {
+        [plane, self.edges[i], self.edges[(i + 1) % self.edges.len()]]
+    }
+
+    /// Keeps what lies inside `cut`. The sign at each corner is the true three-way one.
+    pub(super) fn clip(&mut self, table: &PlaneTable, plane: PlaneId, cut: PlaneId, spare: &mut Self) -> Clip {
+        let n = self.edges.len();
+        let (mut some_inside, mut some_outside) = (false, false);
+        // Which corners are strictly inside; polygons of more than 128 corners take the slow way.
+        let mut inside = Inside::new(n);
+        let sieve = Sieve::new(table.half_space(cut));
+        for i in 0..n {
+            let corner = &self.corners[i];
+            let side = match sieve.side(corner) {
+                Sign::Zero => table.side(self.corner(plane, i), &corner.point, cut),
+                certain => certain,
+            };
+            match side {
+                Sign::Negative => {
+                    some_inside = true;
+                    inside.set(i);
+                }
+                Sign::Positive => some_outside = true,
+                Sign::Zero => {}
+            }
+        }
+        if !some_outside {
+            return Clip::Whole;
+        }
+        if !some_inside {
+            return Clip::Nothing;
+        }
+        spare.edges.clear();
+        spare.corners.clear();
+        // The last corner strictly inside before the cut begins; edge `i` runs from corner `i − 1` to corner `i`.
+        let last = (0..n).find(|i| inside.get(*i) && !inside.get((i + 1) % n));
+        let last = last.expect("some corners are strictly inside and some are not");
+        let first = (1..=n).map(|k| (last + k) % n).find(|i| inside.get(*i)).expect("the last corner inside is one");
+        // Kept are the edges that touch a corner strictly inside: from edge `first` to edge `last + 1`.
+        let mut i = first;
+        while i != last {
+            spare.edges.push(self.edges[i]);
+            spare.corners.push(self.corners[i]);
+            i = (i + 1) % n;
+        }
+        let (leaving, entering) = (self.edges[(last + 1) % n], self.edges[first]);
+        spare.edges.extend([self.edges[last], leaving, cut]);
+        spare.corners.push(self.corners[last]);
+        spare.corners.push(Corner::new(table.homogeneous([plane, leaving, cut])));
+        spare.corners.push(Corner::new(table.homogeneous([plane, cut, entering])));
+        std::mem::swap(self, spare);
+        Clip::Part
+    }
+
+    pub(super) fn bounds(&self) -> Bounds {
+        self.corners.iter().fold(Bounds::EMPTY, |bounds, corner| bounds.with_corner(corner))
+    }
+
+    /// A box around edge `i`.
+    pub(super) fn edge_bounds(&self, i: usize) -> Bounds {
+        let before = (i + self.corners.len() - 1) % self.corners.len();
+        Bounds::EMPTY.with_corner(&self.corners[before]).with_corner(&self.corners[i])
+    }
+}
+
+/// A set of corners.
+enum Inside {
+    Few(u128),
+    Many(Vec<bool>),
+}
+
+impl Inside {
+    fn new(n: usize) -> Self {
+        if n <= 128 { Self::Few(0) } else { Self::Many(vec![false; n]) }
+    }
+
+    fn set(&mut self, i: usize) {
+        match self {
+            Self::Few(bits) => *bits |= 1 << i,
+            Self::Many(flags) => flags[i] = true,
+        }
+    }
+
+    fn get(&self, i: usize) -> bool {
+        match self {
+            Self::Few(bits) => bits >> i & 1 == 1,
+            Self::Many(flags) => flags[i],
+        }
+    }
+}
+
+/// A piece of the line of `plane` and `edge`, directed along `n_plane × n_edge`, between two planes that end it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Piece {
+    pub(super) start: PlaneId,
+    pub(super) end: PlaneId,
+    start_point: Homogeneous,
+    end_point: Homogeneous,
+}
+
+impl Piece {
+    /// The piece of edge `i` of a polygon.
+    pub(super) fn of_edge(Polygon { edges, corners }: &Polygon, i: usize) -> Self {
+        let n = edges.len();
+        let (before, after) = ((i + n - 1) % n, (i + 1) % n);
+        Self {
+            start: edges[before],
+            end: edges[after],
+            start_point: corners[before].point,
+            end_point: corners[i].point,
+        }
+    }
+
+    fn start_side(&self, table: &PlaneTable, line: Line, plane: PlaneId) -> Sign {
+        table.side(line.start(self.start), &self.start_point, plane)
+    }
+
+    fn end_side(&self, table: &PlaneTable, line: Line, plane: PlaneId) -> Sign {
+        table.side(line.end(self.end), &self.end_point, plane)
+    }
+
+    pub(super) fn start_point(&self) -> Homogeneous {
+        self.start_point
+    }
+
+    pub(super) fn end_point(&self) -> Homogeneous {
+        self.end_point
+    }
+
+    pub(super) fn bounds(&self) -> Bounds {
+        Bounds::EMPTY.with_point(&self.start_point).with_point(&self.end_point)
+    }
+}
+
+/// The directed line of `n_plane × n_edge`.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Line {
+    pub(super) plane: PlaneId,
+    pub(super) edge: PlaneId,
+}
+
+/// How a convex polygon covers a piece of a line.
+pub(super) enum Cover {
+    /// Nowhere along it.
+    Apart,
+    /// This part of the piece, with the interior of the polygon on both sides.
+    Across(Piece),
+    /// This part of the piece lies on the edge line of the polygon that `edge` bounds.
+    Along(Piece, PlaneId),
+}
+
+impl Line {
+    /// The right-handed planes of a point at which a piece starts.
+    pub(super) fn start(self, start: PlaneId) -> [PlaneId; 3] {
+        [self.plane, start, self.edge]
+    }
+
+    /// The right-handed planes of a point at which a piece ends.
+    pub(super) fn end(self, end: PlaneId) -> [PlaneId; 3] {
+        [self.plane, self.edge, end]
+    }
+
+    /// The part of a piece, within a box, that lies in a convex polygon on the same plane.
+    pub(super) fn cover(self, table: &PlaneTable, piece: &Piece, bounds: &Bounds, polygon: &Polygon) -> Cover {
+        let mut part = *piece;
+        let mut along = None;
+        for &edge in &polygon.edges {
+            // most edges are far away, and the box tells on which side
+            let half_space = table.half_space(edge);
+            let (low, high) = bounds.extent_along(half_space.normal(), half_space.offset());
+            if high < 0.0 {
+                continue;
+            }
+            if low > 0.0 {
+                return Cover::Apart;
+            }
+            let (start, end) = (part.start_side(table, self, edge), part.end_side(table, self, edge));
+            match (start == Sign::Positive, end == Sign::Positive) {
+                (false, false) => {
+                    if start == Sign::Zero && end == Sign::Zero {
+                        along = Some(edge);
+                    }
+                }
+                (true, true) => return Cover::Apart,
+                (true, false) => {
+                    if end == Sign::Zero {
+                        return Cover::Apart;
+                    }
+                    part.start = edge;
+                    part.start_point = table.homogeneous(self.start(edge));
+                }
+                (false, true) => {
+                    if start == Sign::Zero {
+                        return Cover::Apart;
+                    }
+                    part.end = edge;
+                    part.end_point = table.homogeneous(self.end(edge));
+                }
+            }
+        }
+        match along {
+            Some(edge) => Cover::Along(part, edge),
+            None => Cover::Across(part),
+        }
+    }
+
+    /// Takes `cover` out of `pieces`; both lie on this line.
+    pub(super) fn subtract(self, table: &PlaneTable, pieces: &mut Vec<Piece>, cover: &Piece) {
+        let mut k = 0;
+        while k < pieces.len() {
+            let piece = pieces[k];
+            // outward normals: the start plane of the cover looks back along the line, its end plane looks ahead
+            let ends_before = piece.end_side(table, self, cover.start) != Sign::Negative;
+            let starts_after = piece.start_side(table, self, cover.end) != Sign::Negative;
+            if ends_before || starts_after {
+                k += 1;
+                continue;
+            }
+            let head = piece.start_side(table, self, cover.start) == Sign::Positive;
+            let tail = piece.end_side(table, self, cover.end) == Sign::Positive;
+            let before =
+                Piece { end: cover.start.flipped(), end_point: self.turned(table, cover.start, true), ..piece };
+            let after =
+                Piece { start: cover.end.flipped(), start_point: self.turned(table, cover.end, false), ..piece };
+            match (head, tail) {
+                (true, true) => {
+                    pieces[k] = before;
+                    pieces.push(after);
+                    k += 1;
+                }
+                (true, false) => {
+                    pieces[k] = before;
+                    k += 1;
+                }
+                (false, true) => {
+                    pieces[k] = after;
+                    k += 1;
+                }
+                (false, false) => {
+                    pieces.swap_remove(k);
+                }
+            }
+        }
+    }
+
+    /// Whether two polygons on `plane` lie on the same side of the line, which `edge` of this and `other` both bound.
+    ///
+    /// Both normals are perpendicular to the line, so the directions agree where the lines `n_plane × n_edge` do.
+    pub(super) fn is_same_side(self, table: &PlaneTable, other: PlaneId) -> bool {
+        if other.index() == self.edge.index() {
+            return other == self.edge;
+        }
+        let along = |axis: usize| {
+            (table.cross_component(self.plane, self.edge, axis), table.cross_component(self.plane, other, axis))
+        };
+        (0..3).map(along).find(|(a, _)| *a != Sign::Zero).is_none_or(|(a, b)| a == b)
+    }
+
+    /// Where the start of a cover becomes the end of what is left before it (or its end the start of what is left after).
+    fn turned(self, table: &PlaneTable, plane: PlaneId, is_end: bool) -> Homogeneous {
+        let planes = if is_end { self.end(plane.flipped()) } else { self.start(plane.flipped()) };
+        table.homogeneous(planes)
+    }
+}

@@ -1,0 +1,251 @@
+//! The general case of a face: along each edge the tree is evaluated to the left and to the right.
+//!
+//! Where bodies neither cover the face nor are required by themselves, it depends on several of them at once whether a place
+//! is boundary. So each edge of the region and of every section is cut at the edges of the other sections; between two cuts
+//! all bodies are known on both sides, and where the two sides differ, the edge is one of the boundary.
+
+use std::cmp::Ordering;
+
+use planecut_kernel::sign::{Homogeneous, Sign};
+
+use super::contact::Facing;
+use super::face::Section;
+use super::ownership::{Ownership, Side};
+use super::section::{Cover, Line, Piece, Polygon};
+use super::{BoundaryEdge, Scene};
+use crate::body::BodyFace;
+use crate::expression::{Expression, Restriction};
+use crate::plane_table::{PlaneId, PlaneTable};
+
+/// Where along a line a section begins or ends to cover one or both sides.
+#[derive(Debug, Clone, Copy)]
+struct Event {
+    section: u32,
+    sides: [bool; 2],
+    begins: bool,
+    /// The plane of the section's edge that is met.
+    plane: PlaneId,
+    point: Homogeneous,
+}
+
+/// Buffers of the sweep along edges.
+#[derive(Debug, Default)]
+pub(super) struct Sweep {
+    pieces: Vec<Piece>,
+    /// The sections that may cover parts of the pieces.
+    beside: Vec<u32>,
+    events: Vec<Event>,
+    /// The sections that cover sides of the piece, until each is let go.
+    covering: Vec<(u32, [bool; 2])>,
+}
+
+/// What stays the same during the sweep over one face.
+pub(super) struct Context<'a> {
+    pub(super) scene: &'a Scene<'a>,
+    pub(super) face: &'a BodyFace,
+    pub(super) sections: &'a [Section],
+    /// As many sections at the front cover the face whatever the others do.
+    pub(super) covering: usize,
+}
+
+impl Sweep {
+    /// Emits all boundary edges on a face; where nothing is covered, `restriction` and `ownership` hold what is known of it.
+    pub(super) fn emit(
+        &mut self,
+        context: &Context<'_>,
+        region: &Polygon,
+        restriction: &mut Restriction,
+        ownership: &mut Ownership,
+        out: &mut Vec<BoundaryEdge>,
+    ) {
+        for i in 0..region.edges.len() {
+            self.pieces.clear();
+            self.pieces.push(Piece::of_edge(region, i));
+            self.drop_silent(context, region.edges[i], None);
+            self.sweep_pieces(context, region.edges[i], None, restriction, ownership, out);
+        }
+        for (k, section) in context.sections.iter().enumerate() {
+            let polygon = &section.polygon;
+            for (i, &edge) in polygon.edges.iter().enumerate().filter(|(_, edge)| !region.edges.contains(edge)) {
+                self.pieces.clear();
+                self.pieces.push(Piece::of_edge(polygon, i));
+                self.drop_silent(context, edge, Some(k));
+                self.sweep_pieces(context, edge, Some(k), restriction, ownership, out);
+            }
+        }
+    }
+
+    /// Takes out of the pieces of an edge of section `own`, or of the region, what is covered on both sides, and what lies on edges of
+    /// earlier sections: these emit it. Finds the sections that matter to the rest.
+    fn drop_silent(&mut self, context: &Context<'_>, edge: PlaneId, own: Option<usize>) {
+        let line = Line { plane: context.face.plane, edge };
+        let whole = self.pieces[0];
+        let bounds = whole.bounds();
+        self.beside.clear();
+        for (k, other) in context.sections.iter().enumerate() {
+            let covers = k < context.covering;
+            let is_earlier = own.is_some_and(|own| k < own);
+            if own == Some(k) || self.pieces.is_empty() || !other.bounds.touches(&bounds) {
+                continue;
+            }
+            if !covers && !is_earlier {
+                self.beside.push(k as u32);
+                continue;
+            }
+            match line.cover(context.scene.table, &whole, &bounds, &other.polygon) {
+                Cover::Along(part, _) if is_earlier => line.subtract(context.scene.table, &mut self.pieces, &part),
+                Cover::Across(part) if covers => line.subtract(context.scene.table, &mut self.pieces, &part),
+                Cover::Apart => {}
+                Cover::Along(..) | Cover::Across(_) => self.beside.push(k as u32),
+            }
+        }
+    }
+
+    /// Sweeps along the pieces, which lie on an edge of section `own`, or of the region where there is none.
+    fn sweep_pieces(
+        &mut self,
+        context: &Context<'_>,
+        edge: PlaneId,
+        own: Option<usize>,
+        restriction: &mut Restriction,
+        ownership: &mut Ownership,
+        out: &mut Vec<BoundaryEdge>,
+    ) {
+        let line = Line { plane: context.face.plane, edge };
+        for k in 0..self.pieces.len() {
+            let piece = self.pieces[k];
+            self.covering.clear();
+            self.covering.extend(own.map(|own| (own as u32, [true, false])));
+            self.find_events(context, line, &piece);
+            self.events.sort_by(|a, b| a.compare(b, context.scene.table, line));
+            let expression = context.scene.expression;
+            let mut walk =
+                Walk { context, restriction, ownership, edge, outer: own.is_none(), start: piece.start, now: None };
+            for (section, sides) in &self.covering {
+                walk.change(expression, *section, *sides, true);
+            }
+            walk.now = walk.labels();
+            let mut at = 0;
+            while at < self.events.len() {
+                let (place, first) = (self.events[at], at);
+                while let Some(event) =
+                    self.events.get(at).filter(|e| e.compare(&place, context.scene.table, line).is_eq())
+                {
+                    walk.change(expression, event.section, event.sides, event.begins);
+                    self.note(*event);
+                    at += 1;
+                }
+                walk.pass(place.plane, at - first > 1, out);
+            }
+            walk.end(piece.end, out);
+            for (section, sides) in &self.covering {
+                walk.change(expression, *section, *sides, false);
+            }
+        }
+    }
+
+    /// Keeps the list of what covers.
+    fn note(&mut self, event: Event) {
+        if event.begins {
+            self.covering.push((event.section, event.sides));
+        } else if let Some(k) = self.covering.iter().position(|(section, _)| *section == event.section) {
+            self.covering.swap_remove(k);
+        }
+    }
+
+    /// Finds what covers the beginning of a piece, and where that changes.
+    fn find_events(&mut self, context: &Context<'_>, line: Line, piece: &Piece) {
+        let table = context.scene.table;
+        let bounds = piece.bounds();
+        self.events.clear();
+        for &section in &self.beside {
+            let other = &context.sections[section as usize];
+            if !other.bounds.touches(&bounds) {
+                continue;
+            }
+            let (part, sides) = match line.cover(table, piece, &bounds, &other.polygon) {
+                Cover::Apart => continue,
+                Cover::Across(part) => (part, [true, true]),
+                Cover::Along(part, edge) if line.is_same_side(table, edge) => (part, [true, false]),
+                Cover::Along(part, _) => (part, [false, true]),
+            };
+            if part.start == piece.start {
+                self.covering.push((section, sides));
+            } else {
+                let point = part.start_point();
+                self.events.push(Event { section, sides, begins: true, plane: part.start, point });
+            }
+            if part.end != piece.end {
+                let point = part.end_point();
+                self.events.push(Event { section, sides, begins: false, plane: part.end, point });
+            }
+        }
+    }
+}
+
+impl Event {
+    /// The exact order along the line.
+    fn compare(&self, other: &Self, table: &PlaneTable, line: Line) -> Ordering {
+        if self.plane.index() == other.plane.index() {
+            return Ordering::Equal;
+        }
+        let planes = if self.begins { line.start(self.plane) } else { line.end(self.plane) };
+        // where a section begins its plane looks back along the line, where it ends ahead
+        let ahead = match table.side(planes, &self.point, other.plane) {
+            Sign::Zero => return Ordering::Equal,
+            Sign::Positive => !other.begins,
+            Sign::Negative => other.begins,
+        };
+        if ahead { Ordering::Greater } else { Ordering::Less }
+    }
+}
+
+/// The state on the way along one piece.
+struct Walk<'a, 'b> {
+    context: &'a Context<'b>,
+    restriction: &'a mut Restriction,
+    ownership: &'a mut Ownership,
+    edge: PlaneId,
+    /// Whether there is nothing of the face on the right.
+    outer: bool,
+    /// Where the present labels began.
+    start: PlaneId,
+    now: Option<[Option<Facing>; 2]>,
+}
+
+impl Walk<'_, '_> {
+    fn change(&mut self, expression: &Expression, section: u32, sides: [bool; 2], covers: bool) {
+        let of = &self.context.sections[section as usize].of;
+        for side in Side::BOTH.into_iter().filter(|side| sides[*side as usize]) {
+            self.ownership.set_cover(expression, self.restriction, of, side, covers);
+        }
+    }
+
+    /// What the face is on both sides; nothing where it is no boundary at all. Where both sides are the same, the two edges
+    /// that are emitted cancel: they tell the weld where faces may cross.
+    fn labels(&mut self) -> Option<[Option<Facing>; 2]> {
+        let expression = self.context.scene.expression;
+        let left = self.ownership.emitted(expression, self.restriction, Side::Left);
+        let right = if self.outer { None } else { self.ownership.emitted(expression, self.restriction, Side::Right) };
+        (left.is_some() || right.is_some()).then_some([left, right])
+    }
+
+    /// Goes on at a point that lies on `plane`. Where several things change at once and nothing comes of it, edges may cross:
+    /// the edge ends there nevertheless, and the weld finds out.
+    fn pass(&mut self, plane: PlaneId, several: bool, out: &mut Vec<BoundaryEdge>) {
+        let next = self.labels();
+        if next != self.now || several {
+            self.end(plane, out);
+            self.start = plane;
+            self.now = next;
+        }
+    }
+
+    /// Emits what ends at a point that lies on `plane`.
+    fn end(&mut self, plane: PlaneId, out: &mut Vec<BoundaryEdge>) {
+        let Some([left, right]) = self.now else { return };
+        let face = self.context.face;
+        out.extend(left.map(|facing| BoundaryEdge::left(face, facing, self.edge, self.start, plane)));
+        out.extend(right.map(|facing| BoundaryEdge::right(face, facing, self.edge, self.start, plane)));
+    }
+}

@@ -1,0 +1,204 @@
+//! Topological contraction of edges too short to survive rounding.
+//!
+//! Planes that went through rotations or decimal text can nearly meet in a point: that leaves true edges of `1e-13`, and a
+//! format with 32-bit coordinates rounds far longer ones to nothing. Merging by coordinates would undo the splits that
+//! keep the mesh a manifold, so edges are contracted one by one, each only where the surface stays the surface it was
+//! (the link condition: Dey, Edelsbrunner, Guha, Nekhayev 1999).
+
+use glam::DVec3;
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use super::Mesh;
+use crate::base::by_group;
+
+/// Contracts edges of at most `length` (in the mesh's units) and gives how many went. Edges whose contraction would change
+/// the topology stay. Faces that lose all their triangles are dropped.
+pub fn contract_short_edges(mesh: &mut Mesh, length: f64) -> usize {
+    contract_edges(mesh, |a, b| a.distance(b) <= length)
+}
+
+/// Contracts the edges between whose ends `is_short` holds, shortest first; otherwise as [`contract_short_edges`].
+///
+/// A format with coarser coordinates asks for the edges whose ends it would round to one place.
+pub fn contract_edges(mesh: &mut Mesh, is_short: impl Fn(DVec3, DVec3) -> bool) -> usize {
+    let mut short = short_edges(mesh, &is_short);
+    if short.is_empty() {
+        return 0;
+    }
+    let mut contraction = Contraction::new(mesh);
+    let mut contracted = 0;
+    loop {
+        let before = contracted;
+        short.retain(|&[a, b]| {
+            let done = contraction.contract(mesh, a, b, &is_short);
+            contracted += usize::from(done);
+            !done
+        });
+        if contracted == before {
+            break;
+        }
+    }
+    if contracted > 0 {
+        contraction.compact(mesh);
+    }
+    contracted
+}
+
+/// The short edges, shortest first.
+fn short_edges(mesh: &Mesh, is_short: impl Fn(DVec3, DVec3) -> bool) -> Vec<[u32; 2]> {
+    let at = |v: u32| mesh.positions[v as usize];
+    let mut short: Vec<(f64, [u32; 2])> = Vec::new();
+    for triangle in &mesh.triangles {
+        for k in 0..3 {
+            let (a, b) = (triangle[k], triangle[(k + 1) % 3]);
+            if a < b && is_short(at(a), at(b)) {
+                short.push((at(a).distance(at(b)), [a, b]));
+            }
+        }
+    }
+    short.sort_by(|p, q| p.0.total_cmp(&q.0).then(p.1.cmp(&q.1)));
+    short.into_iter().map(|(_, edge)| edge).collect()
+}
+
+struct Contraction {
+    /// What a contracted vertex became.
+    became: FxHashMap<u32, u32>,
+    /// Where the triangles at each vertex begin, and these, as they were.
+    starts: Vec<u32>,
+    triangles: Vec<u32>,
+    /// The live triangles at vertices where they have changed.
+    changed: FxHashMap<u32, Vec<u32>>,
+    removed: FxHashSet<u32>,
+}
+
+impl Contraction {
+    fn new(mesh: &Mesh) -> Self {
+        let (starts, sides) = by_group(mesh.positions.len(), mesh.triangles.iter().flatten().copied());
+        let triangles = sides.into_iter().map(|side| side / 3).collect();
+        Self {
+            became: FxHashMap::default(),
+            starts,
+            triangles,
+            changed: FxHashMap::default(),
+            removed: FxHashSet::default(),
+        }
+    }
+
+    /// The live triangles at a vertex.
+    fn triangles_at(&self, vertex: u32) -> &[u32] {
+        self.changed.get(&vertex).map_or_else(|| self.triangles_before(vertex), Vec::as_slice)
+    }
+
+    fn triangles_before(&self, vertex: u32) -> &[u32] {
+        &self.triangles[self.starts[vertex as usize] as usize..self.starts[vertex as usize + 1] as usize]
+    }
+
+    /// The same, to be changed.
+    fn triangles_mut(&mut self, vertex: u32) -> &mut Vec<u32> {
+        let before = &self.triangles[self.starts[vertex as usize] as usize..self.starts[vertex as usize + 1] as usize];
+        self.changed.entry(vertex).or_insert_with(|| before.to_vec())
+    }
+
+    fn current(&self, mut vertex: u32) -> u32 {
+        while let Some(next) = self.became.get(&vertex) {
+            vertex = *next;
+        }
+        vertex
+    }
+
+    /// Merges `b` into `a`, where that keeps the surface a manifold of the same topology.
+    fn contract(&mut self, mesh: &mut Mesh, a: u32, b: u32, is_short: impl Fn(DVec3, DVec3) -> bool) -> bool {
+        let (a, b) = (self.current(a), self.current(b));
+        let still_short = is_short(mesh.positions[a as usize], mesh.positions[b as usize]);
+        if a == b || !still_short || !self.keeps_topology(mesh, a, b) {
+            return false;
+        }
+        let at_b = std::mem::take(self.triangles_mut(b));
+        for t in at_b {
+            let triangle = &mut mesh.triangles[t as usize];
+            if triangle.contains(&a) {
+                self.removed.insert(t);
+                for v in *triangle {
+                    self.triangles_mut(v).retain(|other| *other != t);
+                }
+            } else {
+                *triangle = triangle.map(|v| if v == b { a } else { v });
+                self.triangles_mut(a).push(t);
+            }
+        }
+        self.became.insert(b, a);
+        true
+    }
+
+    /// The link condition: exactly two triangles share the edge, and their tips are all the neighbours that both ends have.
+    fn keeps_topology(&self, mesh: &Mesh, a: u32, b: u32) -> bool {
+        let around = |v: u32| -> FxHashSet<u32> {
+            let corners = self.triangles_at(v).iter().flat_map(|t| mesh.triangles[*t as usize]);
+            corners.filter(|other| *other != v).collect()
+        };
+        let (at_a, at_b) = (around(a), around(b));
+        let shared = self.triangles_at(b).iter().filter(|t| mesh.triangles[**t as usize].contains(&a)).count();
+        // a tetrahedron would fold flat
+        shared == 2 && at_a.intersection(&at_b).count() == 2 && at_a.len() + at_b.len() > 6
+    }
+
+    /// Drops what is no longer used and renumbers the rest.
+    fn compact(&self, mesh: &mut Mesh) {
+        let live = |t: &usize| !self.removed.contains(&(*t as u32));
+        let kept: Vec<usize> = (0..mesh.triangles.len()).filter(live).collect();
+        mesh.triangles = kept.iter().map(|t| mesh.triangles[*t]).collect();
+        mesh.triangle_faces = kept.iter().map(|t| mesh.triangle_faces[*t]).collect();
+        let mut number = vec![u32::MAX; mesh.positions.len()];
+        for v in mesh.triangles.iter().flatten() {
+            number[*v as usize] = 0;
+        }
+        let used: Vec<usize> = (0..number.len()).filter(|v| number[*v] == 0).collect();
+        for (new, old) in used.iter().enumerate() {
+            number[*old] = new as u32;
+        }
+        mesh.positions = used.iter().map(|v| mesh.positions[*v]).collect();
+        mesh.triangles.iter_mut().flatten().for_each(|v| *v = number[*v as usize]);
+        mesh.drop_empty_faces();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Brush, BrushFace, Material, MaterialId, Model, evaluate};
+    use planecut_check::check_topology;
+    use planecut_kernel::HalfSpace;
+
+    /// A cube with a corner cut off so slightly that the cut's edges have length `size · √2`.
+    fn chamfered_cube(size: f64) -> Mesh {
+        let normals = DVec3::AXES.into_iter().flat_map(|axis| [axis, -axis]).map(|axis| (axis, 1.0));
+        let planes = normals.chain([(DVec3::ONE, 3.0 - size)]);
+        let faces = planes.map(|(normal, offset)| BrushFace {
+            half_space: HalfSpace::new(normal, offset).expect("a valid plane"),
+            material: MaterialId(0),
+        });
+        let brush = Brush { faces: faces.collect(), ..Brush::default() };
+        let materials = vec![Material::named("m")];
+        evaluate(&Model { materials, tree: brush.into() }).expect("a closed boundary").mesh
+    }
+
+    #[test]
+    fn a_tiny_chamfer_contracts_to_a_cube() {
+        let mut mesh = chamfered_cube(1e-4);
+        assert_eq!(contract_short_edges(&mut mesh, 1e-6), 0);
+        assert_eq!(mesh.faces.len(), 7);
+        assert_eq!(contract_short_edges(&mut mesh, 1e-3), 2);
+        assert_eq!((mesh.positions.len(), mesh.triangles.len(), mesh.faces.len()), (8, 12, 6));
+        let topology = check_topology(&mesh.positions, &mesh.triangles);
+        assert!(topology.watertight && topology.manifold);
+    }
+
+    #[test]
+    fn a_whole_body_below_the_length_keeps_its_topology() {
+        let mut mesh = chamfered_cube(0.5);
+        contract_short_edges(&mut mesh, 100.0);
+        let topology = check_topology(&mesh.positions, &mesh.triangles);
+        assert!(topology.watertight && topology.manifold);
+        assert_eq!(mesh.triangles.len(), 4);
+    }
+}

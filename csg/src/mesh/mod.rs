@@ -1,0 +1,59 @@
+//! The welded, triangulated boundary of a solid.
+
+mod collapse;
+pub(crate) mod connectivity;
+mod contract;
+mod flip_caps;
+mod measures;
+
+use glam::DVec3;
+
+use crate::model::{Material, MaterialId};
+pub(crate) use collapse::collapse_thin;
+pub use contract::{contract_edges, contract_short_edges};
+pub(crate) use flip_caps::flip_caps;
+pub use measures::SolidMeasures;
+
+/// One planar, connected region of a [`Mesh`] with one material.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeshFace {
+    /// Unit outward normal.
+    pub normal: DVec3,
+    /// What the face is made of.
+    pub material: MaterialId,
+}
+
+/// An indexed triangle mesh, counter-clockwise seen from outside.
+///
+/// # Guarantees
+/// When made by the weld: every directed index edge occurs once and has its opposite (an oriented 2-manifold).
+/// Positions may repeat: where the solid touches itself, vertices are split and must not be merged by coordinates.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Mesh {
+    /// Vertex positions in the input's units.
+    pub positions: Vec<DVec3>,
+    /// Vertex indices of each triangle; triangles of one face follow one another.
+    pub triangles: Vec<[u32; 3]>,
+    /// For each triangle the index of its face in [`Mesh::faces`]; as long as `triangles`.
+    pub triangle_faces: Vec<u32>,
+    /// The planar regions.
+    pub faces: Vec<MeshFace>,
+    /// The materials that faces refer to.
+    pub materials: Vec<Material>,
+}
+
+impl Mesh {
+    /// Drops the faces that have no triangle left.
+    pub(crate) fn drop_empty_faces(&mut self) {
+        let mut faces = Vec::with_capacity(self.faces.len());
+        let mut last = None;
+        for face in &mut self.triangle_faces {
+            if last != Some(*face) {
+                last = Some(*face);
+                faces.push(self.faces[*face as usize]);
+            }
+            *face = faces.len() as u32 - 1;
+        }
+        self.faces = faces;
+    }
+}

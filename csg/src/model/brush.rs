@@ -1,0 +1,50 @@
+//! Convex bodies with a material on each face.
+
+use glam::DVec3;
+use planecut_kernel::HalfSpace;
+
+use super::MaterialId;
+use crate::body::Built;
+
+/// One bounding plane of a [`Brush`] and what its face is made of.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BrushFace {
+    /// The body lies inside this half-space.
+    pub half_space: HalfSpace,
+    /// The material of the face.
+    pub material: MaterialId,
+}
+
+/// A convex body: the intersection of the half-spaces of its faces.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Brush {
+    /// The bounding planes, in the input's order.
+    pub faces: Vec<BrushFace>,
+    /// A name, where the input gives one.
+    pub name: Option<String>,
+    /// Line of the input on which the brush begins, counted from 1; 0 where there is none.
+    pub line: u32,
+    /// Its body, where that was built before: see [`Model::build_bodies`].
+    pub built: Built,
+}
+
+impl Brush {
+    /// The body of all points within every half-space; may be unbounded or empty.
+    #[must_use]
+    pub fn from_half_spaces(half_spaces: impl IntoIterator<Item = HalfSpace>, material: MaterialId) -> Self {
+        let faces = half_spaces.into_iter().map(|half_space| BrushFace { half_space, material }).collect();
+        Self { faces, ..Self::default() }
+    }
+
+    /// The box between two corners; empty where a minimum is not below its maximum.
+    ///
+    /// # Panics
+    /// Where a coordinate is not finite or beyond `±2^200`.
+    #[must_use]
+    pub fn cuboid(min: DVec3, max: DVec3, material: MaterialId) -> Self {
+        let sides = DVec3::AXES.into_iter().flat_map(|axis| [(axis, axis.dot(max)), (-axis, -axis.dot(min))]);
+        let half_spaces =
+            sides.map(|(normal, offset)| HalfSpace::new(normal, offset).expect("finite corners, not too far away"));
+        Self::from_half_spaces(half_spaces, material)
+    }
+}

@@ -1,0 +1,351 @@
+//! Trees of set operations over brushes.
+
+use std::ops::{BitAnd, BitOr, BitXor, Not, Sub};
+
+use super::{Brush, MaterialId, Transform, TransformError};
+
+/// A regularised set operation: what is left of a result without interior is nothing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Operation {
+    /// What lies in any operand; nothing where there is none.
+    Union,
+    /// What lies in all operands; all of space where there is none.
+    Intersection,
+    /// What lies in the first operand and in no other; nothing where there is none.
+    Difference,
+    /// What lies in an odd number of operands.
+    Xor,
+    /// What lies in no operand.
+    Complement,
+}
+
+/// One entry of a [`Tree`] in postfix order.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum TreeNode {
+    /// The next brush.
+    Leaf,
+    /// An operation on the results of the last entries that no other operation has taken.
+    Operation {
+        /// What to do with them.
+        operation: Operation,
+        /// How many of them.
+        operands: u32,
+    },
+}
+
+/// A solid as set operations over convex brushes, nested to any depth.
+///
+/// The tree is kept in postfix order, leaf `k` being brush `k`: a deep tree needs no deep stack, and `a | b` costs what `b`
+/// is long. Nothing is evaluated until [`evaluate`](crate::evaluate) is asked for a mesh, or
+/// `Solid::from_tree` of the crate of cells for these.
+///
+/// ```
+/// use planecut_csg::{Brush, MaterialId, Tree};
+/// use planecut_kernel::DVec3;
+///
+/// let block = |min: f64, max: f64| Tree::from(Brush::cuboid(DVec3::splat(min), DVec3::splat(max), MaterialId(0)));
+/// let frame = block(0.0, 3.0) - block(1.0, 2.0) | block(5.0, 6.0);
+/// assert_eq!((frame.brushes().len(), frame.nodes().len()), (3, 5));
+/// ```
+///
+/// # Guarantees
+/// The nodes are well formed: every operation finds its operands, one result is left, and there are as many leaves as
+/// brushes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tree {
+    brushes: Vec<Brush>,
+    nodes: Vec<TreeNode>,
+}
+
+impl Default for Tree {
+    /// Nothing.
+    fn default() -> Self {
+        Self::empty()
+    }
+}
+
+impl From<Brush> for Tree {
+    fn from(brush: Brush) -> Self {
+        Self { brushes: vec![brush], nodes: vec![TreeNode::Leaf] }
+    }
+}
+
+impl Tree {
+    /// Nothing: the union of no operands.
+    #[must_use]
+    pub fn empty() -> Self {
+        Self::union_of(Vec::new())
+    }
+
+    /// All of space: the intersection of no operands.
+    #[must_use]
+    pub fn everything() -> Self {
+        Self { brushes: Vec::new(), nodes: vec![operation(Operation::Intersection, 0)] }
+    }
+
+    /// The union of brushes.
+    #[must_use]
+    pub fn union_of(brushes: Vec<Brush>) -> Self {
+        let mut nodes = vec![TreeNode::Leaf; brushes.len()];
+        nodes.push(operation(Operation::Union, brushes.len()));
+        Self { brushes, nodes }
+    }
+
+    /// A tree of brushes and well-formed nodes over as many leaves.
+    pub(crate) fn of_parts(brushes: Vec<Brush>, nodes: Vec<TreeNode>) -> Self {
+        Self { brushes, nodes }
+    }
+
+    /// What lies in any operand.
+    #[must_use]
+    pub fn union(operands: impl IntoIterator<Item = Self>) -> Self {
+        Self::combine(Operation::Union, operands)
+    }
+
+    /// What lies in all operands; all of space where there is none.
+    #[must_use]
+    pub fn intersection(operands: impl IntoIterator<Item = Self>) -> Self {
+        Self::combine(Operation::Intersection, operands)
+    }
+
+    /// What lies in the first operand and in no other.
+    #[must_use]
+    pub fn difference(operands: impl IntoIterator<Item = Self>) -> Self {
+        Self::combine(Operation::Difference, operands)
+    }
+
+    /// What lies in an odd number of operands.
+    #[must_use]
+    pub fn xor(operands: impl IntoIterator<Item = Self>) -> Self {
+        Self::combine(Operation::Xor, operands)
+    }
+
+    /// What does not lie in this.
+    #[must_use]
+    pub fn complement(mut self) -> Self {
+        self.nodes.push(operation(Operation::Complement, 1));
+        self
+    }
+
+    /// The operation on the operands, in their order. Where the first operand is itself the same operation, the others join
+    /// it, so that a chain of operators makes a flat tree; [`Operation::Complement`] is that of the union.
+    #[must_use]
+    pub fn combine(kind: Operation, operands: impl IntoIterator<Item = Self>) -> Self {
+        let mut operands = operands.into_iter();
+        let Some(mut tree) = operands.next() else {
+            return Self { brushes: Vec::new(), nodes: vec![operation(kind, 0)] };
+        };
+        let mut count = match tree.nodes.last() {
+            Some(TreeNode::Operation { operation, operands }) if *operation == kind && joins(kind) && *operands > 0 => {
+                let count = *operands as usize;
+                tree.nodes.pop();
+                count
+            }
+            _ => 1,
+        };
+        for operand in operands {
+            tree.brushes.extend(operand.brushes);
+            tree.nodes.extend(operand.nodes);
+            count += 1;
+        }
+        tree.nodes.push(operation(kind, count));
+        tree
+    }
+
+    /// The brushes, in the order of the leaves.
+    #[must_use]
+    pub fn brushes(&self) -> &[Brush] {
+        &self.brushes
+    }
+
+    /// The brushes, to be changed one by one.
+    pub fn brushes_mut(&mut self) -> &mut [Brush] {
+        &mut self.brushes
+    }
+
+    /// The brushes alone.
+    #[must_use]
+    pub fn into_brushes(self) -> Vec<Brush> {
+        self.brushes
+    }
+
+    /// Whether it is the union of its brushes.
+    #[must_use]
+    pub fn is_union(&self) -> bool {
+        self.nodes.iter().all(|node| match node {
+            TreeNode::Leaf => true,
+            TreeNode::Operation { operation: Operation::Union, .. } => true,
+            TreeNode::Operation { operation: Operation::Complement, .. } => false,
+            TreeNode::Operation { operands, .. } => *operands == 1,
+        })
+    }
+
+    /// The parts of a union by the names of their brushes: an operand whose brushes have one name is a part, as are single brushes of one
+    /// name that follow one another; unions of several names are taken apart further. What has no name, or is no union of several names, is the part
+    /// without a name, which comes first.
+    ///
+    /// ```
+    /// use planecut_csg::{Brush, MaterialId, Tree};
+    /// use planecut_kernel::DVec3;
+    ///
+    /// let block = |at: f64| Tree::from(Brush::cuboid(DVec3::splat(at), DVec3::splat(at + 2.0), MaterialId(0)));
+    /// let nut = (block(0.0) - block(1.0)).with_name("nut");
+    /// let tree = Tree::union([block(9.0), nut, block(4.0).with_name("bolt")]);
+    /// let names: Vec<Option<String>> = tree.into_named_parts().into_iter().map(|(name, _)| name).collect();
+    /// assert_eq!(names, [None, Some("nut".to_owned()), Some("bolt".to_owned())]);
+    /// ```
+    #[must_use]
+    pub fn into_named_parts(self) -> Vec<(Option<String>, Self)> {
+        let mut nameless = Vec::new();
+        let mut parts: Vec<(Option<String>, Self)> = Vec::new();
+        // trees, and whether each goes with the one before it if both have one name
+        let mut waiting = vec![(self, false)];
+        while let Some((tree, is_joined)) = waiting.pop() {
+            match tree.common_name() {
+                Ok(Some(name)) => match parts.last_mut() {
+                    Some((last, part)) if is_joined && last.as_ref() == Some(&name) => {
+                        let before = std::mem::take(part);
+                        *part = before | tree;
+                    }
+                    _ => parts.push((Some(name), tree)),
+                },
+                Err(()) if tree.root() == Some(Operation::Union) => {
+                    let operands = tree.into_operands();
+                    let first = operands.first().and_then(|operand| operand.common_name().ok());
+                    // the operands of a union that comes first are operands of the whole
+                    let of_first = operands.iter().take_while(|operand| operand.common_name().ok() == first).count();
+                    let joined = operands.into_iter().enumerate().map(|(place, operand)| {
+                        let is_leaf = operand.nodes.len() == 1;
+                        (operand, place > 0 && (is_leaf || place < of_first))
+                    });
+                    waiting.extend(joined.collect::<Vec<_>>().into_iter().rev());
+                }
+                _ => nameless.push(tree),
+            }
+        }
+        let nameless = (!nameless.is_empty()).then(|| (None, Self::union(nameless)));
+        nameless.into_iter().chain(parts).collect()
+    }
+
+    /// The name that all brushes have, if they have one; an error where names differ.
+    fn common_name(&self) -> Result<Option<String>, ()> {
+        let first = self.brushes.first().and_then(|brush| brush.name.as_ref());
+        let is_common = self.brushes.iter().all(|brush| brush.name.as_ref() == first);
+        if is_common { Ok(first.cloned()) } else { Err(()) }
+    }
+
+    fn root(&self) -> Option<Operation> {
+        match self.nodes.last()? {
+            TreeNode::Leaf => None,
+            TreeNode::Operation { operation, .. } => Some(*operation),
+        }
+    }
+
+    /// The operands of the root, which is an operation.
+    fn into_operands(mut self) -> Vec<Self> {
+        let Some(TreeNode::Operation { operands, .. }) = self.nodes.pop() else { return Vec::new() };
+        // from the last operand to the first: each ends where the one after it begins
+        let mut parts = Vec::with_capacity(operands as usize);
+        for _ in 0..operands {
+            let mut open = 1;
+            let mut start = self.nodes.len();
+            while open > 0 && start > 0 {
+                start -= 1;
+                open -= 1;
+                if let TreeNode::Operation { operands, .. } = self.nodes[start] {
+                    open += operands as usize;
+                }
+            }
+            let nodes = self.nodes.split_off(start);
+            let leaves = nodes.iter().filter(|node| **node == TreeNode::Leaf).count();
+            parts.push(Self { brushes: self.brushes.split_off(self.brushes.len() - leaves), nodes });
+        }
+        parts.reverse();
+        parts
+    }
+
+    /// The entries in postfix order; the last one is the root.
+    #[must_use]
+    pub fn nodes(&self) -> &[TreeNode] {
+        &self.nodes
+    }
+
+    /// The tree moved by an affine map.
+    ///
+    /// # Errors
+    /// [`TransformError::OutOfRange`] where a plane leaves the accepted range.
+    pub fn transformed(mut self, transform: &Transform) -> Result<Self, TransformError> {
+        for brush in &mut self.brushes {
+            for face in &mut brush.faces {
+                face.half_space = transform.half_space(&face.half_space)?;
+            }
+        }
+        Ok(self)
+    }
+
+    /// The tree with all faces of one material.
+    #[must_use]
+    pub fn with_material(mut self, material: MaterialId) -> Self {
+        for face in self.brushes.iter_mut().flat_map(|brush| &mut brush.faces) {
+            face.material = material;
+        }
+        self
+    }
+
+    /// The tree with a name on each brush that has none.
+    #[must_use]
+    pub fn with_name(mut self, name: &str) -> Self {
+        for brush in self.brushes.iter_mut().filter(|brush| brush.name.is_none()) {
+            brush.name = Some(name.to_owned());
+        }
+        self
+    }
+}
+
+fn operation(operation: Operation, operands: usize) -> TreeNode {
+    let operands = u32::try_from(operands).expect("fewer than 2^32 operands");
+    TreeNode::Operation { operation, operands }
+}
+
+/// Whether `(a ∘ b) ∘ c` is `a ∘ b ∘ c`.
+fn joins(kind: Operation) -> bool {
+    match kind {
+        Operation::Union | Operation::Intersection | Operation::Difference | Operation::Xor => true,
+        Operation::Complement => false,
+    }
+}
+
+impl BitOr for Tree {
+    type Output = Self;
+    fn bitor(self, other: Self) -> Self {
+        Self::union([self, other])
+    }
+}
+
+impl BitAnd for Tree {
+    type Output = Self;
+    fn bitand(self, other: Self) -> Self {
+        Self::intersection([self, other])
+    }
+}
+
+impl BitXor for Tree {
+    type Output = Self;
+    fn bitxor(self, other: Self) -> Self {
+        Self::xor([self, other])
+    }
+}
+
+impl Sub for Tree {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        Self::difference([self, other])
+    }
+}
+
+impl Not for Tree {
+    type Output = Self;
+    fn not(self) -> Self {
+        self.complement()
+    }
+}

@@ -1,0 +1,154 @@
+//! Models in blocks against the same models at once.
+
+use std::collections::BTreeMap;
+
+use glam::DVec3;
+use planecut_csg::{
+    BlockOptions, BlocksError, Brush, EvaluateError, Material, MaterialId, Mesh, Model, Tree, evaluate,
+    evaluate_in_blocks,
+};
+use planecut_kernel::HalfSpace;
+
+use planecut_testkit::generate::{ball, turned_box};
+use planecut_testkit::random::Rng;
+
+/// Meshes put together: each edge between positions is met as often in either direction.
+fn is_closed(meshes: &[Mesh]) -> bool {
+    let mut edges: BTreeMap<[[u64; 3]; 2], i32> = BTreeMap::new();
+    for mesh in meshes {
+        for triangle in &mesh.triangles {
+            let at = triangle.map(|vertex| (mesh.positions[vertex as usize] + 0.0).to_array().map(f64::to_bits));
+            for k in 0..3 {
+                let (from, to) = (at[k], at[(k + 1) % 3]);
+                *edges.entry([from.min(to), from.max(to)]).or_default() += if from < to { 1 } else { -1 };
+            }
+        }
+    }
+    edges.values().all(|sum| *sum == 0)
+}
+
+/// Volume, and area of each material.
+fn measure(meshes: &[Mesh], materials: usize) -> (f64, Vec<f64>) {
+    let (mut volume, mut areas) = (0.0, vec![0.0; materials]);
+    for mesh in meshes {
+        for (triangle, face) in mesh.triangles.iter().zip(&mesh.triangle_faces) {
+            let [a, b, c] = triangle.map(|vertex| mesh.positions[vertex as usize]);
+            let normal = (b - a).cross(c - a);
+            volume += a.dot(normal) / 6.0;
+            areas[mesh.faces[*face as usize].material.0 as usize] += 0.5 * normal.length();
+        }
+    }
+    (volume, areas)
+}
+
+/// Compares a model in blocks with the same at once; gives how many blocks there were.
+fn compare(model: &Model, brushes: usize) -> usize {
+    let mut meshes = Vec::new();
+    let all = evaluate_in_blocks(model, BlockOptions { brushes }, |block| {
+        for at in &block.mesh.positions {
+            assert!(at.cmpge(block.min).all() && at.cmple(block.max).all());
+        }
+        meshes.push(block.mesh);
+        Ok::<(), ()>(())
+    })
+    .unwrap();
+    let whole = evaluate(model).unwrap();
+    assert_eq!((all.blocks, all.open_edges), (meshes.len(), 0));
+    assert_eq!(all.triangles, meshes.iter().map(|mesh| mesh.triangles.len()).sum::<usize>());
+    assert!(is_closed(&meshes));
+    let (volume, areas) = measure(&meshes, model.materials.len());
+    let (_, expected) = measure(&[whole.mesh], model.materials.len());
+    let tolerance = 1e-9 * (1.0 + whole.solid.volume.abs() + whole.solid.area);
+    assert!((all.volume - whole.solid.volume).abs() < tolerance);
+    assert!((volume - whole.solid.volume).abs() < tolerance);
+    assert!(areas.iter().zip(&expected).all(|(a, b)| (a - b).abs() < tolerance), "{areas:?} {expected:?}");
+    meshes.len()
+}
+
+fn materials() -> Vec<Material> {
+    ["stone", "brick"].map(Material::named).to_vec()
+}
+
+/// Brushes of all kinds in a long room, of two materials.
+fn brushes(rng: &mut Rng, count: usize) -> Vec<Brush> {
+    let brush = |_| {
+        let at = DVec3::new(rng.float(0.0, 12.0), rng.float(0.0, 5.0), rng.float(0.0, 3.0));
+        let mut brush = match rng.below(3) {
+            0 => {
+                let low = at.floor();
+                let size = DVec3::from_array([0; 3].map(|_| rng.whole(1, 3)));
+                Brush::cuboid(low, low + size, MaterialId(0))
+            }
+            1 => turned_box(rng, at, DVec3::splat(0.8)),
+            _ => ball(rng, at, 0.9, 24),
+        };
+        let material = MaterialId(rng.below(2) as u32);
+        brush.faces.iter_mut().for_each(|face| face.material = material);
+        brush
+    };
+    (0..count).map(brush).collect()
+}
+
+#[test]
+fn unions_and_differences_are_the_same_in_blocks() {
+    for seed in 0..12 {
+        let rng = &mut Rng::new(seed);
+        let parts: Vec<Tree> = brushes(rng, 60).into_iter().map(Tree::from).collect();
+        let (first, rest) = parts.split_at(40);
+        let tree = match seed % 4 {
+            0 => Tree::union(parts.clone()),
+            1 => Tree::union(first.to_vec()) - Tree::union(rest.to_vec()),
+            2 => Tree::union(first.to_vec()) ^ Tree::union(rest.to_vec()),
+            _ => Tree::union(first.to_vec()) & !Tree::union(rest.to_vec()),
+        };
+        let blocks = compare(&Model { materials: materials(), tree }, 6);
+        assert!(blocks > 8, "seed {seed}: {blocks} blocks");
+    }
+}
+
+#[test]
+fn what_cannot_be_parted_stays_one_block() {
+    let cube = Tree::from(Brush::cuboid(DVec3::ZERO, DVec3::ONE, MaterialId(0)));
+    let tree = Tree::union(vec![cube; 20]);
+    assert_eq!(compare(&Model { materials: materials(), tree }, 1), 1);
+    let none = Model { materials: materials(), tree: Tree::empty() };
+    assert_eq!(compare(&none, 1), 0);
+}
+
+#[test]
+fn planes_of_noise_are_one_in_all_blocks() {
+    // a row of boxes whose common turned walls went through decimal text
+    let (sin, cos) = 0.3_f64.sin_cos();
+    let brush = |k: u32| {
+        let noise = |v: f64| v * (1.0 + f64::from(k % 7) * 2e-14);
+        let at = f64::from(k);
+        let planes = [
+            (DVec3::new(noise(cos), sin, 0.0), 1.0),
+            (DVec3::new(-noise(cos), -sin, 0.0), 0.0),
+            (DVec3::new(-sin, noise(cos), 0.0), at + 1.0),
+            (DVec3::new(sin, -noise(cos), 0.0), -at),
+            (DVec3::Z, 1.0),
+            (-DVec3::Z, 0.0),
+        ];
+        Brush::from_half_spaces(planes.map(|(normal, at)| HalfSpace::new(normal, at).unwrap()), MaterialId(0))
+    };
+    let model = Model { materials: materials(), tree: Tree::union_of((0..60).map(brush).collect()) };
+    assert!(compare(&model, 5) > 8);
+}
+
+#[test]
+fn what_is_not_bounded_is_refused() {
+    let half = Brush::from_half_spaces([HalfSpace::new(DVec3::X, 1.0).unwrap()], MaterialId(0));
+    let cube = Brush::cuboid(DVec3::ZERO, DVec3::ONE, MaterialId(0));
+    let run = |tree: Tree| {
+        let model = Model { materials: materials(), tree };
+        evaluate_in_blocks(&model, BlockOptions::default(), |_| Ok::<(), ()>(()))
+    };
+    assert_eq!(run(Tree::from(cube.clone()) - half.into()), Err(BlocksError::Unbounded { brush: 1 }));
+    assert_eq!(run(!Tree::from(cube.clone())), Err(BlocksError::Evaluate(EvaluateError::Unbounded)));
+    let refused =
+        evaluate_in_blocks(&Model { materials: materials(), tree: cube.into() }, BlockOptions::default(), |_| {
+            Err("full")
+        });
+    assert_eq!(refused, Err(BlocksError::Taker("full")));
+}

@@ -1,0 +1,130 @@
+//! Random edits: after each the model equals one built anew, and a copy that follows the changes has its faces.
+
+use planecut_csg::Role;
+use planecut_kernel::DVec3;
+
+use super::edits::{Edit, Faces, Plane, Planes, Tally, check};
+use planecut_testkit::random::Rng;
+
+/// Boxes and cut boxes on a small grid: everything touches.
+fn on_grid(random: &mut Rng) -> Planes {
+    let mut planes = Vec::new();
+    let mut middle = [0.0; 3];
+    for axis in 0..3 {
+        let low = random.whole(0, 4);
+        let high = low + random.whole(1, 3);
+        middle[axis] = 0.5 * (low + high);
+        for (sign, at) in [(1.0, high), (-1.0, -low)] {
+            let mut normal = [0.0; 3];
+            normal[axis] = sign;
+            planes.push((normal, at));
+        }
+    }
+    if random.chance(0.3) {
+        let normal = [0; 3].map(|_| random.whole(-1, 1));
+        if normal != [0.0; 3] {
+            let through: f64 = normal.iter().zip(middle).map(|(n, m)| n * m).sum();
+            planes.push((normal, through + 0.5 * random.whole(0, 2)));
+        }
+    }
+    planes
+}
+
+/// Wedges around a few lines: three planes in a line, faces that cross.
+fn around_lines(random: &mut Rng) -> Planes {
+    let normals = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0], [1.0, -1.0, 0.0]];
+    let mut planes = vec![([0.0, 0.0, 1.0], 1.0), ([0.0, 0.0, -1.0], random.whole(0, 1))];
+    planes.extend([[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0]].map(|normal| (normal, 3.0)));
+    for _ in 0..2 {
+        let normal = normals[random.below(4)];
+        let sign = if random.chance(0.5) { 1.0 } else { -1.0 };
+        planes.push((normal.map(|v: f64| v * sign), 0.0));
+    }
+    planes
+}
+
+/// Turned bodies of up to 26 planes in general position.
+fn turned(random: &mut Rng) -> Planes {
+    let mut place = || DVec3::new(random.float(0.0, 1.0), random.float(0.0, 1.0), random.float(0.0, 1.0));
+    let center = 3.0 * place();
+    let count = 6 + (place().x * 20.0) as usize;
+    let plane = |k: usize| {
+        let axis = [DVec3::X, -DVec3::X, DVec3::Y, -DVec3::Y, DVec3::Z, -DVec3::Z][k % 6];
+        let normal = (axis + 0.9 * (place() - 0.5)).normalize();
+        (normal.to_array(), normal.dot(center) + 0.4 + 0.4 * place().x)
+    };
+    (0..count).map(plane).collect()
+}
+
+/// Boxes of a turned grid, each plane with noise of its own: what is meant to be one plane is nearly one.
+fn noisy(random: &mut Rng) -> Planes {
+    let planes = on_grid(random);
+    let turned = |(normal, offset): Plane| {
+        let [x, y, z] = normal;
+        let (sine, cosine) = (0.6_f64.sin(), 0.6_f64.cos());
+        let mut noise = || 1.0 + 4e-13 * (random.float(0.0, 1.0) - 0.5);
+        let normal = [(cosine * x - sine * y) * noise(), (sine * x + cosine * y) * noise(), z * noise()];
+        (normal, offset * noise())
+    };
+    planes.into_iter().map(turned).collect()
+}
+
+pub(crate) fn any_plane(random: &mut Rng, shape: fn(&mut Rng) -> Planes) -> Plane {
+    let planes = shape(random);
+    planes[random.below(planes.len())]
+}
+
+fn sequence(random: &mut Rng, length: usize, shape: fn(&mut Rng) -> Planes) -> Vec<Edit> {
+    let edit = |_| {
+        let role = match random.below(12) {
+            0..7 => Role::Add,
+            7..11 => Role::Subtract,
+            _ => Role::Intersect,
+        };
+        let (at, plane) = (random.below(1000), random.below(1000));
+        match random.below(16) {
+            0..4 => Edit::Add(shape(random), random.below(2) as u32, role),
+            4 => Edit::Remove(at),
+            5 => Edit::Replace(at, shape(random)),
+            6 => Edit::SetRole(at, role),
+            7..9 => Edit::AddPlane(at, any_plane(random, shape), random.below(2) as u32),
+            9 => Edit::RemovePlane(at, plane),
+            10..12 => Edit::MovePlane(at, plane, any_plane(random, shape).1),
+            12 => {
+                let by = [0; 3].map(|_| random.whole(-2, 2));
+                Edit::Move(at, [0.0, 0.0, 1.0], 90.0 * random.whole(0, 3), by)
+            }
+            13..15 => Edit::Undo,
+            _ => Edit::Redo,
+        }
+    };
+    (0..length).map(edit).collect()
+}
+
+fn sweep(seeds: u64, length: usize, shape: fn(&mut Rng) -> Planes, faces: Faces) -> Tally {
+    (0..seeds).map(|seed| check(seed, &sequence(&mut Rng::new(seed), length, shape), faces)).sum()
+}
+
+#[test]
+fn random_edits_on_a_grid() {
+    let tally = sweep(60, 60, on_grid, Faces::Same);
+    assert!(tally.equal * 10 > tally.compared * 9 && tally.triangles > 20 * tally.compared, "{tally:?}");
+}
+
+#[test]
+fn random_edits_around_lines() {
+    let tally = sweep(60, 30, around_lines, Faces::Same);
+    assert!(tally.compared > 1300, "{tally:?}");
+}
+
+#[test]
+fn random_edits_in_general_position() {
+    let tally = sweep(25, 60, turned, Faces::Same);
+    assert!(tally.equal * 10 > tally.compared * 9 && tally.triangles > 60 * tally.compared, "{tally:?}");
+}
+
+#[test]
+fn random_edits_among_planes_that_are_nearly_the_same() {
+    let tally = sweep(60, 60, noisy, Faces::Noisy);
+    assert!(tally.compared > 1500 && tally.triangles > 20 * tally.compared && tally.refused > 20, "{tally:?}");
+}

@@ -1,0 +1,36 @@
+//! The parts of floating-point numbers.
+
+/// `⌊log₂|v|⌋` of a normal number.
+pub(crate) fn exponent(v: f64) -> i32 {
+    ((v.to_bits() >> 52) & 0x7ff) as i32 - 1023
+}
+
+/// The exponent of the lowest set bit of a non-zero normal number.
+pub(crate) fn lowest_bit(v: f64) -> i32 {
+    let (mantissa, exponent) = decompose(v);
+    exponent + mantissa.trailing_zeros() as i32
+}
+
+/// `v = mantissa · 2^exponent` for a finite number.
+pub(crate) fn decompose(v: f64) -> (i64, i32) {
+    let bits = v.to_bits();
+    let field = ((bits >> 52) & 0x7ff) as i32;
+    let fraction = (bits & ((1 << 52) - 1)) as i64;
+    let (mantissa, exponent) = if field == 0 { (fraction, -1074) } else { (fraction | (1 << 52), field - 1075) };
+    (if v.is_sign_negative() { -mantissa } else { mantissa }, exponent)
+}
+
+/// `v · 2^power`, rounded where it is below the normal range.
+pub(crate) fn ldexp(mut v: f64, mut power: i64) -> f64 {
+    const STEP: i64 = 1000;
+    let factor = |p: i64| f64::from_bits(((1023 + p) as u64) << 52);
+    while power > STEP && v.is_finite() {
+        v *= factor(STEP);
+        power -= STEP;
+    }
+    while power < -STEP && v != 0.0 {
+        v *= factor(-STEP);
+        power += STEP;
+    }
+    v * factor(power.clamp(-STEP, STEP))
+}

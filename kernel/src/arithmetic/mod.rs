@@ -1,0 +1,11 @@
+//! Numbers of more than 53 bits: sums of two, big integers, and how they are rounded.
+
+mod big;
+mod double_double;
+mod float;
+mod quotient;
+
+pub(crate) use big::{big_cross, big_dot, big_integers};
+pub(crate) use double_double::{DoubleDouble, exact_product};
+pub(crate) use float::{decompose, exponent, ldexp, lowest_bit};
+pub(crate) use quotient::{round_quotient, square_root_of_quotient, unit_vector};
