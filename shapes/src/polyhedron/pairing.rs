@@ -3,12 +3,10 @@
 use std::cmp::Ordering;
 use std::f64::consts::PI;
 
-<<<<<<< HEAD
 use planecut_csg::stages::{HalfEdges, NO_TWIN};
-=======
-use crate::tolerances::SAME_ANGLE;
->>>>>>> e1b3e14012183f333cbd5b8482824bd8ace49722
 use planecut_kernel::DVec3;
+
+use crate::tolerances::SAME_ANGLE;
 
 /// One side of a triangle.
 #[derive(Debug, Clone, Copy)]
