@@ -14,7 +14,8 @@
 //! | [`csg`] | trees of set operations, their boundary as a mesh and their convex cells, primitives, outlines |
 //! | [`check`] | is any mesh watertight, manifold, free of self-intersections |
 //! | [`import`] | readers of the native model file, of OpenSCAD's evaluated trees, of Quake-family `.map` files, and of OBJ, STL, PLY and glTF meshes |
-//! | [`export`] | writers of GLB, glTF, OBJ and STL, and rendered previews |
+//! | [`export`] | writers of GLB, glTF, OBJ and STL |
+//! | `picture` | pictures of meshes and cells (feature `picture`, on unless turned off) |
 //!
 //! # Example
 //!
@@ -92,10 +93,20 @@ pub mod csg {
 
 pub use planecut_cells as cells;
 pub use planecut_check as check;
-pub use planecut_export as export;
 pub use planecut_import as import;
 pub use planecut_kernel as kernel;
 pub use planecut_shapes as shapes;
+
+pub mod export {
+    //! What leaves: mesh files, convex bodies and, with the feature `picture`, what [`picture`](crate::picture) holds.
+    pub use planecut_export::*;
+
+    #[cfg(feature = "picture")]
+    #[doc(no_inline)]
+    pub use crate::picture::*;
+}
+#[cfg(feature = "picture")]
+pub mod picture;
 
 /// The example of the README, run as a test.
 #[cfg(doctest)]

@@ -42,8 +42,8 @@ pub use evaluate::{
 pub use live::{BrushId, Change, Edit, EditError, Edited, FaceId, LiveFace, LiveModel, Role};
 pub use mesh::{Mesh, MeshFace, SolidMeasures, contract_edges, contract_short_edges};
 pub use model::{
-    Brush, BrushFace, Cutaway, FaceSource, Material, MaterialId, Model, Operation, TextureAxes, TextureUnit, Transform,
-    TransformError, Tree, TreeNode, sine_and_cosine,
+    Brush, BrushFace, CutMaterial, Cutaway, FaceSource, Material, MaterialId, Model, Operation, TextureAxes,
+    TextureUnit, Transform, TransformError, Tree, TreeNode, sine_and_cosine,
 };
 pub use plane_table::{PlaneId, PlaneTable};
 pub use tolerances::SNAP_TOLERANCE;

@@ -9,7 +9,7 @@ mod tree;
 
 use crate::body::build_ahead;
 pub use brush::{Brush, BrushFace};
-pub use cutaway::Cutaway;
+pub use cutaway::{CutMaterial, Cutaway};
 pub use material::{Material, MaterialId};
 pub use source::{FaceSource, TextureAxes, TextureUnit};
 pub use transform::{Transform, TransformError, sine_and_cosine};
