@@ -16,9 +16,10 @@
 #![deny(missing_docs)]
 
 pub mod outline;
+mod parameter;
 pub mod polyhedron;
 pub mod primitives;
 pub mod shaping;
 
 pub use outline::Outline;
-pub use primitives::ShapeError;
+pub use parameter::ShapeError;

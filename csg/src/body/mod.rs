@@ -1,7 +1,7 @@
 //! The exact boundary of each brush, as plane ids: what the skin works on.
 //!
 //! - [`shape`] is a body in numbers of its own, which it keeps whatever table its planes are in.
-//! - [`build`] makes those of brushes, where they were not made before ([`Built`]).
+//! - [`build`] makes those of brushes, where they were not made before ([`BuiltBodies`]).
 //! - [`gauge`] tells where points lie in a body of many faces.
 
 mod build;
@@ -21,9 +21,8 @@ use crate::base::Bounds;
 use crate::model::MaterialId;
 use crate::plane_table::{PlaneId, PlaneTable};
 
-pub(crate) use build::{BrushBodies, build, build_bodies, built_or_build};
-pub use built::Built;
-pub(crate) use built::build_ahead;
+pub(crate) use build::{BrushBodies, build, build_bodies, build_other_bodies, built_or_build};
+pub use built::BuiltBodies;
 pub(crate) use corner::{Corner, Sieve};
 pub(crate) use gauge::{Gauge, Place};
 pub(crate) use kinds::{kinds, mark_of};

@@ -13,8 +13,7 @@ use planecut_kernel::DVec2;
 use rustc_hash::FxHashMap;
 
 use super::{FillRule, Outline, largest_coordinate, signed_area};
-use crate::primitives::ShapeError;
-use crate::primitives::parameter::refuse;
+use crate::parameter::{ShapeError, refuse};
 
 /// Bits that the largest coordinate gets; the library takes 62.
 const BITS: i32 = 57;

@@ -3,12 +3,11 @@
 use planecut_csg::PlaneTable;
 use planecut_kernel::{DVec2, DVec3, HalfSpace};
 
-use super::ShapeError;
 use super::cells::{Side, Surface};
 use super::flat::plane;
-use super::parameter::refuse;
 use super::partition::partition;
 use crate::outline::{largest_coordinate, signed_area};
+use crate::parameter::{ShapeError, refuse};
 
 /// The upright prism over a loop.
 pub(super) struct Walls {

@@ -7,7 +7,7 @@ use planecut_kernel::sign::Row;
 use planecut_kernel::{DVec3, HalfSpace, IncrementalPolytope, PlaneIdx, meet};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use crate::primitives::ShapeError;
+use crate::parameter::ShapeError;
 
 /// Vertices nearer to each other than this part of a body's size are one: where many planes were meant to meet.
 const MERGED: f64 = 1.0 / (1u64 << 36) as f64;
