@@ -4,12 +4,14 @@
 //! decision is the exact sign of a small determinant of plane coefficients; coordinates are computed for people and for
 //! files, and decide nothing. So no tolerance is needed, and the mesh that leaves is closed by construction.
 //!
-//! This crate gathers the four crates of the project under one name and adds the command line:
+//! This crate gathers the crates of the project under one name and adds the command line:
 //!
 //! | module | what it holds |
 //! |---|---|
 //! | [`kernel`] | exact signs, half-spaces, convex polyhedra whose planes can be added, moved and removed |
-//! | [`csg`] | trees of set operations, their skin as a mesh and their convex cells, primitives, outlines, checks of any mesh |
+//! | [`csg`] | trees of set operations and their boundary as a mesh; models that are edited, models in blocks; and all of the next two |
+//! | [`cells`] | solids of disjoint convex cells, and their coarsening |
+//! | [`shapes`] | primitives, outlines, hulls, Minkowski sums and sections, closed surfaces of facets |
 //! | [`import`] | readers of the native model file, of OpenSCAD's evaluated trees, of Quake-family `.map` files, and of OBJ, STL, PLY and glTF meshes |
 //! | [`export`] | writers of GLB, glTF, OBJ and STL, and rendered previews |
 //!
