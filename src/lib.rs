@@ -12,6 +12,7 @@
 //! | [`csg`] | trees of set operations and their boundary as a mesh; models that are edited, models in blocks; and all of the next two |
 //! | [`cells`] | solids of disjoint convex cells, and their coarsening |
 //! | [`shapes`] | primitives, outlines, hulls, Minkowski sums and sections, closed surfaces of facets |
+//! | [`check`] | is any mesh watertight, manifold, free of self-intersections |
 //! | [`import`] | readers of the native model file, of OpenSCAD's evaluated trees, of Quake-family `.map` files, and of OBJ, STL, PLY and glTF meshes |
 //! | [`export`] | writers of GLB, glTF, OBJ and STL, and rendered previews |
 //!
@@ -83,11 +84,14 @@
 /// [`shapes`](crate::shapes) under one name.
 pub mod csg {
     pub use planecut_cells::*;
+    pub use planecut_check as check;
+    pub use planecut_csg::tolerances;
     pub use planecut_csg::*;
     pub use planecut_shapes::*;
 }
 
 pub use planecut_cells as cells;
+pub use planecut_check as check;
 pub use planecut_export as export;
 pub use planecut_import as import;
 pub use planecut_kernel as kernel;

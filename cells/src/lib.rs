@@ -17,5 +17,6 @@
 
 pub mod coarsen;
 mod solid;
+pub mod tolerances;
 
 pub use solid::{Cell, CellPlane, CutId, RayHit, Solid, convex_union, joined};

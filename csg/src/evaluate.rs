@@ -1,10 +1,11 @@
 //! From a model to its solid's mesh, stage by stage, with what each stage counted.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use planecut_kernel::sign::Counts;
 use thiserror::Error;
 
+use crate::base::Clock;
 use crate::body::{
     Body, BrushBodies, BrushBody, BuiltBodies, OuterBox, build_bodies, build_other_bodies, kinds, mark_of,
 };
@@ -135,7 +136,7 @@ pub fn evaluate_built(
     unbounded: UnboundedBrushes,
     built: &BuiltBodies,
 ) -> Result<Evaluation, EvaluateError> {
-    let begin = Instant::now();
+    let begin = Clock::start();
     let used = model.tree.brushes().iter().flat_map(|brush| &brush.faces).map(|face| face.material);
     check_materials(used, model.materials.len())?;
     let BrushBodies { mut table, planes, bodies, mut signs } = build_other_bodies(model.tree.brushes(), built);
@@ -174,12 +175,12 @@ pub fn evaluate_built(
         Some(outer) => leaves.skin_within(&table, &outer, model.tree.nodes(), &rank)?,
     };
     signs += counted;
-    let evaluated = Instant::now();
+    let (evaluated, welding) = (begin.elapsed(), Clock::start());
     let Welded { mesh, solid, signs: counted, triangulation } = weld(&table, &edges, &rank, &model.materials)?;
     signs += counted;
     let times = StageTimes {
-        evaluate: evaluated - begin,
-        weld: evaluated.elapsed().saturating_sub(triangulation),
+        evaluate: evaluated,
+        weld: welding.elapsed().saturating_sub(triangulation),
         triangulate: triangulation,
     };
     Ok(Evaluation { mesh, solid, model: summary, signs, times })

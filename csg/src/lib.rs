@@ -2,7 +2,7 @@
 //!
 //! [`evaluate`] interns the planes of a model ([`PlaneTable`]), builds each brush's body, takes the boundary of the union straight
 //! from brush faces (the skin) and welds it. Boolean operations add no planes, so nothing is ever rounded before the
-//! coordinates of the finished mesh. [`check`] tells whether any mesh is watertight, manifold and free of crossings.
+//! coordinates of the finished mesh.
 //!
 //! ```
 //! use planecut_csg::{Brush, Material, MaterialId, Model, Tree, evaluate};
@@ -24,7 +24,6 @@ mod base;
 mod blocks;
 mod body;
 mod boundary;
-pub mod check;
 mod evaluate;
 mod expression;
 mod live;
@@ -32,11 +31,8 @@ mod mesh;
 mod model;
 mod plane_table;
 pub mod stages;
+pub mod tolerances;
 mod weld;
-
-// for `check`, which becomes a crate of its own
-use base::sum;
-use base::union_find as sets;
 
 pub use blocks::{Block, BlockOptions, BlocksError, BlocksSummary, evaluate_in_blocks};
 pub use body::BuiltBodies;
@@ -50,5 +46,6 @@ pub use model::{
     Brush, BrushFace, Cutaway, FaceSource, Material, MaterialId, Model, Operation, TextureAxes, TextureUnit, Transform,
     TransformError, Tree, TreeNode, sine_and_cosine,
 };
-pub use plane_table::{PlaneId, PlaneTable, SNAP_TOLERANCE};
+pub use plane_table::{PlaneId, PlaneTable};
+pub use tolerances::SNAP_TOLERANCE;
 pub use weld::WeldError;

@@ -29,7 +29,6 @@ mod single_precision;
 mod stl;
 mod surface;
 mod threemf;
-mod topology;
 mod written;
 
 pub use brushes::{BrushFormat, write_brushes};

@@ -61,7 +61,7 @@ mod tests {
         let shift = |p: DVec3| (p + DVec3::ONE).as_vec3();
         let reduced = without_lost_edges(&mesh, shift);
         assert_eq!((reduced.positions.len(), reduced.triangles.len()), (6, 8));
-        let topology = planecut_csg::check::check_topology(&reduced.positions, &reduced.triangles);
+        let topology = planecut_check::check_topology(&reduced.positions, &reduced.triangles);
         assert!(topology.watertight && topology.manifold);
         assert!(matches!(without_lost_edges(&split_octahedron(0.25), shift), Cow::Borrowed(_)));
     }

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use glam::DVec3;
-use planecut_csg::check::{CheckOptions, check_mesh};
+use planecut_check::{CheckOptions, check_mesh};
 use planecut_import::mesh::{IndexedMesh, MeshFormat, read_mesh};
 
 fn obj_files(folder: &Path) -> Vec<PathBuf> {
@@ -62,14 +62,15 @@ fn decompositions_read_as_closed_objects() {
             assert_eq!(topology.manifold, closed, "{context}: {report}");
             assert_eq!(topology.euler_characteristic, v as i64 - e as i64 + f as i64, "{context}");
             let expected = volume(&mesh, triangles);
-            let extent = (topology.measures.max - topology.measures.min).element_product();
+            let (min, max) = (DVec3::from(topology.measures.min), DVec3::from(topology.measures.max));
+            let extent = (max - min).element_product();
             assert!((topology.measures.volume - expected).abs() <= 1e-12 * extent, "{context}");
             let convex = lines(b"o ") > 1;
             if convex && closed {
                 assert_eq!(topology.genus, Some(0), "{context}");
                 assert!(expected > 0.0, "{context}");
-                let centroid: DVec3 = topology.measures.centroid;
-                assert!(centroid.cmpge(topology.measures.min).all() && centroid.cmple(topology.measures.max).all());
+                let centroid = DVec3::from(topology.measures.centroid);
+                assert!(centroid.cmpge(min).all() && centroid.cmple(max).all());
             }
             println!("{context}: {report}");
         }

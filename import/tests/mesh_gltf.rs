@@ -4,7 +4,7 @@ mod mesh_support;
 
 use glam::DVec3;
 use mesh_support::{CUBE_QUADS, assert_sound, check, cube_corners, cube_triangles, floats, glb, shorts, split_cube};
-use planecut_csg::check::TopologyDefect;
+use planecut_check::TopologyDefect;
 use planecut_import::mesh::{IndexedMesh, MeshFormat, Precision, read_mesh};
 
 const ONE_NODE: &str = r#""scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}]"#;

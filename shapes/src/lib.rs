@@ -20,6 +20,7 @@ mod parameter;
 pub mod polyhedron;
 pub mod primitives;
 pub mod shaping;
+pub mod tolerances;
 
 pub use outline::Outline;
 pub use parameter::ShapeError;

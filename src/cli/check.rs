@@ -1,6 +1,6 @@
 //! `planecut check`: is a mesh watertight, manifold and not self-crossing?
 
-use planecut::csg::check::{CheckOptions, CheckReport, TOLERANCE_F32, TOLERANCE_F64, check_mesh};
+use planecut::check::{CheckOptions, CheckReport, TOLERANCE_F32, TOLERANCE_F64, check_mesh};
 use planecut::import::mesh::{MeshFormat, Precision, read_mesh};
 
 use super::args::CheckArgs;

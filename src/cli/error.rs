@@ -3,7 +3,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use planecut::csg::check::MeshProblem;
+use planecut::check::MeshProblem;
 use planecut::csg::coarsen::CoarsenError;
 use planecut::csg::{EditError, EvaluateError};
 use planecut::export::ExportError;

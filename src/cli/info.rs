@@ -3,7 +3,7 @@
 use std::fmt::Display;
 use std::time::Instant;
 
-use planecut::csg::check::check_topology;
+use planecut::check::check_topology;
 use planecut::import::Warning;
 use planecut::import::mesh::{MeshFormat, read_mesh, solid_of_mesh};
 

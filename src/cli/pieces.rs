@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::time::Instant;
 
-use planecut::csg::check::check_topology;
+use planecut::check::check_topology;
 use planecut::csg::{
     Brush, EvaluateError, FaceSource, Material, Mesh, Model, Solid, Tree, convex_union, evaluate, evaluate_with,
 };

@@ -5,7 +5,7 @@
 
 use std::time::Duration;
 
-use planecut::csg::check::{Measures, TopologyReport, check_topology, measure_triangles};
+use planecut::check::{Measures, TopologyReport, check_topology, measure_triangles};
 use planecut::csg::coarsen::Coarsened;
 use planecut::csg::{Evaluation, ModelSummary, SolidMeasures, StageTimes};
 use planecut::export::Written;
@@ -81,7 +81,7 @@ impl Report {
     /// The report on a mesh that was read from a file of the given format.
     pub(crate) fn of_mesh(input: String, format: &'static str, topology: &TopologyReport) -> Self {
         let Measures { volume, area, centroid, min, max } = topology.measures;
-        let measures = SolidMeasures { volume, area, centroid, min, max };
+        let measures = SolidMeasures { volume, area, centroid: centroid.into(), min: min.into(), max: max.into() };
         Self {
             planecut: env!("CARGO_PKG_VERSION"),
             input,

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use planecut::csg::check::check_topology;
+use planecut::check::check_topology;
 use planecut::csg::{Evaluation, FaceSource, Mesh, Model, ModelSummary, TextureAxes, UnboundedBrushes, evaluate_with};
 use planecut::import::Warning;
 use planecut::import::map::{MapImport, read_map};

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use glam::DVec3;
-use planecut_csg::check::check_topology;
+use planecut_check::check_topology;
 use planecut_csg::{Evaluation, Mesh, Model, SolidMeasures, UnboundedBrushes, evaluate_with};
 
 use crate::scene::{ensure, ensure_eq};
@@ -37,7 +37,7 @@ fn check(evaluation: &Evaluation) -> Result<(), String> {
     ensure_eq!(2 * report.components as i64 - report.euler_characteristic, 2 * genus, "Euler characteristic");
     let slack = contraction(&evaluation.solid);
     let corners = [(solid.min, report.measures.min), (solid.max, report.measures.max)];
-    ensure!(corners.iter().all(|(a, b)| a.distance(*b) <= slack), "box of solid and mesh {corners:?}");
+    ensure!(corners.iter().all(|(a, b)| a.distance(DVec3::from(*b)) <= slack), "box of solid and mesh {corners:?}");
 
     // Every corner may have moved, and sums over triangles round as the cube of their size.
     let (size, count) = ((solid.max - solid.min).length(), mesh.triangles.len() as f64);

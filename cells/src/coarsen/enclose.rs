@@ -6,9 +6,7 @@ use planecut_kernel::{DVec3, HalfSpace, hull};
 use super::CoarsenError;
 use super::clear::Clear;
 use super::part::{Part, bounds_of, holds, most};
-
-/// A box around points without extent is so much larger than they are, relative to their coordinates.
-const PADDING: f64 = 1.0 / (1u64 << 40) as f64;
+use crate::tolerances::FLAT_PADDING;
 
 impl Part {
     /// The body around parts, of the material of most of them.
@@ -76,7 +74,7 @@ fn loosened(half_space: HalfSpace, parts: &[&Part]) -> HalfSpace {
 /// The box around points that span no space in numbers, although bodies do.
 fn box_around(points: &[DVec3], parts: &[&Part]) -> Result<Vec<HalfSpace>, CoarsenError> {
     let bounds = bounds_of(points);
-    let padding = PADDING * bounds.min.abs().max(bounds.max.abs()).max_element().max(f64::MIN_POSITIVE);
+    let padding = FLAT_PADDING * bounds.min.abs().max(bounds.max.abs()).max_element().max(f64::MIN_POSITIVE);
     let mut sides = Vec::new();
     for axis in DVec3::AXES {
         for (normal, offset) in [(axis, axis.dot(bounds.max) + padding), (-axis, padding - axis.dot(bounds.min))] {

@@ -12,16 +12,12 @@ use super::merge::{Merge, Merger};
 use super::part::{Part, built, most};
 use super::search::Search;
 use super::subtract::for_each_left;
+use crate::tolerances::{FILLED_TOUCHING, NO_VOLUME};
 
-/// A volume that is smaller than this part of a body's is nothing but rounding.
-const NOTHING: f64 = 1e-13;
 /// A body that is left in more pieces, though all of them are nothing, is not looked into further.
 const MOST_PIECES: usize = 1000;
 /// Before a hull is built exactly, so many points between the corners of both bodies are looked at.
 const LOOKED_AT: usize = 64;
-/// Such points may lie outside by this part of the size.
-const TOUCHING: f64 = 1e-9;
-
 /// Merges parts as long as that adds nothing to their union.
 pub(super) fn merge_freely(search: &Search) -> Result<Vec<Part>, CoarsenError> {
     let groups = (0..search.parts.len() as u32).map(|part| search.single(part)).collect();
@@ -48,12 +44,12 @@ fn exact_hull(bodies: &[Option<Part>], pair: [u32; 2], hull: &Hull) -> Option<Ve
         std::cmp::Reverse(((common.max - common.min).element_product()).to_bits())
     });
     let filling: Vec<&Part> = [a, b].into_iter().chain(near).collect();
-    if !is_filled_between(a, b, &filling, TOUCHING * hull.size()) {
+    if !is_filled_between(a, b, &filling, FILLED_TOUCHING * hull.size()) {
         return None;
     }
     // within the solid nothing is to stay clear
     let half_spaces = enclose(&[a, b], &Clear::default()).ok()?;
-    is_filled(&half_spaces, &filling, NOTHING * hull.volume).then_some(half_spaces)
+    is_filled(&half_spaces, &filling, NO_VOLUME * hull.volume).then_some(half_spaces)
 }
 
 /// One part for some; the hull is that of the first two.

@@ -7,11 +7,7 @@ use planecut_kernel::{DVec3, hull_triangles};
 
 use super::part::bounds_of;
 use super::probes::{Coverage, Probes};
-
-/// Cosine of the angle below which two facets count as one.
-const COPLANAR: f64 = 1.0 - 1e-12;
-/// Points that lie outside of a plane by less than this part of the size lie on it.
-const TOUCHING: f64 = 1e-11;
+use crate::tolerances::{COPLANAR_COSINE, HULL_TOUCHING};
 
 /// The hull of points.
 #[derive(Debug, Clone)]
@@ -57,7 +53,7 @@ impl Hull {
             if length > 0.0 {
                 let normal = normal / length;
                 let is_known = |(known, offset): &(DVec3, f64)| {
-                    known.dot(normal) > COPLANAR && (offset - normal.dot(a)).abs() <= TOUCHING * self.size()
+                    known.dot(normal) > COPLANAR_COSINE && (offset - normal.dot(a)).abs() <= HULL_TOUCHING * self.size()
                 };
                 if !self.planes.iter().any(is_known) {
                     self.planes.push((normal, normal.dot(a)));
@@ -79,7 +75,7 @@ impl Hull {
 
     /// Whether points in a box lie within it, or outside by no more than rounding.
     pub(super) fn holds(&self, bounds: &Bounds, points: &[DVec3]) -> bool {
-        let margin = TOUCHING * self.size();
+        let margin = HULL_TOUCHING * self.size();
         let fits = bounds.min.cmpge(self.bounds.min - margin).all() && bounds.max.cmple(self.bounds.max + margin).all();
         let is_within =
             |point: &DVec3| self.planes.iter().all(|(normal, offset)| normal.dot(*point) <= offset + margin);

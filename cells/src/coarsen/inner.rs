@@ -7,12 +7,10 @@ use rayon::prelude::*;
 use super::part::{Part, built};
 use super::subtract::subtract;
 use super::{CoarsenError, CoarsenOptions};
+use crate::tolerances::GROWN;
 
 /// A part grows at most so often.
 const MOST_STEPS: usize = 32;
-/// A body that is not larger by more than rounding has not grown.
-const SAME: f64 = 1.0 - 1e-12;
-
 /// Parts without those of their planes that nothing but another part lies behind, each once.
 pub(super) fn grown(parts: &[Part], boxes: &Boxes, options: &CoarsenOptions) -> Result<Vec<Part>, CoarsenError> {
     let grown: Vec<Part> =
@@ -54,7 +52,7 @@ fn grown_part(part: &Part, parts: &[Part], boxes: &Boxes, options: &CoarsenOptio
                 return Ok(None);
             }
             let wider = Part::of_polytope(polytope, part.material)?;
-            Ok(wider.filter(|wider| is_inside(wider) && grown.volume() < wider.volume() * SAME))
+            Ok(wider.filter(|wider| is_inside(wider) && grown.volume() < wider.volume() * GROWN))
         };
         let pairs = grown.half_spaces.iter().flat_map(|facet| neighbours.iter().map(move |other| (facet, *other)));
         let wider = pairs.filter_map(|(facet, other)| beyond(facet, other).transpose()).next().transpose()?;

@@ -7,9 +7,8 @@ use super::clear::Clear;
 use super::enclose::enclose;
 use super::part::{Part, built};
 use super::{CoarsenError, CoarsenOptions};
+use crate::tolerances::{ONE_VERTEX, PARALLEL_EDGES, THICK_ENOUGH};
 
-/// Vertices that are nearer to each other than this part of a cell's size count as one.
-const ONE: f64 = 1.0 / (1u64 << 32) as f64;
 /// Of a cell with more edges not all pairs are looked at for its width.
 const MOST_EDGES: usize = 300;
 
@@ -39,7 +38,7 @@ impl Limits<'_> {
         if most_faces == usize::MAX && most_vertices == usize::MAX {
             return Ok(body);
         }
-        let mut polytope = IncrementalPolytope::with_epsilon(ONE * body.size());
+        let mut polytope = IncrementalPolytope::with_epsilon(ONE_VERTEX * body.size());
         for half_space in &body.half_spaces {
             polytope.add_plane(*half_space);
         }
@@ -80,7 +79,7 @@ impl Limits<'_> {
         for _ in 0..3 {
             let (direction, width) = thinnest(&body);
             let lacking = least - width;
-            if lacking <= 1e-9 * least {
+            if lacking <= THICK_ENOUGH * least {
                 break;
             }
             let mut swept = None;
@@ -134,7 +133,8 @@ fn thinnest(body: &Part) -> (DVec3, f64) {
     let edges: Vec<DVec3> =
         edges.filter(|(a, b)| a < b).map(|(a, b)| unit(corners[b] - corners[a])).take(MOST_EDGES).collect();
     for (k, first) in edges.iter().enumerate() {
-        let across = edges[k + 1..].iter().map(|second| first.cross(*second)).filter(|across| across.length() > 1e-6);
+        let across =
+            edges[k + 1..].iter().map(|second| first.cross(*second)).filter(|across| across.length() > PARALLEL_EDGES);
         directions.extend(across.map(unit));
     }
     let width = |direction: &DVec3| {

@@ -35,6 +35,7 @@ use planecut_kernel::DVec3;
 pub use options::{CoarsenError, CoarsenOptions, LEAST_MAX_FACES, LEAST_MAX_VERTICES, Side};
 
 use crate::solid::convex_union;
+use crate::tolerances::INPUT_POINT_DISTANCE;
 use clear::Clear;
 use limits::Limits;
 use merge::{Merge, Merger};
@@ -51,9 +52,6 @@ const PROBES: (usize, usize, usize) = (1 << 14, 1 << 17, 64);
 const ROUNDS: (usize, usize, usize) = (2, 8, 2000);
 /// So much work is put into merging groups anew: the squares of how many parts are merged at once, summed up.
 const REGROUPING: usize = 40_000;
-/// A point this far outside of a part, relative to the size of all, may belong to it.
-const ROUNDING: f64 = 1e-9;
-
 /// Coarser cells.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Coarsened {
@@ -346,7 +344,7 @@ fn held_exactly(part: &Part) -> Result<Part, CoarsenError> {
 fn give_points(parts: &mut [Part], points: &[DVec3]) {
     let size =
         parts.iter().map(|part| part.bounds.min.abs().max(part.bounds.max.abs()).max_element()).fold(0.0, f64::max);
-    let margin = ROUNDING * size;
+    let margin = INPUT_POINT_DISTANCE * size;
     let boxes = boxes_of(parts);
     let mut near = Vec::new();
     for point in points {

@@ -9,7 +9,7 @@ use planecut_kernel::{AddPlaneResult, DVec3, HalfSpace, IncrementalPolytope};
 use super::CoarsenError;
 
 /// Room for the rounding of a corner's coordinates and of its distance from a plane, relative to the terms of the latter.
-const ROUNDING: f64 = 16.0 * f64::EPSILON;
+const DISTANCE_BOUND: f64 = 16.0 * f64::EPSILON;
 
 /// A bounded convex body with interior.
 #[derive(Debug, Clone)]
@@ -92,7 +92,7 @@ impl Part {
         }
         let (normal, offset) = (half_space.normal(), half_space.offset());
         let reach = self.bounds.min.abs().max(self.bounds.max.abs());
-        let margin = ROUNDING * (normal.abs().dot(reach) + offset.abs());
+        let margin = DISTANCE_BOUND * (normal.abs().dot(reach) + offset.abs());
         let farthest = self.corners.iter().map(|corner| normal.dot(*corner) - offset).fold(f64::NEG_INFINITY, f64::max);
         if farthest.abs() > margin {
             return farthest < 0.0;
@@ -106,7 +106,7 @@ impl Part {
 pub(super) fn holds(half_space: &HalfSpace, point: DVec3) -> bool {
     let distance = half_space.normal().dot(point) - half_space.offset();
     let magnitude = half_space.normal().abs().dot(point.abs()) + half_space.offset().abs();
-    if distance.abs() > ROUNDING * magnitude {
+    if distance.abs() > DISTANCE_BOUND * magnitude {
         return distance < 0.0;
     }
     built([*half_space]).contains(point)

@@ -5,12 +5,10 @@ use rayon::prelude::*;
 use super::hull::Hull;
 use super::probes::{add, count_fresh, once_and_twice};
 use super::search::{Group, Search};
+use crate::tolerances::SAME_HULL;
 
 /// A part may go to the groups whose boxes it touches, and to at least so many of the nearest.
 const NEAREST: usize = 4;
-/// A hull that loses less of its volume than this is the same.
-const SAME: f64 = 1.0 - 1e-9;
-
 /// A part leaves a group for another.
 struct Move {
     gain: f64,
@@ -128,7 +126,7 @@ fn best_move(search: &Search, groups: &[Group], others: &[u64], from: usize, par
         return None;
     }
     let rest = search.group(old.parts.iter().copied().filter(|other| *other != part).collect());
-    if rest.hull.volume > old.hull.volume * SAME {
+    if rest.hull.volume > old.hull.volume * SAME_HULL {
         return None;
     }
     let mut covered = others.to_vec();

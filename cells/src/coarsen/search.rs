@@ -9,14 +9,13 @@ use super::clear::Clear;
 use super::hull::Hull;
 use super::part::{Part, built};
 use super::probes::Probes;
+use crate::tolerances::CLEAR_TOUCHING;
 
 /// What a volume that is covered twice costs, where one that is added costs 1: of covers that add the same, the one whose cells overlap
 /// less is better, and hulls that are smaller leave more choice.
 const OVERLAP: f64 = 1.0 / 8.0;
 /// The same where nothing is left but to better what there is.
 const LAST_OVERLAP: f64 = 1.0 / 64.0;
-/// So far, relative to the size, a cell may seem to reach into a region that is kept clear.
-const TOUCHING: f64 = 1e-9;
 /// So many hulls of two parts are kept, some kilobytes each.
 pub(super) const MOST_PAIRS: usize = 10_000;
 
@@ -127,7 +126,7 @@ impl<'a> Search<'a> {
         if self.clear.is_empty() {
             return true;
         }
-        let margin = TOUCHING * hull.size();
+        let margin = CLEAR_TOUCHING * hull.size();
         self.clear.near(&hull.bounds).all(|region| {
             let shrunk =
                 hull.planes.iter().filter_map(|(normal, offset)| HalfSpace::new(*normal, offset - margin).ok());

@@ -13,11 +13,7 @@ use super::enclose::{all_hold, enclose};
 use super::part::Part;
 use super::probes::{Coverage, Probes, count_fresh, once_and_twice, unit_planes};
 use super::subtract::{shares_interior, subtract};
-
-/// A cell must become smaller by this part of its volume, or it stays as it is.
-const SAME: f64 = 1.0 - 1e-6;
-/// A corner that lies outside by less than this part of the size may lie within.
-const NEARLY: f64 = 1e-9;
+use crate::tolerances::{CORNER_WITHIN, WORTH_SHRINKING};
 
 /// The parts of the solid, and what its cells must keep.
 pub(super) struct Shrinking<'a> {
@@ -49,7 +45,7 @@ impl Shrinking<'_> {
             }
             let pieces: Vec<&Part> = pieces.iter().collect();
             let smaller = Part::of_cell(enclose(&pieces, self.clear)?, bodies[place].material)?;
-            if smaller.volume() < bodies[place].volume() * SAME {
+            if smaller.volume() < bodies[place].volume() * WORTH_SHRINKING {
                 bodies[place] = smaller;
             }
         }
@@ -125,6 +121,6 @@ fn holds_part(body: &Part, part: &Part) -> bool {
 
 /// Whether a cell holds a corner of a part, or would but for rounding.
 fn nearly_holds(body: &Part, corner: DVec3, part: &Part) -> bool {
-    let margin = NEARLY * part.size();
+    let margin = CORNER_WITHIN * part.size();
     body.half_spaces.iter().all(|plane| plane.signed_distance(corner) <= margin)
 }

@@ -6,11 +6,7 @@ use planecut_csg::stages::Bounds;
 use planecut_kernel::{AddPlaneResult, DVec3, HalfSpace, IncrementalPolytope};
 
 use super::part::{Part, bounds_of};
-
-/// Corners of planes whose unit normals have a smaller determinant are not taken in floating point,
-const SINGULAR: f64 = 1e-6;
-/// others with so much room, relative to the size.
-const ROOM: f64 = 1e-8;
+use crate::tolerances::{CORNER_ROOM, SINGULAR_CORNER};
 
 /// The pieces of a body outside of others. None has interior in common with another.
 pub(super) fn subtract(body: &IncrementalPolytope, others: &[&Part]) -> Vec<IncrementalPolytope> {
@@ -51,7 +47,7 @@ pub(super) fn for_each_left<B>(
 /// A box that holds a bounded body which lies within a box. Corners are taken in floating point, with room for what that loses; where it may
 /// lose more, the box stays as it is.
 fn bounds_within(body: &IncrementalPolytope, around: &Bounds) -> Bounds {
-    let margin = DVec3::splat(ROOM * (around.max - around.min).length());
+    let margin = DVec3::splat(CORNER_ROOM * (around.max - around.min).length());
     let center = around.center();
     let mut bounds = Bounds::EMPTY;
     for planes in body.simple_vertices() {
@@ -63,7 +59,7 @@ fn bounds_within(body: &IncrementalPolytope, around: &Bounds) -> Bounds {
             (plane.normal() / length, (plane.offset() - plane.normal().dot(center)) / length)
         });
         let determinant = a.dot(b.cross(c));
-        if determinant.abs() < SINGULAR || !determinant.is_finite() {
+        if determinant.abs() < SINGULAR_CORNER || !determinant.is_finite() {
             return *around;
         }
         let corner = center + (b.cross(c) * d + c.cross(a) * e + a.cross(b) * f) / determinant;

@@ -9,7 +9,7 @@ use planecut_kernel::{AddPlaneResult, DVec3, IncrementalPolytope, PlaneIdx};
 const EVERYWHERE: Bounds = Bounds { min: DVec3::NEG_INFINITY, max: DVec3::INFINITY };
 
 /// Widens coordinates that were rounded once.
-const ROUNDING: f64 = 4.0 * f64::EPSILON;
+const COORDINATE_BOUND: f64 = 4.0 * f64::EPSILON;
 
 /// A plane of a [`Cell`], and where it comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -155,7 +155,7 @@ impl Cell {
             return corners.iter().fold(Bounds::EMPTY, |bounds, (_, point)| bounds.with_point(point));
         }
         let Some(bounds) = self.polytope.bounding_box() else { return Bounds::EMPTY };
-        let margin = |v: DVec3| v.abs() * ROUNDING;
+        let margin = |v: DVec3| v.abs() * COORDINATE_BOUND;
         Bounds { min: bounds.min - margin(bounds.min), max: bounds.max + margin(bounds.max) }
     }
 

@@ -6,9 +6,7 @@ use planecut_csg::{PlaneId, PlaneTable};
 use planecut_kernel::DVec3;
 
 use super::cell::CellPlane;
-
-/// A point that lies outside a face by less than this share of its distance from the origin may lie on it.
-const ROUNDING: f64 = 1e-9;
+use crate::tolerances::SOURCE_DISTANCE;
 
 /// The faces of the bodies of all brushes, those of one brush after another.
 #[derive(Debug, Clone, Default)]
@@ -55,7 +53,7 @@ impl Sources {
         let is_kin = |other: &&CellPlane| brush(other) == brush(face);
         let before = self.faces[..place].iter().rev().take_while(is_kin);
         let mut others = before.chain(self.faces[place + 1..].iter().take_while(is_kin));
-        let tolerance = ROUNDING * (1.0 + point.abs().max_element());
+        let tolerance = SOURCE_DISTANCE * (1.0 + point.abs().max_element());
         others.all(|other| table.half_space(other.plane).signed_distance(point) <= tolerance)
     }
 }

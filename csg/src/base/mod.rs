@@ -1,7 +1,8 @@
-//! What several stages build on: boxes and a tree of them, union-find, numbers for keys, sums, work in parallel.
+//! What several stages build on: boxes and a tree of them, union-find, numbers for keys, sums, a clock, work in parallel.
 
 mod bounds;
 mod box_tree;
+mod clock;
 mod distinct;
 mod parallel;
 pub(crate) mod sum;
@@ -9,6 +10,7 @@ pub(crate) mod union_find;
 
 pub use bounds::Bounds;
 pub use box_tree::Boxes;
+pub(crate) use clock::Clock;
 pub(crate) use distinct::{WEIGHTS, by_group, distinct, sortable};
 pub(crate) use parallel::map_chunks;
 pub use sum::CompensatedSum;

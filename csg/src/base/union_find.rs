@@ -10,7 +10,8 @@ impl DisjointSets {
         Self((0..count as u32).collect())
     }
 
-    fn root(&mut self, mut i: u32) -> u32 {
+    /// The least element of an element's set.
+    pub fn root(&mut self, mut i: u32) -> u32 {
         while self.0[i as usize] != i {
             let grandparent = self.0[self.0[i as usize] as usize];
             self.0[i as usize] = grandparent;
@@ -23,14 +24,6 @@ impl DisjointSets {
     pub fn join(&mut self, a: u32, b: u32) {
         let (a, b) = (self.root(a), self.root(b));
         self.0[a.max(b) as usize] = a.min(b);
-    }
-
-    /// Number of sets that hold one of the given elements.
-    ///
-    /// No set may hold both given and other elements: then each set is counted at its root.
-    #[must_use]
-    pub fn count(&self, elements: impl Iterator<Item = usize>) -> usize {
-        elements.filter(|&i| self.0[i] as usize == i).count()
     }
 
     /// The number of each element's set, in the order of their least elements, and how many sets there are.

@@ -3,7 +3,7 @@
 use std::borrow::{Borrow, Cow};
 
 use planecut_kernel::sign::{Counts, Row};
-use planecut_kernel::{HalfSpace, IncrementalPolytope};
+use planecut_kernel::{HalfSpace, IncrementalPolytope, PlaneIdx};
 use rayon::prelude::*;
 
 use super::built::{self, BrushShape, BuiltBodies};
@@ -112,11 +112,44 @@ pub(crate) fn build(
     shape_in_table(table, planes, polytope).body(planes, |k| materials[k])
 }
 
+/// The body of a polytope, its faces in the order of the planes, whatever that in which they were added: `planes` have ids in a
+/// table, `material` gives that of each, and `place_of` its place for a handle of the polytope.
+pub(crate) fn read(
+    table: &PlaneTable,
+    polytope: &IncrementalPolytope,
+    planes: &[PlaneId],
+    material: impl Fn(usize) -> MaterialId,
+    place_of: impl Fn(PlaneIdx) -> usize,
+) -> BrushBody {
+    let plane = |idx: PlaneIdx| {
+        let plane = planes[place_of(idx)];
+        (table.row(plane), table.half_space(plane))
+    };
+    let mut shape = built::shape_of_polytope(polytope, plane);
+    if let BrushShape::Bounded(shape) = &mut shape {
+        shape.sort_faces(&place_of);
+    }
+    shape.body_at(planes, material, place_of)
+}
+
 impl BrushShape {
     fn body(&self, planes: &[PlaneId], material: impl Fn(usize) -> MaterialId) -> BrushBody {
+        self.body_at(planes, material, |idx| idx.0)
+    }
+
+    fn body_at(
+        &self,
+        planes: &[PlaneId],
+        material: impl Fn(usize) -> MaterialId,
+        place_of: impl Fn(PlaneIdx) -> usize,
+    ) -> BrushBody {
         match self {
             Self::Bounded(shape) => {
-                let body = Body::new(shape, |idx| (planes[idx.0], material(idx.0)));
+                let face_of = |idx| {
+                    let place = place_of(idx);
+                    (planes[place], material(place))
+                };
+                let body = Body::new(shape, face_of);
                 let redundant = planes.len() - body.faces.len();
                 BrushBody::Bounded(body, redundant)
             }

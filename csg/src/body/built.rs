@@ -4,7 +4,7 @@ use std::hash::Hasher;
 use std::sync::Arc;
 
 use planecut_kernel::sign::Row;
-use planecut_kernel::{HalfSpace, IncrementalPolytope};
+use planecut_kernel::{HalfSpace, IncrementalPolytope, PlaneIdx};
 use rustc_hash::{FxHashMap, FxHasher};
 
 use super::Shape;
@@ -124,9 +124,17 @@ pub(super) fn shape_of_planes<'a>(
     for k in 0..count {
         polytope.add_plane(*plane(k).1);
     }
+    shape_of_polytope(polytope, |idx| plane(idx.0))
+}
+
+/// What a polytope is, whose planes have these coefficients.
+pub(super) fn shape_of_polytope<'a>(
+    polytope: &IncrementalPolytope,
+    plane: impl Fn(PlaneIdx) -> (&'a Row, &'a HalfSpace),
+) -> BrushShape {
     if polytope.is_empty() {
         return BrushShape::Empty;
     }
-    let shape = if polytope.is_bounded() { Shape::of(polytope, |idx| plane(idx.0)) } else { None };
+    let shape = if polytope.is_bounded() { Shape::of(polytope, plane) } else { None };
     shape.map_or(BrushShape::Unbounded, BrushShape::Bounded)
 }

@@ -7,7 +7,7 @@ use planecut_kernel::sign::{Homogeneous, Sign};
 use crate::base::Bounds;
 
 /// Three products and three sums, each rounded, and more.
-const ROUNDING: f64 = 8.0 * f64::EPSILON;
+const PLANE_VALUE_BOUND: f64 = 8.0 * f64::EPSILON;
 
 /// A plane that many corners are held against.
 #[derive(Debug, Clone, Copy)]
@@ -23,7 +23,7 @@ pub(crate) struct Sieve {
 impl Sieve {
     pub(crate) fn new(half_space: &HalfSpace) -> Self {
         let (normal, offset) = (half_space.normal(), half_space.offset());
-        Self { normal, offset, reach: normal.abs().element_sum(), room: ROUNDING * offset.abs() }
+        Self { normal, offset, reach: normal.abs().element_sum(), room: PLANE_VALUE_BOUND * offset.abs() }
     }
 
     /// On which side of the plane a corner certainly is; zero where that is not certain.
@@ -70,7 +70,8 @@ impl Corner {
         let error = (permanent + at.abs() * point.permanent[3]) * (32.0 * f64::EPSILON) / w.abs();
         let is_known =
             at.is_finite() && error.is_finite() && point.permanent[3] * (16.0 * f64::EPSILON) <= 0.5 * w.abs();
-        let error = if is_known { error.max_element() + ROUNDING * at.abs().max_element() } else { f64::INFINITY };
+        let error =
+            if is_known { error.max_element() + PLANE_VALUE_BOUND * at.abs().max_element() } else { f64::INFINITY };
         Self { point, at, error, within: Self::NOWHERE, number: Self::NEW }
     }
 

@@ -21,7 +21,7 @@ use crate::base::Bounds;
 use crate::model::MaterialId;
 use crate::plane_table::{PlaneId, PlaneTable};
 
-pub(crate) use build::{BrushBodies, build, build_bodies, build_other_bodies, built_or_build};
+pub(crate) use build::{BrushBodies, build, build_bodies, build_other_bodies, built_or_build, read};
 pub use built::BuiltBodies;
 pub(crate) use corner::{Corner, Sieve};
 pub(crate) use gauge::{Gauge, Place};
@@ -161,4 +161,14 @@ pub(crate) enum BrushBody {
     Empty,
     /// Not bounded.
     Unbounded,
+}
+
+impl BrushBody {
+    /// The bounded body, where it is one.
+    pub(crate) fn bounded(self) -> Option<Body> {
+        match self {
+            Self::Bounded(body, _) => Some(body),
+            Self::Empty | Self::Unbounded => None,
+        }
+    }
 }

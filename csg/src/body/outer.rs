@@ -41,6 +41,11 @@ impl OuterBox {
         Self { planes }
     }
 
+    /// Its planes.
+    pub(crate) fn planes(&self) -> [PlaneId; 6] {
+        self.planes
+    }
+
     /// Whether a plane is one of the box.
     pub(crate) fn holds(&self, plane: PlaneId) -> bool {
         self.planes.iter().any(|own| own.index() == plane.index())

@@ -102,6 +102,19 @@ impl Shape {
         Some(shape)
     }
 
+    /// Brings the faces into the order that their planes have.
+    pub(super) fn sort_faces(&mut self, place_of: impl Fn(PlaneIdx) -> usize) {
+        let planes = &self.corners.planes;
+        if planes.is_sorted_by_key(|plane| place_of(*plane)) {
+            return;
+        }
+        let mut order: Vec<usize> = (0..planes.len()).collect();
+        order.sort_unstable_by_key(|face| place_of(planes[*face]));
+        let planes = order.iter().map(|face| planes[*face]).collect();
+        self.faces = order.iter().map(|face| self.faces[*face].clone()).collect();
+        Arc::get_mut(&mut self.corners).expect("a shape that was made just now shares nothing").planes = planes;
+    }
+
     pub(crate) fn bounds(&self) -> &Bounds {
         &self.bounds
     }

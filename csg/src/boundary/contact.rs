@@ -1,9 +1,8 @@
-//! How a body stands to a face of another, and which of coplanar faces may emit.
+//! How a body stands to a face of another, and which way boundary faces there.
 
 use planecut_kernel::DVec3;
 
 use crate::base::Bounds;
-use crate::expression::Polarity;
 
 /// How a body stands to the plane of a face, where it reaches that plane with an area.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -61,15 +60,6 @@ impl Facing {
         }
     }
 }
-
-/// The order of faces on one plane.
-///
-/// Going through the plane from the empty side to the solid one, the bodies that change there are taken to change one after
-/// another, in this order; the face at whose turn the tree becomes solid for the first time is the boundary. So at each
-/// place exactly one of coplanar faces is, one without which the boundary would not be there, whatever else touches the
-/// plane. Bodies that take come before those that add: what merely touches a body from outside does not give it its
-/// material.
-pub(super) type Owner = (Polarity, u32, usize);
 
 /// Whether a box surely has no point on the plane's outer side and none on the plane, or none on its inner side.
 pub(crate) fn misses(bounds: &Bounds, normal: DVec3, offset: f64) -> bool {

@@ -1,13 +1,15 @@
 //! One face of one body: which part of it is boundary, and where that part ends.
 
 use super::clip::{Clipper, Cutter};
-use super::contact::{Contact, Facing, Owner, misses};
+use super::contact::{Contact, Facing, misses};
+use super::ownership::{Ownership, Side, Turn};
+use super::role::{Pair, Role};
 use super::section::{Clip, Cover, Line, Piece, Polygon};
-use super::sweep::{Context, Label, Side, Sweep};
+use super::sweep::{Context, Sweep};
 use super::{BoundaryEdge, Scene};
 use crate::base::Bounds;
 use crate::body::BodyFace;
-use crate::expression::{Flat, Polarity, Restriction};
+use crate::expression::{Flat, Restriction};
 use crate::plane_table::PlaneTable;
 
 /// A body that reaches the plane of the face.
@@ -19,8 +21,8 @@ pub(super) struct Reaching {
     /// Its place among the leaves of the restriction.
     pub(super) leaf: usize,
     pub(super) contact: Contact,
-    /// The place of its face on the plane, where it has one, among all of them.
-    pub(super) owner: Owner,
+    /// When its face on the plane has its turn, where it has one.
+    pub(super) turn: Turn,
 }
 
 /// A part of the face that another body covers.
@@ -29,18 +31,6 @@ pub(super) struct Section {
     pub(super) polygon: Polygon,
     pub(super) bounds: Bounds,
     pub(super) of: Reaching,
-}
-
-/// What a body does to the face.
-enum Role {
-    /// Nothing.
-    None,
-    /// Outside of it there is no boundary.
-    Required,
-    /// Inside of it there is none.
-    Covers,
-    /// It depends on others.
-    Open,
 }
 
 /// Emits the boundary edges of faces, reusing its buffers.
@@ -62,7 +52,7 @@ pub(crate) struct FaceWorker<'a> {
     live: usize,
     clipper: Clipper,
     pieces: Vec<Piece>,
-    label: Label,
+    ownership: Ownership,
     sweep: Sweep,
 }
 
@@ -84,7 +74,7 @@ impl<'a> FaceWorker<'a> {
             live: 0,
             clipper: Clipper::default(),
             pieces: Vec::new(),
-            label: Label::default(),
+            ownership: Ownership::default(),
             sweep: Sweep::default(),
         }
     }
@@ -117,13 +107,13 @@ impl<'a> FaceWorker<'a> {
         if !self.restriction.matters(own) {
             return;
         }
-        let owner = scene.owner(body, this);
-        let own = Reaching { body, place: 0, leaf: own, contact: Contact::SameWay, owner };
-        self.label.begin(scene.expression, &mut self.restriction, &own);
+        let turn = scene.turn(body, this);
+        let own = Reaching { body, place: 0, leaf: own, contact: Contact::SameWay, turn };
+        self.ownership.begin(scene.expression, &mut self.restriction, &own);
         if !self.sort_out(&own, this) {
             return;
         }
-        if self.open.is_empty() && self.label_of_region().is_none() {
+        if self.open.is_empty() && self.emitted_on_region().is_none() {
             return;
         }
         if !self.cover_region(this) {
@@ -148,8 +138,8 @@ impl<'a> FaceWorker<'a> {
         }
         if self.live > covering {
             let context = Context { scene, face: this, sections: &self.sections[..self.live], covering };
-            self.sweep.emit(&context, &self.region, &mut self.restriction, &mut self.label, out);
-        } else if let Some(facing) = self.label_of_region() {
+            self.sweep.emit(&context, &self.region, &mut self.restriction, &mut self.ownership, out);
+        } else if let Some(facing) = self.emitted_on_region() {
             self.emit_own_edges(this, facing, out);
             self.emit_section_edges(this, facing, out);
         }
@@ -185,7 +175,7 @@ impl<'a> FaceWorker<'a> {
                 continue;
             }
             let (body, place) = (self.bodies[leaf], self.places[leaf]);
-            let across = Reaching { body, place, leaf, contact: Contact::Across, owner: self.scene.owner(body, face) };
+            let across = Reaching { body, place, leaf, contact: Contact::Across, turn: self.scene.turn(body, face) };
             if is_tool && self.leaves[leaf] == 0 {
                 if !self.require(face, &across) {
                     return None;
@@ -211,7 +201,7 @@ impl<'a> FaceWorker<'a> {
 
     /// Takes a body as covering all of the region.
     fn hold(&mut self, reaching: Reaching) {
-        self.label.fix(self.scene.expression, &mut self.restriction, &reaching);
+        self.ownership.cover_both(self.scene.expression, &mut self.restriction, &reaching);
         if reaching.contact == Contact::Across {
             self.holding.push(reaching.leaf);
         }
@@ -224,8 +214,8 @@ impl<'a> FaceWorker<'a> {
     }
 
     /// Which boundary the face is where nothing is covered that depends on several bodies.
-    fn label_of_region(&mut self) -> Option<Facing> {
-        self.label.of(self.scene.expression, &mut self.restriction, Side::Left)
+    fn emitted_on_region(&mut self) -> Option<Facing> {
+        self.ownership.emitted(self.scene.expression, &mut self.restriction, Side::Left)
     }
 
     /// Finds the bodies that may reach the face, and their leaves; gives the place of its own body.
@@ -268,7 +258,7 @@ impl<'a> FaceWorker<'a> {
         let coplanar = self.others.iter().filter(|other| other.contact != Contact::Across).count();
         for k in 0..self.others.len() {
             let reaching = self.others[k];
-            match self.role(own, &reaching, coplanar) {
+            match Pair::new(self.scene.expression, &self.restriction, own, &reaching, coplanar).role() {
                 Role::None => {}
                 Role::Covers => self.covering.push(reaching),
                 Role::Open => self.open.push(reaching),
@@ -292,67 +282,9 @@ impl<'a> FaceWorker<'a> {
             Some(other) if other.plane == face.plane => Contact::SameWay,
             Some(_) => Contact::OtherWay,
         };
-        Reaching { body, place: self.places[leaf], leaf, contact, owner: self.scene.owner(body, other.unwrap_or(face)) }
-    }
-
-    /// What a body does, as far as it can be told from it and the face's own body alone; `coplanar` bodies have a face on the plane
-    /// besides the own one.
-    fn role(&self, own: &Reaching, other: &Reaching, coplanar: usize) -> Role {
-        let decides = |leaf: usize, value: bool| self.restriction.decides(leaf, value);
-        let by_own = [decides(own.leaf, true), decides(own.leaf, false)];
-        // Whether the solid side is known to be empty, or the empty one solid.
-        let is_impossible = |facing: Facing, by_other: [Option<bool>; 2]| {
-            let forced = [by_own[0].or(by_other[0]), by_own[1].or(by_other[1])];
-            facing.solid_of(forced) == Some(false) || facing.empty_of(forced) == Some(true)
-        };
-        let sides = other.contact.sides();
-        let by_other = sides.map(|value| decides(other.leaf, value));
-        let (is_coplanar, is_before) = (other.contact != Contact::Across, other.owner < own.owner);
-        // Whether the tree becomes solid before the own face's turn, or not until after it.
-        let is_preceded = |facing: Facing| {
-            let by_its_turn = is_before && facing.solid_of(by_other) == Some(true);
-            let not_before = !is_before && facing.empty_of(by_other) == Some(false);
-            is_coplanar && (by_its_turn || not_before)
-        };
-        let forces = |by: &Reaching, value: bool, upon: &Reaching| {
-            self.restriction.forces(self.scene.expression, by.leaf, value, upon.leaf)
-        };
-        // Whether the own face's turn changes nothing, as the other body forces a node above both.
-        let is_silent = |facing: Facing| {
-            let at_its_turn = if is_before { facing.solid_of(sides) } else { facing.empty_of(sides) };
-            forces(other, at_its_turn, own).is_some()
-        };
-        // Whether the tree can only become solid as the own body comes, or as it goes.
-        let is_against = |facing: Facing| match self.scene.polarity(own.body) {
-            Polarity::Adds => facing == Facing::In,
-            Polarity::Takes => facing == Facing::Out,
-            Polarity::Both => false,
-        };
-        let is_never = |facing: Facing| {
-            is_against(facing) || is_impossible(facing, by_other) || is_preceded(facing) || is_silent(facing)
-        };
-        // Whether a node above both is the same just inside and just outside. In between it may not be, and only where no
-        // third face lies on the plane it does not matter whose turn comes in between.
-        let is_same = || {
-            let at = |k: usize| forces(own, own.contact.sides()[k], other).or(forces(other, sides[k], own));
-            coplanar == 1 && is_coplanar && at(0).is_some() && at(0) == at(1)
-        };
-        if Facing::BOTH.into_iter().all(is_never) || is_same() {
-            return Role::Covers;
-        }
-        let if_absent = [decides(other.leaf, false); 2];
-        let is_required = |facing: Facing| is_against(facing) || is_impossible(facing, if_absent);
-        if forces(other, false, own).is_some() || Facing::BOTH.into_iter().all(is_required) {
-            return Role::Required;
-        }
-        // Whether all is the same without it: the side on which it lies is decided, and it changes nothing at the own turn.
-        let is_idle = |facing: Facing| {
-            let is_solid = facing.solid_of(by_own).is_some() && facing.solid_of(sides) && !is_before;
-            let is_empty = facing.empty_of(by_own).is_some() && facing.empty_of(sides) && is_before;
-            is_against(facing) || is_impossible(facing, [None; 2]) || is_coplanar && (is_solid || is_empty)
-        };
-        let is_alone = by_own.iter().all(Option::is_some);
-        if is_alone || Facing::BOTH.into_iter().all(is_idle) { Role::None } else { Role::Open }
+        // a body that crosses the plane has no face there, and its turn is never asked for
+        let turn = self.scene.turn(body, other.unwrap_or(face));
+        Reaching { body, place: self.places[leaf], leaf, contact, turn }
     }
 
     fn cutter(&self, face: &'a BodyFace, by: &Reaching) -> Cutter<'a> {

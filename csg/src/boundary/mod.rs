@@ -5,11 +5,13 @@
 //! ends: pieces of the face's own edges, and pieces of the section edges, each clipped in one dimension. Mostly each body
 //! alone decides what is inside or outside of its polygon, and intervals are subtracted; where several decide together,
 //! [`sweep`] evaluates the tree along each edge. Only the part of the tree that reaches a face is ever looked at. Of coplanar
-//! faces one owner emits ([`contact`]).
+//! faces one owner emits ([`ownership`]); what most bodies do to a face is told without the others ([`role`]).
 
 mod clip;
 mod contact;
 mod face;
+mod ownership;
+mod role;
 mod section;
 mod sweep;
 
@@ -22,9 +24,10 @@ use crate::body::{Body, BodyFace, Gauge};
 use crate::expression::{Expression, Flat, Polarity};
 use crate::model::MaterialId;
 use crate::plane_table::{PlaneId, PlaneTable};
+use contact::Facing;
 pub(crate) use contact::misses;
-use contact::{Facing, Owner};
 pub(crate) use face::FaceWorker;
+use ownership::{Turn, material_of};
 
 /// A piece of the boundary of the kept region of a plane: on the line of `face` and `edge`, directed along
 /// `n_face × n_edge`, so that the region lies to the left.
@@ -45,7 +48,7 @@ impl BoundaryEdge {
     /// The edge of a region that lies left of `n_face × n_edge`, from `start` to `end` in that direction; `facing` tells
     /// whether the region faces as `face` does.
     fn left(face: &BodyFace, facing: Facing, edge: PlaneId, start: PlaneId, end: PlaneId) -> Self {
-        let BodyFace { plane, material, .. } = *face;
+        let (plane, material) = (face.plane, material_of(face));
         match facing {
             Facing::Out => Self { face: plane, edge, start, end, material },
             // seen from the other side it runs back
@@ -117,8 +120,9 @@ impl<'a> Scene<'a> {
         self.expression.polarity(self.leaf_of_body[body])
     }
 
-    fn owner(&self, body: usize, face: &BodyFace) -> Owner {
-        (self.polarity(body), self.rank[face.material.0 as usize], body)
+    /// When a face of a body has its turn among those on its plane.
+    fn turn(&self, body: usize, face: &BodyFace) -> Turn {
+        Turn { polarity: self.polarity(body), material_rank: self.rank[face.material.0 as usize], body }
     }
 }
 

@@ -73,8 +73,9 @@ impl Polygon {
         spare.edges.clear();
         spare.corners.clear();
         // The last corner strictly inside before the cut begins; edge `i` runs from corner `i − 1` to corner `i`.
-        let last = (0..n).find(|i| inside.get(*i) && !inside.get((i + 1) % n)).unwrap_or(0);
-        let first = (1..=n).map(|k| (last + k) % n).find(|i| inside.get(*i)).unwrap_or(last);
+        let last = (0..n).find(|i| inside.get(*i) && !inside.get((i + 1) % n));
+        let last = last.expect("some corners are strictly inside and some are not");
+        let first = (1..=n).map(|k| (last + k) % n).find(|i| inside.get(*i)).expect("the last corner inside is one");
         // Kept are the edges that touch a corner strictly inside: from edge `first` to edge `last + 1`.
         let mut i = first;
         while i != last {

@@ -8,103 +8,14 @@ use std::cmp::Ordering;
 
 use planecut_kernel::sign::{Homogeneous, Sign};
 
-use super::contact::{Contact, Facing};
-use super::face::{Reaching, Section};
+use super::contact::Facing;
+use super::face::Section;
+use super::ownership::{Ownership, Side};
 use super::section::{Cover, Line, Piece, Polygon};
 use super::{BoundaryEdge, Scene};
 use crate::body::BodyFace;
 use crate::expression::{Expression, Restriction};
 use crate::plane_table::{PlaneId, PlaneTable};
-
-/// A side of a directed edge.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Side {
-    Left,
-    Right,
-}
-
-impl Side {
-    pub(super) const BOTH: [Self; 2] = [Self::Left, Self::Right];
-
-    /// The channel of the tree just inside of the face.
-    pub(super) fn inside(self) -> usize {
-        2 * self as usize
-    }
-
-    /// The channel of the tree just outside of the face.
-    pub(super) fn outside(self) -> usize {
-        2 * self as usize + 1
-    }
-}
-
-/// Which boundary a face is on either side of an edge.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Label {
-    own: usize,
-    /// For each side the bodies with a face on the plane that cover it, this one among them, by owner.
-    coplanar: [Vec<Reaching>; 2],
-}
-
-impl Label {
-    /// Nothing but a body itself is known to lie on either side of an edge on its face.
-    pub(super) fn begin(&mut self, expression: &Expression, restriction: &mut Restriction, own: &Reaching) {
-        self.own = own.leaf;
-        self.coplanar.iter_mut().for_each(Vec::clear);
-        self.fix(expression, restriction, own);
-    }
-
-    /// The boundary that the face emits on a side.
-    pub(super) fn of(&self, expression: &Expression, restriction: &mut Restriction, side: Side) -> Option<Facing> {
-        let facing = Facing::between(restriction.root(side.inside()), restriction.root(side.outside()))?;
-        let coplanar = &self.coplanar[side as usize];
-        if coplanar.len() < 2 {
-            return Some(facing);
-        }
-        // turn by turn from the empty side to the solid one, and back
-        let empty = facing.empty_of([side.inside(), side.outside()]);
-        let mut turned = 0;
-        let owner = coplanar.iter().find(|turn| {
-            turned += 1;
-            restriction.set(expression, turn.leaf, empty, facing.solid_of(turn.contact.sides()));
-            restriction.root(empty)
-        });
-        for turn in &coplanar[..turned] {
-            restriction.set(expression, turn.leaf, empty, facing.empty_of(turn.contact.sides()));
-        }
-        owner.is_some_and(|owner| owner.leaf == self.own).then_some(facing)
-    }
-
-    /// Takes a body as covering both sides.
-    pub(super) fn fix(&mut self, expression: &Expression, restriction: &mut Restriction, reaching: &Reaching) {
-        for side in Side::BOTH {
-            self.set(expression, restriction, reaching, side, true);
-        }
-    }
-
-    /// Takes a body as covering one side, or not.
-    fn set(
-        &mut self,
-        expression: &Expression,
-        restriction: &mut Restriction,
-        reaching: &Reaching,
-        side: Side,
-        covers: bool,
-    ) {
-        let [inside, outside] = reaching.contact.sides();
-        restriction.set(expression, reaching.leaf, side.inside(), inside && covers);
-        restriction.set(expression, reaching.leaf, side.outside(), outside && covers);
-        if reaching.contact == Contact::Across {
-            return;
-        }
-        let coplanar = &mut self.coplanar[side as usize];
-        let place = coplanar.partition_point(|other| other.owner < reaching.owner);
-        if covers {
-            coplanar.insert(place, *reaching);
-        } else {
-            coplanar.remove(place);
-        }
-    }
-}
 
 /// Where along a line a section begins or ends to cover one or both sides.
 #[derive(Debug, Clone, Copy)]
@@ -138,20 +49,20 @@ pub(super) struct Context<'a> {
 }
 
 impl Sweep {
-    /// Emits all boundary edges on a face; where nothing is covered, `restriction` and `label` hold what is known of it.
+    /// Emits all boundary edges on a face; where nothing is covered, `restriction` and `ownership` hold what is known of it.
     pub(super) fn emit(
         &mut self,
         context: &Context<'_>,
         region: &Polygon,
         restriction: &mut Restriction,
-        label: &mut Label,
+        ownership: &mut Ownership,
         out: &mut Vec<BoundaryEdge>,
     ) {
         for i in 0..region.edges.len() {
             self.pieces.clear();
             self.pieces.push(Piece::of_edge(region, i));
             self.drop_silent(context, region.edges[i], None);
-            self.sweep_pieces(context, region.edges[i], None, restriction, label, out);
+            self.sweep_pieces(context, region.edges[i], None, restriction, ownership, out);
         }
         for (k, section) in context.sections.iter().enumerate() {
             let polygon = &section.polygon;
@@ -159,7 +70,7 @@ impl Sweep {
                 self.pieces.clear();
                 self.pieces.push(Piece::of_edge(polygon, i));
                 self.drop_silent(context, edge, Some(k));
-                self.sweep_pieces(context, edge, Some(k), restriction, label, out);
+                self.sweep_pieces(context, edge, Some(k), restriction, ownership, out);
             }
         }
     }
@@ -197,7 +108,7 @@ impl Sweep {
         edge: PlaneId,
         own: Option<usize>,
         restriction: &mut Restriction,
-        label: &mut Label,
+        ownership: &mut Ownership,
         out: &mut Vec<BoundaryEdge>,
     ) {
         let line = Line { plane: context.face.plane, edge };
@@ -209,7 +120,7 @@ impl Sweep {
             self.events.sort_by(|a, b| a.compare(b, context.scene.table, line));
             let expression = context.scene.expression;
             let mut walk =
-                Walk { context, restriction, label, edge, outer: own.is_none(), start: piece.start, now: None };
+                Walk { context, restriction, ownership, edge, outer: own.is_none(), start: piece.start, now: None };
             for (section, sides) in &self.covering {
                 walk.change(expression, *section, *sides, true);
             }
@@ -293,7 +204,7 @@ impl Event {
 struct Walk<'a, 'b> {
     context: &'a Context<'b>,
     restriction: &'a mut Restriction,
-    label: &'a mut Label,
+    ownership: &'a mut Ownership,
     edge: PlaneId,
     /// Whether there is nothing of the face on the right.
     outer: bool,
@@ -306,7 +217,7 @@ impl Walk<'_, '_> {
     fn change(&mut self, expression: &Expression, section: u32, sides: [bool; 2], covers: bool) {
         let of = &self.context.sections[section as usize].of;
         for side in Side::BOTH.into_iter().filter(|side| sides[*side as usize]) {
-            self.label.set(expression, self.restriction, of, side, covers);
+            self.ownership.set_cover(expression, self.restriction, of, side, covers);
         }
     }
 
@@ -314,8 +225,8 @@ impl Walk<'_, '_> {
     /// that are emitted cancel: they tell the weld where faces may cross.
     fn labels(&mut self) -> Option<[Option<Facing>; 2]> {
         let expression = self.context.scene.expression;
-        let left = self.label.of(expression, self.restriction, Side::Left);
-        let right = if self.outer { None } else { self.label.of(expression, self.restriction, Side::Right) };
+        let left = self.ownership.emitted(expression, self.restriction, Side::Left);
+        let right = if self.outer { None } else { self.ownership.emitted(expression, self.restriction, Side::Right) };
         (left.is_some() || right.is_some()).then_some([left, right])
     }
 

@@ -172,6 +172,7 @@ impl Node {
     fn operation(operation: Operation, operands: &[&Self], end_leaf: u32) -> Self {
         let first_leaf = operands.first().map_or(end_leaf, |first| first.first_leaf);
         let first_operand = operands.first().map_or((end_leaf, false), |first| (first.end_leaf, first.base));
+        // of a difference without operands nothing is taken away either
         let counted = if operation == Operation::Difference { operands.get(1..).unwrap_or_default() } else { operands };
         let true_operands = counted.iter().filter(|operand| operand.base).count() as u32;
         let mut node = Self {

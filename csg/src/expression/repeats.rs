@@ -45,6 +45,7 @@ impl Expression {
                     around.entry(*number).and_modify(|count| *count -= 1);
                 }
             }
+            // a number that no union around has is there no time
             let others = around.get(&numbers[k]).copied().unwrap_or(0) - u32::from(is_operand(k));
             // without its leaves it must come to nothing
             if (is_again[k] || others > 0) && !node.base {

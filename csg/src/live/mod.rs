@@ -5,15 +5,19 @@
 //! are worked out again among the bodies near them, and of their edges those that are new or gone are handed to the weld.
 //!
 //! - [`edit`]: what users do, [`history`]: and take back.
-//! - [`change`]: how a change of brushes goes through [`planes`], bodies, [`skin`] and weld.
+//! - [`change`]: how a change of brushes goes through [`planes`], [`bodies`], [`skin`] and weld; [`polytopes`] are kept to
+//!   build bodies from, [`reach`] tells which faces are to be worked out again.
 //! - [`order`]: how brushes are combined, [`operand`]: what is known of each.
 
+mod bodies;
 mod change;
 mod edit;
 mod history;
 mod operand;
 mod order;
 mod planes;
+mod polytopes;
+mod reach;
 mod skin;
 
 use std::collections::BTreeMap;
@@ -32,11 +36,13 @@ use crate::model::{Brush, Material, MaterialId, Model, Operation, TransformError
 use crate::plane_table::PlaneTable;
 pub use crate::weld::{FaceId, LiveFace};
 use crate::weld::{LiveWeld, weld};
+use bodies::Marks;
 pub use edit::{Edit, Edited};
 use history::History;
 pub use operand::Role;
 use operand::{Operand, Places, State};
 use planes::LivePlanes;
+use polytopes::KeptPolytopes;
 
 /// A brush of a [`LiveModel`]: brushes are numbered from 0 as they are added, and no number is given twice.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -132,6 +138,9 @@ pub struct LiveModel {
     /// The first brushes, where these are not one after another.
     base: Option<Base>,
     places: Places,
+    /// How many bodies have equal faces.
+    marks: Marks,
+    polytopes: KeptPolytopes,
     /// How many bodies have a face on each plane; 255 stands for more as well, until none has one any more.
     bodies_on_plane: Vec<u8>,
     /// The brushes that intersect, in order.
@@ -154,6 +163,8 @@ struct Buffers {
     faces: Vec<(u32, u32)>,
     /// The place of each brush among those near.
     place: Vec<u32>,
+    /// The face on each plane of a body.
+    face_on_plane: Vec<u32>,
 }
 
 impl LiveModel {
@@ -176,6 +187,8 @@ impl LiveModel {
             unbounded: UnboundedBrushes::Keep,
             base: None,
             places: Places::default(),
+            marks: Marks::default(),
+            polytopes: KeptPolytopes::default(),
             bodies_on_plane: Vec::new(),
             intersecting: Vec::new(),
             welded: LiveWeld::default(),
@@ -315,6 +328,11 @@ impl LiveModel {
     fn state(&self, id: BrushId) -> Result<&Arc<State>, EditError> {
         let operand = self.operands[self.number(id)? as usize].as_ref();
         operand.map(|operand| &operand.state).ok_or(EditError::UnknownBrush(id))
+    }
+
+    /// A brush that is there, or was at the beginning of the edit.
+    fn operand(&self, number: u32) -> &Operand {
+        self.operands[number as usize].as_ref().expect("the number of a brush that is there")
     }
 
     /// Whether brushes of a number are combined one after another.

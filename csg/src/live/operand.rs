@@ -10,7 +10,7 @@ use super::planes::PlaneUse;
 use crate::base::Bounds;
 use crate::body::Body;
 use crate::boundary::BoundaryEdge;
-use crate::model::Brush;
+use crate::model::{Brush, BrushFace};
 use crate::weld::EdgeId;
 
 /// What a brush of a live model does to what the brushes before it have made.
@@ -46,6 +46,17 @@ impl State {
     /// The place of a plane among the faces of the brush.
     pub(super) fn place_of(&self, plane: u32) -> Option<usize> {
         self.planes.binary_search(&plane).ok()
+    }
+
+    /// For each plane its place in another state of the brush, where it has the same number and half-space there.
+    pub(super) fn places_in(&self, other: &Self) -> Vec<Option<usize>> {
+        let mut at = 0;
+        let place = |(number, face): (&u32, &BrushFace)| {
+            at += other.planes[at..].iter().take_while(|other| *other < number).count();
+            let is_same = other.planes.get(at) == Some(number) && other.brush.faces[at].half_space == face.half_space;
+            is_same.then_some(at)
+        };
+        self.planes.iter().zip(&self.brush.faces).map(place).collect()
     }
 }
 

@@ -8,15 +8,18 @@
 use rustc_hash::FxHashMap;
 
 use super::Mesh;
+use super::connectivity::{HalfEdges, NO_TWIN, next};
+use crate::base::DisjointSets;
 
-/// No half-edge.
+/// No half-edge or vertex yet.
 const NONE: u32 = u32::MAX;
 
 /// Collapses what is joined by edges of at most `length`, in the mesh's units, changing the topology where it must: tunnels,
 /// gaps, bridges and bubbles that thin go. The mesh must be a closed, oriented 2-manifold, and stays one.
 pub(crate) fn collapse_thin(mesh: &mut Mesh, length: f64) {
     let Some(place) = places(mesh, length) else { return };
-    let twins = twins_of(&mesh.triangles);
+    let twins = HalfEdges::new(mesh.positions.len(), &mesh.triangles).twins();
+    assert!(!twins.contains(&NO_TWIN), "a welded mesh is closed");
     let at = |h: u32| place[mesh.triangles[(h / 3) as usize][(h % 3) as usize] as usize];
     let corners = |t: u32| [at(3 * t), at(3 * t + 1), at(3 * t + 2)];
     let is_kept = |t: u32| {
@@ -52,48 +55,20 @@ pub(crate) fn collapse_thin(mesh: &mut Mesh, length: f64) {
     joined.write(mesh);
 }
 
-/// The half-edge that follows in its triangle.
-fn next(h: u32) -> u32 {
-    h / 3 * 3 + (h + 1) % 3
-}
-
 /// For each vertex the least one that short edges join it with; nothing where there are no short edges.
 fn places(mesh: &Mesh, length: f64) -> Option<Vec<u32>> {
-    let mut place: Vec<u32> = (0..mesh.positions.len() as u32).collect();
-    let find = |place: &[u32], mut v: u32| {
-        while place[v as usize] != v {
-            v = place[v as usize];
-        }
-        v
-    };
+    let mut sets = DisjointSets::new(mesh.positions.len());
     let mut any = false;
     for triangle in &mesh.triangles {
         for k in 0..3 {
             let (a, b) = (triangle[k], triangle[(k + 1) % 3]);
             if mesh.positions[a as usize].distance(mesh.positions[b as usize]) <= length {
                 any = true;
-                let (a, b) = (find(&place, a), find(&place, b));
-                place[a.max(b) as usize] = a.min(b);
+                sets.join(a, b);
             }
         }
     }
-    any.then(|| (0..place.len() as u32).map(|v| find(&place, v)).collect())
-}
-
-/// The opposite of each half-edge of a closed mesh.
-fn twins_of(triangles: &[[u32; 3]]) -> Vec<u32> {
-    let ends = |h: u32| {
-        let triangle = &triangles[(h / 3) as usize];
-        (triangle[(h % 3) as usize], triangle[((h + 1) % 3) as usize])
-    };
-    let count = 3 * triangles.len() as u32;
-    let of_ends: FxHashMap<(u32, u32), u32> = (0..count).map(|h| (ends(h), h)).collect();
-    (0..count)
-        .map(|h| {
-            let (a, b) = ends(h);
-            of_ends[&(b, a)]
-        })
-        .collect()
+    any.then(|| (0..mesh.positions.len() as u32).map(|v| sets.root(v)).collect())
 }
 
 /// Triangles between places, joined by their sides.

@@ -165,8 +165,8 @@ impl Contraction {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::check::check_topology;
     use crate::{Brush, BrushFace, Material, MaterialId, Model, evaluate};
+    use planecut_check::check_topology;
     use planecut_kernel::HalfSpace;
 
     /// A cube with a corner cut off so slightly that the cut's edges have length `size · √2`.

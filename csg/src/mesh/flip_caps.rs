@@ -5,9 +5,9 @@
 //! the neighbour across it takes the corner in between, and no point moves.
 
 use rayon::prelude::*;
-use rustc_hash::FxHashMap;
 
 use super::Mesh;
+use super::connectivity::{HalfEdges, NO_TWIN, next, previous};
 
 /// Flips away triangles of at most this height, in the mesh's units, where that makes no edge that is there already. Faces
 /// that lose all their triangles are dropped.
@@ -17,14 +17,12 @@ pub(crate) fn flip_caps(mesh: &mut Mesh, height: f64) {
     if caps.is_empty() {
         return;
     }
-    let mut across: FxHashMap<(u32, u32), u32> = FxHashMap::default();
-    for (t, triangle) in (0u32..).zip(&mesh.triangles) {
-        across.extend((0..3).map(|k| ((triangle[k], triangle[(k + 1) % 3]), t)));
-    }
+    let mut twins = HalfEdges::new(mesh.positions.len(), &mesh.triangles).twins();
+    assert!(!twins.contains(&NO_TWIN), "a welded mesh is closed");
     // a flip can make a cap of the neighbour only where that was one; so few rounds do
     for _ in 0..8 {
         let before = caps.len();
-        caps.retain(|cap| long_side(mesh, *cap, height).is_some_and(|side| !flip(mesh, &mut across, *cap, side)));
+        caps.retain(|cap| long_side(mesh, *cap, height).is_some_and(|side| !flip(mesh, &mut twins, 3 * *cap + side)));
         if caps.len() == before || caps.is_empty() {
             break;
         }
@@ -36,7 +34,7 @@ pub(crate) fn flip_caps(mesh: &mut Mesh, height: f64) {
     mesh.drop_empty_faces();
 }
 
-/// Whether a triangle is at most so high.
+/// Whether a triangle has at most this height.
 fn is_flat(mesh: &Mesh, triangle: u32, height: f64) -> bool {
     let [a, b, c] = mesh.triangles[triangle as usize].map(|v| mesh.positions[v as usize]);
     let (p, q) = (b - a, c - a);
@@ -45,30 +43,41 @@ fn is_flat(mesh: &Mesh, triangle: u32, height: f64) -> bool {
 }
 
 /// The side that holds the third corner between its ends, where a triangle is a cap.
-fn long_side(mesh: &Mesh, triangle: u32, height: f64) -> Option<usize> {
+fn long_side(mesh: &Mesh, triangle: u32, height: f64) -> Option<u32> {
     let at = mesh.triangles[triangle as usize].map(|v| mesh.positions[v as usize]);
     let length = |k: usize| at[k].distance(at[(k + 1) % 3]);
     let side = (0..3).max_by(|a, b| length(*a).total_cmp(&length(*b)))?;
-    is_flat(mesh, triangle, height).then_some(side)
+    is_flat(mesh, triangle, height).then_some(side as u32)
 }
 
-/// Flips a side of a cap, whose two new triangles belong to the face of its neighbour.
-fn flip(mesh: &mut Mesh, across: &mut FxHashMap<(u32, u32), u32>, cap: u32, side: usize) -> bool {
-    let [a, b, c] = [0, 1, 2].map(|k| mesh.triangles[cap as usize][(side + k) % 3]);
-    let Some(&other) = across.get(&(b, a)) else { return false };
-    let neighbour = mesh.triangles[other as usize];
-    let Some(d) = neighbour.into_iter().find(|v| *v != a && *v != b) else { return false };
-    if c == d || across.contains_key(&(c, d)) || across.contains_key(&(d, c)) {
+/// Flips a side of a cap, whose two new triangles belong to the face of its neighbour. Gives whether it could.
+fn flip(mesh: &mut Mesh, twins: &mut [u32], side: u32) -> bool {
+    let back = twins[side as usize];
+    let (cap, other) = (side / 3, back / 3);
+    let [a, b, c] = [side, next(side), previous(side)].map(|h| start(mesh, h));
+    let d = start(mesh, previous(back));
+    if c == d || is_edge(mesh, twins, previous(side), d) {
         return false;
     }
     // a d b c: the side a b gives way to c d
+    let [ad, db, bc, ca] = [next(back), previous(back), next(side), previous(side)].map(|h| twins[h as usize]);
     mesh.triangles[cap as usize] = [a, d, c];
     mesh.triangles[other as usize] = [d, b, c];
     mesh.triangle_faces[cap as usize] = mesh.triangle_faces[other as usize];
-    across.remove(&(a, b));
-    across.remove(&(b, a));
-    for (edge, t) in [((a, d), cap), ((d, c), cap), ((c, a), cap), ((d, b), other), ((b, c), other), ((c, d), other)] {
-        across.insert(edge, t);
+    let (cap, other) = (3 * cap, 3 * other);
+    for (one, twin) in [(cap, ad), (cap + 1, other + 2), (cap + 2, ca), (other, db), (other + 1, bc)] {
+        twins[one as usize] = twin;
+        twins[twin as usize] = one;
     }
     true
+}
+
+fn start(mesh: &Mesh, half_edge: u32) -> u32 {
+    mesh.triangles[(half_edge / 3) as usize][(half_edge % 3) as usize]
+}
+
+/// Whether an edge joins the start of a half-edge with another vertex: one of the half-edges around the start ends there.
+fn is_edge(mesh: &Mesh, twins: &[u32], half_edge: u32, other: u32) -> bool {
+    let around = |h: &u32| Some(twins[previous(*h) as usize]).filter(|h| *h != half_edge);
+    std::iter::successors(Some(half_edge), around).any(|h| start(mesh, next(h)) == other)
 }

@@ -1,5 +1,6 @@
 //! Affine maps of planes and points.
 
+use crate::tolerances::{NEGLIGIBLE_COMPONENT, SINGULAR_DETERMINANT};
 use glam::{DMat3, DVec3};
 use planecut_kernel::{HalfSpace, HalfSpaceError};
 use thiserror::Error;
@@ -34,9 +35,6 @@ pub struct Transform {
     determinant: f64,
 }
 
-/// A determinant below this share of the product of the column lengths counts as zero.
-const SINGULAR: f64 = 1e-14;
-
 impl Transform {
     /// The map `x ↦ linear x + translation`.
     ///
@@ -49,7 +47,7 @@ impl Transform {
         let [a, b, c] = [linear.x_axis, linear.y_axis, linear.z_axis];
         let determinant = a.dot(b.cross(c));
         let size = a.length() * b.length() * c.length();
-        if !determinant.is_finite() || determinant.abs() <= SINGULAR * size {
+        if !determinant.is_finite() || determinant.abs() <= SINGULAR_DETERMINANT * size {
             return Err(TransformError::Singular);
         }
         let cofactors = DMat3::from_cols(b.cross(c), c.cross(a), a.cross(b)) * determinant.signum();
@@ -144,7 +142,7 @@ impl Transform {
 
 /// Components that are mere rounding noise of the others become zero, so that they stay within the accepted range.
 fn clean(normal: DVec3) -> DVec3 {
-    let noise = normal.abs().max_element() * 1e-40;
+    let noise = normal.abs().max_element() * NEGLIGIBLE_COMPONENT;
     DVec3::from_array(normal.to_array().map(|v| if v.abs() < noise { 0.0 } else { v }))
 }
 

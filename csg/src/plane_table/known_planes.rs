@@ -2,7 +2,7 @@
 
 use planecut_kernel::{DVec3, HalfSpace};
 
-use super::SNAP_TOLERANCE;
+use crate::tolerances::SNAP_TOLERANCE;
 
 /// Half-spaces, by the first component of their unit normals.
 pub struct KnownPlanes {

@@ -18,7 +18,6 @@ pub use known_planes::{KnownPlanes, compare};
 pub use morton::curve_number;
 pub(crate) use morton::renumber_planes;
 use near::NearPlanes;
-pub use near::SNAP_TOLERANCE;
 pub(crate) use near::{NearCells, is_nearly_same, unit};
 use same::group_exactly;
 pub(crate) use same::{Key, compare_coefficients, first_side, is_exact, is_reversed, key};
@@ -104,7 +103,7 @@ impl PlaneTable {
     }
 
     /// The id of a half-space, whose plane is added where it is not there yet. A plane that is nearly the same as one that
-    /// is there ([`SNAP_TOLERANCE`], relative to the largest distance from the origin so far) is taken to be that one,
+    /// is there ([`SNAP_TOLERANCE`](crate::SNAP_TOLERANCE), relative to the largest distance from the origin so far) is taken to be that one,
     /// unless its normal is made of short integers.
     ///
     /// ```

@@ -7,10 +7,7 @@ use rustc_hash::FxHashMap;
 
 use super::PlaneId;
 use crate::base::{WEIGHTS, sortable};
-
-/// Planes whose unit normals and relative offsets differ by at most this are taken to be one plane that went through
-/// rotations or decimal text, relative to the largest distance of a plane from the origin.
-pub const SNAP_TOLERANCE: f64 = 1e-12;
+use crate::tolerances::SNAP_TOLERANCE;
 
 /// Side of the cells in which near planes are sought; many times the tolerance, so that one cell nearly always does.
 const SNAP_CELL: f64 = 1024.0 * SNAP_TOLERANCE;

@@ -202,7 +202,8 @@ impl Sweep {
             let (low, high) = (self.stops[began], self.stops[at]);
             let run = |forward: bool| {
                 let (from, to) = if forward { (low, high) } else { (high, low) };
-                let edge = group.iter().find(|edge| edge.forward == forward).unwrap_or(&group[0]).edge;
+                let edge = group.iter().find(|edge| edge.forward == forward);
+                let edge = edge.expect("a sum of edges holds one of its direction").edge;
                 Run { line: group[0].line, region: group[0].region, edge, from, to, forward }
             };
             match before {
@@ -254,7 +255,7 @@ pub(super) fn sort_along(table: &PlaneTable, points: &Points, line: &Line, stops
 
 /// Where a point stands among sorted stops, of which it is one.
 fn place(table: &PlaneTable, points: &Points, line: &Line, stops: &[u32], point: u32) -> usize {
-    stops.binary_search_by(|stop| line.compare(table, points, *stop, point)).unwrap_or_default()
+    stops.binary_search_by(|stop| line.compare(table, points, *stop, point)).expect("the point is one of the stops")
 }
 
 /// An elementary piece of a run, and later its neighbours.
@@ -350,7 +351,8 @@ fn pair_around(
     // its one side stays apart from what is on the other.
     let points_along = |k: usize| out[around[k % around.len()] as usize].forward;
     let gap = (1..=around.len()).find(|k| points_along(k - 1) == points_along(*k));
-    let start = gap.or_else(|| (0..around.len()).find(|k| !points_along(*k))).unwrap_or(0);
+    let start =
+        gap.or_else(|| (0..around.len()).find(|k| !points_along(*k))).expect("as many pieces point back as along");
     around.rotate_left(start % around.len());
     for pair in around.chunks(2) {
         let &[a, b] = pair else { continue };

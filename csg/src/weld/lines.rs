@@ -227,7 +227,7 @@ fn mark(table: &PlaneTable, line: &Line) -> Mark {
 /// From the determinants of the planes' columns in plain numbers, where these are well conditioned: each is off by less than
 /// three roundings of its permanent, the quotient by those of both and its own.
 fn rounded_mark(table: &PlaneTable, line: &Line) -> Option<(f64, f64)> {
-    const ROUNDING: f64 = 4.0 * f64::EPSILON;
+    const DETERMINANT_BOUND: f64 = 4.0 * f64::EPSILON;
     const WELL: f64 = 1e4;
     let [a, b] = line.planes.map(|plane| table.row(plane).coefficients());
     let (u, v) = ((line.axis + 1) % 3, (line.axis + 2) % 3);
@@ -244,7 +244,8 @@ fn rounded_mark(table: &PlaneTable, line: &Line) -> Option<(f64, f64)> {
         let (value, permanent) = minor(i, j);
         let quotient = value / whole;
         mark += weight * quotient;
-        error += ROUNDING * (permanent + quotient.abs() * whole_permanent) / whole.abs() + ROUNDING * quotient.abs();
+        error += DETERMINANT_BOUND * (permanent + quotient.abs() * whole_permanent) / whole.abs()
+            + DETERMINANT_BOUND * quotient.abs();
     }
     mark.is_finite().then_some((mark, 2.0 * error))
 }

@@ -4,12 +4,11 @@
 //! with four faces by itself. Two different edges can still join the same two vertices, and a diagonal can coincide with
 //! an edge: the second copy then gets a midpoint.
 
-use rayon::prelude::*;
 use rustc_hash::FxHashSet;
 
 use super::cancel::{HalfEdge, UNPAIRED};
-use crate::base::by_group;
 use crate::mesh::Mesh;
+use crate::mesh::connectivity::HalfEdges;
 
 /// The vertex at the start of each half-edge; and for each vertex the point it lies on.
 pub(super) fn vertices(pieces: &[HalfEdge], following: &[u32]) -> (Vec<u32>, Vec<u32>) {
@@ -33,7 +32,7 @@ pub(super) fn vertices(pieces: &[HalfEdge], following: &[u32]) -> (Vec<u32>, Vec
 /// The half-edge behind each side of each triangle; [`UNPAIRED`] for a diagonal.
 pub(super) type Labels = Vec<[u32; 3]>;
 
-/// A side of a triangle: three times the triangle plus the index of its first vertex.
+/// A side of a triangle: its number among [`HalfEdges`].
 type Side = u32;
 
 /// Splits every edge that joins the same two vertices as another one, in both of its triangles, at a midpoint, until all
@@ -41,7 +40,9 @@ type Side = u32;
 pub(super) fn split_repeated_edges(mesh: &mut Mesh, labels: &mut Labels, pieces: &[HalfEdge]) -> usize {
     let mut split = 0;
     loop {
-        let repeated = repeated_edges(mesh.positions.len(), &mesh.triangles);
+        let half_edges = HalfEdges::new(mesh.positions.len(), &mesh.triangles);
+        let along = |(a, b)| [(a, b), (b, a)].map(|(a, b)| half_edges.between(a, b).collect());
+        let repeated: Vec<[Vec<Side>; 2]> = half_edges.repeated().into_iter().map(along).collect();
         let mut touched: FxHashSet<u32> = FxHashSet::default();
         let mut additions = Vec::new();
         for sides in &repeated {
@@ -91,34 +92,6 @@ fn insert_triangles(mesh: &mut Mesh, labels: &mut Labels, additions: &[Addition]
     mesh.triangles = order.iter().map(|k| mesh.triangles[*k as usize]).collect();
     *labels = order.iter().map(|k| labels[*k as usize]).collect();
     mesh.triangle_faces.sort_unstable();
-}
-
-/// So many ends are compared with one another; more are sorted.
-const FEW: usize = 16;
-
-/// The sides along each edge whose directed form occurs more than once: those in one direction, and those back.
-fn repeated_edges(vertices: usize, triangles: &[[u32; 3]]) -> Vec<[Vec<Side>; 2]> {
-    // the sides by the vertex they begin at: each has few
-    let (starts, sides) = by_group(vertices, triangles.iter().flatten().copied());
-    let end = |side: Side| triangles[(side / 3) as usize][(side as usize % 3 + 1) % 3];
-    let of = |a: u32, b: u32| -> Vec<Side> {
-        let from_a = &sides[starts[a as usize] as usize..starts[a as usize + 1] as usize];
-        from_a.iter().copied().filter(|side| end(*side) == b).collect()
-    };
-    let repeated_at = |a: u32| {
-        let from_a = &sides[starts[a as usize] as usize..starts[a as usize + 1] as usize];
-        let is_repeated = |k: usize| from_a[..k].iter().any(|other| end(*other) == end(from_a[k]));
-        let mut ends = Vec::new();
-        if from_a.len() > FEW || (1..from_a.len()).any(is_repeated) {
-            ends.extend(from_a.iter().map(|side| end(*side)));
-            ends.sort_unstable();
-            ends = ends.chunk_by(|p, q| p == q).filter(|same| same.len() > 1).map(|same| same[0]).collect();
-        }
-        ends.into_iter().filter(move |b| a < *b).map(move |b| (a, b))
-    };
-    let repeated: Vec<(u32, u32)> =
-        (0..vertices as u32).into_par_iter().with_min_len(2048).flat_map_iter(repeated_at).collect();
-    repeated.into_iter().map(|(a, b)| [of(a, b), of(b, a)]).collect()
 }
 
 /// Pairs the sides of a repeated edge: of the boundary by its half-edges, first; diagonals within their face.

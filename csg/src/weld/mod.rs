@@ -26,18 +26,19 @@ mod pinches;
 mod points;
 mod triangulate;
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use planecut_kernel::DVec3;
 use planecut_kernel::sign::Counts;
 use rayon::prelude::*;
 use thiserror::Error;
 
-use crate::base::{by_group, map_chunks};
+use crate::base::{Clock, by_group, map_chunks};
 use crate::boundary::BoundaryEdge;
 use crate::mesh::{Mesh, MeshFace, SolidMeasures, collapse_thin, contract_short_edges, flip_caps};
 use crate::model::{Material, MaterialId};
 use crate::plane_table::{PlaneId, PlaneTable};
+use crate::tolerances::CONTRACTION;
 use cancel::{HalfEdge, Pieces, Run};
 pub(crate) use live::{EdgeId, LiveWeld};
 pub use live::{FaceId, LiveFace};
@@ -82,10 +83,6 @@ pub enum WeldError {
     },
 }
 
-/// Edges shorter than this share of the largest coordinate come from planes that were meant to meet in a point: noise of
-/// decimal text or rotations is some `1e-15`, what anybody models is far longer.
-const CONTRACTION: f64 = 1e-12;
-
 /// What the weld gives.
 pub(crate) struct Welded {
     pub(crate) mesh: Mesh,
@@ -114,7 +111,7 @@ pub(crate) fn weld(
     signs += counted;
     let (vertex, point) = manifold::vertices(&pieces, &nested.following);
 
-    let begin = Instant::now();
+    let begin = Clock::start();
     let positions = point.par_iter().with_min_len(4096).map(|p| points.positions[*p as usize]).collect();
     let mut mesh = Mesh { positions, materials: materials.to_vec(), ..Mesh::default() };
     let (mut labels, counted) = triangulate_faces(table, &regions, &points, &pieces, &nested.faces, &vertex, &mut mesh);
@@ -139,7 +136,7 @@ impl Regions {
         keys.dedup();
         let mut numbers = Vec::with_capacity(edges.len());
         for edges in same_face() {
-            let number = keys.binary_search(&key(&edges[0])).unwrap_or_default() as u32;
+            let number = keys.binary_search(&key(&edges[0])).expect("the region of each edge is among the keys") as u32;
             numbers.extend(std::iter::repeat_n(number, edges.len()));
         }
         let regions = Self {

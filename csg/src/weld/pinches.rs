@@ -86,7 +86,7 @@ impl<'a> PinchFinder<'a> {
                 let length = sorted[axis][start..].partition_point(|p| value(p) <= max[axis]);
                 &sorted[axis][start..start + length]
             };
-            let fewest = (0..3).map(range).min_by_key(|range| range.len()).unwrap_or_default();
+            let fewest = (0..3).map(range).min_by_key(|range| range.len()).expect("a point has three planes");
             self.touching(piece, fewest);
         }
         self.sorted = sorted;

@@ -131,6 +131,7 @@ impl Points {
             let is_certain = self.exact[p as usize] & self.exact[q as usize] & 1 << *axis != 0;
             if by_rounded.is_ne() || is_certain { by_rounded } else { compare_exactly(rows(p), rows(q), &[*axis]) }
         };
+        // points that agree in all of these coordinates
         axes.iter().map(by_axis).find(|order| order.is_ne()).unwrap_or(Ordering::Equal)
     }
 

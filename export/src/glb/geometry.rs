@@ -5,12 +5,12 @@ use std::ops::Range;
 
 use glam::DVec3;
 use planecut_csg::Mesh;
+use planecut_csg::stages::HalfEdges;
 use rayon::prelude::*;
 
 use super::rounding::Rounding;
 use super::tangents::tangents;
 use crate::surface::{Looks, Vertices};
-use crate::topology::is_oriented_manifold;
 use crate::{ExportError, ExportOptions, Part};
 
 /// Marks a vertex that no triangle has used yet.
@@ -103,7 +103,7 @@ impl<'a> Geometry<'a> {
         let (triangles, _) = corners.as_chunks::<3>();
         let own: Vec<[u32; 3]> =
             triangles.iter().map(|corners| corners.map(|corner| origins[corner as usize])).collect();
-        if !is_oriented_manifold(&own) {
+        if !HalfEdges::new(self.mesh.positions.len(), &own).are_all_paired() {
             return None;
         }
         // the first copy of a vertex stands for it

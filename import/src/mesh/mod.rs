@@ -68,7 +68,7 @@ pub struct MeshObject {
 ///
 /// # Guarantees
 /// Coordinates are finite, indices are below the number of positions, there is at least one triangle, and the objects' ranges
-/// follow one another and hold every triangle once. Whether the surface is closed is for `planecut_csg::check` to say.
+/// follow one another and hold every triangle once. Whether the surface is closed is for `planecut_check` to say.
 #[derive(Debug, Clone, PartialEq)]
 pub struct IndexedMesh {
     /// Vertex positions in the file's units and axes; of glTF, after the nodes' transforms.

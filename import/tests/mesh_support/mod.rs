@@ -3,7 +3,7 @@
 
 pub(crate) mod packed;
 
-use planecut_csg::check::{CheckOptions, CheckReport, TOLERANCE_F32, check_mesh};
+use planecut_check::{CheckOptions, CheckReport, TOLERANCE_F32, check_mesh};
 use planecut_import::mesh::{IndexedMesh, Precision};
 
 /// Corners of a unit cube, number `i` at the bits of `i`.

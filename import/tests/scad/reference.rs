@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::PathBuf;
 
-use planecut_csg::check::check_topology;
+use planecut_check::check_topology;
 use planecut_csg::evaluate;
 use planecut_import::scad::{ScadOptions, read_scad};
 use serde_json::Value;

@@ -42,12 +42,6 @@ pub(super) fn det4_of_any(rows: [&Row; 4], column: OffsetColumn) -> Sign {
     Sign::of_big(&(&h[3] * big_dot(&a, &bc) - big_dot(&h, &point)))
 }
 
-pub(super) fn radial(i: &Row, j: &Row, a: &Row, b: &Row) -> Sign {
-    let [i, j, a, b] = [i, j, a, b].map(|row| big_integers(*row.coefficients()));
-    let (p, q) = (big_cross(&i, &j), big_cross(&a, &b));
-    Sign::of_big(&(&p[0] * &q[0] + &p[1] * &q[1] + &p[2] * &q[2]))
-}
-
 /// `(X, Y, Z, W)` of a meeting point, exactly, up to one positive scale.
 pub(crate) fn homogeneous(planes: [&Row; 3]) -> [IBig; 4] {
     let [a, b, c] = planes.map(|row| big_integers(*row.coefficients()));

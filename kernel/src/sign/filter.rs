@@ -16,8 +16,6 @@ pub(super) const DET3_BOUND: f64 = 8.0 * U;
 /// 4×4 determinants through the homogeneous vertex: minor (2), times an offset (1), two sums, times the plane's
 /// coefficient (1), three sums: 9 roundings a term.
 pub(super) const DET4_BOUND: f64 = 12.0 * U;
-/// `radial`: dot products (3), their product (1), a difference (1): each factor 3, so 8 roundings a term.
-pub(super) const RADIAL_BOUND: f64 = 12.0 * U;
 
 /// Below this permanent every intermediate of an integer expression is an integer below 2⁵³: the value is exact.
 pub(super) const EXACT_PERMANENT: f64 = (1u64 << 52) as f64;

@@ -36,6 +36,7 @@ pub(crate) use point::{ExactPoint, POINT_BOUND, UNDERFLOW, integer_row, residual
 
 /// A three-way sign.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Sign {
     /// Below zero.
     Negative,
@@ -146,32 +147,4 @@ pub fn cross_component(i: &Row, j: &Row, axis: usize) -> Sign {
     }
     counts::note_big();
     big::det2(i, j, [u, v])
-}
-
-/// The sign of `det(n_i, n_j, nₐ × n_b)`: where positive, `n_j` lies counter-clockwise of `n_i` seen along the line of
-/// `a` and `b` from the tip of `nₐ × n_b`. Degree 4 in the normals.
-#[must_use]
-pub fn radial(i: &Row, j: &Row, a: &Row, b: &Row) -> Sign {
-    // (n_i × n_j)·(n_a × n_b) = (n_i·n_a)(n_j·n_b) − (n_i·n_b)(n_j·n_a)
-    let dot = |p: &Row, q: &Row| {
-        let (p, q) = (p.coefficients(), q.coefficients());
-        let terms = [p[0] * q[0], p[1] * q[1], p[2] * q[2]];
-        (terms[0] + terms[1] + terms[2], terms[0].abs() + terms[1].abs() + terms[2].abs())
-    };
-    let ((ia, pia), (jb, pjb)) = (dot(i, a), dot(j, b));
-    let ((ib, pib), (ja, pja)) = (dot(i, b), dot(j, a));
-    let (value, permanent) = (ia * jb - ib * ja, pia * pjb + pib * pja);
-    counts::note_total();
-    if value.abs() > filter::RADIAL_BOUND * permanent {
-        return Sign::of(value);
-    }
-    if permanent == 0.0 {
-        return Sign::Zero;
-    }
-    if let Some(sign) = small_int::radial(i, j, a, b) {
-        counts::note_small_int();
-        return sign;
-    }
-    counts::note_big();
-    big::radial(i, j, a, b)
 }

@@ -64,13 +64,3 @@ pub(super) fn det2(i: &Row, j: &Row, [u, v]: [usize; 2]) -> Option<Sign> {
         Sign::of(p[u] * q[v] - p[v] * q[u])
     })
 }
-
-/// The sign of `(n_i × n_j)·(nₐ × n_b)`.
-pub(super) fn radial(i: &Row, j: &Row, a: &Row, b: &Row) -> Option<Sign> {
-    let all = [i, j, a, b];
-    if !all.iter().all(|row| row.is_integer()) || all.iter().map(|row| row.bits()[0]).sum::<u32>() + 5 > CAPACITY {
-        return None;
-    }
-    let (p, q) = (cross(&i.integers(), &j.integers()), cross(&a.integers(), &b.integers()));
-    Some(Sign::of((0..3).map(|k| p[k] * q[k]).sum::<i128>()))
-}

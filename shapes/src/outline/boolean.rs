@@ -14,12 +14,10 @@ use rustc_hash::FxHashMap;
 
 use super::{FillRule, Outline, largest_coordinate, signed_area};
 use crate::parameter::{ShapeError, refuse};
+use crate::tolerances::SLIVER;
 
 /// Bits that the largest coordinate gets; the library takes 62.
 const BITS: i32 = 57;
-
-/// Loops narrower than this part of the outline's size are left over by rounding.
-const SLIVER: f64 = 1e-13;
 
 pub(super) type Loop = Vec<IntPoint<i64>>;
 

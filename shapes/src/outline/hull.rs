@@ -4,6 +4,7 @@ use planecut_kernel::DVec2;
 use robust::{Coord, orient2d};
 
 use super::{Outline, largest_coordinate};
+use crate::tolerances::COLLINEAR_CORNER;
 
 impl Outline {
     /// The convex hull of all operands together, its corners those of the operands, without any on a straight line but for rounding;
@@ -20,12 +21,9 @@ impl Outline {
     }
 }
 
-/// Corners nearer than this part of the size to the line of their neighbours are on it: crossings of operands' sides are rounded.
-const NOISE: f64 = 1e-13;
-
 /// Leaves out the corners of a convex polygon that are on a straight line but for rounding.
 fn straighten(corners: &mut Vec<DVec2>) {
-    let least = NOISE * largest_coordinate(&*corners);
+    let least = COLLINEAR_CORNER * largest_coordinate(&*corners);
     let mut k = 0;
     while k < corners.len() && corners.len() > 3 {
         let n = corners.len();

@@ -13,6 +13,7 @@ pub(crate) use hull::{corners_of_hull, turn};
 pub use offset::{ClipperJoin, Join, MITER_LIMIT, OffsetRule};
 
 use crate::parameter::{ShapeError, direction, planar_point, positive, refuse, segments as accepted_segments};
+use crate::tolerances::{NEGLIGIBLE_COORDINATE, SINGULAR_DETERMINANT};
 
 /// A region of the plane, bounded by loops that do not cross: outer ones counter-clockwise, holes clockwise. Lengths have no
 /// unit.
@@ -101,7 +102,7 @@ impl Outline {
     /// [`ShapeError::Parameter`] where the matrix is flat or a coordinate is not accepted.
     pub fn transformed(&self, linear: DMat2, translation: DVec2) -> Result<Self, ShapeError> {
         let (size, determinant) = (linear.x_axis.length() * linear.y_axis.length(), linear.determinant());
-        if !(determinant.abs() > 1e-14 * size && size.is_finite() && translation.is_finite()) {
+        if !(determinant.abs() > SINGULAR_DETERMINANT * size && size.is_finite() && translation.is_finite()) {
             return Err(refuse("matrix", &"one that is singular or not finite", &"one that can be undone"));
         }
         let moved = |corners: &Vec<DVec2>| {
@@ -126,7 +127,7 @@ fn accepted(loops: &[Vec<DVec2>]) -> Result<Vec<Vec<DVec2>>, ShapeError> {
 
 /// A point without coordinates that are mere rounding noise, so that they stay within the accepted range.
 fn clean(moved: DVec2, from: DVec2) -> DVec2 {
-    let noise = 1e-40 * moved.abs().max_element().max(from.abs().max_element());
+    let noise = NEGLIGIBLE_COORDINATE * moved.abs().max_element().max(from.abs().max_element());
     DVec2::from_array(moved.to_array().map(|v| if v.abs() < noise { 0.0 } else { v }))
 }
 

@@ -10,6 +10,7 @@ use planecut_kernel::DVec2;
 
 use super::{FillRule, Outline};
 use crate::parameter::{ShapeError, coordinate, segments as accepted_segments};
+use crate::tolerances::CLIPPER_GRID;
 
 /// What an offset makes of a corner that it goes around.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -58,8 +59,6 @@ pub struct OffsetRule {
     pub join: ClipperJoin,
 }
 
-/// The grid to which Clipper rounds for OpenSCAD. Where the two ends of sides at a corner are nearer, it has only the first.
-const CLIPPER_GRID: f64 = 1.0 / (1u64 << 16) as f64;
 /// With `m` as the limit of a miter, `2 / m²`; OpenSCAD's is a million.
 const CLIPPER_MITER: f64 = 2e-12;
 /// Clipper's arcs deviate from the circle by this part of its radius at most.

@@ -1,6 +1,6 @@
 //! Why a surface bounds no solid.
 
-use planecut_csg::check::ContactKind;
+use planecut_check::ContactKind;
 use planecut_kernel::{DVec3, HalfSpaceError};
 use thiserror::Error;
 

@@ -24,7 +24,7 @@ mod sides;
 mod surface;
 
 use planecut_cells::joined;
-use planecut_csg::check::{CheckOptions, ContactKind, check_mesh};
+use planecut_check::{CheckOptions, ContactKind, check_mesh};
 use planecut_csg::{Brush, MaterialId, Tree};
 use planecut_kernel::DVec3;
 
@@ -33,6 +33,7 @@ pub use polygon::{MAX_CONCAVE_CORNERS, triangulate};
 pub use precision::Precision;
 pub(crate) use sides::cells_within;
 
+use crate::tolerances::{GOOD_VOLUME, LESS_SLACK};
 use planes::Planes;
 use surface::Surface;
 
@@ -134,12 +135,7 @@ fn is_final(error: &PolyhedronError) -> bool {
     !matches!(error, PolyhedronError::Inconsistent { .. })
 }
 
-/// Where details are finer than corners are exact, planes are sought once more with so much less tolerance, up to so often.
-const LESS_SLACK: f64 = 1.0 / 16.0;
 const MORE_TRIALS: usize = 2;
-/// Cells whose volume is off by no more than this part of what is allowed are taken without another trial.
-const GOOD_VOLUME: f64 = 1.0 / 6.0;
-
 /// The solid, and by how much the volume of its cells is off.
 fn solid(
     surface: &Surface,

@@ -3,10 +3,9 @@
 use std::cmp::Ordering;
 use std::f64::consts::PI;
 
+use crate::tolerances::SAME_ANGLE;
+use planecut_csg::stages::{HalfEdges, NO_TWIN};
 use planecut_kernel::DVec3;
-
-/// Angles at an edge that are this near count as one.
-const SAME_ANGLE: f64 = 1e-7;
 
 /// One side of a triangle.
 #[derive(Debug, Clone, Copy)]
@@ -34,17 +33,20 @@ impl Side {
 
 /// The half-edge on the other side of each. Every edge must be used equally often in both directions.
 pub(super) fn pair_half_edges(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<u32> {
-    let mut sides: Vec<Side> = (0..3 * triangles.len() as u32).map(|h| Side::of(triangles, h)).collect();
-    sides.sort_unstable_by_key(|side| (side.ends(), side.half_edge));
-    let mut mates = vec![u32::MAX; sides.len()];
-    let mut pair = |a: &Side, b: &Side| {
-        mates[a.half_edge as usize] = b.half_edge;
-        mates[b.half_edge as usize] = a.half_edge;
-    };
-    for at_edge in sides.chunk_by(|a, b| a.ends() == b.ends()) {
-        match at_edge {
-            [a, b] => pair(a, b),
-            _ => wedges(points, triangles, at_edge).iter().for_each(|(a, b)| pair(a, b)),
+    let half_edges = HalfEdges::new(points.len(), triangles);
+    let mut mates = half_edges.twins();
+    for half_edge in 0..mates.len() as u32 {
+        let (a, b) = (half_edges.from(half_edge), half_edges.to(half_edge));
+        if mates[half_edge as usize] != NO_TWIN || a > b {
+            continue;
+        }
+        // the triangles of a facet with a spike can have sides from a vertex to itself
+        let back = half_edges.between(b, a).filter(|_| a != b);
+        let sides: Vec<Side> = half_edges.between(a, b).chain(back).map(|h| Side::of(triangles, h)).collect();
+        let pairs = if let [a, b] = sides[..] { vec![(a, b)] } else { wedges(points, triangles, &sides) };
+        for (a, b) in pairs {
+            mates[a.half_edge as usize] = b.half_edge;
+            mates[b.half_edge as usize] = a.half_edge;
         }
     }
     mates

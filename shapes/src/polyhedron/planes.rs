@@ -10,15 +10,10 @@ use super::error::PolyhedronError;
 use super::exact::{Grid, Plane};
 use super::polygon::area_vector;
 use super::surface::Surface;
+use crate::tolerances::{LEANING, NEGLIGIBLE_COMPONENT, PLANE_ROUNDING};
 
 /// Side of the cells in which the directions of planes are hashed.
 const DIRECTION_CELL: f64 = 1.0 / 64.0;
-/// Planes this exact are those of the corners, to within some roundings of a coordinate as large as the largest.
-const ROUNDING: f64 = 16.0 * f64::EPSILON;
-
-/// What is off a plane by more than this times what corners may be off is not meant to be on it, however the plane leans.
-const LEAN: f64 = 64.0;
-
 /// A plane in floating point, its normal of unit length.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Flat {
@@ -79,7 +74,7 @@ impl Planes {
         for (corners, plane) in surface.triangles.iter().zip(&self.of_triangle) {
             for vertex in corners.map(|v| v as usize) {
                 let height = self.flats[*plane as usize].height(surface.points[vertex]).abs();
-                slack[vertex] = slack[vertex].max(height * (1.0 + ROUNDING));
+                slack[vertex] = slack[vertex].max(height * (1.0 + PLANE_ROUNDING));
             }
         }
         slack
@@ -232,7 +227,7 @@ impl<'a> Gathering<'a> {
     fn common_flat(&self, flat: &Flat, patch: &[u32], more: u32) -> Option<Flat> {
         let is_near = |v: u32| {
             let off = flat.height(self.surface.points[v as usize]).abs();
-            off <= LEAN * self.surface.slack[v as usize]
+            off <= LEANING * self.surface.slack[v as usize]
         };
         if !self.vertices(&self.units[more as usize]).all(is_near) {
             return None;
@@ -347,7 +342,7 @@ impl<'a> Gathering<'a> {
             let half_space = accepted(normal, offset)?;
             let flat = Flat::of(&half_space);
             let size = points().map(|p| p.abs().max_element()).fold(0.0, f64::max);
-            if points().all(|p| flat.height(p).abs() <= ROUNDING * size) {
+            if points().all(|p| flat.height(p).abs() <= PLANE_ROUNDING * size) {
                 return Ok(half_space);
             }
         }
@@ -361,7 +356,7 @@ impl<'a> Gathering<'a> {
 
 /// A half-space; what is mere rounding noise beside the rest becomes zero.
 fn accepted(normal: DVec3, offset: f64) -> Result<HalfSpace, PolyhedronError> {
-    let noise = normal.abs().max_element() * 1e-60;
+    let noise = normal.abs().max_element() * NEGLIGIBLE_COMPONENT;
     let normal = DVec3::from_array(normal.to_array().map(|v| if v.abs() < noise { 0.0 } else { v }));
     let offset = if offset.abs() < noise { 0.0 } else { offset };
     Ok(HalfSpace::new(normal, offset)?)

@@ -1,5 +1,6 @@
 //! How exactly corners are known.
 
+use crate::tolerances::{CORNER_NOISE, PLANE_MARGIN};
 use planecut_kernel::DVec3;
 
 /// How exactly the coordinates of a surface are known: corners that are this near to a plane count as on it.
@@ -15,16 +16,11 @@ pub enum Precision {
     Places(u32),
 }
 
-/// What corners computed in `f64` may be off, relative to the largest coordinate: some thousand roundings.
-const NOISE: f64 = 1e-12;
-/// Corners may be off the plane that several of them have by more than each is off its place, as the plane is, too.
-const MARGIN: f64 = 4.0;
-
 impl Precision {
     /// How far each point may lie from planes that it is meant to be on.
     pub(super) fn slack(self, points: &[DVec3]) -> Vec<f64> {
         let size = points.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
-        let of = |p: &DVec3| NOISE * size + MARGIN * self.rounding(p, size);
+        let of = |p: &DVec3| CORNER_NOISE * size + PLANE_MARGIN * self.rounding(p, size);
         points.iter().map(of).collect()
     }
 

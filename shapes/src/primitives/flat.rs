@@ -4,6 +4,7 @@ use planecut_csg::{Brush, MaterialId};
 use planecut_kernel::{DVec3, HalfSpace};
 
 use crate::parameter::{ShapeError, point, positive, refuse};
+use crate::tolerances::NEGLIGIBLE_COMPONENT;
 
 /// The box between two corners.
 ///
@@ -80,7 +81,7 @@ pub(super) fn brush(planes: impl IntoIterator<Item = (DVec3, f64)>, material: Ma
 
 /// A half-space; what is mere rounding noise beside the rest becomes zero.
 pub(crate) fn plane(normal: DVec3, offset: f64) -> Result<HalfSpace, ShapeError> {
-    let noise = normal.abs().max_element() * 1e-60;
+    let noise = normal.abs().max_element() * NEGLIGIBLE_COMPONENT;
     let normal = DVec3::from_array(normal.to_array().map(|v| if v.abs() < noise { 0.0 } else { v }));
     let offset = if offset.abs() < noise { 0.0 } else { offset };
     Ok(HalfSpace::new(normal, offset)?)

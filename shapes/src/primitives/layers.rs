@@ -3,7 +3,7 @@
 //! The sides of a layer are planar or cut along a diagonal; between two planes across z they are a closed surface, which is
 //! cut into convex cells loop by loop. Without change of scale all layers are one, turned.
 
-use planecut_csg::check::{CheckOptions, check_mesh};
+use planecut_check::{CheckOptions, check_mesh};
 use planecut_csg::{Brush, MaterialId, Tree};
 use planecut_kernel::{DVec2, DVec3};
 use robust::{Coord3D, orient3d};

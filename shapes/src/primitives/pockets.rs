@@ -12,17 +12,12 @@ use super::flat::plane;
 use super::walls::{Walls, side};
 use crate::outline::{corners_of_hull, largest_coordinate, signed_area, turn};
 use crate::parameter::ShapeError;
+use crate::tolerances::{LID_NOISE, LID_REACH};
 
 /// Loops of fewer reflex corners are cut into cells.
 const MANY: usize = 8;
 /// More pockets than these take longer than cells: the lids of the hull are cut by each of them.
 const MOST: usize = 16;
-/// How far the hull reaches beyond lids, as a part of the loop's size.
-const BEYOND: f64 = 1.0 / (1u64 << 30) as f64;
-
-/// Corners nearer than this part of the loop's size to a lid lie on it.
-const NOISE: f64 = 1e-12;
-
 /// Walls of the hull, and those of each convex part of the pockets.
 pub(super) struct HullAndPockets {
     pub(super) hull: Vec<HalfSpace>,
@@ -43,27 +38,27 @@ pub(super) fn hull_and_pockets(corners: &[DVec2]) -> Result<Option<HullAndPocket
     }
     let size = largest_coordinate(&corners);
     let Some(hull) = hull_corners(&corners) else { return Ok(None) };
-    let hull = with_corners_on_lids(&corners, &hull, NOISE * size);
+    let hull = with_corners_on_lids(&corners, &hull, LID_NOISE * size);
     let mut found = HullAndPockets { hull: Vec::new(), pockets: Vec::new() };
     for (k, from) in hull.iter().enumerate() {
         let to = hull[(k + 1) % hull.len()];
         let between = (to + n - from) % n;
         let line = side(corners[*from], corners[to])?;
         if between == 1 {
-            let is_short = corners[*from].distance(corners[to]) <= BEYOND * size;
+            let is_short = corners[*from].distance(corners[to]) <= LID_REACH * size;
             let depth = |p: &DVec2| (line.offset() - line.normal().truncate().dot(*p)) / line.normal().length();
-            if is_short && corners.iter().any(|p| depth(p) < -BEYOND * size) {
+            if is_short && corners.iter().any(|p| depth(p) < -LID_REACH * size) {
                 // rounding turns so short a side anywhere, also across the body
                 return Ok(None);
             }
             found.hull.push(line);
             continue;
         }
-        if corners[*from].distance(corners[to]) <= BEYOND * size {
+        if corners[*from].distance(corners[to]) <= LID_REACH * size {
             // a mouth that is no wider than what the hull reaches beyond
             return Ok(None);
         }
-        let reach = line.normal().length() * size * BEYOND;
+        let reach = line.normal().length() * size * LID_REACH;
         found.hull.push(plane(line.normal(), line.offset() + reach)?);
         // the lid, and then the sides from its end back to its start
         let pocket: Vec<DVec2> =

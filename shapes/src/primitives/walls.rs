@@ -8,6 +8,7 @@ use super::flat::plane;
 use super::partition::partition;
 use crate::outline::{largest_coordinate, signed_area};
 use crate::parameter::{ShapeError, refuse};
+use crate::tolerances::SHORT_SIDE;
 
 /// The upright prism over a loop.
 pub(super) struct Walls {
@@ -78,12 +79,9 @@ impl Walls {
     }
 }
 
-/// Sides shorter than this part of the loop's size are rounding noise: they may point anywhere.
-const SHORT: f64 = 1.0 / (1u64 << 46) as f64;
-
 fn drop_short_sides(corners: &mut Vec<DVec2>) {
     let size = largest_coordinate(&*corners);
-    let is_short = |p: DVec2, q: DVec2| p.distance(q) <= SHORT * size;
+    let is_short = |p: DVec2, q: DVec2| p.distance(q) <= SHORT_SIDE * size;
     corners.dedup_by(|q, p| is_short(*p, *q));
     while corners.len() > 1 && is_short(corners[0], corners[corners.len() - 1]) {
         corners.pop();

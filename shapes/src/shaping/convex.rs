@@ -8,9 +8,7 @@ use planecut_kernel::{DVec3, HalfSpace, IncrementalPolytope, PlaneIdx, meet};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::parameter::ShapeError;
-
-/// Vertices nearer to each other than this part of a body's size are one: where many planes were meant to meet.
-const MERGED: f64 = 1.0 / (1u64 << 36) as f64;
+use crate::tolerances::MERGED_VERTICES;
 
 /// A bounded convex body with interior.
 pub(super) struct Convex {
@@ -58,8 +56,8 @@ impl Convex {
         };
         let polygons: Vec<Vec<DVec3>> = facets.iter().map(polygon).collect();
         let size = extent(&polygons);
-        let edges = edges_of(&polytope, &facets, &polygons, size * MERGED);
-        let corners = merged(polygons.iter().flatten().copied(), size * MERGED);
+        let edges = edges_of(&polytope, &facets, &polygons, size * MERGED_VERTICES);
+        let corners = merged(polygons.iter().flatten().copied(), size * MERGED_VERTICES);
         Ok(Some(Self { half_spaces, corners, edges, polygons }))
     }
 
@@ -119,7 +117,7 @@ fn merged(points: impl Iterator<Item = DVec3>, grid: f64) -> Vec<DVec3> {
 /// say in it.
 pub(super) fn wide_faces(half_spaces: &[HalfSpace]) -> Result<Vec<HalfSpace>, ShapeError> {
     let Some(body) = Convex::new(half_spaces)? else { return Ok(Vec::new()) };
-    let least = extent(&body.polygons) * MERGED;
+    let least = extent(&body.polygons) * MERGED_VERTICES;
     let faces = body.half_spaces.iter().zip(&body.polygons);
     let wide: Vec<HalfSpace> = faces.filter(|(_, polygon)| width(polygon) > least).map(|(face, _)| *face).collect();
     // a body that is all needles keeps its planes

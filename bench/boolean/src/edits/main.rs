@@ -1,5 +1,5 @@
-//! Times edits of live models beside building the same models from scratch, in one run: on maps, in grids that grow, and a million
-//! times in a row.
+//! Times edits of live models beside building the same models from scratch, in one run: on maps, of brushes of many planes, in
+//! grids that grow, and a million times in a row.
 
 #![forbid(unsafe_code)]
 
@@ -7,6 +7,7 @@
 #[allow(dead_code, reason = "shared with the benchmark of Booleans")]
 mod machine;
 
+mod bodies;
 mod draw;
 mod endurance;
 mod grid;
@@ -77,13 +78,15 @@ fn run(options: &Options) -> Result<(), String> {
         println!("\n{}", table::of_map(&outcome));
         of_maps.push(outcome);
     }
+    let bodies = bodies::measure(options.is_quick)?;
+    println!("\n{}", table::of_bodies(&bodies));
     let sides: &[u32] = if options.is_quick { &[4, 8] } else { &[4, 8, 12, 16, 20] };
     let grids = grid::measure(sides)?;
     println!("\n{}", table::of_grids(&grids));
     let seconds = begin.elapsed().as_secs_f64();
     if let Some(file) = &options.json {
         let json = serde_json::json!({
-            "maps": of_maps, "grids": grids, "endurance": endurance, "seconds": seconds, "verified": options.verifies,
+            "maps": of_maps, "bodies": bodies, "grids": grids, "endurance": endurance, "seconds": seconds, "verified": options.verifies,
             "processor": machine::processor(), "compiler": machine::compiler(), "commit": machine::commit(),
         });
         write(file, &format!("{json:#}\n"))?;
@@ -100,6 +103,7 @@ fn run(options: &Options) -> Result<(), String> {
         let parts = [
             ("run", run),
             ("maps", maps.join("\n")),
+            ("bodies", table::of_bodies(&bodies)),
             ("grids", table::of_grids(&grids)),
             ("endurance", table::of_endurance(&endurance)),
         ];

@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use super::bodies::BodyTimes;
 use super::endurance::Stand;
 use super::grid::GridTimes;
 use super::maps::MapTimes;
@@ -22,6 +23,21 @@ pub(crate) fn of_map(map: &MapTimes) -> String {
             table,
             "| {} | {} | {:.3} | {:.2} | {:.2} | {:.0}× |",
             kind.name, kind.edits, kind.median_ms, kind.p99_ms, kind.max_ms, kind.fresh_ratio
+        );
+    }
+    table
+}
+
+pub(crate) fn of_bodies(bodies: &[BodyTimes]) -> String {
+    let mut table = String::from(
+        "| planes | built from all | one added | moved | removed | facets listed | edit: add | move | remove | replace |\n\
+         |---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n",
+    );
+    for BodyTimes { planes, rebuild_us, kernel_us: kernel, facets_us, edit_us: edit, replace_us } in bodies {
+        let _ = writeln!(
+            table,
+            "| {planes} | {rebuild_us:.1} | {:.2} | {:.2} | {:.2} | {facets_us:.1} | {:.0} | {:.0} | {:.0} | {replace_us:.0} |",
+            kernel[0], kernel[1], kernel[2], edit[0], edit[1], edit[2]
         );
     }
     table

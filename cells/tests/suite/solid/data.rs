@@ -4,7 +4,7 @@ use std::path::Path;
 
 use glam::DVec3;
 use planecut_cells::Solid;
-use planecut_csg::check::check_topology;
+use planecut_check::check_topology;
 use planecut_csg::{Brush, Material, MaterialId, Model, Tree, evaluate};
 
 use planecut_testkit::scene::half_space;

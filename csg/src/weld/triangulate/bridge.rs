@@ -10,7 +10,7 @@ impl Boundary<'_> {
         let order =
             |a: &u32, b: &u32| self.turns.order(&self.nodes[*a as usize].corner, &self.nodes[*b as usize].corner);
         for hole in holes.iter_mut() {
-            *hole = self.ring(*hole).min_by(order).unwrap_or(*hole);
+            *hole = self.ring(*hole).min_by(order).expect("a ring has nodes");
         }
         holes.sort_by(order);
         for &hole in holes.iter() {

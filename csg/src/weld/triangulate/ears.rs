@@ -5,6 +5,7 @@ use planecut_kernel::sign::Sign;
 
 use super::grid::Grid;
 use super::{Boundary, orient};
+use crate::tolerances::EAR_NOISE;
 
 /// How strict the test of an ear is. The exact points leave a strict one unless a bridge was placed badly within noise; then
 /// the test is loosened.
@@ -31,9 +32,6 @@ impl Care {
     }
 }
 
-/// Depth of noise, relative to the largest coordinate.
-const NOISE: f64 = 1e-11;
-
 /// Cuts boundaries into triangles, reusing its buffers.
 #[derive(Debug, Default)]
 pub(super) struct Ears {
@@ -52,7 +50,7 @@ impl Ears {
             boundary.classify(node);
         }
         grid.fill(boundary, ring);
-        let noise = NOISE * ring.iter().map(|node| boundary.at(*node).abs().max_element()).fold(0.0, f64::max);
+        let noise = EAR_NOISE * ring.iter().map(|node| boundary.at(*node).abs().max_element()).fold(0.0, f64::max);
         triangles.clear();
         let mut left = ring.len();
         let mut node = start;

@@ -1,12 +1,9 @@
 //! Flips diagonals towards the Delaunay criterion (Lawson 1977): fewer slivers, nicer meshes, the same boundary.
 
 use super::{Node, orient};
+use crate::tolerances::{DELAUNAY_MARGIN, FLAT_TRIANGLE};
 use planecut_kernel::DVec2;
 use rustc_hash::FxHashMap;
-
-/// A quadrilateral is flipped only where its new triangles are clearly not flat: of an area above this share of the square
-/// of its longest side.
-const FLAT: f64 = 1e-9;
 
 /// Boundaries of at most this many nodes have a table of all pairs.
 const FEW: usize = 48;
@@ -141,7 +138,7 @@ fn apex(triangle: &[u32; 3], a: u32, b: u32) -> Option<u32> {
 fn should_flip(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> bool {
     let longest =
         a.distance_squared(b).max(c.distance_squared(d)).max(a.distance_squared(c)).max(b.distance_squared(d));
-    if orient(a, d, c) <= FLAT * longest || orient(d, b, c) <= FLAT * longest {
+    if orient(a, d, c) <= FLAT_TRIANGLE * longest || orient(d, b, c) <= FLAT_TRIANGLE * longest {
         return false;
     }
     // in-circle of a, b, c at d, by the sum of the opposite angles: flip where it exceeds half a turn
@@ -150,5 +147,5 @@ fn should_flip(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> bool {
     let (cos_c, sin_c) = (u.dot(v), u.perp_dot(v));
     let (cos_d, sin_d) = (s.dot(t), s.perp_dot(t));
     let value = sin_c * cos_d + cos_c * sin_d;
-    value < -1e-12 * longest * longest
+    value < -DELAUNAY_MARGIN * longest * longest
 }

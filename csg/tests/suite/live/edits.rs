@@ -112,6 +112,17 @@ pub(crate) struct Tally {
     pub(crate) refused: usize,
 }
 
+impl std::iter::Sum for Tally {
+    fn sum<I: Iterator<Item = Self>>(tallies: I) -> Self {
+        tallies.fold(Self::default(), |sum, tally| Self {
+            compared: sum.compared + tally.compared,
+            equal: sum.equal + tally.equal,
+            triangles: sum.triangles + tally.triangles,
+            refused: sum.refused + tally.refused,
+        })
+    }
+}
+
 impl Brushes {
     /// What an edit makes of the brushes, and does to a model; nothing where there is no brush to edit.
     fn edited(&mut self, model: &mut LiveModel, edit: &Edit) -> Option<(Vec<Held>, Result<Change, EditError>)> {
@@ -275,7 +286,10 @@ pub(crate) fn run(edits: &[Edit], faces: Faces) -> Result<Tally, String> {
 
 /// Runs edits; where something is wrong, fails with as few of them as show it, as Rust.
 pub(crate) fn check(seed: u64, edits: &[Edit], faces: Faces) -> Tally {
-    let Err(first) = run(edits, faces) else { return run(edits, faces).expect("it went well a moment ago") };
+    let first = match run(edits, faces) {
+        Ok(tally) => return tally,
+        Err(first) => first,
+    };
     let mut few = edits.to_vec();
     let mut at = 0;
     while at < few.len() {

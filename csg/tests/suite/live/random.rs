@@ -69,7 +69,7 @@ fn noisy(random: &mut Rng) -> Planes {
     planes.into_iter().map(turned).collect()
 }
 
-fn any_plane(random: &mut Rng, shape: fn(&mut Rng) -> Planes) -> Plane {
+pub(crate) fn any_plane(random: &mut Rng, shape: fn(&mut Rng) -> Planes) -> Plane {
     let planes = shape(random);
     planes[random.below(planes.len())]
 }
@@ -102,15 +102,7 @@ fn sequence(random: &mut Rng, length: usize, shape: fn(&mut Rng) -> Planes) -> V
 }
 
 fn sweep(seeds: u64, length: usize, shape: fn(&mut Rng) -> Planes, faces: Faces) -> Tally {
-    (0..seeds).fold(Tally::default(), |sum, seed| {
-        let tally = check(seed, &sequence(&mut Rng::new(seed), length, shape), faces);
-        Tally {
-            compared: sum.compared + tally.compared,
-            equal: sum.equal + tally.equal,
-            triangles: sum.triangles + tally.triangles,
-            refused: sum.refused + tally.refused,
-        }
-    })
+    (0..seeds).map(|seed| check(seed, &sequence(&mut Rng::new(seed), length, shape), faces)).sum()
 }
 
 #[test]

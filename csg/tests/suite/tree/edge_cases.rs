@@ -1,7 +1,7 @@
 //! What is easily forgotten: empty, unbounded, deep and wide.
 
 use glam::DVec3;
-use planecut_csg::check::{CheckOptions, check_mesh};
+use planecut_check::{CheckOptions, check_mesh};
 use planecut_csg::{Brush, EvaluateError, Evaluation, Material, MaterialId, Model, Tree, UnboundedBrushes, evaluate};
 use planecut_kernel::HalfSpace;
 

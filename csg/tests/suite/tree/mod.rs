@@ -4,11 +4,13 @@
 //!   sum over intersections, their membership from the half-spaces alone.
 //! - [`algebra`]: the identities of set algebra, bit for bit where the mesh must be the same.
 //! - [`cutaway`]: models cut open, against counts of unit cubes.
+//! - [`ownership`]: which of coplanar faces emits, against unit faces of a grid and the truth table of `docs/weld.md`.
 //! - [`edge_cases`]: empty and unbounded results, deep and wide trees, materials.
 
 mod algebra;
 mod cutaway;
 mod edge_cases;
+mod ownership;
 mod random;
 mod regressions;
 mod touching;

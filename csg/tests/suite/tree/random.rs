@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use glam::DVec3;
-use planecut_csg::check::{CheckOptions, check_mesh};
+use planecut_check::{CheckOptions, check_mesh};
 use planecut_csg::{Brush, Model, Operation, Tree, UnboundedBrushes};
 
 use super::volume::{check_membership, check_volume};

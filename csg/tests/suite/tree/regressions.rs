@@ -1,8 +1,8 @@
 //! Cases that once went wrong, as the random tests print them.
 
 use glam::DVec3;
+use planecut_check::{CheckOptions, check_mesh};
 use planecut_csg::Operation::Xor;
-use planecut_csg::check::{CheckOptions, check_mesh};
 use planecut_csg::{Brush, Material, MaterialId, Model, Transform, Tree, UnboundedBrushes};
 use planecut_shapes::primitives::sphere;
 

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 use planecut_cells::Solid;
+use planecut_check::check_topology;
 use planecut_csg::Operation::{Difference, Intersection, Union, Xor};
-use planecut_csg::check::check_topology;
 use planecut_csg::{
     Brush, BrushFace, Evaluation, Material, MaterialId, Model, Transform, Tree, UnboundedBrushes, evaluate_with,
 };

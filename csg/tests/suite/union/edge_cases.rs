@@ -1,7 +1,7 @@
 //! What is easily forgotten: nothing, too little, too much, and bodies that only touch.
 
 use glam::DVec3;
-use planecut_csg::check::check_topology;
+use planecut_check::check_topology;
 use planecut_csg::{Brush, Evaluation, Model, UnboundedBrushes, evaluate_with, summarize};
 use planecut_kernel::IncrementalPolytope;
 

@@ -1,8 +1,8 @@
 //! Bodies in general position, with shared planes, with noise, thin, far away and of mixed size.
 
 use glam::DVec3;
+use planecut_check::{CheckOptions, check_mesh};
 use planecut_csg::Model;
-use planecut_csg::check::{CheckOptions, check_mesh};
 
 use super::measure::{check_membership, check_volume};
 use planecut_testkit::generate::{general_scene, kindred_scene, placed, sloped_scene, split, turned_box, with_noise};

@@ -1,7 +1,7 @@
 //! Boxes on a small lattice, straight, sheared and turned, against voxels.
 
 use glam::{DMat3, DVec3};
-use planecut_csg::check::check_topology;
+use planecut_check::check_topology;
 use planecut_csg::{Brush, BrushFace, Evaluation, MaterialId, Model};
 
 use super::voxels::Voxels;

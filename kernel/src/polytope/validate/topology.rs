@@ -14,7 +14,7 @@ use thiserror::Error;
 
 use super::super::infinity::is_infinity;
 use super::super::{EdgeIdx, IncrementalPolytope, PlaneIdx, VertexIdx, external};
-use crate::sign::{Row, Sign, cross_component, radial};
+use crate::sign::{Row, Sign, cross_component};
 
 /// A broken topology (paper §3.7): never the user's mistake.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
@@ -247,7 +247,10 @@ fn are_opposite(a: &Row, b: &Row) -> bool {
 /// as far as less than half a turn allows, one never comes to an end. Where they lie in a half-plane, the second
 /// turn at the latest does.
 fn surround(normals: &[&Row], a: &Row, b: &Row) -> bool {
-    let turns_left = |from: &Row, to: &Row| radial(from, to, a, b) == Sign::Positive;
+    // all cross products are multiples of that of `a` and `b`: one component tells
+    let component = (0..3).map(|axis| (axis, cross_component(a, b, axis))).find(|(_, sign)| *sign != Sign::Zero);
+    let Some((axis, left)) = component else { return false };
+    let turns_left = |from: &Row, to: &Row| cross_component(from, to, axis) == left;
     let mut at = a;
     for _ in 0..3 {
         let ahead = normals.iter().copied().filter(|normal| turns_left(at, normal));

@@ -1,7 +1,7 @@
 //! Which tier answers a sign: floating point what is not nearly zero, small integers what fits them, big integers the rest.
 
 use dashu_int::IBig;
-use planecut_kernel::sign::{Counts, Homogeneous, Row, Sign, cross_component, orient3, orient4, radial};
+use planecut_kernel::sign::{Counts, Homogeneous, Row, Sign, cross_component, orient3, orient4};
 use planecut_oracle::exact::{Coefficients, cross, det3, det4, dot, integer_row, normal};
 use planecut_oracle::kernel_calls::half_space;
 use planecut_oracle::random::Rng;
@@ -21,14 +21,9 @@ fn ask(sign: impl FnOnce() -> Sign) -> (Counts, Sign) {
     (counts, answer)
 }
 
-/// The four signs of four rows.
-fn ask_all([a, b, c, d]: &[Row; 4]) -> [(Counts, Sign); 4] {
-    [
-        ask(|| orient3(a, b, c)),
-        ask(|| orient4(a, b, c, d)),
-        ask(|| radial(a, b, c, d)),
-        ask(|| cross_component(a, b, 2)),
-    ]
+/// The three signs of four rows.
+fn ask_all([a, b, c, d]: &[Row; 4]) -> [(Counts, Sign); 3] {
+    [ask(|| orient3(a, b, c)), ask(|| orient4(a, b, c, d)), ask(|| cross_component(a, b, 2))]
 }
 
 fn magnitude(v: IBig) -> IBig {
@@ -37,7 +32,7 @@ fn magnitude(v: IBig) -> IBig {
 
 /// Which of the signs are clear: the value of each and the sum of the magnitudes of its terms. That of a determinant is
 /// its permanent: the signs of the products left out.
-fn clear(planes: &[Coefficients; 4]) -> [bool; 4] {
+fn clear(planes: &[Coefficients; 4]) -> [bool; 3] {
     let rows = planes.map(integer_row);
     let sizes = rows.clone().map(|row| row.map(magnitude));
     let (n, m) = (rows.clone().map(|row| normal(&row)), sizes.clone().map(|row| normal(&row)));
@@ -48,14 +43,9 @@ fn clear(planes: &[Coefficients; 4]) -> [bool; 4] {
         + &sizes[1][3] * permanent3(&m[0], &m[2], &m[3])
         + &sizes[2][3] * permanent3(&m[0], &m[1], &m[3])
         + &sizes[3][3] * permanent3(&m[0], &m[1], &m[2]);
-    let values = [
-        det3(&n[0], &n[1], &n[2]),
-        det4([&rows[0], &rows[1], &rows[2], &rows[3]]),
-        dot(&cross(&n[0], &n[1]), &cross(&n[2], &n[3])),
-        cross(&n[0], &n[1])[2].clone(),
-    ];
-    let products = dot(&m[0], &m[2]) * dot(&m[1], &m[3]) + dot(&m[0], &m[3]) * dot(&m[1], &m[2]);
-    let permanents = [permanent3(&m[0], &m[1], &m[2]), permanent4, products, permanent_cross(&m[0], &m[1])[2].clone()];
+    let values =
+        [det3(&n[0], &n[1], &n[2]), det4([&rows[0], &rows[1], &rows[2], &rows[3]]), cross(&n[0], &n[1])[2].clone()];
+    let permanents = [permanent3(&m[0], &m[1], &m[2]), permanent4, permanent_cross(&m[0], &m[1])[2].clone()];
     let mut sides = values.into_iter().zip(permanents);
     std::array::from_fn(|_| sides.next().is_some_and(|(value, permanent)| (magnitude(value) << CLEAR) > permanent))
 }
@@ -76,7 +66,7 @@ fn uneven(rng: &mut Rng) -> [Coefficients; 4] {
 #[test]
 fn clear_signs_are_filtered() {
     let mut rng = Rng::new(first_seed());
-    let (mut seen, mut exact) = ([0; 4], [0; 4]);
+    let (mut seen, mut exact) = ([0; 3], [0; 3]);
     for _ in 0..DRAWS {
         let planes = uneven(&mut rng);
         let rows = planes.map(|plane| Row::new(&half_space(plane)));
@@ -127,12 +117,7 @@ fn zeros_of_small_integers_need_no_big_ones() {
 fn sums_of_zeros_are_filtered() {
     let axes = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.1, 0.0, 0.0, 0.0], [0.7, 0.0, 0.0, 0.3]];
     let [x, y, z, other] = axes.map(|plane| Row::new(&half_space(plane)));
-    let zeros = [
-        ask(|| orient3(&x, &z, &other)),
-        ask(|| orient4(&x, &y, &z, &x)),
-        ask(|| radial(&x, &z, &x, &y)),
-        ask(|| cross_component(&x, &y, 0)),
-    ];
+    let zeros = [ask(|| orient3(&x, &z, &other)), ask(|| orient4(&x, &y, &z, &x)), ask(|| cross_component(&x, &y, 0))];
     for (k, (counts, sign)) in zeros.into_iter().enumerate() {
         assert_eq!((counts.filtered(), sign), (1, Sign::Zero), "sign {k}: {counts:?}");
     }
@@ -147,7 +132,6 @@ fn zeros_of_decimal_numbers_need_big_integers() {
     let zeros = [
         ask(|| orient3(&a, &b, &quadrupled)),
         ask(|| orient4(&a, &b, &c, &a)),
-        ask(|| radial(&a, &quadrupled, &b, &c)),
         ask(|| cross_component(&a, &quadrupled, 0)),
     ];
     for (k, (counts, sign)) in zeros.into_iter().enumerate() {

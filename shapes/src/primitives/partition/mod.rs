@@ -16,6 +16,7 @@ use planecut_kernel::DVec2;
 
 use super::cells::Side;
 use crate::outline::signed_area;
+use crate::tolerances::{PARTITION_AREA, PARTITION_CONVEX};
 use polygon::Cutter;
 use sides::Sides;
 
@@ -29,7 +30,7 @@ pub(super) fn partition(corners: &[DVec2], lines: &[u32]) -> Option<Vec<Vec<Side
     let area = signed_area(corners);
     let found: f64 = cells.iter().map(|cell| cutter.area(cell).max(0.0)).sum();
     let size = corners.iter().map(|p| (*p - corners[0]).abs().max_element()).fold(0.0, f64::max);
-    let is_whole = (found - area).abs() <= 1e-12 * corners.len() as f64 * size * size;
-    let is_sound = is_whole && cells.iter().all(|cell| cutter.is_convex(cell, 1e-9 * size));
+    let is_whole = (found - area).abs() <= PARTITION_AREA * corners.len() as f64 * size * size;
+    let is_sound = is_whole && cells.iter().all(|cell| cutter.is_convex(cell, PARTITION_CONVEX * size));
     is_sound.then(|| cells.iter().map(|cell| cell.sides()).collect())
 }

@@ -1,8 +1,8 @@
 //! Surfaces that bound no solid.
 
 use glam::DVec3;
+use planecut_check::ContactKind;
 use planecut_csg::MaterialId;
-use planecut_csg::check::ContactKind;
 use planecut_shapes::polyhedron::{PolyhedronError, PolyhedronOptions, Precision, polyhedron};
 
 use super::judge::{Given, cube};

@@ -1,7 +1,7 @@
 //! What must hold of the cells of a surface.
 
 use glam::DVec3;
-use planecut_csg::check::check_topology;
+use planecut_check::check_topology;
 use planecut_csg::{Brush, Evaluation, Material, MaterialId, Model, Tree, evaluate};
 use planecut_shapes::polyhedron::{Polyhedron, PolyhedronError, PolyhedronOptions, Precision, polyhedron};
 

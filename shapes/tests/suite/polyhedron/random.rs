@@ -1,7 +1,7 @@
 //! Surfaces of random trees.
 
 use glam::{DMat3, DVec3};
-use planecut_csg::check::check_topology;
+use planecut_check::check_topology;
 use planecut_csg::{MaterialId, Model, Operation, Transform, Tree, evaluate};
 use planecut_shapes::polyhedron::{PolyhedronError, Precision};
 use planecut_shapes::primitives::{cuboid, prism, sphere, torus};

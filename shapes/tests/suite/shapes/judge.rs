@@ -3,7 +3,7 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use glam::DVec3;
-use planecut_csg::check::{CheckOptions, check_mesh};
+use planecut_check::{CheckOptions, check_mesh};
 use planecut_csg::{Evaluation, Material, Model, Operation, Tree, TreeNode, contract_short_edges, evaluate};
 
 use planecut_testkit::random::Rng;

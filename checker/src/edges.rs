@@ -1,8 +1,9 @@
 //! The half-edges of a triangle mesh, matched by their vertex indices.
 //!
-//! Half-edge `3 t + k` runs from corner `k` of triangle `t` to the next corner.
+//! Half-edge `3 t + k` runs from corner `k` of triangle `t` to the next corner. The pipeline has half-edges of its own: this crate
+//! shares no code with what it checks.
 
-use crate::sets::DisjointSets;
+use crate::components::Components;
 
 /// The twin of a half-edge that has none, or not exactly one.
 pub(crate) const NO_TWIN: u32 = u32::MAX;
@@ -76,7 +77,7 @@ impl EdgeMatching {
             first_multiple: None,
             components: 0,
         };
-        let mut sets = DisjointSets::new(triangles.len());
+        let mut components = Components::new(triangles.len());
         let mut bucket = Vec::new();
         for smaller in 0..vertices {
             bucket.clear();
@@ -85,12 +86,12 @@ impl EdgeMatching {
             for uses in bucket.chunk_by(|a, b| a.larger() == b.larger()) {
                 matching.record(smaller as u32, uses);
                 for pair in uses.windows(2) {
-                    sets.join(pair[0].half_edge / 3, pair[1].half_edge / 3);
+                    components.join(pair[0].half_edge / 3, pair[1].half_edge / 3);
                 }
             }
         }
         // Triangles with a repeated index were joined with nothing, so they are sets of their own.
-        matching.components = sets.count((0..triangles.len()).filter(|&t| !has_repeated_index(triangles[t])));
+        matching.components = components.count((0..triangles.len()).filter(|&t| !has_repeated_index(triangles[t])));
         matching
     }
 

@@ -1,18 +1,18 @@
 //! Whether two triangles of a mesh are in each other's way: cheap tests first, then the exact ones.
 
 use glam::DVec3;
-use rayon::prelude::*;
 
-use super::bvh::Aabb;
-use super::crossing::{Contact, ContactKind};
-use super::separation::{Triangle, interiors_cross, interiors_overlap, normal, overlap_depth, penetration_depth};
-use super::sheet::Sheets;
+use crate::bvh::Aabb;
+use crate::crossing::{Contact, ContactKind};
+use crate::parallel;
+use crate::separation::{Triangle, interiors_cross, interiors_overlap, normal, overlap_depth, penetration_depth};
+use crate::sheet::Sheets;
 
 /// Depths are computed to within this part of the scale: less than thirty roundings of lengths up to twice the scale.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// The data of a mesh, made ready for testing many pairs of its triangles.
-pub(super) struct PairTest<'a> {
+pub(crate) struct PairTest<'a> {
     positions: &'a [DVec3],
     /// Positions divided by `unit`, so that no product of them over- or underflows; lengths below are in these units.
     scaled: Vec<DVec3>,
@@ -77,25 +77,25 @@ impl Side {
 }
 
 impl<'a> PairTest<'a> {
-    pub(super) fn new(positions: &'a [DVec3], triangles: &'a [[u32; 3]], twins: &'a [u32], tolerance: f64) -> Self {
+    pub(crate) fn new(positions: &'a [DVec3], triangles: &'a [[u32; 3]], twins: &'a [u32], tolerance: f64) -> Self {
         let unit = unit_of(positions, triangles);
         let scaled: Vec<DVec3> = positions.iter().map(|&p| p / unit).collect();
         let corners = |t: &[u32; 3]| t.map(|v| scaled[v as usize]);
         let extent = triangles.iter().fold(Aabb::EMPTY, |b, t| b.joined(Aabb::of_points(&corners(t))));
         let largest = extent.min.abs().max(extent.max.abs()).max_element();
         let scale = if triangles.is_empty() { 0.0 } else { extent.min.distance(extent.max).max(largest) };
-        let planes = triangles.par_iter().map(|t| Plane::of(&corners(t))).collect();
+        let planes = parallel::map(triangles.len(), |t| Plane::of(&corners(&triangles[t])));
         let (limit, slack) = (tolerance * scale, ROUNDING * scale);
         Self { positions, unit, triangles, twins, planes, limit, slack, scaled }
     }
 
     /// Depth up to which contacts do not count, in the units of the positions.
-    pub(super) fn limit(&self) -> f64 {
+    pub(crate) fn limit(&self) -> f64 {
         self.limit * self.unit
     }
 
     /// A box such that triangles whose boxes do not meet have no contact.
-    pub(super) fn bounds(&self, triangle: usize) -> Aabb {
+    pub(crate) fn bounds(&self, triangle: usize) -> Aabb {
         Aabb::of_points(&self.corners(triangle, &self.scaled)).grown(self.limit / 2.0)
     }
 
@@ -104,7 +104,7 @@ impl<'a> PairTest<'a> {
     }
 
     /// How two triangles are in each other's way. The same whichever comes first.
-    pub(super) fn contact(&self, t: u32, u: u32) -> Option<Contact> {
+    pub(crate) fn contact(&self, t: u32, u: u32) -> Option<Contact> {
         if t == u {
             return None;
         }

@@ -2,11 +2,10 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use crate::bvh::Bvh;
+use crate::pair::PairTest;
+use crate::parallel;
 use glam::DVec3;
-use rayon::prelude::*;
-
-use super::bvh::Bvh;
-use super::pair::PairTest;
 
 /// How two triangles of a mesh are in each other's way.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -60,8 +59,8 @@ pub struct CrossingReport {
 ///
 /// Positions must be finite and indices in range; `twins` are the half-edge twins of the mesh. The `tolerance` is relative to
 /// the diagonal of the bounding box or the largest coordinate, whichever is greater: rounding moves a vertex by a fraction of
-/// its coordinates. See [`super::CheckOptions::tolerance`] for what counts.
-pub(super) fn find_crossings(
+/// its coordinates. See [`crate::CheckOptions::tolerance`] for what counts.
+pub(crate) fn find_crossings(
     positions: &[DVec3],
     triangles: &[[u32; 3]],
     twins: &[u32],
@@ -69,10 +68,10 @@ pub(super) fn find_crossings(
 ) -> CrossingReport {
     let pairs = PairTest::new(positions, triangles, twins, tolerance);
     let count = triangles.len();
-    let tree = Bvh::new((0..count).into_par_iter().map(|t| pairs.bounds(t)).collect());
+    let tree = Bvh::new(parallel::map(count, |t| pairs.bounds(t)));
     let involved: Vec<AtomicBool> = (0..count).map(|_| AtomicBool::new(false)).collect();
     let is_involved = |t: u32| involved[t as usize].load(Ordering::Relaxed);
-    (0..count).into_par_iter().for_each(|place| {
+    parallel::for_each(count, |place| {
         tree.visit_pairs_of(place, |t, u| {
             // Pairs that would add nothing are skipped. The set of involved triangles is the same in whatever order they come.
             if !(is_involved(t) && is_involved(u)) && pairs.contact(t, u).is_some() {

@@ -3,8 +3,8 @@
 use glam::DVec3;
 use thiserror::Error;
 
-use super::edges::{EdgeMatching, NO_TWIN, has_repeated_index, origin, previous};
-use super::measure::{Measures, measure};
+use crate::edges::{EdgeMatching, NO_TWIN, has_repeated_index, origin, previous};
+use crate::measure::{Measures, measure};
 
 /// One way in which a mesh fails to be a closed, oriented 2-manifold. Indices count from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
@@ -108,14 +108,8 @@ pub struct TopologyReport {
 /// Largest number of triangles or vertices: half-edges are numbered in 32 bits, with one number to spare.
 const MAX_COUNT: usize = (u32::MAX as usize - 1) / 3;
 
-/// The topology of a mesh. Linear in its size for vertices of bounded degree.
-#[must_use]
-pub fn check_topology(positions: &[DVec3], triangles: &[[u32; 3]]) -> TopologyReport {
-    analyse(positions, triangles).0
-}
-
 /// The report, and the half-edge twins; without twins where the data could not be used at all.
-pub(super) fn analyse(positions: &[DVec3], triangles: &[[u32; 3]]) -> (TopologyReport, Vec<u32>) {
+pub(crate) fn analyse(positions: &[DVec3], triangles: &[[u32; 3]]) -> (TopologyReport, Vec<u32>) {
     if let Some(defect) = unusable(positions, triangles) {
         return (unusable_report(triangles.len(), defect), Vec::new());
     }
@@ -184,7 +178,7 @@ fn unusable_report(triangles: usize, defect: TopologyDefect) -> TopologyReport {
         duplicate_edges: 0,
         pinched_vertices: 0,
         first_defect: Some(defect),
-        measures: measure(&[], &[]),
+        measures: measure::<DVec3>(&[], &[]),
     }
 }
 

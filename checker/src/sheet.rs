@@ -11,8 +11,8 @@ use std::f64::consts::TAU;
 
 use glam::{DVec2, DVec3};
 
-use super::edges::{NO_TWIN, next, origin, previous};
-use super::separation::{edges, normal, overlap_along};
+use crate::edges::{NO_TWIN, next, origin, previous};
+use crate::separation::{edges, normal, overlap_along};
 
 /// Lengths must exceed this many times the limit: a corner that is uncertain by half the limit then turns a direction by
 /// less than [`MIN_SINE`].
@@ -21,7 +21,7 @@ const MIN_REACH: f64 = 100.0;
 const MIN_SINE: f64 = 0.02;
 
 /// The sheets of a mesh: its edges with the two triangles at each.
-pub(super) struct Sheets<'a> {
+pub(crate) struct Sheets<'a> {
     triangles: &'a [[u32; 3]],
     twins: &'a [u32],
     positions: &'a [DVec3],
@@ -36,12 +36,12 @@ struct Sheet {
 }
 
 impl<'a> Sheets<'a> {
-    pub(super) fn new(triangles: &'a [[u32; 3]], twins: &'a [u32], positions: &'a [DVec3]) -> Self {
+    pub(crate) fn new(triangles: &'a [[u32; 3]], twins: &'a [u32], positions: &'a [DVec3]) -> Self {
         Self { triangles, twins, positions }
     }
 
     /// How deeply the surfaces of two triangles cross along one of their edges, if they do.
-    pub(super) fn crossing(&self, t: usize, u: usize, limit: f64) -> Option<f64> {
+    pub(crate) fn crossing(&self, t: usize, u: usize, limit: f64) -> Option<f64> {
         let (sheets_t, sheets_u) = (self.around(t), self.around(u));
         let through_face = |sheets: &[Option<Sheet>; 3], face: usize| {
             let corners = self.triangles[face].map(|v| self.positions[v as usize]);

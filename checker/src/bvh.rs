@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use crate::parallel;
+
 /// An axis-aligned box; closed, so that boxes which touch meet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Aabb {
@@ -131,7 +133,7 @@ fn build(nodes: &mut [Node], items: &mut [u32], start: u32, height: u32, boxes: 
     let (left, right) = below.split_at_mut(below.len() / 2);
     let high_start = start + middle as u32;
     if low.len() + high.len() >= PARALLEL_BUILD {
-        rayon::join(
+        parallel::join(
             || build(left, low, start, height - 1, boxes),
             || build(right, high, high_start, height - 1, boxes),
         );
@@ -144,18 +146,16 @@ fn build(nodes: &mut [Node], items: &mut [u32], start: u32, height: u32, boxes: 
 
 #[cfg(test)]
 mod tests {
+    use planecut_testkit::random::Rng;
+
     use super::*;
 
     #[test]
     fn finds_what_a_scan_finds() {
-        let seed = 0x5eed_0003u64;
-        let mut state = seed;
-        let mut random = || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            ((state >> 40) % 64) as f64
-        };
+        let seed = 0x5eed_0003;
+        let mut random = Rng::new(seed);
         for count in [0usize, 1, 3, 4, 5, 9, 17, 100, 1000] {
-            let mut point = || DVec3::new(random(), random(), random());
+            let mut point = || DVec3::from_array([0; 3].map(|_| random.whole(0, 63)));
             let boxes: Vec<Aabb> = (0..count)
                 .map(|_| {
                     let p = point();

@@ -13,16 +13,16 @@ pub struct Measures {
     /// Sum of the triangles' areas.
     pub area: f64,
     /// Centroid of the enclosed volume, or the centre of the bounding box where the volume is zero.
-    pub centroid: DVec3,
+    pub centroid: [f64; 3],
     /// Least coordinates of all vertices that triangles use; zero where there are none.
-    pub min: DVec3,
+    pub min: [f64; 3],
     /// Largest coordinates of all vertices that triangles use; zero where there are none.
-    pub max: DVec3,
+    pub max: [f64; 3],
 }
 
 /// Volume, area and centroid of the given triangles; `None` where one names a position that there is not.
 #[must_use]
-pub fn measure_triangles(positions: &[DVec3], triangles: &[[u32; 3]]) -> Option<Measures> {
+pub fn measure_triangles<P: Copy + Into<[f64; 3]>>(positions: &[P], triangles: &[[u32; 3]]) -> Option<Measures> {
     let is_there = |corner: &u32| (*corner as usize) < positions.len();
     triangles.as_flattened().iter().all(is_there).then(|| measure(positions, triangles))
 }
@@ -30,11 +30,12 @@ pub fn measure_triangles(positions: &[DVec3], triangles: &[[u32; 3]]) -> Option<
 /// Measures of the given triangles, all of whose indices are in range.
 ///
 /// Tetrahedra are formed with the centre of the bounding box, not with the origin, so that meshes far away lose no digits.
-pub(super) fn measure(positions: &[DVec3], triangles: &[[u32; 3]]) -> Measures {
+pub(crate) fn measure<P: Copy + Into<[f64; 3]>>(positions: &[P], triangles: &[[u32; 3]]) -> Measures {
+    let position = |index: u32| DVec3::from_array(positions[index as usize].into());
     let (mut min, mut max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for &index in triangles.as_flattened() {
-        min = min.min(positions[index as usize]);
-        max = max.max(positions[index as usize]);
+        min = min.min(position(index));
+        max = max.max(position(index));
     }
     if triangles.is_empty() {
         (min, max) = (DVec3::ZERO, DVec3::ZERO);
@@ -44,7 +45,7 @@ pub(super) fn measure(positions: &[DVec3], triangles: &[[u32; 3]]) -> Measures {
     let mut two_area = CompensatedSum::default();
     let mut moment = [CompensatedSum::default(); 3];
     for &triangle in triangles {
-        let [a, b, c] = triangle.map(|v| positions[v as usize] - centre);
+        let [a, b, c] = triangle.map(|v| position(v) - centre);
         let normal = (b - a).cross(c - a);
         let six = a.dot(normal);
         six_volume.add(six);
@@ -55,5 +56,11 @@ pub(super) fn measure(positions: &[DVec3], triangles: &[[u32; 3]]) -> Measures {
     let six = six_volume.value();
     let offset = DVec3::from_array(moment.map(|m| m.value() / (4.0 * six)));
     let centroid = if offset.is_finite() { centre + offset } else { centre };
-    Measures { volume: six / 6.0, area: two_area.value() / 2.0, centroid, min, max }
+    Measures {
+        volume: six / 6.0,
+        area: two_area.value() / 2.0,
+        centroid: centroid.to_array(),
+        min: min.to_array(),
+        max: max.to_array(),
+    }
 }

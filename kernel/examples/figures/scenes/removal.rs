@@ -1,4 +1,4 @@
-//! The locality lemma: only planes of the ring bound what is new, because a face that grows had an edge with what is removed.
+//! The removal lemma: only planes of the ring bound what is new, because a face that grows had an edge with what is removed.
 
 use planecut_kernel::{DVec2, DVec3, HalfSpaceError, IncrementalPolytope, PlaneIdx};
 

@@ -12,7 +12,7 @@ use std::cmp::Ordering;
 
 use glam::DVec3;
 
-use super::orient::{determinant_sign, orient3d};
+use crate::orient::{determinant_sign, orient3d};
 
 /// The corners of a triangle in order.
 pub(crate) type Triangle = [DVec3; 3];

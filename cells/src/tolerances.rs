@@ -1,0 +1,91 @@
+//! The constants of this crate that decide something by size instead of by sign.
+//!
+//! `docs/tolerances.md` lists those of all crates, and says of each whether it can change topology or volume and why that is safe.
+//! Error bounds of floating-point filters are not here: they may only say "not certain", after which exact
+//! arithmetic decides, and stand where they are derived.
+
+/// A point on a face of a cell is on a face of the solid's tree where it is outside of that by less than this share of its
+/// distance from the origin plus 1.
+///
+/// Decides: the material and source of a cell's face. Not its place.
+pub const SOURCE_DISTANCE: f64 = 1e-9;
+
+/// A point of the input may belong to a part that it is outside of by this share of the size of all.
+///
+/// Decides: which part encloses the point; each is enclosed exactly afterwards, whichever it is.
+pub const INPUT_POINT_DISTANCE: f64 = 1e-9;
+
+/// Facets of a trial hull whose normals have a larger cosine are one.
+///
+/// Decides: how a trial hull is costed; the hulls that leave are built exactly.
+pub const COPLANAR_COSINE: f64 = 1.0 - 1e-12;
+
+/// Points outside of a plane of a trial hull by less than this share of the size lie on it.
+///
+/// Decides: how a trial hull is costed; the hulls that leave are built exactly.
+pub const HULL_TOUCHING: f64 = 1e-11;
+
+/// A trial cell may seem to reach this far, relative to its size, into a region that is kept clear.
+///
+/// Decides: which trials are looked at; the cell that is taken is tested exactly.
+pub const CLEAR_TOUCHING: f64 = 1e-9;
+
+/// Sample points between two bodies may lie outside of the cells that fill the gap by this share of the size.
+///
+/// Decides: whether an exact hull is built and tested at all.
+pub const FILLED_TOUCHING: f64 = 1e-9;
+
+/// What two cells lack to be convex together is rounding where it is smaller than this share of their hull's volume.
+///
+/// Decides: whether they merge as if nothing were added; the volume reported is measured afterwards.
+pub const NO_VOLUME: f64 = 1e-13;
+
+/// A cell is cut back only if that leaves less than this share of its volume.
+///
+/// Decides: which of two enclosing cells is taken.
+pub const WORTH_SHRINKING: f64 = 1.0 - 1e-6;
+
+/// A corner that lies outside of a part by less than this share of its size may lie within.
+///
+/// Decides: which corners are looked at; each is enclosed exactly afterwards.
+pub const CORNER_WITHIN: f64 = 1e-9;
+
+/// A hull that keeps more than this share of its volume without a part is not made smaller by moving that part.
+///
+/// Decides: which groups are tried.
+pub const SAME_HULL: f64 = 1.0 - 1e-9;
+
+/// A body within a solid has grown if it was smaller than this share of what it is now.
+///
+/// Decides: when growing ends.
+pub const GROWN: f64 = 1.0 - 1e-12;
+
+/// Corners of planes whose unit normals have a smaller determinant are left to exact arithmetic.
+///
+/// Decides: which trials floating point answers.
+pub const SINGULAR_CORNER: f64 = 1e-6;
+
+/// How far off other corners may be, relative to the size.
+///
+/// Decides: which trials floating point answers.
+pub const CORNER_ROOM: f64 = 1e-8;
+
+/// Vertices of a cell nearer to each other than this share of its size count as one.
+///
+/// Decides: what counts against the limit of vertices, and what the cell's view reports.
+pub const ONE_VERTEX: f64 = 1.0 / (1u64 << 32) as f64;
+
+/// A box around points without extent is larger than they are by this share of their largest coordinate.
+///
+/// Decides: the thickness of what would have none.
+pub const FLAT_PADDING: f64 = 1.0 / (1u64 << 40) as f64;
+
+/// A cell that lacks less than this share of the least thickness has it.
+///
+/// Decides: whether a cell is thickened once more.
+pub const THICK_ENOUGH: f64 = 1e-9;
+
+/// Edges whose directions have a smaller sine span no direction in which a cell may be thinnest.
+///
+/// Decides: in which directions the thickness is measured.
+pub const PARALLEL_EDGES: f64 = 1e-6;

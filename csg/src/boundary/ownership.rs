@@ -1,0 +1,141 @@
+//! Which of several coplanar faces emits the boundary.
+//!
+//! The rule, its truth table and its proof are in `docs/weld.md`, "Coplanar faces: who owns the boundary". Each of its
+//! questions is a function here: [`boundary_here`], [`Ownership::emitting_leaf`], [`material_of`], and the order of turns
+//! ([`Turn`]).
+
+use super::contact::{Contact, Facing};
+use super::face::Reaching;
+use crate::body::BodyFace;
+use crate::expression::{Expression, Polarity, Restriction};
+use crate::model::MaterialId;
+
+/// A side of a directed edge.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Side {
+    Left,
+    Right,
+}
+
+impl Side {
+    pub(super) const BOTH: [Self; 2] = [Self::Left, Self::Right];
+
+    /// The channel of the tree just inside of the face.
+    pub(super) fn inside(self) -> usize {
+        2 * self as usize
+    }
+
+    /// The channel of the tree just outside of the face.
+    pub(super) fn outside(self) -> usize {
+        2 * self as usize + 1
+    }
+}
+
+/// When a body's face on a plane has its turn among all faces on that plane: a total order, as numbers of bodies differ
+/// and no body has two faces on one plane.
+///
+/// Bodies that take from the solid come before those that add to it, so that a tool that merely touches a body from outside
+/// does not give it its material. Then the name of the material decides, so that the outcome does not depend on the order of
+/// the bodies; the number of the body only separates faces of one material, where it changes nothing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Turn {
+    pub(super) polarity: Polarity,
+    /// The place of the face's material by name.
+    pub(super) material_rank: u32,
+    pub(super) body: usize,
+}
+
+/// Whether there is boundary on a side of an edge on a face, and which way it faces: where the tree differs between just inside and
+/// just outside of the face.
+fn boundary_here(restriction: &Restriction, side: Side) -> Option<Facing> {
+    Facing::between(restriction.root(side.inside()), restriction.root(side.outside()))
+}
+
+/// The material of the boundary that a face emits: its own, also where it is the face of a tool.
+pub(super) fn material_of(emitting: &BodyFace) -> MaterialId {
+    emitting.material
+}
+
+/// What is known of either side of an edge on a face: the values of the leaves, kept in the channels of a restriction, and the faces
+/// on the plane.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Ownership {
+    own: usize,
+    /// For each side the bodies with a face on the plane that covers it, this one among them, by turn.
+    coplanar: [Vec<Reaching>; 2],
+}
+
+impl Ownership {
+    /// Nothing but a body itself is known to lie on either side of an edge on its face.
+    pub(super) fn begin(&mut self, expression: &Expression, restriction: &mut Restriction, own: &Reaching) {
+        self.own = own.leaf;
+        self.coplanar.iter_mut().for_each(Vec::clear);
+        self.cover_both(expression, restriction, own);
+    }
+
+    /// The boundary that the face itself emits on a side: there is one, and no other face owns it.
+    pub(super) fn emitted(&self, expression: &Expression, restriction: &mut Restriction, side: Side) -> Option<Facing> {
+        let facing = boundary_here(restriction, side)?;
+        (self.emitting_leaf(expression, restriction, side, facing) == self.own).then_some(facing)
+    }
+
+    /// The leaf whose face emits the boundary on a side.
+    ///
+    /// The coplanar bodies take their turns from the empty side to the solid one; the one at whose turn the tree becomes solid
+    /// for the first time emits.
+    fn emitting_leaf(
+        &self,
+        expression: &Expression,
+        restriction: &mut Restriction,
+        side: Side,
+        facing: Facing,
+    ) -> usize {
+        let coplanar = &self.coplanar[side as usize];
+        if let [only] = coplanar.as_slice() {
+            return only.leaf;
+        }
+        // the channel of the empty side is where turns are taken, and undone afterwards
+        let empty = facing.empty_of([side.inside(), side.outside()]);
+        let mut taken = 0;
+        let emitting = coplanar.iter().find(|turn| {
+            taken += 1;
+            restriction.set(expression, turn.leaf, empty, facing.solid_of(turn.contact.sides()));
+            restriction.root(empty)
+        });
+        for turn in &coplanar[..taken] {
+            restriction.set(expression, turn.leaf, empty, facing.empty_of(turn.contact.sides()));
+        }
+        emitting.expect("after all turns every leaf is as on the solid side").leaf
+    }
+
+    /// Takes a body as covering both sides.
+    pub(super) fn cover_both(&mut self, expression: &Expression, restriction: &mut Restriction, body: &Reaching) {
+        for side in Side::BOTH {
+            self.set_cover(expression, restriction, body, side, true);
+        }
+    }
+
+    /// Takes a body as covering one side, or not.
+    pub(super) fn set_cover(
+        &mut self,
+        expression: &Expression,
+        restriction: &mut Restriction,
+        body: &Reaching,
+        side: Side,
+        covers: bool,
+    ) {
+        let [inside, outside] = body.contact.sides();
+        restriction.set(expression, body.leaf, side.inside(), inside && covers);
+        restriction.set(expression, body.leaf, side.outside(), outside && covers);
+        if body.contact == Contact::Across {
+            return;
+        }
+        let coplanar = &mut self.coplanar[side as usize];
+        let place = coplanar.partition_point(|other| other.turn < body.turn);
+        if covers {
+            coplanar.insert(place, *body);
+        } else {
+            coplanar.remove(place);
+        }
+    }
+}

@@ -1,0 +1,128 @@
+//! How far a change of brushes reaches: the faces on which the boundary may be another.
+
+use super::bodies::{MANY, Placed};
+use super::history::New;
+use super::operand::{Operand, Role};
+use super::{LiveModel, body_of};
+use crate::base::Bounds;
+use crate::body::{Body, BodyFace};
+use crate::boundary::misses;
+
+/// How far a change of brushes reaches.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Reach {
+    /// To what they or their old bodies touch.
+    Near,
+    /// To the boundary near them: they are the last ones, and new.
+    Appended,
+    /// To everything, as what lies outside of an intersecting brush is taken away.
+    Everywhere,
+}
+
+impl LiveModel {
+    /// How far a change reaches that gives brushes new states.
+    pub(super) fn reach(&self, new: &[New]) -> Reach {
+        let role_now = |id: u64| {
+            let operand = self.by_id.get(&id).and_then(|number| self.operands[*number as usize].as_ref());
+            operand.map(|operand| operand.state.role)
+        };
+        let intersects_differently = |(id, state): &New| {
+            let roles = [role_now(*id), state.as_ref().map(|state| state.role)];
+            self.is_in_sequence(*id) && roles[0] != roles[1] && roles.contains(&Some(Role::Intersect))
+        };
+        let last = self.by_id.last_key_value().map(|(id, _)| *id);
+        if new.iter().any(intersects_differently) {
+            Reach::Everywhere
+        } else if new.iter().all(|(id, _)| self.is_in_sequence(*id) && last.is_none_or(|last| *id > last)) {
+            Reach::Appended
+        } else {
+            Reach::Near
+        }
+    }
+
+    /// The brushes, ascending, among some that change, whose roles stay and whose bodies, still the old ones, have no equal.
+    /// `before` are those that were edited, as they were.
+    pub(super) fn local(&self, changed: &[u32], before: &[New]) -> Vec<u32> {
+        let is_local = |number: &u32| {
+            let operand = self.operand(*number);
+            let edited = before.iter().find(|(id, _)| *id == operand.id);
+            let keeps_role =
+                edited.is_none_or(|(_, old)| old.as_ref().is_some_and(|old| old.role == operand.state.role));
+            keeps_role && self.has_no_equal(operand)
+        };
+        let few = if changed.len() < MANY { changed } else { &[] };
+        few.iter().copied().filter(is_local).collect()
+    }
+
+    fn has_no_equal(&self, operand: &Operand) -> bool {
+        operand.body.is_none() || self.marks.is_single(operand.mark)
+    }
+
+    /// The faces, sorted, on which the boundary may differ: those of the bodies that have changed, and those of others that
+    /// reach into them or into what they were.
+    ///
+    /// Where a body alone is another, of brushes that do what they did, only the parts in which it differs matter: `local` are
+    /// the brushes for which that may be so. It is not where one of several equal bodies changes, or one becomes equal to
+    /// others: which of them stands for all of them may change, too.
+    pub(super) fn faces_to_redo(
+        &mut self,
+        changed: &[u32],
+        old: &[Placed],
+        reach: Reach,
+        local: &[u32],
+    ) -> Vec<(u32, u32)> {
+        let mut faces = std::mem::take(&mut self.buffers.faces);
+        faces.clear();
+        let all_of = |number: u32| {
+            let body = body_of(&self.operands, number);
+            (0..body.map_or(0, |body| body.faces.len()) as u32).map(move |face| (number, face))
+        };
+        if reach == Reach::Everywhere || (changed.len() >= self.by_id.len() && local.is_empty()) {
+            faces.extend((0..self.operands.len() as u32).flat_map(all_of));
+        } else {
+            for placed in old {
+                let number = placed.number;
+                let difference = placed.difference.as_ref();
+                let difference =
+                    difference.filter(|_| local.contains(&number) && self.has_no_equal(self.operand(number)));
+                let bodies = [body_of(&self.operands, number), placed.body.as_ref()];
+                match difference {
+                    Some(difference) if difference.bounds == Bounds::EMPTY => {}
+                    Some(difference) => {
+                        let others = bodies.into_iter().flatten();
+                        others.for_each(|body| self.touch(body, number, &difference.bounds, false, &mut faces));
+                        faces.extend(difference.faces.iter().map(|face| (number, *face)));
+                    }
+                    None => {
+                        for (body, is_last) in bodies.into_iter().zip([reach == Reach::Appended, false]) {
+                            body.into_iter()
+                                .for_each(|body| self.touch(body, number, &body.bounds, is_last, &mut faces));
+                        }
+                        faces.extend(all_of(number));
+                    }
+                }
+            }
+        }
+        faces.sort_unstable();
+        faces.dedup();
+        faces
+    }
+
+    /// Notes the faces of other bodies that may reach into a part of a body, in a box. A body that comes last and does not
+    /// intersect can only take away from the boundary on them, but where it has a face on their plane.
+    fn touch(&self, by: &Body, own: u32, within: &Bounds, is_last: bool, faces: &mut Vec<(u32, u32)>) {
+        let table = &self.planes.table;
+        for other in self.places.near(within).filter(|other| *other != own) {
+            let Some(Operand { body: Some(body), edges, .. }) = &self.operands[other as usize] else { continue };
+            let reaches = |(number, face): &(u32, &BodyFace)| {
+                let half_space = table.half_space(face.plane);
+                let may_matter = || !is_last || !edges[*number as usize].is_empty() || by.face_on(face.plane).is_some();
+                face.bounds.may_share_area(within)
+                    && may_matter()
+                    && !misses(within, half_space.normal(), half_space.offset())
+                    && !by.is_surely_apart_from(table, body.corners(face))
+            };
+            faces.extend((0..).zip(&body.faces).filter(reaches).map(|(face, _)| (other, face)));
+        }
+    }
+}

@@ -1,0 +1,152 @@
+//! Which triangles of an index mesh meet at its edges.
+//!
+//! Half-edge `3 t + k` runs from corner `k` of triangle `t` to the next corner. Only indices are looked at, never positions.
+
+use rayon::prelude::*;
+
+use crate::base::by_group;
+
+/// The twin of a half-edge that has none.
+pub const NO_TWIN: u32 = u32::MAX;
+
+/// Up to this number of ends are compared with one another; more are sorted.
+const FEW: usize = 16;
+
+/// The half-edge that follows in its triangle.
+#[must_use]
+pub fn next(half_edge: u32) -> u32 {
+    if half_edge % 3 == 2 { half_edge - 2 } else { half_edge + 1 }
+}
+
+/// The half-edge before it in its triangle.
+#[must_use]
+pub fn previous(half_edge: u32) -> u32 {
+    if half_edge.is_multiple_of(3) { half_edge + 2 } else { half_edge - 1 }
+}
+
+/// The half-edges of triangles, listed by the vertex that they start at.
+#[derive(Debug)]
+pub struct HalfEdges<'a> {
+    triangles: &'a [[u32; 3]],
+    /// Where the half-edges of each vertex begin in `leaving`, and their end.
+    starts: Vec<u32>,
+    leaving: Vec<u32>,
+}
+
+impl<'a> HalfEdges<'a> {
+    /// The half-edges of triangles whose indices are below `vertices`. Linear.
+    #[must_use]
+    pub fn new(vertices: usize, triangles: &'a [[u32; 3]]) -> Self {
+        let (starts, leaving) = by_group(vertices, triangles.as_flattened().iter().copied());
+        Self { triangles, starts, leaving }
+    }
+
+    /// The vertex at which a half-edge starts.
+    #[must_use]
+    pub fn from(&self, half_edge: u32) -> u32 {
+        self.triangles[(half_edge / 3) as usize][(half_edge % 3) as usize]
+    }
+
+    /// The vertex at which a half-edge ends.
+    #[must_use]
+    pub fn to(&self, half_edge: u32) -> u32 {
+        self.from(next(half_edge))
+    }
+
+    /// The half-edges that start at a vertex, in ascending order.
+    #[must_use]
+    pub fn leaving(&self, vertex: u32) -> &[u32] {
+        let vertex = vertex as usize;
+        &self.leaving[self.starts[vertex] as usize..self.starts[vertex + 1] as usize]
+    }
+
+    /// The half-edges from `a` to `b`, in ascending order.
+    pub fn between(&self, a: u32, b: u32) -> impl Iterator<Item = u32> {
+        self.leaving(a).iter().copied().filter(move |half_edge| self.to(*half_edge) == b)
+    }
+
+    /// The twin of each half-edge: the one in the opposite direction, where no other joins the same two vertices; otherwise [`NO_TWIN`].
+    ///
+    /// Linear for vertices of bounded degree.
+    #[must_use]
+    pub fn twins(&self) -> Vec<u32> {
+        let mut twins = vec![NO_TWIN; self.leaving.len()];
+        let mut uses: Vec<(u32, u32)> = Vec::new();
+        for vertex in 0..self.vertices() {
+            // what comes to a vertex comes before what leaves it; each edge is looked at from its smaller vertex
+            let out = self.leaving(vertex).iter().map(|&half_edge| (self.to(half_edge), half_edge));
+            let back = self.leaving(vertex).iter().map(|&half_edge| previous(half_edge)).map(|h| (self.from(h), h));
+            uses.clear();
+            uses.extend(out.chain(back).filter(|(other, _)| *other > vertex));
+            uses.sort_unstable();
+            for along in uses.chunk_by(|p, q| p.0 == q.0) {
+                if let &[(_, one), (_, other)] = along
+                    && self.from(one) != self.from(other)
+                {
+                    twins[one as usize] = other;
+                    twins[other as usize] = one;
+                }
+            }
+        }
+        twins
+    }
+
+    /// Whether every half-edge has a twin: every directed edge occurs once, and so does its opposite. True without triangles.
+    #[must_use]
+    pub fn are_all_paired(&self) -> bool {
+        !self.twins().contains(&NO_TWIN)
+    }
+
+    /// The edges `a < b` along which more than one half-edge runs from `a` to `b`, in ascending order.
+    pub(crate) fn repeated(&self) -> Vec<(u32, u32)> {
+        let repeated_at = |a: u32| {
+            let from_a = self.leaving(a);
+            let is_repeated = |k: usize| from_a[..k].iter().any(|other| self.to(*other) == self.to(from_a[k]));
+            let mut ends = Vec::new();
+            if from_a.len() > FEW || (1..from_a.len()).any(is_repeated) {
+                ends.extend(from_a.iter().map(|half_edge| self.to(*half_edge)));
+                ends.sort_unstable();
+                ends = ends.chunk_by(|p, q| p == q).filter(|same| same.len() > 1).map(|same| same[0]).collect();
+            }
+            ends.into_iter().filter(move |b| a < *b).map(move |b| (a, b))
+        };
+        (0..self.vertices()).into_par_iter().with_min_len(2048).flat_map_iter(repeated_at).collect()
+    }
+
+    fn vertices(&self) -> u32 {
+        self.starts.len() as u32 - 1
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TETRAHEDRON: [[u32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+
+    #[test]
+    fn twins_run_back() {
+        let half_edges = HalfEdges::new(4, &TETRAHEDRON);
+        for (half_edge, twin) in (0..).zip(half_edges.twins()) {
+            assert_eq!(half_edges.from(half_edge), half_edges.to(twin));
+            assert_eq!(half_edges.to(half_edge), half_edges.from(twin));
+            assert_eq!(previous(next(half_edge)), half_edge);
+        }
+        assert_eq!(half_edges.between(1, 3).collect::<Vec<u32>>(), [4]);
+    }
+
+    #[test]
+    fn a_tetrahedron_is_paired_and_its_damaged_forms_are_not() {
+        let is_paired = |triangles: &[[u32; 3]]| HalfEdges::new(4, triangles).are_all_paired();
+        assert!(is_paired(&TETRAHEDRON) && is_paired(&[]));
+        assert!(!is_paired(&TETRAHEDRON[1..]), "an open edge");
+        let mut flipped = TETRAHEDRON;
+        flipped[2].swap(0, 1);
+        assert!(!is_paired(&flipped), "a flipped triangle");
+        let doubled = [TETRAHEDRON, TETRAHEDRON].concat();
+        assert!(!is_paired(&doubled), "every edge twice");
+        let all = [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)];
+        assert_eq!(HalfEdges::new(4, &doubled).repeated(), all);
+        assert_eq!(HalfEdges::new(4, &TETRAHEDRON).repeated(), []);
+    }
+}

@@ -1,0 +1,51 @@
+//! The constants of this crate that decide something by size instead of by sign.
+//!
+//! `docs/tolerances.md` lists those of all crates, and says of each whether it can change topology or volume and why that is safe.
+//! Error bounds of floating-point filters are not here: they may only say "not certain", after which exact
+//! arithmetic decides, and stand where they are derived.
+
+/// Planes whose unit normals and relative offsets differ by at most this are taken to be one plane that went through
+/// rotations or decimal text, relative to the largest distance of a plane from the origin.
+///
+/// Decides: which plane a body gets, before anything else is decided; what was snapped is counted
+/// ([`ModelSummary::snapped_planes`](crate::ModelSummary::snapped_planes)). Of the topology: all of it follows from the planes. Any set of
+/// half-spaces is a valid convex body, so the mesh is closed whatever is snapped.
+pub const SNAP_TOLERANCE: f64 = 1e-12;
+
+/// Edges of the finished mesh that are shorter than this share of its largest coordinate, and triangles that are lower, come from
+/// planes that were meant to meet in a point: noise of decimal text or rotations is some `1e-15`, what anybody models is far longer.
+///
+/// Decides: which edges are contracted, which triangles without height are flipped away, and which tunnels, gaps and bubbles
+/// collapse. Of the topology: contraction and flips leave it; the collapse changes it, and the mesh stays a closed, oriented
+/// 2-manifold. The measures are taken before ([`SolidMeasures`](crate::SolidMeasures)), so they do not see it.
+pub const CONTRACTION: f64 = 1e-12;
+
+/// How deep a corner may lie in an ear that is cut where no ear is free of corners, relative to the largest coordinate of the face.
+///
+/// Decides: how a face that noise has folded is triangulated. Of the topology: nothing, no vertex and no boundary edge comes or
+/// goes.
+pub const EAR_NOISE: f64 = 1e-11;
+
+/// A diagonal of a face is flipped only where its new triangles have an area above this share of the square of their longest
+/// side.
+///
+/// Decides: which of two triangulations a face gets. Of the topology: nothing.
+pub const FLAT_TRIANGLE: f64 = 1e-9;
+
+/// A transform whose determinant is below this share of the product of the lengths of its columns is refused
+/// ([`TransformError`](crate::TransformError)).
+///
+/// Decides: what is accepted. Of the topology: nothing.
+pub const SINGULAR_DETERMINANT: f64 = 1e-14;
+
+/// Components of a transformed normal below this share of its largest one are rounding noise and become zero, so that they stay
+/// within the range that a half-space accepts.
+///
+/// Decides: the plane of a transformed face, by far less than a rounding.
+pub const NEGLIGIBLE_COMPONENT: f64 = 1e-40;
+
+/// A diagonal is flipped where the sine of the sum of the opposite angles is below zero by more than this, times the fourth
+/// power of the longest side.
+///
+/// Decides: which of two triangulations a face gets. Of the topology: nothing.
+pub const DELAUNAY_MARGIN: f64 = 1e-12;
