@@ -11,7 +11,9 @@
 //! | module | what it holds |
 //! |---|---|
 //! | [`kernel`] | exact signs, half-spaces, convex polyhedra whose planes can be added, moved and removed |
-//! | [`csg`] | trees of set operations, their boundary as a mesh and their convex cells, primitives, outlines |
+//! | [`csg`] | trees of set operations and their boundary as a mesh; models that are edited, models in blocks; and all of the next two |
+//! | [`cells`] | solids of disjoint convex cells, and their coarsening |
+//! | [`shapes`] | primitives, outlines, hulls, Minkowski sums and sections, closed surfaces of facets |
 //! | [`check`] | is any mesh watertight, manifold, free of self-intersections |
 //! | [`import`] | readers of the native model file, of OpenSCAD's evaluated trees, of Quake-family `.map` files, and of OBJ, STL, PLY and glTF meshes |
 //! | [`export`] | writers of GLB, glTF, OBJ and STL |

@@ -35,9 +35,10 @@ pub mod tolerances;
 mod weld;
 
 pub use blocks::{Block, BlockOptions, BlocksError, BlocksSummary, evaluate_in_blocks};
-pub use body::Built;
+pub use body::BuiltBodies;
 pub use evaluate::{
-    EvaluateError, Evaluation, ModelSummary, StageTimes, UnboundedBrushes, evaluate, evaluate_with, summarize,
+    EvaluateError, Evaluation, ModelSummary, StageTimes, UnboundedBrushes, evaluate, evaluate_built, evaluate_with,
+    summarize,
 };
 pub use live::{BrushId, Change, Edit, EditError, Edited, FaceId, LiveFace, LiveModel, Role};
 pub use mesh::{Mesh, MeshFace, SolidMeasures, contract_edges, contract_short_edges};

@@ -1,10 +1,14 @@
-//! Which parameters are accepted.
+//! Which parameters shapes accept, what is said of others, and directions on circles of segments.
+
+mod circle;
+mod error;
 
 use std::fmt::{self, Display, Formatter};
 
 use planecut_kernel::{DVec2, DVec3};
 
-use super::ShapeError;
+pub(crate) use circle::{apothem, direction, middle};
+pub use error::ShapeError;
 
 /// Largest accepted magnitude of a length or coordinate. Lengths must be at least its inverse; smaller coordinates are
 /// taken for 0. Within it no plane of a shape leaves the range of a [`HalfSpace`](planecut_kernel::HalfSpace).
