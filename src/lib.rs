@@ -2,7 +2,9 @@
 //!
 //! A solid is a union of convex bodies, and each body is an intersection of half-spaces `n·x ≤ d`. Every topological
 //! decision is the exact sign of a small determinant of plane coefficients; coordinates are computed for people and for
-//! files, and decide nothing. So no tolerance is needed, and the mesh that leaves is closed by construction.
+//! files, and decide nothing about it. So Booleans take no tolerance, and the mesh that leaves is closed by construction. What does
+//! decide by size, before and after (planes that are one but for noise, edges too short to survive rounding), is listed in
+//! `docs/tolerances.md` and in [`csg::tolerances`].
 //!
 //! This crate gathers the crates of the project under one name and adds the command line:
 //!

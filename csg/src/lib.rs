@@ -1,8 +1,8 @@
 //! Exact CSG over convex bodies: a [`Model`] of brushes in, the watertight [`Mesh`] of their union out.
 //!
 //! [`evaluate`] interns the planes of a model ([`PlaneTable`]), builds each brush's body, takes the boundary of the union straight
-//! from brush faces (the skin) and welds it. Boolean operations add no planes, so nothing is ever rounded before the
-//! coordinates of the finished mesh.
+//! from brush faces and welds it. Boolean operations add no planes, so nothing is rounded between the planes and the
+//! coordinates of the finished mesh. What decides by size before and after that is in [`tolerances`].
 //!
 //! ```
 //! use planecut_csg::{Brush, Material, MaterialId, Model, Tree, evaluate};

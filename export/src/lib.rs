@@ -13,37 +13,32 @@
 #![deny(missing_docs)]
 
 mod brushes;
-mod check;
-mod color;
 mod decimal;
 mod error;
 mod file;
 mod format;
-mod glb;
-mod library;
+mod gltf;
+mod material;
 mod obj;
-mod options;
+mod part;
 mod ply;
 mod preview;
-mod single_precision;
 mod stl;
 mod surface;
 mod threemf;
-mod written;
 
 pub use brushes::{BrushFormat, write_brushes};
-pub use color::distinct_color;
 pub use error::ExportError;
 pub use file::{AtomicFile, write_atomic};
-pub use format::{Format, Part, encode, encode_parts, write_parts};
+pub use format::{Format, encode, encode_parts, write_parts, written};
+pub use material::distinct_color;
 pub use obj::write_mtl;
-pub use options::{ExportOptions, Projection, Shading, TextureMapping, Unit};
+pub use part::{ExportOptions, Part, Projection, Shading, TextureMapping, Unit, Written};
 pub use preview::{
     AnimationFormat, AnimationWriter, Background, Buffers, CameraKind, MAX_IMAGE_SIDE, Picture, PreviewOptions,
     PreviewStyle, SheetColors, SheetLayout, Subject, Tile, Turntable, contact_sheet, render, render_buffers,
     sheet_layout,
 };
-pub use written::{Written, written};
 
 /// The example of the README, run as a test.
 #[cfg(doctest)]

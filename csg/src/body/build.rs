@@ -12,7 +12,7 @@ use crate::base::{Bounds, map_chunks};
 use crate::model::{Brush, BrushFace, MaterialId};
 use crate::plane_table::{PlaneId, PlaneTable, renumber_planes};
 
-/// Bodies that are built in a row have at least about so many planes.
+/// Least number of planes, about, of bodies that are built in a row.
 const PLANES_OF_CHUNK: usize = 100;
 
 /// The bodies of the brushes of a model.
@@ -55,7 +55,7 @@ pub(crate) fn build_bodies(brushes: &[Brush]) -> BrushBodies {
     BrushBodies { table, planes, bodies, signs }
 }
 
-/// Chunks of so many brushes each have a polytope of their own, which is worth the while from some planes on.
+/// Number of brushes in a chunk; each chunk has a polytope of its own, which is worth the while from some planes on.
 pub(super) fn least_of_chunk(brushes: &[Brush]) -> usize {
     let planes: usize = brushes.iter().map(|brush| brush.faces.len()).sum();
     PLANES_OF_CHUNK * brushes.len() / planes.max(1)

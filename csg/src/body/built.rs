@@ -20,7 +20,7 @@ pub(super) enum BrushShape {
 }
 
 /// The body of a brush, where it was built: evaluations start from it, and clones of the brush share it. Nothing tells brushes
-/// apart by it. Where faces are changed it is passed over until it is built anew.
+/// apart by it. Where faces are changed it is passed over until it is built again.
 #[derive(Clone, Default)]
 pub struct Built(Option<Arc<(Vec<HalfSpace>, BrushShape)>>);
 

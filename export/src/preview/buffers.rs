@@ -3,7 +3,7 @@
 use image::ExtendedColorType;
 
 use crate::ExportError;
-use crate::check::check_mesh;
+use crate::part::check_mesh;
 use crate::preview::framing;
 use crate::preview::options::PreviewOptions;
 use crate::preview::picture::encode_png;

@@ -41,7 +41,7 @@ pub use self::style::PreviewStyle;
 use self::style::{Fill, Look};
 pub use self::subject::Subject;
 use crate::ExportError;
-use crate::check::check_mesh;
+use crate::part::check_mesh;
 
 /// Draws a subject.
 ///

@@ -3,7 +3,7 @@
 use glam::{DVec3, Vec3};
 use planecut_csg::{Cutaway, Material, Mesh};
 
-use crate::color::material_color;
+use crate::material::material_color;
 use crate::preview::camera::Camera;
 use crate::preview::lens::ScreenPoint;
 use crate::preview::raster::Triangles;

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use crate::color::srgb_to_linear;
+use crate::material::srgb_to_linear;
 use crate::preview::options::Background;
 
 /// How a preview is drawn.

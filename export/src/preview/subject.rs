@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use glam::DVec3;
 use planecut_csg::{Material, MaterialId, Mesh, MeshFace};
 
-use crate::color::distinct_color;
+use crate::material::distinct_color;
 
 /// What is drawn: a mesh, and which of its faces are cuts.
 #[derive(Debug, Clone)]

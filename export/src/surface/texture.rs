@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 use planecut_csg::{FaceSource, Mesh, TextureAxes, TextureUnit};
 
-use crate::options::{Projection, TextureMapping};
+use crate::part::{Projection, TextureMapping};
 
 /// Faces whose normals are as near to z as to another axis, but for rounding, are floors and ceilings.
 const ROUNDING: f64 = 1e-9;

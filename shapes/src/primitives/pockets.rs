@@ -9,7 +9,7 @@ use planecut_kernel::{DVec2, HalfSpace};
 
 use super::ShapeError;
 use super::extruded::half_spaces;
-use super::flat::plane;
+use super::simple::plane;
 use super::walls::{Walls, side};
 use crate::outline::{corners_of_hull, largest_coordinate, signed_area, turn};
 use crate::tolerances::{LID_NOISE, LID_REACH};

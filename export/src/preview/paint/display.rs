@@ -2,7 +2,7 @@
 
 use glam::{Vec3, Vec4};
 
-use crate::color::linear_to_srgb;
+use crate::material::linear_to_srgb;
 
 /// How a row rounds each channel, from 0 (down) to 1 (up).
 ///

@@ -1,7 +1,7 @@
 //! A model seen from all around.
 
 use crate::ExportError;
-use crate::check::check_mesh;
+use crate::part::check_mesh;
 use crate::preview::camera::Camera;
 use crate::preview::draw;
 use crate::preview::options::PreviewOptions;
