@@ -10,14 +10,17 @@
 //!
 //! | module | what it holds |
 //! |---|---|
-//! | [`kernel`] | exact signs, half-spaces, convex polyhedra whose planes can be added, moved and removed |
-//! | [`csg`] | trees of set operations and their boundary as a mesh; models that are edited, models in blocks; and all of the next two |
-//! | [`cells`] | solids of disjoint convex cells, and their coarsening |
-//! | [`shapes`] | primitives, outlines, hulls, Minkowski sums and sections, closed surfaces of facets |
-//! | [`check`] | is any mesh watertight, manifold, free of self-intersections |
-//! | [`import`] | readers of the native model file, of OpenSCAD's evaluated trees, of Quake-family `.map` files, and of OBJ, STL, PLY and glTF meshes |
-//! | [`export`] | writers of GLB, glTF, OBJ and STL |
+//! | [`kernel`] | exact signs, [`HalfSpace`](kernel::HalfSpace), and [`IncrementalPolytope`](kernel::IncrementalPolytope): convex polyhedra whose planes can be added, moved and removed |
+//! | [`csg`] | a [`Tree`](csg::Tree) of set operations on [`Brush`](csg::Brush)es: [`evaluate`](csg::evaluate) gives its boundary as a [`Mesh`](csg::Mesh), [`LiveModel`](csg::LiveModel) keeps it up to date through edits |
+//! | [`cells`] | [`Solid`](cells::Solid): the inside as disjoint convex cells; [`coarsen`](cells::coarsen): few cells for colliders |
+//! | [`shapes`] | [`primitives`](shapes::primitives), [`outline`](shapes::outline)s, [`shaping`](shapes::shaping), closed polyhedra |
+//! | [`check`] | [`check_mesh`](check::check_mesh): is any mesh watertight, manifold, free of self-intersections |
+//! | [`import`] | readers of the native [model file](import::model), of OpenSCAD's evaluated trees ([`scad`](import::scad)), of Quake-family [`map`](import::map)s, and of [`mesh`](import::mesh) files: OBJ, STL, PLY and glTF |
+//! | [`export`] | [`encode`](export::encode) a mesh as GLB, glTF, OBJ, STL, 3MF or PLY |
 //! | `picture` | pictures of meshes and cells (feature `picture`, on unless turned off) |
+//!
+//! Everything of `cells`, `shapes` and `check` can also be reached through [`csg`]. The feature `cli` (default) is for the program alone: with `default-features = false` a library
+//! gets none of its dependencies.
 //!
 //! # Example
 //!
@@ -37,7 +40,7 @@
 //!     tree = tree - hole.clone().transformed(&Transform::translation(DVec3::new(x, 5.0, -2.0))?)?;
 //! }
 //!
-//! // Its skin: a closed mesh, flat regions in one piece each.
+//! // Its boundary: a closed mesh, flat regions in one piece each.
 //! let model = Model { materials: vec![Material::named("steel")], tree };
 //! let evaluation = evaluate(&model)?;
 //! assert!((evaluation.solid.volume - (40.0 * 10.0 - 4.0 * 18.0) * 4.0).abs() < 1e-9);
