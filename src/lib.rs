@@ -2,17 +2,22 @@
 //!
 //! A solid is a union of convex bodies, and each body is an intersection of half-spaces `n·x ≤ d`. Every topological
 //! decision is the exact sign of a small determinant of plane coefficients; coordinates are computed for people and for
-//! files, and decide nothing. So no tolerance is needed, and the mesh that leaves is closed by construction.
+//! files, and decide nothing about it. So Booleans take no tolerance, and the mesh that leaves is closed by construction. What does
+//! decide by size, before and after (planes that are one but for noise, edges too short to survive rounding), is listed in
+//! `docs/tolerances.md` and in [`csg::tolerances`].
 //!
 //! This crate gathers the crates of the project under one name and adds the command line:
 //!
 //! | module | what it holds |
 //! |---|---|
 //! | [`kernel`] | exact signs, half-spaces, convex polyhedra whose planes can be added, moved and removed |
-//! | [`csg`] | trees of set operations, their boundary as a mesh and their convex cells, primitives, outlines |
+//! | [`csg`] | trees of set operations and their boundary as a mesh; models that are edited, models in blocks; and all of the next two |
+//! | [`cells`] | solids of disjoint convex cells, and their coarsening |
+//! | [`shapes`] | primitives, outlines, hulls, Minkowski sums and sections, closed surfaces of facets |
 //! | [`check`] | is any mesh watertight, manifold, free of self-intersections |
 //! | [`import`] | readers of the native model file, of OpenSCAD's evaluated trees, of Quake-family `.map` files, and of OBJ, STL, PLY and glTF meshes |
-//! | [`export`] | writers of GLB, glTF, OBJ and STL, and rendered previews |
+//! | [`export`] | writers of GLB, glTF, OBJ and STL |
+//! | `picture` | pictures of meshes and cells (feature `picture`, on unless turned off) |
 //!
 //! # Example
 //!
@@ -90,10 +95,20 @@ pub mod csg {
 
 pub use planecut_cells as cells;
 pub use planecut_check as check;
-pub use planecut_export as export;
 pub use planecut_import as import;
 pub use planecut_kernel as kernel;
 pub use planecut_shapes as shapes;
+
+pub mod export {
+    //! What leaves: mesh files, convex bodies and, with the feature `picture`, what [`picture`](crate::picture) holds.
+    pub use planecut_export::*;
+
+    #[cfg(feature = "picture")]
+    #[doc(no_inline)]
+    pub use crate::picture::*;
+}
+#[cfg(feature = "picture")]
+pub mod picture;
 
 /// The example of the README, run as a test.
 #[cfg(doctest)]

@@ -6,8 +6,10 @@ use planecut_kernel::sign::Counts;
 use thiserror::Error;
 
 use crate::base::Clock;
-use crate::body::{Body, BrushBodies, BrushBody, OuterBox, build_bodies, kinds, mark_of};
-use crate::boundary::{BoundaryEdge, Scene, skin, skin_of_union};
+use crate::body::{
+    Body, BrushBodies, BrushBody, BuiltBodies, OuterBox, build_bodies, build_other_bodies, kinds, mark_of,
+};
+use crate::boundary::{BoundaryEdge, Scene, boundary_edges, boundary_of_union};
 use crate::expression::Expression;
 use crate::mesh::{Mesh, SolidMeasures};
 use crate::model::{Material, MaterialId, Model, Operation, Tree, TreeNode};
@@ -36,7 +38,7 @@ pub struct ModelSummary {
 /// How long each stage took.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct StageTimes {
-    /// Plane table, bodies and skin.
+    /// Plane table, bodies and boundary edges.
     pub evaluate: Duration,
     /// From boundary edges to closed, paired loops.
     pub weld: Duration,
@@ -122,10 +124,22 @@ pub fn evaluate_shape(tree: Tree) -> Result<Evaluation, EvaluateError> {
 /// # Errors
 /// As [`evaluate`].
 pub fn evaluate_with(model: &Model, unbounded: UnboundedBrushes) -> Result<Evaluation, EvaluateError> {
+    evaluate_built(model, unbounded, &BuiltBodies::default())
+}
+
+/// The same, where bodies of some brushes are built already.
+///
+/// # Errors
+/// As [`evaluate`].
+pub fn evaluate_built(
+    model: &Model,
+    unbounded: UnboundedBrushes,
+    built: &BuiltBodies,
+) -> Result<Evaluation, EvaluateError> {
     let begin = Clock::start();
     let used = model.tree.brushes().iter().flat_map(|brush| &brush.faces).map(|face| face.material);
     check_materials(used, model.materials.len())?;
-    let BrushBodies { mut table, planes, bodies, mut signs } = build_bodies(model.tree.brushes());
+    let BrushBodies { mut table, planes, bodies, mut signs } = build_other_bodies(model.tree.brushes(), built);
     let summary = summary_of(&table, &bodies);
     let expression = Expression::new(model.tree.nodes());
     let keeps = unbounded == UnboundedBrushes::Keep && !summary.unbounded.is_empty();
@@ -157,8 +171,8 @@ pub fn evaluate_with(model: &Model, unbounded: UnboundedBrushes) -> Result<Evalu
         rank.push(0);
     }
     let (edges, counted) = match outer {
-        None => leaves.skin(&table, &expression, &rank),
-        Some(outer) => leaves.skin_within(&table, &outer, model.tree.nodes(), &rank)?,
+        None => leaves.boundary_edges(&table, &expression, &rank),
+        Some(outer) => leaves.boundary_within(&table, &outer, model.tree.nodes(), &rank)?,
     };
     signs += counted;
     let (evaluated, welding) = (begin.elapsed(), Clock::start());
@@ -182,7 +196,7 @@ pub fn mesh_of_union(
     ranks: &[u32],
     materials: &[Material],
 ) -> Result<(Mesh, SolidMeasures), WeldError> {
-    let (edges, _) = skin_of_union(table, bodies, ranks);
+    let (edges, _) = boundary_of_union(table, bodies, ranks);
     let Welded { mesh, solid, .. } = weld(table, &edges, ranks, materials)?;
     Ok((mesh, solid))
 }
@@ -211,12 +225,12 @@ impl Leaves {
         self.leaf_of_body.push(leaf as u32);
     }
 
-    fn skin(&self, table: &PlaneTable, expression: &Expression, rank: &[u32]) -> (Vec<BoundaryEdge>, Counts) {
-        skin(&Scene::new(table, &self.bodies, &self.leaf_of_body, expression, rank))
+    fn boundary_edges(&self, table: &PlaneTable, expression: &Expression, rank: &[u32]) -> (Vec<BoundaryEdge>, Counts) {
+        boundary_edges(&Scene::new(table, &self.bodies, &self.leaf_of_body, expression, rank))
     }
 
-    /// The skin of the tree cut by the outer box, which it must not reach.
-    fn skin_within(
+    /// The boundary of the tree cut by the outer box, which it must not reach.
+    fn boundary_within(
         mut self,
         table: &PlaneTable,
         outer: &OuterBox,
@@ -231,7 +245,7 @@ impl Leaves {
         if let BrushBody::Bounded(body, _) = outer.cut(table, &[], &[]) {
             self.push(count, body);
         }
-        let (edges, counted) = self.skin(table, &Expression::new(&nodes), rank);
+        let (edges, counted) = self.boundary_edges(table, &Expression::new(&nodes), rank);
         let reaches =
             |edge: &BoundaryEdge| [edge.face, edge.edge, edge.start, edge.end].iter().any(|p| outer.holds(*p));
         if edges.iter().any(reaches) { Err(EvaluateError::Unbounded) } else { Ok((edges, counted)) }

@@ -1,8 +1,9 @@
 //! Exact dynamic convex polyhedra: half-spaces are added, moved and removed in about a microsecond.
 //!
 //! [`IncrementalPolytope`] keeps the vertices, edges and faces of an intersection of [`HalfSpace`]s up to date while
-//! planes are added and removed. Plane coefficients are taken as exact numbers and every decision is an exact [`sign`]; there is
-//! no epsilon inside. Unbounded, degenerate and empty sets are ordinary cases. What a removal costs does not depend on
+//! planes are added and removed. Plane coefficients are taken as exact numbers and every decision about the structure is an exact
+//! [`sign`]; the only epsilon is that of the view ([`IncrementalPolytope::with_epsilon`]): which short edges are reported. Unbounded,
+//! degenerate and empty sets are ordinary cases. What a removal costs does not depend on
 //! the number of planes, because it is known beforehand which of them can bound what is new.
 //!
 //! The idea is that of the paper "Topology-Based Halfspace Deletion for Dynamic Convex Polytopes", whose sections the
@@ -61,6 +62,7 @@ mod meet;
 mod polytope;
 pub mod sign;
 
+pub use arithmetic::decompose_odd;
 pub use glam::{DMat3, DVec2, DVec3, DVec4};
 pub use half_space::{HalfSpace, HalfSpaceError, MAX_NORMAL, MAX_NORMAL_RATIO, MAX_OFFSET_RATIO, MIN_NORMAL};
 pub use hull::{HullError, MAX_COORDINATE, hull, hull_triangles};
@@ -71,3 +73,8 @@ pub use polytope::{
     Location, Measures, MovePlaneResult, PlaneIdx, RecessionCone, RemovePlaneResult, RemovePlanesResult, Support,
     TopologyError, Validation, ValidationError, Vertex, VertexIdx,
 };
+
+/// The example of the README, run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}

@@ -3,7 +3,7 @@
 mod bounds;
 mod box_tree;
 mod clock;
-mod distinct;
+mod interning;
 mod parallel;
 pub(crate) mod sum;
 pub(crate) mod union_find;
@@ -11,7 +11,7 @@ pub(crate) mod union_find;
 pub use bounds::Bounds;
 pub use box_tree::Boxes;
 pub(crate) use clock::Clock;
-pub(crate) use distinct::{WEIGHTS, by_group, distinct, sortable};
+pub(crate) use interning::{WEIGHTS, by_group, intern, sortable};
 pub(crate) use parallel::map_chunks;
 pub use sum::CompensatedSum;
 pub use union_find::DisjointSets;

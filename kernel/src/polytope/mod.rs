@@ -57,7 +57,8 @@ use crate::sign::Homogeneous;
 use redundant::Certificates;
 use store::{Change, Link, NONE, PlaneState, PlaneStore, VertexStore};
 
-/// Handle of a plane of one [`IncrementalPolytope`], counted from zero; a removed plane's handle is given to a later one.
+/// Handle of a plane of one [`IncrementalPolytope`], counted from zero; a removed plane's handle is given to a later one. Planes of
+/// brushes of a live model have such handles, too; there none is given to another plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PlaneIdx(pub usize);

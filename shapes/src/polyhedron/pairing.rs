@@ -3,9 +3,10 @@
 use std::cmp::Ordering;
 use std::f64::consts::PI;
 
-use crate::tolerances::SAME_ANGLE;
 use planecut_csg::stages::{HalfEdges, NO_TWIN};
 use planecut_kernel::DVec3;
+
+use crate::tolerances::SAME_ANGLE;
 
 /// One side of a triangle.
 #[derive(Debug, Clone, Copy)]

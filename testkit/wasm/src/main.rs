@@ -8,8 +8,10 @@
 
 mod csg;
 mod kernel;
+mod mesh;
 
 fn main() {
     kernel::check();
     csg::check();
+    mesh::check();
 }
