@@ -513,6 +513,19 @@ fn bounds(mesh: &Geometry) -> (Value, Value) {
     let vertices = 0..mesh.vertices.origins.len();
     match mesh.rounding.step {
         Some(step) => of(vertices.map(|vertex| mesh.grid_position(vertex, step))),
-        None => of(vertices.map(|vertex| mesh.position(vertex))),
+        None => {
+            let (min, max) = of(vertices.map(|vertex| mesh.position(vertex)));
+            (as_parsed(min), as_parsed(max))
+        }
+    }
+}
+
+/// Single-precision numbers, which JSON values hold in double precision, as the JSON library parses their decimals: up to one unit in the last
+/// place off, and so still the same in single precision. Files have had these digits from the beginning; they stay comparable byte by byte.
+fn as_parsed(bounds: Value) -> Value {
+    let parsed = |value: &Value| serde_json::from_str(&value.to_string()).unwrap_or_else(|_| value.clone());
+    match bounds {
+        Value::Array(numbers) => numbers.iter().map(parsed).collect(),
+        other => other,
     }
 }
