@@ -2,18 +2,25 @@
 //!
 //! A solid is a union of convex bodies, and each body is an intersection of half-spaces `n·x ≤ d`. Every topological
 //! decision is the exact sign of a small determinant of plane coefficients; coordinates are computed for people and for
-//! files, and decide nothing. So no tolerance is needed, and the mesh that leaves is closed by construction.
+//! files, and decide nothing about it. So Booleans take no tolerance, and the mesh that leaves is closed by construction. What does
+//! decide by size, before and after (planes that are one but for noise, edges too short to survive rounding), is listed in
+//! `docs/tolerances.md` and in [`csg::tolerances`].
 //!
 //! This crate gathers the crates of the project under one name and adds the command line:
 //!
 //! | module | what it holds |
 //! |---|---|
-//! | [`kernel`] | exact signs, half-spaces, convex polyhedra whose planes can be added, moved and removed |
-//! | [`csg`] | trees of set operations, their boundary as a mesh and their convex cells, primitives, outlines |
-//! | [`check`] | is any mesh watertight, manifold, free of self-intersections |
-//! | [`import`] | readers of the native model file, of OpenSCAD's evaluated trees, of Quake-family `.map` files, and of OBJ, STL, PLY and glTF meshes |
-//! | [`export`] | writers of GLB, glTF, OBJ and STL |
+//! | [`kernel`] | exact signs, [`HalfSpace`](kernel::HalfSpace), and [`IncrementalPolytope`](kernel::IncrementalPolytope): convex polyhedra whose planes can be added, moved and removed |
+//! | [`csg`] | a [`Tree`](csg::Tree) of set operations on [`Brush`](csg::Brush)es: [`evaluate`](csg::evaluate) gives its boundary as a [`Mesh`](csg::Mesh), [`LiveModel`](csg::LiveModel) keeps it up to date through edits |
+//! | [`cells`] | [`Solid`](cells::Solid): the inside as disjoint convex cells; [`coarsen`](cells::coarsen): few cells for colliders |
+//! | [`shapes`] | [`primitives`](shapes::primitives), [`outline`](shapes::outline)s, [`shaping`](shapes::shaping), closed polyhedra |
+//! | [`check`] | [`check_mesh`](check::check_mesh): is any mesh watertight, manifold, free of self-intersections |
+//! | [`import`] | readers of the native [model file](import::model), of OpenSCAD's evaluated trees ([`scad`](import::scad)), of Quake-family [`map`](import::map)s, and of [`mesh`](import::mesh) files: OBJ, STL, PLY and glTF |
+//! | [`export`] | [`encode`](export::encode) a mesh as GLB, glTF, OBJ, STL, 3MF or PLY |
 //! | `picture` | pictures of meshes and cells (feature `picture`, on unless turned off) |
+//!
+//! Everything of `cells`, `shapes` and `check` can also be reached through [`csg`]. The feature `cli` (default) is for the program alone: with `default-features = false` a library
+//! gets none of its dependencies.
 //!
 //! # Example
 //!
@@ -33,7 +40,7 @@
 //!     tree = tree - hole.clone().transformed(&Transform::translation(DVec3::new(x, 5.0, -2.0))?)?;
 //! }
 //!
-//! // Its skin: a closed mesh, flat regions in one piece each.
+//! // Its boundary: a closed mesh, flat regions in one piece each.
 //! let model = Model { materials: vec![Material::named("steel")], tree };
 //! let evaluation = evaluate(&model)?;
 //! assert!((evaluation.solid.volume - (40.0 * 10.0 - 4.0 * 18.0) * 4.0).abs() < 1e-9);
@@ -84,6 +91,7 @@
 pub mod csg {
     pub use planecut_cells::*;
     pub use planecut_check as check;
+    pub use planecut_csg::tolerances;
     pub use planecut_csg::*;
     pub use planecut_shapes::*;
 }

@@ -20,3 +20,8 @@ mod solid;
 pub mod tolerances;
 
 pub use solid::{Cell, CellPlane, CutId, RayHit, Solid, convex_union, joined};
+
+/// The example of the README, run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}

@@ -75,3 +75,8 @@ pub fn check_topology<P: Copy + Into<[f64; 3]>>(positions: &[P], triangles: &[[u
 fn vectors<P: Copy + Into<[f64; 3]>>(positions: &[P]) -> Vec<DVec3> {
     positions.iter().map(|&p| DVec3::from_array(p.into())).collect()
 }
+
+/// The example of the README, run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}

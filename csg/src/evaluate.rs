@@ -1,12 +1,15 @@
 //! From a model to its solid's mesh, stage by stage, with what each stage counted.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use planecut_kernel::sign::Counts;
 use thiserror::Error;
 
-use crate::body::{Body, BrushBodies, BrushBody, OuterBox, build_bodies, kinds, mark_of};
-use crate::boundary::{BoundaryEdge, Scene, skin, skin_of_union};
+use crate::base::Clock;
+use crate::body::{
+    Body, BrushBodies, BrushBody, BuiltBodies, OuterBox, build_bodies, build_other_bodies, kinds, mark_of,
+};
+use crate::boundary::{BoundaryEdge, Scene, boundary_edges, boundary_of_union};
 use crate::expression::Expression;
 use crate::mesh::{Mesh, SolidMeasures};
 use crate::model::{Material, MaterialId, Model, Operation, Tree, TreeNode};
@@ -35,7 +38,7 @@ pub struct ModelSummary {
 /// How long each stage took.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct StageTimes {
-    /// Plane table, bodies and skin.
+    /// Plane table, bodies and boundary edges.
     pub evaluate: Duration,
     /// From boundary edges to closed, paired loops.
     pub weld: Duration,
@@ -121,10 +124,22 @@ pub fn evaluate_shape(tree: Tree) -> Result<Evaluation, EvaluateError> {
 /// # Errors
 /// As [`evaluate`].
 pub fn evaluate_with(model: &Model, unbounded: UnboundedBrushes) -> Result<Evaluation, EvaluateError> {
-    let begin = Instant::now();
+    evaluate_built(model, unbounded, &BuiltBodies::default())
+}
+
+/// The same, where bodies of some brushes are built already.
+///
+/// # Errors
+/// As [`evaluate`].
+pub fn evaluate_built(
+    model: &Model,
+    unbounded: UnboundedBrushes,
+    built: &BuiltBodies,
+) -> Result<Evaluation, EvaluateError> {
+    let begin = Clock::start();
     let used = model.tree.brushes().iter().flat_map(|brush| &brush.faces).map(|face| face.material);
     check_materials(used, model.materials.len())?;
-    let BrushBodies { mut table, planes, bodies, mut signs } = build_bodies(model.tree.brushes());
+    let BrushBodies { mut table, planes, bodies, mut signs } = build_other_bodies(model.tree.brushes(), built);
     let summary = summary_of(&table, &bodies);
     let expression = Expression::new(model.tree.nodes());
     let keeps = unbounded == UnboundedBrushes::Keep && !summary.unbounded.is_empty();
@@ -156,16 +171,16 @@ pub fn evaluate_with(model: &Model, unbounded: UnboundedBrushes) -> Result<Evalu
         rank.push(0);
     }
     let (edges, counted) = match outer {
-        None => leaves.skin(&table, &expression, &rank),
-        Some(outer) => leaves.skin_within(&table, &outer, model.tree.nodes(), &rank)?,
+        None => leaves.boundary_edges(&table, &expression, &rank),
+        Some(outer) => leaves.boundary_within(&table, &outer, model.tree.nodes(), &rank)?,
     };
     signs += counted;
-    let evaluated = Instant::now();
+    let (evaluated, welding) = (begin.elapsed(), Clock::start());
     let Welded { mesh, solid, signs: counted, triangulation } = weld(&table, &edges, &rank, &model.materials)?;
     signs += counted;
     let times = StageTimes {
-        evaluate: evaluated - begin,
-        weld: evaluated.elapsed().saturating_sub(triangulation),
+        evaluate: evaluated,
+        weld: welding.elapsed().saturating_sub(triangulation),
         triangulate: triangulation,
     };
     Ok(Evaluation { mesh, solid, model: summary, signs, times })
@@ -181,7 +196,7 @@ pub fn mesh_of_union(
     ranks: &[u32],
     materials: &[Material],
 ) -> Result<(Mesh, SolidMeasures), WeldError> {
-    let (edges, _) = skin_of_union(table, bodies, ranks);
+    let (edges, _) = boundary_of_union(table, bodies, ranks);
     let Welded { mesh, solid, .. } = weld(table, &edges, ranks, materials)?;
     Ok((mesh, solid))
 }
@@ -210,12 +225,12 @@ impl Leaves {
         self.leaf_of_body.push(leaf as u32);
     }
 
-    fn skin(&self, table: &PlaneTable, expression: &Expression, rank: &[u32]) -> (Vec<BoundaryEdge>, Counts) {
-        skin(&Scene::new(table, &self.bodies, &self.leaf_of_body, expression, rank))
+    fn boundary_edges(&self, table: &PlaneTable, expression: &Expression, rank: &[u32]) -> (Vec<BoundaryEdge>, Counts) {
+        boundary_edges(&Scene::new(table, &self.bodies, &self.leaf_of_body, expression, rank))
     }
 
-    /// The skin of the tree cut by the outer box, which it must not reach.
-    fn skin_within(
+    /// The boundary of the tree cut by the outer box, which it must not reach.
+    fn boundary_within(
         mut self,
         table: &PlaneTable,
         outer: &OuterBox,
@@ -230,7 +245,7 @@ impl Leaves {
         if let BrushBody::Bounded(body, _) = outer.cut(table, &[], &[]) {
             self.push(count, body);
         }
-        let (edges, counted) = self.skin(table, &Expression::new(&nodes), rank);
+        let (edges, counted) = self.boundary_edges(table, &Expression::new(&nodes), rank);
         let reaches =
             |edge: &BoundaryEdge| [edge.face, edge.edge, edge.start, edge.end].iter().any(|p| outer.holds(*p));
         if edges.iter().any(reaches) { Err(EvaluateError::Unbounded) } else { Ok((edges, counted)) }

@@ -1,8 +1,8 @@
 //! Exact CSG over convex bodies: a [`Model`] of brushes in, the watertight [`Mesh`] of their union out.
 //!
 //! [`evaluate`] interns the planes of a model ([`PlaneTable`]), builds each brush's body, takes the boundary of the union straight
-//! from brush faces (the skin) and welds it. Boolean operations add no planes, so nothing is ever rounded before the
-//! coordinates of the finished mesh.
+//! from brush faces and welds it. Boolean operations add no planes, so nothing is rounded between the planes and the
+//! coordinates of the finished mesh. What decides by size before and after that is in [`tolerances`].
 //!
 //! ```
 //! use planecut_csg::{Brush, Material, MaterialId, Model, Tree, evaluate};
@@ -35,9 +35,10 @@ pub mod tolerances;
 mod weld;
 
 pub use blocks::{Block, BlockOptions, BlocksError, BlocksSummary, evaluate_in_blocks};
-pub use body::Built;
+pub use body::BuiltBodies;
 pub use evaluate::{
-    EvaluateError, Evaluation, ModelSummary, StageTimes, UnboundedBrushes, evaluate, evaluate_with, summarize,
+    EvaluateError, Evaluation, ModelSummary, StageTimes, UnboundedBrushes, evaluate, evaluate_built, evaluate_with,
+    summarize,
 };
 pub use live::{BrushId, Change, Edit, EditError, Edited, FaceId, LiveFace, LiveModel, Role};
 pub use mesh::{Mesh, MeshFace, SolidMeasures, contract_edges, contract_short_edges};
@@ -48,3 +49,8 @@ pub use model::{
 pub use plane_table::{PlaneId, PlaneTable};
 pub use tolerances::SNAP_TOLERANCE;
 pub use weld::WeldError;
+
+/// The example of the README, run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}

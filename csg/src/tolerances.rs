@@ -49,3 +49,29 @@ pub const NEGLIGIBLE_COMPONENT: f64 = 1e-40;
 ///
 /// Decides: which of two triangulations a face gets. Of the topology: nothing.
 pub const DELAUNAY_MARGIN: f64 = 1e-12;
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    /// A constant without a row in the table, or a row of a constant that is gone, would make the page untrue.
+    #[test]
+    fn the_page_lists_the_constants_of_each_crate() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+        let read = |path: &str| std::fs::read_to_string(root.join(path)).expect("a file of the project");
+        let page = read("docs/tolerances.md");
+        for name in ["csg", "cells", "shapes"] {
+            let source = read(&format!("{name}/src/tolerances.rs"));
+            let declared = source.lines().filter_map(|line| line.strip_prefix("pub const ")?.split(':').next());
+            let section = page.split("\n## ").find(|section| section.contains(&format!("(`{name}`)\n")));
+            let rows = section.expect("a section of the crate").lines().filter_map(|line| line.strip_prefix("| `"));
+            let listed = rows.filter_map(|row| row.split('`').next());
+            let sorted = |names: Vec<&str>| {
+                let mut names: Vec<String> = names.into_iter().map(str::to_owned).collect();
+                names.sort_unstable();
+                names
+            };
+            assert_eq!(sorted(declared.collect()), sorted(listed.collect()), "constants of {name}");
+        }
+    }
+}

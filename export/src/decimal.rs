@@ -57,15 +57,14 @@ pub(crate) fn push_digits(text: &mut Vec<u8>, value: u64) {
 
 #[cfg(test)]
 mod tests {
+    use planecut_testkit::random::Rng;
+
     use super::*;
 
     #[test]
     fn decimals_read_back_as_the_same_number() {
-        let mut state = 0x9e37_79b9_7f4a_7c15_u64;
-        let random = std::iter::repeat_with(|| {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            f64::from_bits(state ^ (state >> 29))
-        });
+        let mut rng = Rng::new(1);
+        let random = std::iter::repeat_with(|| f64::from_bits(rng.bits()));
         let chosen = [0.0, 1.0, -1.0, 0.1, -2.5, 1e15, -1e15, 999_999_999_999_999.0, 1e17, 1e-5, 5e-324, f64::MAX];
         for value in chosen.into_iter().chain(random.take(10_000)).filter(|v| v.is_finite()) {
             let mut text = Vec::new();

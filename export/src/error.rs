@@ -74,6 +74,14 @@ pub enum ExportError {
         /// Which count overflows.
         what: String,
     },
+    /// An option needs a library that this build leaves out.
+    #[error("{what} is not in this build, expected one with the feature `{feature}`")]
+    MissingFeature {
+        /// What was asked for.
+        what: &'static str,
+        /// The feature of the crate that has it.
+        feature: &'static str,
+    },
     /// A library below failed to serialise; never expected.
     #[error("cannot encode {format}: {message}")]
     Encode {

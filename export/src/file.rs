@@ -1,4 +1,8 @@
 //! Files that appear under their names only when complete.
+//!
+//! The crate `atomic-write-file` (0.3) does the core of it, but replaces a symbolic link instead of its target, knows no pipes and devices, gives
+//! up where a file without a name cannot be named later, makes temporary names that are too long beside a long one, and waits for the disk at
+//! each commit. `tempfile` cannot give a name to a file without one.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Seek, Write};

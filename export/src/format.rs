@@ -3,11 +3,10 @@
 use std::io::Write;
 use std::path::Path;
 
-use planecut_csg::{FaceSource, Mesh};
+use planecut_csg::Mesh;
 
-use crate::check::check_mesh;
-use crate::options::ExportOptions;
-use crate::{ExportError, glb, obj, ply, stl, threemf};
+use crate::part::check_parts;
+use crate::{ExportError, ExportOptions, Part, Written, gltf, obj, ply, stl, threemf};
 
 /// A mesh file format, with what it keeps of a [`Mesh`].
 ///
@@ -70,25 +69,6 @@ impl Format {
     }
 }
 
-/// One named mesh of a file that holds several, such as a convex cell of a decomposition.
-#[derive(Debug, Clone, Copy)]
-pub struct Part<'a> {
-    /// The name of the mesh node (glTF) or object (OBJ); may be empty.
-    pub name: &'a str,
-    /// The mesh, in the same coordinates as all others.
-    pub mesh: &'a Mesh,
-    /// Where the faces of each material come from, where that is known: as long as the mesh's materials, or empty.
-    pub sources: &'a [FaceSource],
-}
-
-impl<'a> Part<'a> {
-    /// A mesh of which no sources are known.
-    #[must_use]
-    pub fn new(name: &'a str, mesh: &'a Mesh) -> Self {
-        Self { name, mesh, sources: &[] }
-    }
-}
-
 /// Writes one mesh as a file of the given format.
 ///
 /// # Errors
@@ -121,8 +101,8 @@ pub fn write_parts(
 ) -> Result<(), ExportError> {
     check_parts(parts, options)?;
     match format {
-        Format::Glb => glb::write_glb(parts, options, out),
-        Format::Gltf => glb::write_gltf(parts, options, out),
+        Format::Glb => gltf::write_glb(parts, options, out),
+        Format::Gltf => gltf::write_gltf(parts, options, out),
         Format::Obj => obj::write_obj(parts, options, out),
         Format::Stl => stl::write_stl(parts, options, out),
         Format::ThreeMf => threemf::write_3mf(parts, options, out),
@@ -130,21 +110,17 @@ pub fn write_parts(
     }
 }
 
-/// Sees that what is to be written can be trusted.
-pub(crate) fn check_parts(parts: &[Part<'_>], options: &ExportOptions) -> Result<(), ExportError> {
-    options.check()?;
-    parts.iter().try_for_each(|part| {
-        check_mesh(part.mesh)?;
-        check_sources(part)
-    })
-}
-
-fn check_sources(part: &Part<'_>) -> Result<(), ExportError> {
-    let (sources, materials) = (part.sources.len(), part.mesh.materials.len());
-    if sources == 0 || sources == materials {
-        return Ok(());
+/// What [`write_parts`](crate::write_parts) puts into a file. `None` for formats in double precision: they hold the meshes as they are.
+///
+/// # Errors
+/// As for [`encode`](crate::encode).
+pub fn written(parts: &[Part<'_>], format: Format, options: &ExportOptions) -> Result<Option<Written>, ExportError> {
+    check_parts(parts, options)?;
+    match format {
+        Format::Glb | Format::Gltf => gltf::written(parts, options).map(Some),
+        Format::Stl => stl::written(parts, options).map(Some),
+        Format::Obj | Format::ThreeMf | Format::Ply => Ok(None),
     }
-    Err(ExportError::InvalidMesh(format!("{materials} materials but {sources} sources, expected as many")))
 }
 
 #[cfg(test)]

@@ -12,28 +12,28 @@
 #![deny(missing_docs)]
 
 mod brushes;
-mod check;
-mod color;
 mod decimal;
 mod error;
 mod file;
 mod format;
-mod glb;
-mod library;
+mod gltf;
+mod material;
 mod obj;
-mod options;
+mod part;
 mod ply;
-mod single_precision;
 mod stl;
 mod surface;
 mod threemf;
-mod written;
 
 pub use brushes::{BrushFormat, write_brushes};
-pub use color::{distinct_color, material_color};
 pub use error::ExportError;
 pub use file::{AtomicFile, write_atomic};
-pub use format::{Format, Part, encode, encode_parts, write_parts};
+pub use format::{Format, encode, encode_parts, write_parts, written};
+pub use material::{distinct_color, material_color};
 pub use obj::write_mtl;
-pub use options::{ExportOptions, Projection, Shading, TextureMapping, Unit};
-pub use written::{Written, written};
+pub use part::{ExportOptions, Part, Projection, Shading, TextureMapping, Unit, Written};
+
+/// The example of the README, run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}

@@ -1,4 +1,5 @@
-//! How much memory a large file takes while it is written; alone in its program, so that nothing else counts.
+//! How much memory a large file takes while it is written. A program of its own, apart from the suite: the peak that the system tells is that of
+//! the whole process.
 #![cfg(target_os = "linux")]
 
 mod common;

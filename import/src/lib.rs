@@ -12,3 +12,8 @@ mod source;
 mod warning;
 
 pub use warning::Warning;
+
+/// The example of the README, run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}

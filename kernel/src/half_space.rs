@@ -12,7 +12,7 @@ pub const MAX_NORMAL_RATIO: f64 = f64::from_bits((1023 + 200) << 52);
 /// A non-zero offset may be at most `2^200` times larger or smaller than the largest normal component.
 pub const MAX_OFFSET_RATIO: f64 = f64::from_bits((1023 + 200) << 52);
 
-/// Why a plane was not accepted.
+/// Why a plane was not accepted. `normal.to_array()` gives the three numbers without naming `glam`.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum HalfSpaceError {
     /// A coefficient is NaN or infinite.
@@ -42,6 +42,8 @@ pub enum HalfSpaceError {
 /// All coefficients are finite, the normal is not zero, and the magnitudes are within the accepted range
 /// ([`MIN_NORMAL`], [`MAX_NORMAL`], [`MAX_NORMAL_RATIO`], [`MAX_OFFSET_RATIO`]): inside it no product that a sign forms under- or overflows.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "[f64; 4]", into = "[f64; 4]"))]
 pub struct HalfSpace {
     normal: DVec3,
     offset: f64,

@@ -1,8 +1,9 @@
-//! Exact dynamic convex polyhedra: half-spaces added and taken back in about a microsecond.
+//! Exact dynamic convex polyhedra: half-spaces are added, moved and removed in about a microsecond.
 //!
 //! [`IncrementalPolytope`] keeps the vertices, edges and faces of an intersection of [`HalfSpace`]s up to date while
-//! planes come and go. Plane coefficients are taken as exact numbers and every decision is an exact [`sign`]; there is
-//! no epsilon inside. Unbounded, degenerate and empty sets are ordinary cases. What a removal costs does not depend on
+//! planes are added and removed. Plane coefficients are taken as exact numbers and every decision about the structure is an exact
+//! [`sign`]; the only epsilon is that of the view ([`IncrementalPolytope::with_epsilon`]): which short edges are reported. Unbounded,
+//! degenerate and empty sets are ordinary cases. What a removal costs does not depend on
 //! the number of planes, because it is known beforehand which of them can bound what is new.
 //!
 //! The idea is that of the paper "Topology-Based Halfspace Deletion for Dynamic Convex Polytopes", whose sections the
@@ -26,6 +27,31 @@
 //! # Ok(())
 //! # }
 //! ```
+//! # Vectors
+//!
+//! Every function that takes a vector takes whatever converts into one: `[f64; 3]`, a tuple, [`DVec3`], and with the feature `mint` the
+//! vectors and points of that crate. [`HalfSpace::from_array`] takes a plane as four numbers. What is returned is a [`DVec3`], which
+//! `to_array()` makes an array, and [`HalfSpace::to_array`] a plane. So no version of `glam` that the caller uses can clash with the one in here:
+//!
+//! ```
+//! use planecut_kernel::{HalfSpace, IncrementalPolytope};
+//!
+//! # fn main() -> Result<(), planecut_kernel::HalfSpaceError> {
+//! let mut cube = IncrementalPolytope::new();
+//! for axis in [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] {
+//!     cube.add_plane(HalfSpace::new(axis, 1.0)?);
+//!     cube.add_plane(HalfSpace::new(axis.map(|v| -v), 0.0)?);
+//! }
+//! assert!(cube.contains([0.5, 0.5, 1.0]));
+//! let corners: Vec<[f64; 3]> = cube.to_mesh().0.iter().map(|corner| corner.to_array()).collect();
+//! assert_eq!(corners.len(), 8);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! # Features
+//!
+//! None is on by default. `mint`: vectors of that crate as arguments. `serde`: planes, handles, results and whole polytopes as data.
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
@@ -36,6 +62,7 @@ mod meet;
 mod polytope;
 pub mod sign;
 
+pub use arithmetic::decompose_odd;
 pub use glam::{DMat3, DVec2, DVec3, DVec4};
 pub use half_space::{HalfSpace, HalfSpaceError, MAX_NORMAL, MAX_NORMAL_RATIO, MAX_OFFSET_RATIO, MIN_NORMAL};
 pub use hull::{HullError, MAX_COORDINATE, hull, hull_triangles};
@@ -46,3 +73,8 @@ pub use polytope::{
     Location, Measures, MovePlaneResult, PlaneIdx, RecessionCone, RemovePlaneResult, RemovePlanesResult, Support,
     TopologyError, Validation, ValidationError, Vertex, VertexIdx,
 };
+
+/// The example of the README, run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}

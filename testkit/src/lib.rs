@@ -1,12 +1,14 @@
 //! What tests of several crates share. For tests only: no crate of the product depends on it but for its tests.
 //!
 //! - [`random`]: the one seeded generator; a printed seed repeats a test on every machine.
+//! - [`data`]: files that others made, and tests that are ignored where these are absent;
 //! - with the feature `csg`: [`scene`] builds, draws, shrinks and prints models, [`generate`] draws them at random,
 //!   [`soundness`] has what must hold of every mesh;
 //! - with the feature `cells`: [`shape`] has trees whose value at a point is known from their half-spaces alone.
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod data;
 #[cfg(feature = "csg")]
 pub mod generate;
 pub mod random;

@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use planecut_testkit::data::data;
 use serde_json::Value;
 
-use crate::support::{agree, folder, keep, planecut, shared_maps};
+use crate::support::{agree, folder, keep, planecut};
 
 /// The bytes of every output of one run.
 fn outputs(input: &Path, threads: &str) -> BTreeMap<&'static str, Vec<u8>> {
@@ -22,13 +23,20 @@ fn outputs(input: &Path, threads: &str) -> BTreeMap<&'static str, Vec<u8>> {
 
 #[test]
 fn threads_and_repeated_runs_give_the_same_bytes() {
-    let shared = shared_maps().map(|folder| folder.join("romero/e1m1.map"));
-    for input in [Some(keep()), shared].into_iter().flatten() {
-        let expected = outputs(&input, "1");
-        for threads in ["1", "2", "5"] {
-            for (name, bytes) in outputs(&input, threads) {
-                assert!(bytes == expected[name], "{} {name} with {threads} threads", input.display());
-            }
+    check_threads(&keep());
+}
+
+fn threads_and_repeated_runs_give_the_same_bytes_of_a_level() {
+    check_threads(&data("map/romero/e1m1.map"));
+}
+
+planecut_testkit::tests_on_data!(threads_and_repeated_runs_give_the_same_bytes_of_a_level);
+
+fn check_threads(input: &Path) {
+    let expected = outputs(input, "1");
+    for threads in ["1", "2", "5"] {
+        for (name, bytes) in outputs(input, threads) {
+            assert!(bytes == expected[name], "{} {name} with {threads} threads", input.display());
         }
     }
 }

@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
+use planecut_testkit::data::data;
 use serde_json::{Value, json};
 
-use crate::support::{Run, agree, block, command, everything_in, finish, folder, shared_maps, write_map};
+use crate::support::{Run, agree, block, command, everything_in, finish, folder, write_map};
 
 /// A block of 10 × 10 × 2 with a hole of 2 × 2.
 const PLATE: &str = r#"{"planecut": 1, "materials": {"steel": {}}, "model": {"material": "steel", "difference": [
@@ -150,9 +151,10 @@ fn brushes_of_a_map_that_lose_their_end_are_left_out() {
     assert_eq!(report(folder.path())["solid"]["volume"], json!(8.0));
 }
 
-#[test]
+planecut_testkit::tests_on_data!(edits_of_a_shared_map_give_the_mesh_of_a_fresh_build);
+
 fn edits_of_a_shared_map_give_the_mesh_of_a_fresh_build() {
-    let Some(map) = shared_maps().map(|maps| maps.join("spacehare/64u_rabbit.map")) else { return };
+    let map = data("map/spacehare/64u_rabbit.map");
     let folder = folder();
     let mut edits = String::new();
     for k in 0..20 {

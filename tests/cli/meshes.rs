@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use planecut_testkit::data::data;
 use serde_json::Value;
 
 use crate::examples::examples;
@@ -59,18 +60,14 @@ fn the_largest_examples_come_back_from_every_format() {
     comes_back(examples().into_iter().filter(|model| LARGE.iter().any(|name| model.ends_with(format!("{name}.json")))));
 }
 
-/// OpenSCAD's trees, where they are: the thirty that hold something and have the fewest triangles.
-#[test]
+planecut_testkit::tests_on_data!(trees_of_openscad_come_back);
+
+/// OpenSCAD's trees: the thirty that hold something and have the fewest triangles.
 fn trees_of_openscad_come_back() {
     let folders = ["examples", "prusa", "nopscadlib", "dotscad", "bosl2"];
-    let folders = folders.map(|name| Path::new(ROOT).join("../shared/data/csg").join(name));
-    let entries = folders.iter().filter_map(|folder| std::fs::read_dir(folder).ok()).flatten();
+    let entries = folders.iter().flat_map(|name| std::fs::read_dir(data("csg").join(name)).expect(name));
     let mut trees: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
     trees.retain(|path| path.extension().is_some_and(|ending| ending == "csg"));
-    if trees.is_empty() {
-        println!("skipped: no trees in {}", folders[0].display());
-        return;
-    }
     let triangles = |path: &PathBuf| {
         let info = planecut(["info".as_ref(), path.as_os_str(), "--quiet".as_ref()]);
         let count = if info.status == 0 { info.json()["mesh"]["triangles"].as_u64() } else { None };

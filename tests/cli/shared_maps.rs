@@ -1,23 +1,24 @@
-//! Maps that others made, in `../shared/data/map` beside the project; skipped, with a line that says so, where absent.
+//! Maps that others made, in the data folder; ignored where it is absent.
 
+use planecut_testkit::data::data;
 use serde_json::{Value, json};
 
-use crate::support::{Run, agree, planecut, shared_maps};
+use crate::support::{Run, agree, planecut};
 
-fn info(name: &str) -> Option<Run> {
-    Some(planecut(["info".as_ref(), shared_maps()?.join(name).as_os_str()]))
+planecut_testkit::tests_on_data!(volumes_are_those_of_the_reference, editor_fixtures_are_built_or_refused_with_a_line);
+
+fn info(name: &str) -> Run {
+    planecut(["info".as_ref(), data("map").join(name).as_os_str()])
 }
 
 /// Volumes are those of manifold3d's union, which computes in double precision.
-#[test]
 fn volumes_are_those_of_the_reference() {
-    let Some(folder) = shared_maps() else { return };
-    let text = std::fs::read(folder.join("reference.json")).expect("reference.json");
+    let text = std::fs::read(data("map/reference.json")).expect("reference.json");
     let reference: Value = serde_json::from_slice(&text).expect("JSON");
     let mut compared = 0;
     for (name, expected) in reference.as_object().expect("an object") {
         let Some(volume) = expected["union_volume"].as_f64() else { continue };
-        let report = info(name).expect("the folder is there").json();
+        let report = info(name).json();
         let mesh = &report["mesh"];
         assert_eq!((&mesh["watertight"], &mesh["manifold"]), (&json!(true), &json!(true)), "{name}");
         assert!(agree(&report["solid"]["volume"], volume, 1e-9), "{name}: {}, expected {volume}", report["solid"]);
@@ -31,7 +32,6 @@ fn volumes_are_those_of_the_reference() {
 }
 
 /// Editor fixtures, some of them invalid on purpose: brushes and the volume, or the line of the error.
-#[test]
 fn editor_fixtures_are_built_or_refused_with_a_line() {
     let expected: [(&str, Result<u64, &str>); 11] = [
         ("01_Worldspawn_and_one_brush", Ok(1)),
@@ -47,7 +47,7 @@ fn editor_fixtures_are_built_or_refused_with_a_line() {
         ("21_1424", Ok(1)),
     ];
     for (name, expected) in expected {
-        let Some(run) = info(&format!("tb_worldreader/{name}.map")) else { return };
+        let run = info(&format!("tb_worldreader/{name}.map"));
         match expected {
             Err(words) => run.expect_error(2, words),
             Ok(brushes) => {

@@ -129,16 +129,6 @@ pub(crate) fn block(min: [i32; 3], max: [i32; 3], texture: &str) -> String {
     text + "}\n"
 }
 
-/// A folder beside the project with maps that others made; `None`, with a line that says so, where it is absent.
-pub(crate) fn shared_maps() -> Option<PathBuf> {
-    let folder = Path::new(ROOT).join("../shared/data/map");
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    println!("skipped: {} is absent", folder.display());
-    None
-}
-
 /// The project's example.
 pub(crate) fn keep() -> PathBuf {
     Path::new(ROOT).join("examples/keep.map")

@@ -4,7 +4,7 @@ use planecut_csg::{Material, Model, evaluate};
 
 use crate::conductor::Record;
 use crate::contestants::Outcome;
-use crate::entrant::{Entrant, PLANECUT};
+use crate::entrant::Entrant;
 use crate::scene::{Plan, Scene};
 
 /// The volume that all must have: the known one, else planecut's. For a plan of steps or moves that is what planecut finds

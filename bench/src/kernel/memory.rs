@@ -7,9 +7,9 @@ use std::process::Command;
 pub(crate) struct Memory {
     pub(crate) library: &'static str,
     pub(crate) planes: usize,
-    /// After the build, room to grow included.
+    /// After the build, spare capacity included.
     pub(crate) built: f64,
-    /// Of a clone, which has no room to grow.
+    /// Of a clone, which has no spare capacity.
     pub(crate) cloned: f64,
     pub(crate) vertices: f64,
 }

@@ -16,7 +16,7 @@ use crate::tolerances::{FILLED_TOUCHING, NO_VOLUME};
 
 /// A body that is left in more pieces, though all of them are nothing, is not looked into further.
 const MOST_PIECES: usize = 1000;
-/// Before a hull is built exactly, so many points between the corners of both bodies are looked at.
+/// Number of points between the corners of both bodies that are looked at before a hull is built exactly.
 const LOOKED_AT: usize = 64;
 /// Merges parts as long as that adds nothing to their union.
 pub(super) fn merge_freely(search: &Search) -> Result<Vec<Part>, CoarsenError> {

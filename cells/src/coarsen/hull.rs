@@ -1,6 +1,6 @@
 //! Hulls as the search sees them: planes and corners in floating point, and the probes that they cover.
 //!
-//! They propose what to merge. What is kept of a proposal is built anew by exact signs ([`super::enclose`]).
+//! They propose what to merge. What is kept of a proposal is built again by exact signs ([`super::enclose`]).
 
 use planecut_csg::stages::Bounds;
 use planecut_kernel::{DVec3, hull_triangles};

@@ -9,7 +9,7 @@ use super::subtract::subtract;
 use super::{CoarsenError, CoarsenOptions};
 use crate::tolerances::GROWN;
 
-/// A part grows at most so often.
+/// Maximum number of steps in which a part grows.
 const MOST_STEPS: usize = 32;
 /// Parts without those of their planes that nothing but another part lies behind, each once.
 pub(super) fn grown(parts: &[Part], boxes: &Boxes, options: &CoarsenOptions) -> Result<Vec<Part>, CoarsenError> {
@@ -64,7 +64,7 @@ fn grown_part(part: &Part, parts: &[Part], boxes: &Boxes, options: &CoarsenOptio
     Ok(grown)
 }
 
-/// The bodies, at most so many, that hold most of the solid together: always the one that adds most.
+/// The bodies, at most a given number, that hold most of the solid together: always the one that adds most.
 pub(super) fn chosen(bodies: &[Part], count: usize) -> Vec<Part> {
     let mut chosen: Vec<usize> = Vec::new();
     // what a body adds never becomes more

@@ -9,12 +9,12 @@ use super::pairs::{Pair, Pairs};
 use super::probes::{add, count_fresh};
 use super::search::{Group, Search};
 
-/// Each group knows at least so many neighbours.
+/// Least number of neighbours that each group knows.
 const NEIGHBOURS: usize = 12;
 
-/// A group that took others in keeps so many of their neighbours.
+/// Number of neighbours that a group keeps of others that it took in.
 const PARTNERS: usize = 32;
-/// So many pairs are asked for their answers at the same time.
+/// Number of pairs that are tried at the same time.
 const ASKED: usize = 4;
 
 /// A group took others in.

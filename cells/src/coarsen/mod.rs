@@ -48,9 +48,9 @@ use shrink::Shrinking;
 
 /// Fewest and most probes, and how many for each part.
 const PROBES: (usize, usize, usize) = (1 << 14, 1 << 17, 64);
-/// Fewest and most rounds in which parts are moved and groups merged anew, and what the number of parts times that of rounds is about.
+/// Fewest and most rounds in which parts are moved and groups merged again, and what the number of parts times that of rounds is about.
 const ROUNDS: (usize, usize, usize) = (2, 8, 2000);
-/// So much work is put into merging groups anew: the squares of how many parts are merged at once, summed up.
+/// Budget of work for merging groups again: the squares of how many parts are merged at once, summed up.
 const REGROUPING: usize = 40_000;
 /// Coarser cells.
 #[derive(Debug, Clone, PartialEq)]
@@ -182,7 +182,7 @@ impl Coarsener {
         }
     }
 
-    /// At most so many cells, with as little added as can be found; more only where parts are kept apart by the options.
+    /// At most this number of cells, with as little added as can be found; more only where parts are kept apart by the options.
     ///
     /// # Errors
     /// As [`Coarsener::coarsened`].
@@ -246,7 +246,7 @@ impl Coarsener {
         }
     }
 
-    /// How many cells there may be where greedy merging adds so much.
+    /// How many cells there may be where greedy merging adds this volume.
     fn guess(&self, excess: f64) -> usize {
         let within = self.merges.partition_point(|(_, added)| *added <= excess * self.volume);
         let gone: usize = self.merges[..within].iter().map(|(merge, _)| merge.gone.len()).sum();
@@ -271,7 +271,7 @@ impl Coarsener {
         self.hulls.keep(pairs);
     }
 
-    /// The groups of greedy merging when there are no more than so many.
+    /// The groups of greedy merging when there are no more than this number.
     fn groups_at(&self, search: &Search, count: usize) -> Vec<Group> {
         let mut members: Vec<Vec<u32>> = (0..self.free.len() as u32).map(|part| vec![part]).collect();
         let mut left = members.len();
@@ -310,7 +310,7 @@ impl Coarsener {
     }
 }
 
-/// Moves parts between groups and merges groups anew as long as that pays.
+/// Moves parts between groups and merges groups again as long as that pays.
 fn better(search: &Search, groups: &mut [Group]) {
     let mut clock = Clock::new(groups.len(), search.parts.len());
     let mut regrouped = 0;

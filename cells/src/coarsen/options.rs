@@ -22,14 +22,14 @@ pub enum Side {
 /// What to make of a solid's convex parts. By default, as few cells as there can be without adding anything.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct CoarsenOptions {
-    /// At most so many cells. As many as there are, or more, leaves the parts as they are.
+    /// Maximum number of cells. As many as there are, or more, leaves the parts as they are.
     pub max_cells: Option<usize>,
-    /// At most so much volume added, relative to the solid's; of inner cells, lacking. Together with `max_cells` it goes first: then there may
+    /// Maximum volume added, relative to the solid's; of inner cells, lacking. Together with `max_cells` it goes first: then there may
     /// be more cells.
     pub max_excess: Option<f64>,
-    /// At most so many faces of each cell, at least [`LEAST_MAX_FACES`].
+    /// Maximum number of faces of each cell, at least [`LEAST_MAX_FACES`].
     pub max_faces: Option<usize>,
-    /// At most so many vertices of each cell, at least [`LEAST_MAX_VERTICES`].
+    /// Maximum number of vertices of each cell, at least [`LEAST_MAX_VERTICES`].
     pub max_vertices: Option<usize>,
     /// What no cell may grow into: door and window openings. Where the solid itself is there, it stays.
     pub keep_clear: Option<Tree>,

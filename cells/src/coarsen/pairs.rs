@@ -61,7 +61,7 @@ impl PartialEq for Entry {
 impl Eq for Entry {}
 
 impl Pairs {
-    /// No pairs of so many places.
+    /// No pairs, for a number of places.
     pub(super) fn new(places: usize) -> Self {
         Self { of_place: vec![Vec::new(); places], ..Self::default() }
     }

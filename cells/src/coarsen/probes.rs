@@ -13,7 +13,7 @@ use super::part::{Part, bounds_of, boxes_of};
 const WORD: usize = 64;
 /// Words in a block that is passed over as a whole.
 const BLOCK: usize = 16;
-/// At most so many points are drawn for each probe that is wanted.
+/// Maximum number of points that are drawn for each probe that is wanted.
 const DRAWN: usize = 24;
 /// The root of `x⁴ = x + 1`: its powers give the additive sequence that fills three dimensions most evenly (Roberts 2018).
 const ROOT: f64 = 1.220_744_084_605_759_5;

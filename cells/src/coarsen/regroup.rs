@@ -1,4 +1,4 @@
-//! Better groups, a few at a time: their parts are merged anew, with what the other groups cover known.
+//! Better groups, a few at a time: their parts are merged again, with what the other groups cover known.
 //!
 //! Greedy merging knows nothing of what comes later; parts of two groups that are merged again while all others stay
 //! often find better company ("ruin and recreate": Schrimpf, Schneider, Stamm-Wilbrandt, Dueck 2000).
@@ -10,12 +10,12 @@ use super::probes::{add, count_fresh};
 use super::relocate::Clock;
 use super::search::{Group, Search};
 
-/// Each group is merged anew with so many of its nearest ones.
+/// Number of nearest groups with which each group is merged again.
 const NEAREST: usize = 6;
-/// Most parts that are merged anew at once.
+/// Maximum number of parts that are merged again at once.
 const MOST_PARTS: usize = 100;
 
-/// Merges pairs of neighbouring groups anew where that pays, those of which one changed after `since`; tells whether any was replaced.
+/// Merges pairs of neighbouring groups again where that pays, those of which one changed after `since`; tells whether any was replaced.
 /// It takes no more than half of the work that may be done, which is what merging the parts of each pair takes: about the square of how
 /// many they are.
 pub(super) fn regroup(search: &Search, groups: &mut [Group], clock: &mut Clock, since: u64, work: &mut usize) -> bool {
@@ -48,7 +48,7 @@ pub(super) fn regroup(search: &Search, groups: &mut [Group], clock: &mut Clock, 
     !applied.is_empty()
 }
 
-/// Leaves so many pairs as the work that may be done suffices for, in their order: those where there is most to gain. Returns the work.
+/// Leaves as many pairs as the budget of work suffices for, in their order: those where there is most to gain. Returns the work.
 fn limit_work(search: &Search, groups: &[Group], pairs: &mut Vec<[usize; 2]>, most: usize) -> usize {
     let parts = |pair: &[usize; 2]| pair.iter().map(|group| groups[*group].parts.len()).sum::<usize>();
     let work = |pair: &[usize; 2]| parts(pair).pow(2);
@@ -99,7 +99,7 @@ fn neighbours(groups: &[Group]) -> Vec<[usize; 2]> {
     pairs
 }
 
-/// The parts of a pair of groups merged anew into two, and what that gains; `None` for nothing.
+/// The parts of a pair of groups merged again into two, and what that gains; `None` for nothing.
 fn try_pair(search: &Search, groups: &[Group], pair: &[usize; 2]) -> Option<(f64, Vec<Group>)> {
     let parts: Vec<u32> = pair.iter().flat_map(|place| groups[*place].parts.iter().copied()).collect();
     let mut covered = vec![0_u64; search.probes.words()];

@@ -7,7 +7,7 @@ use super::probes::{add, count_fresh, once_and_twice};
 use super::search::{Group, Search};
 use crate::tolerances::SAME_HULL;
 
-/// A part may go to the groups whose boxes it touches, and to at least so many of the nearest.
+/// A part may go to the groups whose boxes it touches, and to at least this number of the nearest.
 const NEAREST: usize = 4;
 /// A part leaves a group for another.
 struct Move {
@@ -50,7 +50,7 @@ impl Clock {
     }
 }
 
-/// Moves parts as long as that pays, in at most so many rounds.
+/// Moves parts as long as that pays, in at most this number of rounds.
 pub(super) fn relocate(search: &Search, groups: &mut [Group], clock: &mut Clock, rounds: usize) {
     for _ in 0..rounds {
         let asked: Vec<(usize, u32)> = groups

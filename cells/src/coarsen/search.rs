@@ -16,7 +16,7 @@ use crate::tolerances::CLEAR_TOUCHING;
 const OVERLAP: f64 = 1.0 / 8.0;
 /// The same where nothing is left but to better what there is.
 const LAST_OVERLAP: f64 = 1.0 / 64.0;
-/// So many hulls of two parts are kept, some kilobytes each.
+/// Maximum number of hulls of two parts that are kept, some kilobytes each.
 pub(super) const MOST_PAIRS: usize = 10_000;
 
 /// Parts, and what holds for every group of them.
@@ -111,7 +111,7 @@ impl<'a> Search<'a> {
         !self.by_material || self.parts[a as usize].material == self.parts[b as usize].material
     }
 
-    /// What hulls cost that cover so many probes which nothing else covers.
+    /// What hulls cost that cover a number of probes which nothing else covers.
     pub(super) fn cost(&self, fresh: u32, volume: f64) -> f64 {
         self.probes.volume(fresh) + self.overlap * volume
     }

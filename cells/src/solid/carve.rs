@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use rustc_hash::FxHashSet;
 
 use super::cell::{Cell, CellPlane};
-use super::convex::{Convex, Side, box_side};
+use super::convex::{BodySide, Convex, box_side};
 use super::formula::{Formula, Kind, Parts};
 use super::order::{self, Direction, Rule};
 
@@ -213,22 +213,22 @@ impl<'a> Carver<'a> {
                 piece
             };
             piece.settle(self.table);
-            let is_beyond = |body: &u32| self.reaches(*body, plane.plane, Side::Outside, &piece);
+            let is_beyond = |body: &u32| self.reaches(*body, plane.plane, BodySide::Outside, &piece);
             let beyond = bodies.iter().copied().filter(is_beyond).collect();
             tasks.push((piece, beyond));
-            bodies.retain(|body| self.reaches(*body, plane.plane, Side::Inside, &cell));
+            bodies.retain(|body| self.reaches(*body, plane.plane, BodySide::Inside, &cell));
         }
     }
 
     /// Whether a body may reach what a cell has on one side of a plane.
-    fn reaches(&self, body: u32, plane: PlaneId, side: Side, piece: &Cell) -> bool {
+    fn reaches(&self, body: u32, plane: PlaneId, side: BodySide, piece: &Cell) -> bool {
         let body = self.body(body);
         let found = body.side(self.table, plane);
-        (found == side || found == Side::Both) && body.bounds().touches(piece.bounds())
+        (found == side || found == BodySide::Both) && body.bounds().touches(piece.bounds())
     }
 
     /// On which sides of a plane a body lies, as far as its box tells.
-    pub(super) fn box_side(&self, body: u32, plane: PlaneId) -> Side {
+    pub(super) fn box_side(&self, body: u32, plane: PlaneId) -> BodySide {
         box_side(self.table, self.body(body).bounds(), plane)
     }
 }

@@ -99,7 +99,7 @@ impl Cell {
         self.add_again(table, plane).1
     }
 
-    /// The same, whether or not the plane is there already, so that it can be taken back.
+    /// The same, whether or not the plane is there already, so that it can be removed.
     pub(super) fn add_again(&mut self, table: &PlaneTable, plane: CellPlane) -> (PlaneIdx, Cut) {
         let (handle, cut) = match self.polytope.add_plane(*table.half_space(plane.plane)) {
             AddPlaneResult::Added { plane, .. } => (plane, Cut::Face),
@@ -133,7 +133,7 @@ impl Cell {
         self.polytope.facets().iter().filter_map(|(handle, _)| self.plane(*handle).copied()).collect()
     }
 
-    /// Makes the cell ready after cuts: its box is taken anew, and planes without a face that no longer touch it are
+    /// Makes the cell ready after cuts: its box is computed again, and planes without a face that no longer touch it are
     /// dropped.
     ///
     /// Those that touch it in a corner or an edge stay. They hide nothing now, but when coefficients are rounded (a turned

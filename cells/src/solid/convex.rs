@@ -8,7 +8,7 @@ use super::cell::{Cell, CellPlane, Corner, Cut};
 
 /// On which sides of a plane a body lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Side {
+pub(super) enum BodySide {
     Inside,
     Outside,
     Both,
@@ -37,9 +37,9 @@ impl Convex {
     }
 
     /// On which sides of a plane its interior lies; where it is unbounded this may be told as both.
-    pub(super) fn side(&self, table: &PlaneTable, plane: PlaneId) -> Side {
+    pub(super) fn side(&self, table: &PlaneTable, plane: PlaneId) -> BodySide {
         if !self.size.is_finite() {
-            return Side::Both;
+            return BodySide::Both;
         }
         side_of(table, &self.corners, self.bounds(), plane)
     }
@@ -47,7 +47,7 @@ impl Convex {
     /// Whether a plane of the cell, or one of its own, surely parts it from a cell.
     pub(super) fn is_parted_from(&self, table: &PlaneTable, cell: &Cell) -> bool {
         !self.bounds().touches(cell.bounds())
-            || cell.planes().any(|(_, plane)| self.side(table, plane.plane) == Side::Outside)
+            || cell.planes().any(|(_, plane)| self.side(table, plane.plane) == BodySide::Outside)
     }
 
     /// What the body and a cell have in common, and the body's planes that carry faces of it; `None` where they have no
@@ -69,9 +69,9 @@ impl Convex {
 }
 
 /// On which sides of a plane a bounded body lies.
-pub(super) fn side_of(table: &PlaneTable, corners: &[Corner], bounds: &Bounds, plane: PlaneId) -> Side {
+pub(super) fn side_of(table: &PlaneTable, corners: &[Corner], bounds: &Bounds, plane: PlaneId) -> BodySide {
     let side = box_side(table, bounds, plane);
-    if side != Side::Both {
+    if side != BodySide::Both {
         return side;
     }
     let (mut inside, mut outside) = (false, false);
@@ -82,21 +82,21 @@ pub(super) fn side_of(table: &PlaneTable, corners: &[Corner], bounds: &Bounds, p
             Sign::Zero => {}
         }
         if inside && outside {
-            return Side::Both;
+            return BodySide::Both;
         }
     }
-    if outside { Side::Outside } else { Side::Inside }
+    if outside { BodySide::Outside } else { BodySide::Inside }
 }
 
 /// On which sides of a plane a box lies; both where that is not certain.
-pub(super) fn box_side(table: &PlaneTable, bounds: &Bounds, plane: PlaneId) -> Side {
+pub(super) fn box_side(table: &PlaneTable, bounds: &Bounds, plane: PlaneId) -> BodySide {
     let half_space = table.half_space(plane);
     let (low, high) = bounds.extent_along(half_space.normal(), half_space.offset());
     if high < 0.0 {
-        Side::Inside
+        BodySide::Inside
     } else if low > 0.0 {
-        Side::Outside
+        BodySide::Outside
     } else {
-        Side::Both
+        BodySide::Both
     }
 }

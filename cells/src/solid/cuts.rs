@@ -8,7 +8,7 @@ use planecut_kernel::{HalfSpace, PlaneIdx};
 
 use super::Solid;
 use super::cell::{Cell, CellPlane, Cut};
-use super::convex::{Side, box_side};
+use super::convex::{BodySide, box_side};
 
 /// Handle of a plane with which a [`Solid`] was cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -38,7 +38,7 @@ impl Solid {
     /// Cuts away what lies outside a half-space; [`Solid::remove_plane`] takes the cut back. Each cell that the plane
     /// may reach takes it in place, about a microsecond for each. The faces that the cut opens have the material 0.
     ///
-    /// A Boolean operation makes cuts part of its result: they cannot be taken back there. The operands keep theirs.
+    /// A Boolean operation makes cuts part of its result: they cannot be removed there. The operands keep theirs.
     ///
     /// ```
     /// use planecut_cells::Solid;
@@ -57,9 +57,9 @@ impl Solid {
     pub fn add_plane(&mut self, half_space: &HalfSpace) -> CutId {
         let (id, cell_plane) = self.next_cut(half_space);
         let mut handles = Vec::new();
-        // Boxes stay those of the uncut cells, so that what a cut passes by now it passes by whatever is taken back.
+        // Boxes stay those of the uncut cells, so that what a cut passes by now it passes by whatever is removed.
         for (place, cell) in (0..).zip(&mut self.cells) {
-            if box_side(&self.table, cell.bounds(), cell_plane.plane) != Side::Inside {
+            if box_side(&self.table, cell.bounds(), cell_plane.plane) != BodySide::Inside {
                 let handle = cell.add_again(&self.table, cell_plane).0;
                 handles.push(CutCell { cell: place, handle, is_outside: false });
             }

@@ -2,7 +2,7 @@
 //!
 //! A cell and what it was divided into are a *family*. Where a plane crosses a family, each of its members takes the plane, on
 //! the side on which it lies, even if that cuts nothing off it: so members differ in nothing but the sides on which they lie,
-//! and when the plane is taken back, those that no other plane tells apart have become one and the same cell.
+//! and when the plane is removed, those that no other plane tells apart have become one and the same cell.
 
 use std::sync::OnceLock;
 
@@ -11,12 +11,12 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::Solid;
 use super::cell::CellPlane;
-use super::convex::{Side, box_side};
+use super::convex::{BodySide, box_side};
 use super::cuts::{CutCell, CutId, PlaneCut};
 
 impl Solid {
     /// Divides the cells that a plane crosses; the solid stays the same. [`Solid::remove_plane`] joins again what the plane
-    /// alone had divided, in whatever order cuts are taken back.
+    /// alone had divided, in whatever order cuts are removed.
     ///
     /// A Boolean operation makes the division part of its result, as any cut.
     ///
@@ -46,7 +46,7 @@ impl Solid {
         let crossed: FxHashSet<u32> = (0..)
             .zip(self.cells.iter().zip(&self.families))
             .filter(|(place, (cell, _))| {
-                box_side(&self.table, cell.bounds(), plane.plane) == Side::Both
+                box_side(&self.table, cell.bounds(), plane.plane) == BodySide::Both
                     && self.sides_of(*place, plane, &trims) == [true; 2]
             })
             .map(|(_, (_, family))| *family)

@@ -11,8 +11,8 @@ use rayon::prelude::*;
 use super::carve::Carver;
 use super::cell::{Cell, CellPlane, Cut};
 use super::convex::Convex;
-use super::flat::{FlatTree, Owner, Scratch, Start};
 use super::formula::Formula;
+use super::normal_form::{NormalForm, Owner, Scratch, Start};
 use super::order::Rule;
 use super::sources::Sources;
 use super::{Solid, merge};
@@ -56,13 +56,13 @@ impl Solid {
         let (table, ids) = PlaneTable::intern(&half_spaces);
         let (of_leaf, bodies) = bodies_of(&table, brushes, &ids);
         let sizes: Vec<f64> = bodies.iter().map(|body| body.size).collect();
-        let flat = FlatTree::new(tree, &of_leaf, &sizes, rule);
+        let form = NormalForm::new(tree, &of_leaf, &sizes, rule);
         let carver = Carver::new(&table, bodies.iter().collect(), rule);
-        let mut cells = cells_of(&flat, &carver);
+        let mut cells = cells_of(&form, &carver);
         if rule.merges {
             merge::merge_neighbours(&table, &mut cells);
         }
-        let cover = flat.bodies_of_union().filter(|kept| kept.len() < cells.len());
+        let cover = form.bodies_of_union().filter(|kept| kept.len() < cells.len());
         let cover =
             cover.map(|kept| kept.into_iter().map(|body| Arc::new(bodies[body as usize].cell.clone())).collect());
         let faces = bodies.iter().flat_map(|body| &body.facets).copied().collect();
@@ -106,16 +106,16 @@ fn body_of(table: &PlaneTable, number: u32, brush: &Brush, ids: &[PlaneId]) -> O
     Some(Convex::new(table, cell))
 }
 
-fn cells_of(flat: &FlatTree, carver: &Carver) -> Vec<Cell> {
+fn cells_of(form: &NormalForm, carver: &Carver) -> Vec<Cell> {
     let boxes = Boxes::new(carver.bodies.iter().map(|body| *body.bounds()).collect());
-    let owners = flat.owners();
+    let owners = form.owners();
     let chunk = (owners.len() / (8 * rayon::current_num_threads()).max(1)).clamp(1, 64);
     let parts: Vec<Vec<Cell>> = owners
         .par_chunks(chunk)
         .map(|owners| {
             let (mut cells, mut near, mut scratch) = (Vec::new(), Vec::new(), Scratch::default());
             for owner in owners {
-                let (start, formula) = start_of(flat, carver, &boxes, owner, &mut near, &mut scratch);
+                let (start, formula) = start_of(form, carver, &boxes, owner, &mut near, &mut scratch);
                 if formula.value() != Some(false) {
                     carver.carve(start.into_owned(), formula, &mut cells);
                 }
@@ -128,7 +128,7 @@ fn cells_of(flat: &FlatTree, carver: &Carver) -> Vec<Cell> {
 
 /// Where an owner's cells begin, and what must hold there.
 fn start_of<'a>(
-    flat: &FlatTree,
+    form: &NormalForm,
     carver: &'a Carver,
     boxes: &Boxes,
     owner: &Owner,
@@ -139,12 +139,12 @@ fn start_of<'a>(
         Start::Body(body) => {
             let cell = &carver.bodies[body as usize].cell;
             boxes.touching(cell.bounds(), near);
-            (Cow::Borrowed(cell), flat.formula(owner, near, scratch))
+            (Cow::Borrowed(cell), form.formula(owner, near, scratch))
         }
         Start::Everything => {
             near.clear();
             near.extend(0..carver.bodies.len() as u32);
-            (Cow::Owned(Cell::everything()), flat.formula(owner, near, scratch))
+            (Cow::Owned(Cell::everything()), form.formula(owner, near, scratch))
         }
     }
 }

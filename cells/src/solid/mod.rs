@@ -2,30 +2,30 @@
 //!
 //! - [`cell`]: a polytope of the kernel that knows the plane and the brush face behind each of its planes; [`convex`]: a body
 //!   that cells are held against.
-//! - [`flat`] finds for each leaf of a tree the [`formula`] that its part of the solid fulfils, [`carve`] cuts the cells,
+//! - [`normal_form`] finds for each leaf of a tree the [`formula`] that its part of the solid fulfils, [`carve`] cuts the cells,
 //!   [`order`] chooses along which planes first, [`merge`] joins neighbours, for bodies that are given, too ([`join`]). [`from_tree`] and [`boolean`] are made of these;
 //!   [`boxes`] tells what comes near what.
-//! - [`cuts`], [`divide`] and [`motion`] change a solid; [`measure`], [`query`], [`ray`] and [`components`] ask it; [`skin`] gives its meshes
+//! - [`cuts`], [`divide`] and [`motion`] change a solid; [`measure`], [`query`], [`ray`] and [`components`] ask it; [`boundary`] gives its meshes
 //!   and [`sources`] the brush behind a place on them.
 
 mod boolean;
+mod boundary;
 mod carve;
 mod cell;
 mod components;
 mod convex;
 mod cuts;
 mod divide;
-mod flat;
 mod formula;
 mod from_tree;
 mod join;
 mod measure;
 mod merge;
 mod motion;
+mod normal_form;
 mod order;
 mod query;
 mod ray;
-mod skin;
 mod sources;
 
 use planecut_csg::stages::{Bounds, Boxes};
@@ -72,7 +72,7 @@ pub struct Solid {
     cells: Vec<Cell>,
     /// Convex bodies, possibly overlapping, whose union the solid is, where it is known to be one of fewer than the cells.
     cover: Option<Vec<Arc<Cell>>>,
-    /// The planes with which it was cut and that can be taken back.
+    /// The planes with which it was cut and that can be removed.
     cuts: Vec<PlaneCut>,
     next_cut: u32,
     /// Where cells were divided, the place of each among the cells as they were before; else empty.

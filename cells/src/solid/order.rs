@@ -15,7 +15,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::carve::Carver;
 use super::cell::{Cell, CellPlane};
-use super::convex::{Convex, Side};
+use super::convex::{BodySide, Convex};
 
 /// A direction is common where at least this many bodies have a face across it,
 const FEW: u32 = 3;
@@ -55,7 +55,7 @@ pub(super) fn next_plane(carver: &Carver, bodies: &[u32], planes: &[CellPlane]) 
     if planes.len() < 2 || !carver.rule.chooses {
         return planes.len().checked_sub(1);
     }
-    let cuts = |plane: PlaneId| bodies.iter().filter(|body| carver.box_side(**body, plane) == Side::Both).count();
+    let cuts = |plane: PlaneId| bodies.iter().filter(|body| carver.box_side(**body, plane) == BodySide::Both).count();
     let score = |plane: PlaneId| if carver.is_common(plane) { 0 } else { 1 + cuts(plane) };
     let scored = planes.iter().enumerate().map(|(place, plane)| ((score(plane.plane), plane.plane), place));
     scored.min().map(|(_, place)| place)

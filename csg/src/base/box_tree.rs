@@ -6,7 +6,7 @@ use super::Bounds;
 const LEAF: usize = 4;
 
 #[derive(Debug, Clone, Copy)]
-struct Node {
+struct BoxNode {
     bounds: Bounds,
     start: u32,
     end: u32,
@@ -19,7 +19,7 @@ struct Node {
 pub struct Boxes {
     boxes: Vec<Bounds>,
     order: Vec<u32>,
-    nodes: Vec<Node>,
+    nodes: Vec<BoxNode>,
     infinite: Vec<u32>,
 }
 
@@ -49,12 +49,12 @@ impl Boxes {
             }
             let node = self.nodes.len();
             if let Some(parent) = second_of {
-                let parent: &mut Node = &mut self.nodes[parent];
+                let parent: &mut BoxNode = &mut self.nodes[parent];
                 parent.second = node as u32;
             }
             let (boxes, range) = (&self.boxes, &mut self.order[start..end]);
             let bounds = range.iter().fold(Bounds::EMPTY, |bounds, k| bounds.union(&boxes[*k as usize]));
-            self.nodes.push(Node { bounds, start: start as u32, end: end as u32, second: 0 });
+            self.nodes.push(BoxNode { bounds, start: start as u32, end: end as u32, second: 0 });
             if end - start > LEAF {
                 let axis = (bounds.max - bounds.min).max_position();
                 let half = range.len() / 2;

@@ -1,15 +1,17 @@
-//! What several stages build on: boxes and a tree of them, union-find, numbers for keys, sums, work in parallel.
+//! What several stages build on: boxes and a tree of them, union-find, numbers for keys, sums, a clock, work in parallel.
 
 mod bounds;
 mod box_tree;
-mod distinct;
+mod clock;
+mod interning;
 mod parallel;
 pub(crate) mod sum;
 pub(crate) mod union_find;
 
 pub use bounds::Bounds;
 pub use box_tree::Boxes;
-pub(crate) use distinct::{WEIGHTS, by_group, distinct, sortable};
+pub(crate) use clock::Clock;
+pub(crate) use interning::{WEIGHTS, by_group, intern, sortable};
 pub(crate) use parallel::map_chunks;
 pub use sum::CompensatedSum;
 pub use union_find::DisjointSets;

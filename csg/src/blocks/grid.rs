@@ -8,7 +8,7 @@ use crate::base::Bounds;
 use crate::body::{BrushBody, build_bodies};
 use crate::model::{Brush, BrushFace, MaterialId};
 
-/// So many brushes are built at a time to know where they are.
+/// Number of brushes that are built at a time to know where they are.
 const AT_A_TIME: usize = 1 << 13;
 
 /// Walls lie at odd multiples of a step so short that no grid of a few thousand steps has planes or corners there.

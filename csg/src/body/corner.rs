@@ -11,7 +11,7 @@ const PLANE_VALUE_BOUND: f64 = 8.0 * f64::EPSILON;
 
 /// A plane that many corners are held against.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Sieve {
+pub(crate) struct PlaneFilter {
     normal: DVec3,
     offset: f64,
     /// The sum of the normal's magnitudes.
@@ -20,7 +20,7 @@ pub(crate) struct Sieve {
     room: f64,
 }
 
-impl Sieve {
+impl PlaneFilter {
     pub(crate) fn new(half_space: &HalfSpace) -> Self {
         let (normal, offset) = (half_space.normal(), half_space.offset());
         Self { normal, offset, reach: normal.abs().element_sum(), room: PLANE_VALUE_BOUND * offset.abs() }

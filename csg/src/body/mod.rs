@@ -1,15 +1,15 @@
-//! The exact boundary of each brush, as plane ids: what the skin works on.
+//! The exact boundary of each brush, as plane ids: what the boundary is made of.
 //!
 //! - [`shape`] is a body in numbers of its own, which it keeps whatever table its planes are in.
-//! - [`build`] makes those of brushes, where they were not made before ([`Built`]).
-//! - [`gauge`] tells where points lie in a body of many faces.
+//! - [`build`] makes those of brushes, where they were not made before ([`BuiltBodies`]).
+//! - [`polar_dual`] tells where points lie in a body of many faces.
 
 mod build;
 mod built;
 mod corner;
-mod gauge;
 mod kinds;
 mod outer;
+mod polar_dual;
 mod shape;
 
 use std::sync::{Arc, OnceLock};
@@ -21,13 +21,12 @@ use crate::base::Bounds;
 use crate::model::MaterialId;
 use crate::plane_table::{PlaneId, PlaneTable};
 
-pub(crate) use build::{BrushBodies, build, build_bodies, built_or_build, read};
-pub use built::Built;
-pub(crate) use built::build_ahead;
-pub(crate) use corner::{Corner, Sieve};
-pub(crate) use gauge::{Gauge, Place};
+pub(crate) use build::{BrushBodies, build, build_bodies, build_other_bodies, built_or_build, read};
+pub use built::BuiltBodies;
+pub(crate) use corner::{Corner, PlaneFilter};
 pub(crate) use kinds::{kinds, mark_of};
 pub(crate) use outer::OuterBox;
+pub(crate) use polar_dual::{Place, PolarDual};
 use shape::Corners;
 pub(crate) use shape::Shape;
 
@@ -92,10 +91,13 @@ impl Body {
     }
 
     /// Where points lie in it, for a body of many faces.
-    pub(crate) fn gauge(&self, table: &PlaneTable) -> Option<&Gauge> {
+    pub(crate) fn polar_dual(&self, table: &PlaneTable) -> Option<&PolarDual> {
         let half_spaces = || self.faces.iter().map(|face| table.half_space(face.plane));
         let edges = self.faces.iter().map(|face| face.start..face.end);
-        self.corners.gauge.get_or_init(|| Gauge::new(half_spaces, edges, &self.corners).map(Box::new)).as_deref()
+        self.corners
+            .polar_dual
+            .get_or_init(|| PolarDual::new(half_spaces, edges, &self.corners).map(Box::new))
+            .as_deref()
     }
 
     /// The planes of the edges of a face, counter-clockwise seen from outside.
@@ -121,13 +123,13 @@ impl Body {
         mut corners: impl Iterator<Item = &'a Corner> + Clone,
     ) -> bool {
         let Some(first) = corners.clone().next() else { return true };
-        if let Some(gauge) = self.gauge(table) {
-            let Place::Outside(face) = gauge.place(first, gauge.seed(first)) else { return false };
-            return corners.all(|corner| gauge.is_beyond(corner, face));
+        if let Some(dual) = self.polar_dual(table) {
+            let Place::Outside(face) = dual.place(first, dual.seed(first)) else { return false };
+            return corners.all(|corner| dual.is_beyond(corner, face));
         }
         self.faces.iter().any(|face| {
-            let sieve = Sieve::new(table.half_space(face.plane));
-            corners.clone().all(|corner| sieve.side(corner) == Sign::Positive)
+            let filter = PlaneFilter::new(table.half_space(face.plane));
+            corners.clone().all(|corner| filter.side(corner) == Sign::Positive)
         })
     }
 

@@ -7,7 +7,7 @@ use planecut_kernel::sign::{Homogeneous, Row};
 use planecut_kernel::{HalfSpace, IncrementalPolytope, PlaneIdx, meet};
 
 use super::Corner;
-use super::gauge::Gauge;
+use super::polar_dual::PolarDual;
 use crate::base::Bounds;
 
 /// A bounded convex body with interior, its planes named as in the polytope that it was read from.
@@ -39,7 +39,7 @@ pub(super) struct Corners {
     /// The plane of each face.
     pub(super) planes: Vec<PlaneIdx>,
     /// Made when first asked for.
-    pub(super) gauge: OnceLock<Option<Box<Gauge>>>,
+    pub(super) polar_dual: OnceLock<Option<Box<PolarDual>>>,
 }
 
 impl Corners {

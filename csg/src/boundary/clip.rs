@@ -4,7 +4,7 @@ use planecut_kernel::sign::Sign;
 
 use super::Scene;
 use super::section::{Clip, Polygon};
-use crate::body::{BodyFace, Corner, Gauge, Place};
+use crate::body::{BodyFace, Corner, Place, PolarDual};
 
 /// For more pairs of a corner and a body near nothing is kept.
 const MOST: usize = 1 << 20;
@@ -36,7 +36,7 @@ pub(super) struct Cutter<'a> {
 }
 
 impl Clipper {
-    /// Begins with the faces of another body, of so many corners and with so many bodies near.
+    /// Begins with the faces of another body: the number of its corners, and of the bodies near it.
     pub(super) fn begin(&mut self, corners: usize, near: usize) {
         self.corners = if corners.saturating_mul(near) <= MOST { corners } else { 0 };
         self.last.clear();
@@ -46,8 +46,8 @@ impl Clipper {
 
     /// What a body covers of a polygon within a face. `out` is that part where it is [`Clip::Part`], else of no meaning.
     pub(super) fn clip(&mut self, cutter: Cutter<'_>, polygon: &Polygon, out: &mut Polygon) -> Clip {
-        match cutter.scene.gauge(cutter.body) {
-            Some(gauge) => self.clip_by_gauge(cutter, gauge, polygon, out),
+        match cutter.scene.polar_dual(cutter.body) {
+            Some(dual) => self.clip_by_dual(cutter, dual, polygon, out),
             None => {
                 out.copy_from(polygon);
                 self.clip_by_all(cutter, out)
@@ -58,8 +58,8 @@ impl Clipper {
     /// Whether a body of many faces is quickly seen to hold a polygon within a face. What it holds need not be clipped by
     /// others.
     pub(super) fn surely_holds(&mut self, cutter: Cutter<'_>, polygon: &Polygon) -> bool {
-        let Some(gauge) = cutter.scene.gauge(cutter.body) else { return false };
-        (0..polygon.corners.len()).all(|i| matches!(self.place(cutter, gauge, polygon, i), Found::Inside(_)))
+        let Some(dual) = cutter.scene.polar_dual(cutter.body) else { return false };
+        (0..polygon.corners.len()).all(|i| matches!(self.place(cutter, dual, polygon, i), Found::Inside(_)))
     }
 
     /// By the planes of all faces.
@@ -77,15 +77,15 @@ impl Clipper {
     }
 
     /// By planes beyond which corners lie, until there is none. Then all corners lie in the body, and so does the polygon.
-    fn clip_by_gauge(&mut self, cutter: Cutter<'_>, gauge: &Gauge, polygon: &Polygon, out: &mut Polygon) -> Clip {
+    fn clip_by_dual(&mut self, cutter: Cutter<'_>, dual: &PolarDual, polygon: &Polygon, out: &mut Polygon) -> Clip {
         let Cutter { scene, face, body, .. } = cutter;
         // mostly all of it is inside, or all beyond one plane, and nothing need be copied
         let mut first = None;
         for i in 0..polygon.corners.len() {
-            match self.place(cutter, gauge, polygon, i) {
+            match self.place(cutter, dual, polygon, i) {
                 Found::Inside(_) => {}
                 Found::Beyond(beyond) => {
-                    if polygon.corners.iter().all(|corner| gauge.is_beyond(corner, beyond)) {
+                    if polygon.corners.iter().all(|corner| dual.is_beyond(corner, beyond)) {
                         return Clip::Nothing;
                     }
                     first = Some((i, beyond));
@@ -113,7 +113,7 @@ impl Clipper {
             let next = loop {
                 let Some(k) = out.corners.iter().position(|corner| corner.within != number) else { break None };
                 i = k;
-                match self.place(cutter, gauge, out, i) {
+                match self.place(cutter, dual, out, i) {
                     Found::Inside(_) => out.corners[i].within = number,
                     Found::Beyond(other) => break Some(other),
                     Found::Unknown => {
@@ -131,10 +131,10 @@ impl Clipper {
     }
 
     /// Where a corner lies, exactly where numbers do not tell.
-    fn place(&mut self, cutter: Cutter<'_>, gauge: &Gauge, polygon: &Polygon, i: usize) -> Found {
+    fn place(&mut self, cutter: Cutter<'_>, dual: &PolarDual, polygon: &Polygon, i: usize) -> Found {
         let number = polygon.corners[i].number as usize;
         let found = if number >= self.corners {
-            self.find(cutter, gauge, polygon, i)
+            self.find(cutter, dual, polygon, i)
         } else {
             if self.known.is_empty() {
                 self.known.resize(self.last.len() * self.corners, Found::Unknown);
@@ -142,7 +142,7 @@ impl Clipper {
             let entry = cutter.place * self.corners + number;
             if self.known[entry] == Found::Unknown {
                 self.stay_near(cutter.place, polygon);
-                self.known[entry] = self.find(cutter, gauge, polygon, i);
+                self.known[entry] = self.find(cutter, dual, polygon, i);
             }
             self.known[entry]
         };
@@ -168,16 +168,16 @@ impl Clipper {
         }
     }
 
-    fn find(&mut self, cutter: Cutter<'_>, gauge: &Gauge, polygon: &Polygon, i: usize) -> Found {
+    fn find(&mut self, cutter: Cutter<'_>, dual: &PolarDual, polygon: &Polygon, i: usize) -> Found {
         let Cutter { scene, face, body, place } = cutter;
         let corner = &polygon.corners[i];
         let last = self.last[place];
-        match gauge.place(corner, if last == NONE { gauge.seed(corner) } else { last }) {
+        match dual.place(corner, if last == NONE { dual.seed(corner) } else { last }) {
             Place::Inside(nearest) => Found::Inside(nearest),
             Place::Outside(other) => Found::Beyond(other),
             Place::Near(other) => {
                 let planes = polygon.corner(face.plane, i);
-                gauge.near(corner, other, &mut self.near);
+                dual.near(corner, other, &mut self.near);
                 let faces = &scene.bodies[body].faces;
                 let is_beyond = |other: &u32| {
                     let plane = faces[*other as usize].plane;

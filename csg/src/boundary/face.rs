@@ -2,14 +2,14 @@
 
 use super::clip::{Clipper, Cutter};
 use super::contact::{Contact, Facing, misses};
-use super::ownership::{Ownership, Side, Turn};
+use super::ownership::{EdgeSide, Ownership, Turn};
 use super::role::{Pair, Role};
 use super::section::{Clip, Cover, Line, Piece, Polygon};
 use super::sweep::{Context, Sweep};
 use super::{BoundaryEdge, Scene};
 use crate::base::Bounds;
 use crate::body::BodyFace;
-use crate::expression::{Flat, Restriction};
+use crate::expression::{OneLevel, Restriction};
 use crate::plane_table::PlaneTable;
 
 /// A body that reaches the plane of the face.
@@ -79,7 +79,7 @@ impl<'a> FaceWorker<'a> {
         }
     }
 
-    /// Begins with the faces of another body; so many bodies are near.
+    /// Begins with the faces of another body; `near` is the number of bodies near it.
     pub(crate) fn begin(&mut self, body: usize, near: usize) {
         self.clipper.begin(self.scene.bodies[body].corner_count(), near);
     }
@@ -92,10 +92,10 @@ impl<'a> FaceWorker<'a> {
         let this = &solid.faces[face];
         let own = self.gather(body, this, near);
         self.region.set(solid.edges(this), solid.corners(this));
-        if let Some(flat) = scene.flat
+        if let Some(operation) = scene.one_level
             && !scene.is_plane_shared(this)
         {
-            if let Some(facing) = self.sort_out_flat(own, this, flat)
+            if let Some(facing) = self.sort_out_one_level(own, this, operation)
                 && self.cover_region(this)
             {
                 self.emit_own_edges(this, facing, out);
@@ -166,9 +166,9 @@ impl<'a> FaceWorker<'a> {
 
     /// What [`sort_out`](Self::sort_out) finds where the tree has one level and no other face lies on the plane; and which
     /// boundary the face is, where it is any.
-    fn sort_out_flat(&mut self, own: usize, face: &'a BodyFace, flat: Flat) -> Option<Facing> {
+    fn sort_out_one_level(&mut self, own: usize, face: &'a BodyFace, operation: OneLevel) -> Option<Facing> {
         self.covering.clear();
-        let is_tool = flat == Flat::Difference && self.leaves[own] != 0;
+        let is_tool = operation == OneLevel::Difference && self.leaves[own] != 0;
         let mut is_in_first = !is_tool;
         for leaf in 0..self.bodies.len() {
             if leaf == own {
@@ -215,7 +215,7 @@ impl<'a> FaceWorker<'a> {
 
     /// Which boundary the face is where nothing is covered that depends on several bodies.
     fn emitted_on_region(&mut self) -> Option<Facing> {
-        self.ownership.emitted(self.scene.expression, &mut self.restriction, Side::Left)
+        self.ownership.emitted(self.scene.expression, &mut self.restriction, EdgeSide::Left)
     }
 
     /// Finds the bodies that may reach the face, and their leaves; gives the place of its own body.

@@ -20,8 +20,8 @@ use std::borrow::Cow;
 use planecut_kernel::sign::Counts;
 
 use crate::base::{Boxes, map_chunks};
-use crate::body::{Body, BodyFace, Gauge};
-use crate::expression::{Expression, Flat, Polarity};
+use crate::body::{Body, BodyFace, PolarDual};
+use crate::expression::{Expression, OneLevel, Polarity};
 use crate::model::MaterialId;
 use crate::plane_table::{PlaneId, PlaneTable};
 use contact::Facing;
@@ -70,7 +70,7 @@ pub(crate) struct Scene<'a> {
     pub(crate) leaf_of_body: &'a [u32],
     pub(crate) expression: &'a Expression,
     /// Where the expression is of one level, what it does.
-    flat: Option<Flat>,
+    one_level: Option<OneLevel>,
     /// How many bodies have a face on each plane; 255 stands for more as well.
     bodies_on_plane: Cow<'a, [u8]>,
     /// Orders materials: where coplanar faces overlap, the lower rank wins, so that the outcome does not depend on the
@@ -103,12 +103,12 @@ impl<'a> Scene<'a> {
         bodies_on_plane: impl Into<Cow<'a, [u8]>>,
         rank: &'a [u32],
     ) -> Self {
-        let (flat, bodies_on_plane) = (expression.flat(), bodies_on_plane.into());
-        Self { table, bodies, leaf_of_body, expression, flat, bodies_on_plane, rank }
+        let (one_level, bodies_on_plane) = (expression.one_level(), bodies_on_plane.into());
+        Self { table, bodies, leaf_of_body, expression, one_level, bodies_on_plane, rank }
     }
 
-    fn gauge(&self, body: usize) -> Option<&'a Gauge> {
-        self.bodies[body].gauge(self.table)
+    fn polar_dual(&self, body: usize) -> Option<&'a PolarDual> {
+        self.bodies[body].polar_dual(self.table)
     }
 
     /// Whether bodies other than the face's own may have a face on its plane.
@@ -127,7 +127,7 @@ impl<'a> Scene<'a> {
 }
 
 /// The boundary edges of a tree of bodies.
-pub(crate) fn skin(scene: &Scene<'_>) -> (Vec<BoundaryEdge>, Counts) {
+pub(crate) fn boundary_edges(scene: &Scene<'_>) -> (Vec<BoundaryEdge>, Counts) {
     let bodies = &scene.bodies;
     let boxes = Boxes::new(bodies.iter().map(|body| body.bounds).collect());
     // in the order of space, so that what is near is at hand
@@ -150,9 +150,9 @@ pub(crate) fn skin(scene: &Scene<'_>) -> (Vec<BoundaryEdge>, Counts) {
 }
 
 /// The boundary edges of the union of bodies.
-pub(crate) fn skin_of_union(table: &PlaneTable, bodies: &[Body], rank: &[u32]) -> (Vec<BoundaryEdge>, Counts) {
+pub(crate) fn boundary_of_union(table: &PlaneTable, bodies: &[Body], rank: &[u32]) -> (Vec<BoundaryEdge>, Counts) {
     let count = bodies.len();
     let leaves: Vec<u32> = (0..count as u32).collect();
     let expression = Expression::union_of(count);
-    skin(&Scene::new(table, bodies, &leaves, &expression, rank))
+    boundary_edges(&Scene::new(table, bodies, &leaves, &expression, rank))
 }

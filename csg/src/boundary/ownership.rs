@@ -12,12 +12,12 @@ use crate::model::MaterialId;
 
 /// A side of a directed edge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Side {
+pub(super) enum EdgeSide {
     Left,
     Right,
 }
 
-impl Side {
+impl EdgeSide {
     pub(super) const BOTH: [Self; 2] = [Self::Left, Self::Right];
 
     /// The channel of the tree just inside of the face.
@@ -47,7 +47,7 @@ pub(super) struct Turn {
 
 /// Whether there is boundary on a side of an edge on a face, and which way it faces: where the tree differs between just inside and
 /// just outside of the face.
-fn boundary_here(restriction: &Restriction, side: Side) -> Option<Facing> {
+fn boundary_here(restriction: &Restriction, side: EdgeSide) -> Option<Facing> {
     Facing::between(restriction.root(side.inside()), restriction.root(side.outside()))
 }
 
@@ -74,7 +74,12 @@ impl Ownership {
     }
 
     /// The boundary that the face itself emits on a side: there is one, and no other face owns it.
-    pub(super) fn emitted(&self, expression: &Expression, restriction: &mut Restriction, side: Side) -> Option<Facing> {
+    pub(super) fn emitted(
+        &self,
+        expression: &Expression,
+        restriction: &mut Restriction,
+        side: EdgeSide,
+    ) -> Option<Facing> {
         let facing = boundary_here(restriction, side)?;
         (self.emitting_leaf(expression, restriction, side, facing) == self.own).then_some(facing)
     }
@@ -87,7 +92,7 @@ impl Ownership {
         &self,
         expression: &Expression,
         restriction: &mut Restriction,
-        side: Side,
+        side: EdgeSide,
         facing: Facing,
     ) -> usize {
         let coplanar = &self.coplanar[side as usize];
@@ -110,7 +115,7 @@ impl Ownership {
 
     /// Takes a body as covering both sides.
     pub(super) fn cover_both(&mut self, expression: &Expression, restriction: &mut Restriction, body: &Reaching) {
-        for side in Side::BOTH {
+        for side in EdgeSide::BOTH {
             self.set_cover(expression, restriction, body, side, true);
         }
     }
@@ -121,7 +126,7 @@ impl Ownership {
         expression: &Expression,
         restriction: &mut Restriction,
         body: &Reaching,
-        side: Side,
+        side: EdgeSide,
         covers: bool,
     ) {
         let [inside, outside] = body.contact.sides();

@@ -3,7 +3,7 @@
 use planecut_kernel::sign::{Homogeneous, Sign};
 
 use crate::base::Bounds;
-use crate::body::{Corner, Sieve};
+use crate::body::{Corner, PlaneFilter};
 use crate::plane_table::{PlaneId, PlaneTable};
 
 /// A convex polygon on `plane`: edge `i` lies on the line of `edges[i]`, whose normal points away from the polygon;
@@ -48,10 +48,10 @@ impl Polygon {
         let (mut some_inside, mut some_outside) = (false, false);
         // Which corners are strictly inside; polygons of more than 128 corners take the slow way.
         let mut inside = Inside::new(n);
-        let sieve = Sieve::new(table.half_space(cut));
+        let filter = PlaneFilter::new(table.half_space(cut));
         for i in 0..n {
             let corner = &self.corners[i];
-            let side = match sieve.side(corner) {
+            let side = match filter.side(corner) {
                 Sign::Zero => table.side(self.corner(plane, i), &corner.point, cut),
                 certain => certain,
             };

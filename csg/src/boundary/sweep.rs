@@ -10,7 +10,7 @@ use planecut_kernel::sign::{Homogeneous, Sign};
 
 use super::contact::Facing;
 use super::face::Section;
-use super::ownership::{Ownership, Side};
+use super::ownership::{EdgeSide, Ownership};
 use super::section::{Cover, Line, Piece, Polygon};
 use super::{BoundaryEdge, Scene};
 use crate::body::BodyFace;
@@ -216,7 +216,7 @@ struct Walk<'a, 'b> {
 impl Walk<'_, '_> {
     fn change(&mut self, expression: &Expression, section: u32, sides: [bool; 2], covers: bool) {
         let of = &self.context.sections[section as usize].of;
-        for side in Side::BOTH.into_iter().filter(|side| sides[*side as usize]) {
+        for side in EdgeSide::BOTH.into_iter().filter(|side| sides[*side as usize]) {
             self.ownership.set_cover(expression, self.restriction, of, side, covers);
         }
     }
@@ -225,8 +225,9 @@ impl Walk<'_, '_> {
     /// that are emitted cancel: they tell the weld where faces may cross.
     fn labels(&mut self) -> Option<[Option<Facing>; 2]> {
         let expression = self.context.scene.expression;
-        let left = self.ownership.emitted(expression, self.restriction, Side::Left);
-        let right = if self.outer { None } else { self.ownership.emitted(expression, self.restriction, Side::Right) };
+        let left = self.ownership.emitted(expression, self.restriction, EdgeSide::Left);
+        let right =
+            if self.outer { None } else { self.ownership.emitted(expression, self.restriction, EdgeSide::Right) };
         (left.is_some() || right.is_some()).then_some([left, right])
     }
 

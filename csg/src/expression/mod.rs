@@ -62,7 +62,7 @@ impl Polarity {
 
 /// What a tree of one level does with its leaves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Flat {
+pub(crate) enum OneLevel {
     /// It is their union.
     Union,
     /// All others are taken from the first.
@@ -125,15 +125,15 @@ impl Expression {
     }
 
     /// The operation of a tree of one level, or of one that is the same.
-    pub(crate) fn flat(&self) -> Option<Flat> {
+    pub(crate) fn one_level(&self) -> Option<OneLevel> {
         let (root, others) = self.nodes.split_last()?;
         let is_union = |node: &Node| matches!(node.operation, None | Some(Operation::Union));
         if !others.iter().all(is_union) {
             return None;
         }
         match root.operation {
-            None | Some(Operation::Union) => Some(Flat::Union),
-            Some(Operation::Difference) if root.first_operand.0 == 1 => Some(Flat::Difference),
+            None | Some(Operation::Union) => Some(OneLevel::Union),
+            Some(Operation::Difference) if root.first_operand.0 == 1 => Some(OneLevel::Difference),
             _ => None,
         }
     }

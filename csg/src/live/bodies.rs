@@ -1,6 +1,6 @@
 //! The bodies of brushes that change, and what of them is another than before.
 
-use planecut_kernel::IncrementalPolytope;
+use planecut_kernel::{IncrementalPolytope, PlaneIdx};
 use rustc_hash::FxHashMap;
 
 use super::LiveModel;
@@ -16,7 +16,7 @@ use crate::model::MaterialId;
 use crate::plane_table::PlaneId;
 use crate::weld::EdgeId;
 
-/// So many brushes are built by several threads.
+/// Number of brushes from which several threads build them.
 pub(super) const MANY: usize = 32;
 
 /// No face.
@@ -100,7 +100,7 @@ impl LiveModel {
         let table = &self.planes.table;
         let planes = self.ids(operand);
         let brush = &operand.state.brush;
-        let bounded = match built_or_build(table, brush, &planes, polytope) {
+        let bounded = match built_or_build(table, &self.built, brush, &planes, polytope) {
             BrushBody::Unbounded if self.unbounded == UnboundedBrushes::Keep => {
                 let materials: Vec<MaterialId> = brush.faces.iter().map(|face| face.material).collect();
                 self.outer.cut(table, &planes, &materials)
@@ -114,20 +114,20 @@ impl LiveModel {
     fn body_by(&self, operand: &Operand, kept: &mut KeptPolytope) -> Option<Body> {
         let table = &self.planes.table;
         let faces = &operand.state.brush.faces;
-        let mut numbers = operand.state.planes.clone();
+        let mut handles = operand.state.planes.clone();
         let mut planes = self.ids(operand);
-        let mut update = |numbers: &[u32], planes: &[PlaneId]| {
-            kept.update(numbers, |k| *table.half_space(planes[k]));
+        let mut update = |handles: &[PlaneIdx], planes: &[PlaneId]| {
+            kept.update(handles, |k| *table.half_space(planes[k]));
             let places = kept.places(planes);
             let last = faces.last().map_or(MaterialId(0), |face| face.material);
             let material = |place: usize| faces.get(place).map_or(last, |face| face.material);
             read(table, kept.polytope(), planes, material, |plane| places[plane.0] as usize)
         };
-        let bounded = match update(&numbers, &planes) {
+        let bounded = match update(&handles, &planes) {
             BrushBody::Unbounded if self.unbounded == UnboundedBrushes::Keep => {
-                numbers.extend(OUTER_BOX);
+                handles.extend(OUTER_BOX);
                 planes.extend(self.outer.planes());
-                update(&numbers, &planes)
+                update(&handles, &planes)
             }
             other => other,
         };

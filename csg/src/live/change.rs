@@ -1,4 +1,4 @@
-//! How a change of brushes goes through planes, bodies, skin and weld.
+//! How a change of brushes goes through planes, bodies, boundary and weld.
 
 use std::sync::Arc;
 
@@ -28,7 +28,7 @@ impl LiveModel {
         let bodies = self.build(&changed, &before);
         let old = self.place(bodies);
         let faces = self.faces_to_redo(&changed, &old, reach, &local);
-        let found = self.skin(&faces);
+        let found = self.boundary_edges(&faces);
         let outer = &self.outer;
         let is_outside =
             |edge: &BoundaryEdge| [edge.face, edge.edge, edge.start, edge.end].iter().any(|plane| outer.holds(*plane));
@@ -61,7 +61,8 @@ impl LiveModel {
         let (mut before, mut numbers) = (Vec::with_capacity(new.len()), Vec::with_capacity(new.len()));
         for (id, state) in new {
             let known = self.by_id.get(&id).copied();
-            let Some(number) = known.or_else(|| state.as_ref().map(|_| self.make_room(id))) else { continue };
+            assert!(known.is_some() || state.is_some(), "a brush that is to go is there");
+            let number = known.unwrap_or_else(|| self.make_room(id));
             let is_in_sequence = self.is_in_sequence(id);
             let operand = self.operands[number as usize].as_mut().expect("the brush is there");
             // planes that stay are in use all the time

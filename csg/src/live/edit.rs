@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use planecut_kernel::HalfSpace;
+use planecut_kernel::{HalfSpace, PlaneIdx};
 
 use super::history::New;
 use super::operand::State;
@@ -26,15 +26,15 @@ pub enum Edit {
     RemovePlane {
         /// The brush.
         brush: BrushId,
-        /// The number of the plane.
-        plane: u32,
+        /// The plane.
+        plane: PlaneIdx,
     },
-    /// [`LiveModel::move_plane`].
+    /// [`LiveModel::move_plane`], along its normal.
     MovePlane {
         /// The brush.
         brush: BrushId,
-        /// The number of the plane.
-        plane: u32,
+        /// The plane.
+        plane: PlaneIdx,
         /// The new offset, for the normal as it was given.
         offset: f64,
     },
@@ -82,8 +82,8 @@ pub enum Edit {
 pub struct Edited {
     /// The number of a brush that was added.
     pub brush: Option<BrushId>,
-    /// The number of a plane that was added.
-    pub plane: Option<u32>,
+    /// The handle of a plane that was added.
+    pub plane: Option<PlaneIdx>,
     /// What has changed.
     pub change: Change,
 }
@@ -108,7 +108,13 @@ impl LiveModel {
                 Edited { plane: Some(plane), ..change.into() }
             }
             Edit::RemovePlane { brush, plane } => self.remove_plane(brush, plane)?.into(),
-            Edit::MovePlane { brush, plane, offset } => self.move_plane(brush, plane, offset)?.into(),
+            Edit::MovePlane { brush, plane, offset } => {
+                let state = self.state(brush)?;
+                let place = state.place_of(plane).ok_or(EditError::UnknownPlane { brush, plane })?;
+                let normal = state.brush.faces[place].half_space.normal();
+                let half_space = HalfSpace::new(normal, offset).map_err(|_| EditError::Offset(offset))?;
+                self.move_plane(brush, plane, half_space)?.into()
+            }
             Edit::AddBrush { brush, role } => {
                 let (brush, change) = self.add_brush(brush, role)?;
                 Edited { brush: Some(brush), ..change.into() }
@@ -122,8 +128,8 @@ impl LiveModel {
         })
     }
 
-    /// Cuts a brush down to a half-space; gives the number of the plane in the brush. [`LiveModel::remove_plane`] lets the
-    /// brush grow back.
+    /// Cuts a brush down to a half-space; gives the handle of the plane in the brush, which is never given to another one.
+    /// [`LiveModel::remove_plane`] lets the brush grow back.
     ///
     /// # Errors
     /// [`EditError::UnknownBrush`], [`EditError::Evaluate`].
@@ -132,9 +138,9 @@ impl LiveModel {
         brush: BrushId,
         half_space: HalfSpace,
         material: MaterialId,
-    ) -> Result<(u32, Change), EditError> {
+    ) -> Result<(PlaneIdx, Change), EditError> {
         let mut state = State::clone(self.state(brush)?);
-        let plane = state.next_plane;
+        let plane = PlaneIdx(state.next_plane);
         state.next_plane += 1;
         state.planes.push(plane);
         state.brush.faces.push(BrushFace { half_space, material });
@@ -146,7 +152,7 @@ impl LiveModel {
     ///
     /// # Errors
     /// [`EditError::UnknownBrush`], [`EditError::UnknownPlane`], [`EditError::Evaluate`].
-    pub fn remove_plane(&mut self, brush: BrushId, plane: u32) -> Result<Change, EditError> {
+    pub fn remove_plane(&mut self, brush: BrushId, plane: PlaneIdx) -> Result<Change, EditError> {
         let mut state = State::clone(self.state(brush)?);
         let place = state.place_of(plane).ok_or(EditError::UnknownPlane { brush, plane })?;
         state.planes.remove(place);
@@ -154,15 +160,14 @@ impl LiveModel {
         self.edit_brush(brush, state)
     }
 
-    /// Gives a plane of a brush another offset: `n·x ≤ offset`, `n` being the normal that was given, whatever its length.
+    /// Puts another half-space in the place of a plane of a brush, which keeps its handle and its material.
     ///
     /// # Errors
-    /// [`EditError::UnknownBrush`], [`EditError::UnknownPlane`], [`EditError::Offset`], [`EditError::Evaluate`].
-    pub fn move_plane(&mut self, brush: BrushId, plane: u32, offset: f64) -> Result<Change, EditError> {
+    /// [`EditError::UnknownBrush`], [`EditError::UnknownPlane`], [`EditError::Evaluate`].
+    pub fn move_plane(&mut self, brush: BrushId, plane: PlaneIdx, half_space: HalfSpace) -> Result<Change, EditError> {
         let mut state = State::clone(self.state(brush)?);
         let place = state.place_of(plane).ok_or(EditError::UnknownPlane { brush, plane })?;
-        let half_space = &mut state.brush.faces[place].half_space;
-        *half_space = HalfSpace::new(half_space.normal(), offset).map_err(|_| EditError::Offset(offset))?;
+        state.brush.faces[place].half_space = half_space;
         self.edit_brush(brush, state)
     }
 
@@ -211,19 +216,19 @@ impl LiveModel {
         self.edit(vec![(id.0, None)])
     }
 
-    /// Puts another brush in the place of one; its planes get new numbers.
+    /// Puts another brush in the place of one; its planes get new handles.
     ///
     /// # Errors
     /// [`EditError::UnknownBrush`], [`EditError::Evaluate`].
     pub fn replace_brush(&mut self, id: BrushId, brush: Brush) -> Result<Change, EditError> {
         self.check_materials(&brush)?;
         let State { next_plane, role, .. } = **self.state(id)?;
-        let count = brush.faces.len() as u32;
-        let planes = (next_plane..next_plane + count).collect();
+        let count = brush.faces.len();
+        let planes = (next_plane..next_plane + count).map(PlaneIdx).collect();
         self.edit_brush(id, State { brush, planes, next_plane: next_plane + count, role })
     }
 
-    /// Moves a brush by an affine map; its planes keep their numbers.
+    /// Moves a brush by an affine map; its planes keep their handles.
     ///
     /// # Errors
     /// [`EditError::UnknownBrush`], [`EditError::Transform`], [`EditError::Evaluate`].

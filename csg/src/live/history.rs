@@ -1,4 +1,4 @@
-//! Edits to be taken back and done again.
+//! Undo and redo of edits.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -9,7 +9,7 @@ use super::{Change, EditError, LiveModel};
 /// A brush as it is to be; nothing where it is not to be there.
 pub(super) type New = (u64, Option<Arc<State>>);
 
-/// So many edits can be taken back unless another number is set.
+/// Number of edits that can be undone unless another number is set.
 const LIMIT: usize = 1000;
 
 /// What edits have changed, the last one last.
@@ -32,7 +32,7 @@ impl Default for History {
 }
 
 impl History {
-    /// Notes an edit; what was taken back cannot be done again after it.
+    /// Notes an edit; what was undone cannot be redone after it.
     pub(super) fn note(&mut self, before: Vec<New>, after: Vec<New>) {
         self.undone.clear();
         self.done.push_back(Step { before, after });
@@ -46,12 +46,13 @@ impl History {
 }
 
 impl LiveModel {
-    /// Takes the last edit back that was not yet taken back. Brushes and planes have the numbers again that they had.
+    /// Undoes the last edit that is not yet undone. Brushes and planes have the numbers again that they had.
     ///
     /// # Errors
     /// [`EditError::NothingToUndo`].
     pub fn undo(&mut self) -> Result<Change, EditError> {
-        let step = self.history.done.pop_back().ok_or(EditError::NothingToUndo)?;
+        let mut step = self.history.done.pop_back().ok_or(EditError::NothingToUndo)?;
+        self.keep_handles(&step.before, &mut step.after);
         let outcome = self.go_to(&step.before);
         match outcome {
             Ok(_) => self.history.undone.push(step),
@@ -60,12 +61,13 @@ impl LiveModel {
         outcome
     }
 
-    /// Does the edit again that was last taken back.
+    /// Redoes the edit that was last undone.
     ///
     /// # Errors
     /// [`EditError::NothingToRedo`].
     pub fn redo(&mut self) -> Result<Change, EditError> {
-        let step = self.history.undone.pop().ok_or(EditError::NothingToRedo)?;
+        let mut step = self.history.undone.pop().ok_or(EditError::NothingToRedo)?;
+        self.keep_handles(&step.after, &mut step.before);
         let outcome = self.go_to(&step.after);
         match outcome {
             Ok(_) => self.history.done.push_back(step),
@@ -74,18 +76,31 @@ impl LiveModel {
         outcome
     }
 
-    /// How many edits can be taken back at most, 1,000 unless another number is set: a model that is edited for long does not
+    /// Maximum number of edits that can be undone, 1,000 unless another number is set: a model that is edited for long does not
     /// grow.
     pub fn set_history_limit(&mut self, limit: usize) {
         self.history.limit = limit;
         self.history.shorten();
     }
 
+    /// Brushes that are there now and not in the states to come have given handles of planes since they were in the states to
+    /// come back to: those are not given again.
+    fn keep_handles(&self, to_come: &[New], to_come_back: &mut [New]) {
+        for ((id, coming), (_, state)) in to_come.iter().zip(to_come_back) {
+            if let (None, Some(state), Some(number)) = (coming, state, self.by_id.get(id)) {
+                let next_plane = self.operand(*number).state.next_plane;
+                if state.next_plane < next_plane {
+                    Arc::make_mut(state).next_plane = next_plane;
+                }
+            }
+        }
+    }
+
     fn go_to(&mut self, states: &[New]) -> Result<Change, EditError> {
         let again = |(id, state): &New| {
             let known = self.by_id.get(id).and_then(|number| self.operands[*number as usize].as_ref());
             let next_plane = known.map_or(0, |operand| operand.state.next_plane);
-            // no number of a plane is given twice
+            // no handle of a plane is given twice
             let state = state.as_ref().map(|state| match state.next_plane < next_plane {
                 true => Arc::new(State { next_plane, ..State::clone(state) }),
                 false => Arc::clone(state),

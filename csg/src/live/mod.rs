@@ -5,11 +5,12 @@
 //! are worked out again among the bodies near them, and of their edges those that are new or gone are handed to the weld.
 //!
 //! - [`edit`]: what users do, [`history`]: and take back.
-//! - [`change`]: how a change of brushes goes through [`planes`], [`bodies`], [`skin`] and weld; [`polytopes`] are kept to
+//! - [`change`]: how a change of brushes goes through [`planes`], [`bodies`], [`boundary`] and weld; [`polytopes`] are kept to
 //!   build bodies from, [`reach`] tells which faces are to be worked out again.
 //! - [`order`]: how brushes are combined, [`operand`]: what is known of each.
 
 mod bodies;
+mod boundary;
 mod change;
 mod edit;
 mod history;
@@ -18,16 +19,15 @@ mod order;
 mod planes;
 mod polytopes;
 mod reach;
-mod skin;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use planecut_kernel::IncrementalPolytope;
+use planecut_kernel::{IncrementalPolytope, PlaneIdx};
 use rustc_hash::FxHashSet;
 use thiserror::Error;
 
-use crate::body::{Body, OuterBox};
+use crate::body::{Body, BuiltBodies, OuterBox};
 use crate::boundary::BoundaryEdge;
 use crate::evaluate::{EvaluateError, UnboundedBrushes, check_materials, material_ranks};
 use crate::expression::Expression;
@@ -68,12 +68,12 @@ pub enum EditError {
     #[error("found brush {}, expected one that is part of the model", .0.0)]
     UnknownBrush(BrushId),
     /// The brush has no such plane, or no longer.
-    #[error("found plane {plane} of brush {}, expected a plane that the brush has", .brush.0)]
+    #[error("found plane {} of brush {}, expected a plane that the brush has", .plane.0, .brush.0)]
     UnknownPlane {
         /// The brush.
         brush: BrushId,
-        /// The number of the plane.
-        plane: u32,
+        /// The plane.
+        plane: PlaneIdx,
     },
     /// The brush is an operand of a nested operation, which is not one after another.
     #[error("found brush {} within nested operations, expected one that is added, subtracted or intersected by itself", .0.0)]
@@ -131,6 +131,8 @@ pub struct LiveModel {
     free: Vec<u32>,
     by_id: BTreeMap<u64, u32>,
     next_id: u64,
+    /// Bodies that are built already.
+    built: BuiltBodies,
     /// What becomes of brushes that are not bounded.
     unbounded: UnboundedBrushes,
     /// The first brushes, where these are not one after another.
@@ -181,6 +183,7 @@ impl LiveModel {
             free: Vec::new(),
             by_id: BTreeMap::new(),
             next_id: 0,
+            built: BuiltBodies::default(),
             unbounded: UnboundedBrushes::Keep,
             base: None,
             places: Places::default(),
@@ -223,7 +226,7 @@ impl LiveModel {
         Ok(live)
     }
 
-    /// The same model as a tree, to be evaluated or kept. Brushes are numbered anew, without those that were taken out of a
+    /// The same model as a tree, to be evaluated or kept. Brushes are renumbered, without those that were taken out of a
     /// sequence.
     #[must_use]
     pub fn to_model(&self) -> Model {
@@ -257,6 +260,11 @@ impl LiveModel {
         MaterialId(self.materials.len() as u32 - 1)
     }
 
+    /// Gives bodies that are built already: brushes to come that have one of them are not built.
+    pub fn set_built_bodies(&mut self, bodies: BuiltBodies) {
+        self.built = bodies;
+    }
+
     /// The brushes, in their order.
     pub fn brushes(&self) -> impl ExactSizeIterator<Item = BrushId> {
         self.by_id.keys().map(|id| BrushId(*id))
@@ -270,11 +278,11 @@ impl LiveModel {
         self.state(id).map(|state| (&state.brush, state.role))
     }
 
-    /// The numbers of the planes of a brush, in the order of its faces.
+    /// The handles of the planes of a brush, in the order of its faces: at first counted from 0; none is given twice.
     ///
     /// # Errors
     /// [`EditError::UnknownBrush`].
-    pub fn planes(&self, id: BrushId) -> Result<&[u32], EditError> {
+    pub fn planes(&self, id: BrushId) -> Result<&[PlaneIdx], EditError> {
         self.state(id).map(|state| state.planes.as_slice())
     }
 
@@ -302,7 +310,7 @@ impl LiveModel {
         !self.welded.has_crossings()
     }
 
-    /// The mesh of the solid, equal to that of the same model built anew.
+    /// The mesh of the solid, equal to that of the same model built from scratch.
     ///
     /// # Errors
     /// [`EvaluateError::Weld`]: a bug in this crate.
@@ -327,6 +335,11 @@ impl LiveModel {
         self.operands[number as usize].as_ref().expect("the number of a brush that is there")
     }
 
+    /// The body of a brush that has one.
+    fn body_at(&self, number: u32) -> &Body {
+        self.operand(number).body.as_ref().expect("what has a place or faces has a body")
+    }
+
     /// Whether brushes of a number are combined one after another.
     fn is_in_sequence(&self, id: u64) -> bool {
         self.base.as_ref().is_none_or(|base| id >= u64::from(base.leaves))
@@ -335,8 +348,4 @@ impl LiveModel {
     fn check_materials(&self, brush: &Brush) -> Result<(), EvaluateError> {
         check_materials(brush.faces.iter().map(|face| face.material), self.materials.len())
     }
-}
-
-fn body_of(operands: &[Option<Operand>], number: u32) -> Option<&Body> {
-    operands[number as usize].as_ref()?.body.as_ref()
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use planecut_kernel::DVec3;
+use planecut_kernel::{DVec3, PlaneIdx};
 use rstar::RTree;
 use rstar::primitives::{GeomWithData, Rectangle};
 
@@ -29,29 +29,29 @@ pub enum Role {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct State {
     pub(super) brush: Brush,
-    /// The numbers of its planes, ascending.
-    pub(super) planes: Vec<u32>,
-    /// What the next plane is numbered.
-    pub(super) next_plane: u32,
+    /// The handles of its planes, ascending.
+    pub(super) planes: Vec<PlaneIdx>,
+    /// The number in the handle of the next plane.
+    pub(super) next_plane: usize,
     pub(super) role: Role,
 }
 
 impl State {
     /// A brush whose planes are numbered from 0.
     pub(super) fn new(brush: Brush, role: Role) -> Self {
-        let next_plane = brush.faces.len() as u32;
-        Self { brush, planes: (0..next_plane).collect(), next_plane, role }
+        let next_plane = brush.faces.len();
+        Self { brush, planes: (0..next_plane).map(PlaneIdx).collect(), next_plane, role }
     }
 
     /// The place of a plane among the faces of the brush.
-    pub(super) fn place_of(&self, plane: u32) -> Option<usize> {
+    pub(super) fn place_of(&self, plane: PlaneIdx) -> Option<usize> {
         self.planes.binary_search(&plane).ok()
     }
 
-    /// For each plane its place in another state of the brush, where it has the same number and half-space there.
+    /// For each plane its place in another state of the brush, where it has the same handle and half-space there.
     pub(super) fn places_in(&self, other: &Self) -> Vec<Option<usize>> {
         let mut at = 0;
-        let place = |(number, face): (&u32, &BrushFace)| {
+        let place = |(number, face): (&PlaneIdx, &BrushFace)| {
             at += other.planes[at..].iter().take_while(|other| *other < number).count();
             let is_same = other.planes.get(at) == Some(number) && other.brush.faces[at].half_space == face.half_space;
             is_same.then_some(at)

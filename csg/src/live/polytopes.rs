@@ -14,7 +14,7 @@ use crate::plane_table::PlaneId;
 /// polytope, which would take several kilobytes for each brush that was edited once (docs/edits.md has the figures).
 pub(super) const LEAST_PLANES: usize = 16;
 
-/// Where more than one plane in so many is another, a polytope is built from all of them: it takes about as long to add three
+/// Where more than one in this number of planes is another, a polytope is built from all of them: it takes about as long to add three
 /// planes to an empty polytope as to change one of a complete one.
 pub(super) const PLANES_PER_CHANGE: usize = 4;
 
@@ -22,15 +22,18 @@ pub(super) const PLANES_PER_CHANGE: usize = 4;
 /// 15 MB.
 const PLANES_OF_GENERATION: usize = 16_384;
 
-/// The numbers of the planes that cut what is not bounded, above all others.
-pub(super) const OUTER_BOX: [u32; 6] = [u32::MAX - 5, u32::MAX - 4, u32::MAX - 3, u32::MAX - 2, u32::MAX - 1, u32::MAX];
+/// Handles of the planes that cut what is not bounded, above those of all planes of brushes.
+pub(super) const OUTER_BOX: [PlaneIdx; 6] = {
+    const LAST: usize = usize::MAX;
+    [PlaneIdx(LAST - 5), PlaneIdx(LAST - 4), PlaneIdx(LAST - 3), PlaneIdx(LAST - 2), PlaneIdx(LAST - 1), PlaneIdx(LAST)]
+};
 
 /// The polytope of a brush as it was when it was last built.
 pub(super) struct KeptPolytope {
     polytope: IncrementalPolytope,
-    /// The planes, by ascending number.
-    planes: Vec<(u32, PlaneIdx)>,
-    /// Whether the planes were added in the order of their numbers.
+    /// The handle of each plane in the brush, ascending, and in the polytope, where handles are given again.
+    planes: Vec<(PlaneIdx, PlaneIdx)>,
+    /// Whether the planes were added in the order in which the brush has them.
     is_in_order: bool,
 }
 
@@ -45,19 +48,19 @@ impl KeptPolytope {
         &self.polytope
     }
 
-    /// Makes it the polytope of some planes, each with its number, ascending.
-    pub(super) fn update(&mut self, numbers: &[u32], half_space: impl Fn(usize) -> HalfSpace) {
-        if self.count_changes(numbers, &half_space) * PLANES_PER_CHANGE > numbers.len() {
-            self.rebuild(numbers, half_space);
+    /// Makes it the polytope of some planes, each with its handle in the brush, ascending.
+    pub(super) fn update(&mut self, handles: &[PlaneIdx], half_space: impl Fn(usize) -> HalfSpace) {
+        if self.count_changes(handles, &half_space) * PLANES_PER_CHANGE > handles.len() {
+            self.rebuild(handles, half_space);
             return;
         }
-        let before = std::mem::replace(&mut self.planes, Vec::with_capacity(numbers.len()));
+        let before = std::mem::replace(&mut self.planes, Vec::with_capacity(handles.len()));
         let mut before = before.into_iter().peekable();
-        for (k, number) in numbers.iter().enumerate() {
-            while let Some((_, gone)) = before.next_if(|(other, _)| other < number) {
+        for (k, handle) in handles.iter().enumerate() {
+            while let Some((_, gone)) = before.next_if(|(other, _)| other < handle) {
                 self.polytope.remove_plane(gone).expect("a kept plane is in the polytope");
             }
-            let plane = match before.next_if(|(other, _)| other == number) {
+            let plane = match before.next_if(|(other, _)| other == handle) {
                 Some((_, plane)) => {
                     if self.polytope.plane(plane) != Some(&half_space(k)) {
                         self.polytope.move_plane(plane, half_space(k)).expect("a kept plane is in the polytope");
@@ -69,7 +72,7 @@ impl KeptPolytope {
                     self.polytope.add_plane(half_space(k)).plane()
                 }
             };
-            self.planes.push((*number, plane));
+            self.planes.push((*handle, plane));
         }
         for (_, gone) in before {
             self.polytope.remove_plane(gone).expect("a kept plane is in the polytope");
@@ -77,34 +80,34 @@ impl KeptPolytope {
     }
 
     /// How many planes are to be added, moved or removed.
-    fn count_changes(&self, numbers: &[u32], half_space: impl Fn(usize) -> HalfSpace) -> usize {
+    fn count_changes(&self, handles: &[PlaneIdx], half_space: impl Fn(usize) -> HalfSpace) -> usize {
         let mut before = self.planes.iter().peekable();
         let mut changes = 0;
-        for (k, number) in numbers.iter().enumerate() {
-            while before.next_if(|(other, _)| other < number).is_some() {
+        for (k, handle) in handles.iter().enumerate() {
+            while before.next_if(|(other, _)| other < handle).is_some() {
                 changes += 1;
             }
-            let known = before.next_if(|(other, _)| other == number);
+            let known = before.next_if(|(other, _)| other == handle);
             let is_same = known.is_some_and(|(_, plane)| self.polytope.plane(*plane) == Some(&half_space(k)));
             changes += usize::from(!is_same);
         }
         changes + before.count()
     }
 
-    fn rebuild(&mut self, numbers: &[u32], half_space: impl Fn(usize) -> HalfSpace) {
+    fn rebuild(&mut self, handles: &[PlaneIdx], half_space: impl Fn(usize) -> HalfSpace) {
         self.polytope.clear();
         self.planes.clear();
         self.is_in_order = true;
-        for (k, number) in numbers.iter().enumerate() {
-            self.planes.push((*number, self.polytope.add_plane(half_space(k)).plane()));
+        for (k, handle) in handles.iter().enumerate() {
+            self.planes.push((*handle, self.polytope.add_plane(half_space(k)).plane()));
         }
     }
 
     /// By handle the place of each plane among all, whose ids these are. Where planes may not have come in their order, equal
     /// ones all have the place of the first.
     pub(super) fn places(&self, ids: &[PlaneId]) -> Vec<u32> {
-        let handles = self.planes.iter().map(|(_, plane)| plane.0 + 1).max().unwrap_or(0);
-        let mut places = vec![u32::MAX; handles];
+        let slots = self.planes.iter().map(|(_, plane)| plane.0 + 1).max().unwrap_or(0);
+        let mut places = vec![u32::MAX; slots];
         let mut first: FxHashMap<PlaneId, u32> = FxHashMap::default();
         for (place, (_, plane)) in (0..).zip(&self.planes) {
             let is_in_order = self.is_in_order;

@@ -1,9 +1,9 @@
 //! How far a change of brushes reaches: the faces on which the boundary may be another.
 
+use super::LiveModel;
 use super::bodies::{MANY, Placed};
 use super::history::New;
 use super::operand::{Operand, Role};
-use super::{LiveModel, body_of};
 use crate::base::Bounds;
 use crate::body::{Body, BodyFace};
 use crate::boundary::misses;
@@ -50,7 +50,8 @@ impl LiveModel {
                 edited.is_none_or(|(_, old)| old.as_ref().is_some_and(|old| old.role == operand.state.role));
             keeps_role && self.has_no_equal(operand)
         };
-        let few = if changed.len() < MANY { changed } else { &[] };
+        // in nested operations it depends on what is near a face which of two bodies speaks for a plane of both
+        let few = if changed.len() < MANY && self.base.is_none() { changed } else { &[] };
         few.iter().copied().filter(is_local).collect()
     }
 
@@ -73,8 +74,9 @@ impl LiveModel {
     ) -> Vec<(u32, u32)> {
         let mut faces = std::mem::take(&mut self.buffers.faces);
         faces.clear();
+        let body_of = |number: u32| self.operands[number as usize].as_ref()?.body.as_ref();
         let all_of = |number: u32| {
-            let body = body_of(&self.operands, number);
+            let body = body_of(number);
             (0..body.map_or(0, |body| body.faces.len()) as u32).map(move |face| (number, face))
         };
         if reach == Reach::Everywhere || (changed.len() >= self.by_id.len() && local.is_empty()) {
@@ -85,7 +87,7 @@ impl LiveModel {
                 let difference = placed.difference.as_ref();
                 let difference =
                     difference.filter(|_| local.contains(&number) && self.has_no_equal(self.operand(number)));
-                let bodies = [body_of(&self.operands, number), placed.body.as_ref()];
+                let bodies = [body_of(number), placed.body.as_ref()];
                 match difference {
                     Some(difference) if difference.bounds == Bounds::EMPTY => {}
                     Some(difference) => {
@@ -113,7 +115,7 @@ impl LiveModel {
     fn touch(&self, by: &Body, own: u32, within: &Bounds, is_last: bool, faces: &mut Vec<(u32, u32)>) {
         let table = &self.planes.table;
         for other in self.places.near(within).filter(|other| *other != own) {
-            let Some(Operand { body: Some(body), edges, .. }) = &self.operands[other as usize] else { continue };
+            let (body, edges) = (self.body_at(other), &self.operand(other).edges);
             let reaches = |(number, face): &(u32, &BodyFace)| {
                 let half_space = table.half_space(face.plane);
                 let may_matter = || !is_last || !edges[*number as usize].is_empty() || by.face_on(face.plane).is_some();

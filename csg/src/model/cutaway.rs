@@ -4,8 +4,6 @@ use planecut_kernel::HalfSpace;
 use rustc_hash::FxHashMap;
 
 use super::{Brush, BrushFace, Material, MaterialId, Model, Tree};
-use crate::body::Built;
-use crate::expression::Expression;
 
 /// The part of a model inside a half-space.
 #[derive(Debug, Clone)]
@@ -63,9 +61,8 @@ impl Model {
         // them inside, and outside what it makes of nothing.
         for brush in tree.brushes_mut() {
             brush.faces.push(BrushFace { half_space: *half_space, material: cut_of(inside_of(brush)) });
-            brush.built = Built::default();
         }
-        if Expression::new(tree.nodes()).base() {
+        if tree.holds_outside() {
             let rest = Brush::from_half_spaces([*half_space], cut_of(None));
             tree = Tree::intersection([tree, rest.into()]);
         }

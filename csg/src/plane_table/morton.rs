@@ -17,7 +17,7 @@ pub fn curve_number(place: DVec3) -> u64 {
     x | y << 1 | z << 2
 }
 
-/// So many bits of each coordinate: its sign, its exponent and the first nine of its mantissa.
+/// Number of bits of each coordinate: its sign, its exponent and the first nine of its mantissa.
 const BITS: u32 = 21;
 
 /// The last [`BITS`] bits of a number, two zeros after each.
@@ -30,7 +30,7 @@ fn spread(v: u64) -> u64 {
     (v | v << 2) & 0x1249_2492_4924_9249
 }
 
-/// Numbers the planes of a table anew by where the brushes are that have them, as far as these are bodies; other planes come last.
+/// Renumbers the planes of a table by where the brushes are that have them, as far as these are bodies; other planes come last.
 pub(crate) fn renumber_planes(table: &mut PlaneTable, planes: &mut [Vec<PlaneId>], bounds: &[Option<Bounds>]) {
     let mut order: Vec<(u64, u32)> = (0..)
         .zip(bounds)

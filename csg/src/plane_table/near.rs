@@ -43,7 +43,7 @@ impl NearPlanes {
         near
     }
 
-    /// Whether planes so far away can be found.
+    /// Whether planes at this distance can be found.
     pub(super) fn holds(&self, reach: f64) -> bool {
         reach <= self.size
     }

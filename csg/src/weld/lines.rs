@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::points::Points;
-use crate::base::{WEIGHTS, distinct, map_chunks};
+use crate::base::{WEIGHTS, intern, map_chunks};
 use crate::boundary::BoundaryEdge;
 use crate::plane_table::{PlaneId, PlaneTable};
 
@@ -29,7 +29,7 @@ pub(super) type Key = (usize, [u64; 4]);
 /// Numbers the lines of edges; gives the lines and the number of the line of each edge, in order.
 pub(super) fn identify(table: &PlaneTable, edges: &[BoundaryEdge]) -> (Vec<Line>, Vec<u32>, Counts) {
     let keys: Vec<u64> = edges.par_iter().with_min_len(1024).map(pair).collect();
-    let (different, of_pair) = distinct(&keys, table.len(), |key| (key >> 32) as usize);
+    let (different, of_pair) = intern(&keys, table.len(), |key| (key >> 32) as usize);
     let (lines, of_different, counts) = number(table, &different);
     (lines, of_pair.into_par_iter().with_min_len(1024).map(|k| of_different[k as usize]).collect(), counts)
 }

@@ -33,7 +33,7 @@ pub(super) fn vertices(pieces: &[HalfEdge], following: &[u32]) -> (Vec<u32>, Vec
 pub(super) type Labels = Vec<[u32; 3]>;
 
 /// A side of a triangle: its number among [`HalfEdges`].
-type Side = u32;
+type TriangleSide = u32;
 
 /// Splits every edge that joins the same two vertices as another one, in both of its triangles, at a midpoint, until all
 /// directed edges are unique. Gives how many were split.
@@ -42,7 +42,7 @@ pub(super) fn split_repeated_edges(mesh: &mut Mesh, labels: &mut Labels, pieces:
     loop {
         let half_edges = HalfEdges::new(mesh.positions.len(), &mesh.triangles);
         let along = |(a, b)| [(a, b), (b, a)].map(|(a, b)| half_edges.between(a, b).collect());
-        let repeated: Vec<[Vec<Side>; 2]> = half_edges.repeated().into_iter().map(along).collect();
+        let repeated: Vec<[Vec<TriangleSide>; 2]> = half_edges.repeated().into_iter().map(along).collect();
         let mut touched: FxHashSet<u32> = FxHashSet::default();
         let mut additions = Vec::new();
         for sides in &repeated {
@@ -67,7 +67,7 @@ pub(super) fn split_repeated_edges(mesh: &mut Mesh, labels: &mut Labels, pieces:
 type Addition = ([u32; 3], [u32; 3], u32);
 
 /// Splits both triangles at an edge by its midpoint.
-fn split_edge(mesh: &mut Mesh, labels: &mut Labels, sides: [Side; 2], additions: &mut Vec<Addition>) {
+fn split_edge(mesh: &mut Mesh, labels: &mut Labels, sides: [TriangleSide; 2], additions: &mut Vec<Addition>) {
     let middle = mesh.positions.len() as u32;
     let (t, k) = ((sides[0] / 3) as usize, (sides[0] % 3) as usize);
     let ends = [mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]].map(|v| mesh.positions[v as usize]);
@@ -96,13 +96,13 @@ fn insert_triangles(mesh: &mut Mesh, labels: &mut Labels, additions: &[Addition]
 
 /// Pairs the sides of a repeated edge: of the boundary by its half-edges, first; diagonals within their face.
 fn match_sides(
-    [there, back]: &[Vec<Side>; 2],
+    [there, back]: &[Vec<TriangleSide>; 2],
     faces: &[u32],
     labels: &Labels,
     pieces: &[HalfEdge],
-) -> Vec<(Side, Side)> {
-    let label = |side: Side| labels[(side / 3) as usize][(side % 3) as usize];
-    let is_pair = |s: Side, t: Side| match label(s) {
+) -> Vec<(TriangleSide, TriangleSide)> {
+    let label = |side: TriangleSide| labels[(side / 3) as usize][(side % 3) as usize];
+    let is_pair = |s: TriangleSide, t: TriangleSide| match label(s) {
         UNPAIRED => label(t) == UNPAIRED && faces[(s / 3) as usize] == faces[(t / 3) as usize],
         piece => label(t) == pieces[piece as usize].twin,
     };

@@ -26,14 +26,14 @@ mod pinches;
 mod points;
 mod triangulate;
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use planecut_kernel::DVec3;
 use planecut_kernel::sign::Counts;
 use rayon::prelude::*;
 use thiserror::Error;
 
-use crate::base::{by_group, map_chunks};
+use crate::base::{Clock, by_group, map_chunks};
 use crate::boundary::BoundaryEdge;
 use crate::mesh::{Mesh, MeshFace, SolidMeasures, collapse_thin, contract_short_edges, flip_caps};
 use crate::model::{Material, MaterialId};
@@ -111,7 +111,7 @@ pub(crate) fn weld(
     signs += counted;
     let (vertex, point) = manifold::vertices(&pieces, &nested.following);
 
-    let begin = Instant::now();
+    let begin = Clock::start();
     let positions = point.par_iter().with_min_len(4096).map(|p| points.positions[*p as usize]).collect();
     let mut mesh = Mesh { positions, materials: materials.to_vec(), ..Mesh::default() };
     let (mut labels, counted) = triangulate_faces(table, &regions, &points, &pieces, &nested.faces, &vertex, &mut mesh);

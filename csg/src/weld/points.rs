@@ -9,7 +9,7 @@ use planecut_kernel::{DVec3, compare_exactly};
 use rayon::prelude::*;
 
 use super::cancel::HalfEdge;
-use crate::base::{Bounds, distinct, map_chunks, sortable};
+use crate::base::{Bounds, intern, map_chunks, sortable};
 use crate::boundary::BoundaryEdge;
 use crate::plane_table::{PlaneId, PlaneTable, curve_number};
 
@@ -41,7 +41,7 @@ impl Points {
     pub(super) fn identify(table: &PlaneTable, edges: &[BoundaryEdge]) -> (Self, Vec<[u32; 2]>, Counts) {
         let ends = |edge: &BoundaryEdge| [edge.start, edge.end].map(|end| key([edge.face, edge.edge, end]));
         let keys: Vec<[Triple; 2]> = edges.par_iter().with_min_len(1024).map(ends).collect();
-        let (different, of_triple) = distinct(keys.as_flattened(), table.len(), |key| (key.0 >> 32) as usize);
+        let (different, of_triple) = intern(keys.as_flattened(), table.len(), |key| (key.0 >> 32) as usize);
         let (named, mut counts) = map_chunks(&different, 256, |keys| {
             keys.iter().map(|key| Named::of(table, planes(*key))).collect::<Vec<_>>()
         });

@@ -10,7 +10,7 @@ use crate::ExportError;
 /// read the file can square them in peace.
 const MAX_COORDINATE: f64 = 1e30;
 
-/// A body thinner than so much of its largest coordinate, four roundings of that, is left out: its corners, rounded, may
+/// A body thinner than this share of its largest coordinate, four roundings of that, is left out: its corners, rounded, may
 /// span nothing or any other body as thin.
 const LEAST_THICKNESS: f64 = 4.0 * f64::EPSILON;
 

@@ -5,6 +5,7 @@
 //! its corners, rounded, do not: these seldom are on the grid, even where three planes of whole numbers meet.
 
 use glam::DVec3;
+use planecut_kernel::decompose_odd;
 
 /// Largest normal. Below it the products in [`basis`] fit 128 bits: with components up to `2^30` the second vector has some of
 /// up to `2^60`, and products of two such, summed, stay below `2^122`.
@@ -35,20 +36,20 @@ pub(super) struct Lattice<'a> {
 impl IntegerPlane {
     /// `None` where the normal is none of not too large whole numbers.
     pub(super) fn new(normal: DVec3, offset: f64) -> Option<Self> {
-        let parts = normal.to_array().map(decompose);
+        let parts = normal.to_array().map(decompose_odd);
         let lowest = parts.iter().filter(|(mantissa, _)| *mantissa != 0).map(|(_, exponent)| *exponent).min()?;
         let mut integers = [0; 3];
         for (integer, (mantissa, exponent)) in integers.iter_mut().zip(parts) {
-            *integer = shifted(mantissa, if mantissa == 0 { 0 } else { exponent - lowest })?;
+            *integer = shifted(mantissa.into(), if mantissa == 0 { 0 } else { exponent - lowest })?;
         }
         let divisor = integers.into_iter().fold(0, gcd);
         let normal = integers.map(|v| v / divisor);
         if normal.iter().any(|v| v.abs() > MAX_NORMAL) {
             return None;
         }
-        let (mantissa, exponent) = decompose(offset);
+        let (mantissa, exponent) = decompose_odd(offset);
         let shift = if mantissa == 0 { 0 } else { exponent - lowest };
-        let offset = [shifted(mantissa, shift.max(0))?, shifted(divisor, (-shift).max(0))?];
+        let offset = [shifted(mantissa.into(), shift.max(0))?, shifted(divisor, (-shift).max(0))?];
         let (basis, unit) = basis(normal);
         Some(Self { normal, offset, basis, unit })
     }
@@ -176,19 +177,6 @@ fn extended_gcd(a: i128, b: i128) -> (i128, i128, i128) {
         t = (t.1, t.0 - quotient * t.1);
     }
     if r.0 < 0 { (-r.0, -s.0, -t.0) } else { (r.0, s.0, t.0) }
-}
-
-/// `value = mantissa · 2^exponent`, the mantissa odd or zero, for a finite number.
-fn decompose(value: f64) -> (i128, i32) {
-    let bits = value.to_bits();
-    let fraction = i128::from(bits & ((1 << 52) - 1));
-    let (mantissa, exponent) = match (bits >> 52 & 0x7ff) as i32 {
-        0 => (fraction, -1074),
-        field => (fraction | 1 << 52, field - 1075),
-    };
-    let zeros = mantissa.trailing_zeros() % i128::BITS;
-    let mantissa = mantissa >> zeros;
-    (if value.is_sign_negative() { -mantissa } else { mantissa }, exponent + zeros as i32)
 }
 
 /// `mantissa · 2^shift`, where that has at most 100 bits: then it can be multiplied by a million.

@@ -12,7 +12,7 @@ use super::body::{Body, BodyFace};
 use super::points::three_points;
 use crate::ExportError;
 use crate::decimal::push_decimal;
-use crate::library::unique_names;
+use crate::material::unique_names;
 
 /// Class of the entity that holds the level itself.
 const WORLD: &str = "worldspawn";

@@ -117,7 +117,7 @@ struct Source<'a> {
     scale: f64,
 }
 
-/// So many bodies are made at once, by all threads.
+/// Number of bodies that all threads make at once.
 const AT_ONCE: usize = 512;
 
 impl Source<'_> {

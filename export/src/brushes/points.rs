@@ -7,10 +7,10 @@ use super::lattice::IntegerPlane;
 
 /// Most digits after the point in coordinates that say a plane exactly: readers take longer ones for rounded numbers.
 const MAX_PLACES: u32 = 6;
-/// A triangle of corners is taken if its height is at least so much of the body's size: its plane then is off by no more than
+/// A triangle of corners is taken if its height is at least this share of the body's size: its plane then is off by no more than
 /// that many roundings where the body is widest.
 const LEAST_HEIGHT: f64 = 1.0 / 1024.0;
-/// And at least so much of the largest coordinate, so that rounding leaves a triangle. Free points are much farther apart.
+/// And at least this share of the largest coordinate, so that rounding leaves a triangle. Free points are much farther apart.
 const LEAST_RELATIVE: [f64; 2] = [1.0 / (1u64 << 30) as f64, 1.0 / (1u64 << 16) as f64];
 
 /// Three points of a face's plane, counter-clockwise seen from outside and not on one line.

@@ -18,8 +18,8 @@ use rustc_hash::FxHashMap;
 use super::Source;
 use super::body::Body;
 use crate::ExportError;
-use crate::color::{linear_to_srgb, material_color};
 use crate::decimal::{push_decimal, push_digits};
+use crate::material::{linear_to_srgb, material_color};
 
 /// Writes a union of bodies; those that follow one another in one colour are in one `color` node.
 pub(super) fn write(source: &Source<'_>, out: &mut dyn Write) -> Result<(), ExportError> {

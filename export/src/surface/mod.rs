@@ -1,9 +1,9 @@
 //! A mesh as renderers want it: vertices with normals, texture coordinates and colours, split where these differ.
 //!
 //! - `smooth`: which corners of triangles share a normal; `texture`: coordinates by projection.
-//! - `materials`: those that look alike are one.
+//! - `single_precision`: edges too short for it.
 
-mod materials;
+mod single_precision;
 mod smooth;
 mod texture;
 
@@ -11,9 +11,9 @@ use glam::{DVec2, DVec3};
 use planecut_csg::{FaceSource, Mesh};
 use rustc_hash::FxHashMap;
 
-pub(crate) use materials::{Looks, looks};
+pub(crate) use single_precision::without_lost_edges;
 
-use crate::options::{ExportOptions, Shading};
+use crate::part::{ExportOptions, Shading};
 use smooth::SharedNormals;
 use texture::Texture;
 

@@ -3,6 +3,7 @@
 
 use glam::{DMat3, DVec3};
 use planecut_csg::{Material, MaterialId, Mesh, MeshFace};
+use planecut_testkit::random::Rng;
 
 /// Volume inside closed triangles that are counter-clockwise seen from outside.
 pub(crate) fn volume(triangles: impl Iterator<Item = [DVec3; 3]>) -> f64 {
@@ -73,15 +74,15 @@ pub(crate) fn cube_with_hole() -> Mesh {
 
 /// `count` closed boxes of random place, size, rotation and material over a square, reproducible from `seed`.
 pub(crate) fn random_boxes(count: usize, seed: u64) -> Mesh {
-    let mut random = Random(seed);
+    let mut random = Rng::new(seed);
     let mut mesh = Mesh::default();
     let side = (count as f64).sqrt() * 1.5;
     for _ in 0..count {
-        let half = DVec3::new(random.between(0.2, 1.6), random.between(0.2, 1.6), random.between(0.2, 3.0));
-        let center = DVec3::new(random.between(0.0, side), random.between(0.0, side), half.z);
-        let turned = random.between(0.0, 1.0) < 0.3;
-        let rotation = if turned { DMat3::from_rotation_z(random.between(0.0, 1.5)) } else { DMat3::IDENTITY };
-        let material = format!("material{}", random.between(0.0, 8.0) as u32);
+        let half = DVec3::new(random.float(0.2, 1.6), random.float(0.2, 1.6), random.float(0.2, 3.0));
+        let center = DVec3::new(random.float(0.0, side), random.float(0.0, side), half.z);
+        let turned = random.float(0.0, 1.0) < 0.3;
+        let rotation = if turned { DMat3::from_rotation_z(random.float(0.0, 1.5)) } else { DMat3::IDENTITY };
+        let material = format!("material{}", random.float(0.0, 8.0) as u32);
         push_box(&mut mesh, center, half, rotation, &material);
     }
     mesh

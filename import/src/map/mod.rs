@@ -28,6 +28,7 @@ mod texture;
 mod token;
 
 use planecut_csg::{Model, TextureAxes};
+use serde::{Deserialize, Serialize};
 use winnow::stream::LocatingSlice;
 
 pub use error::MapError;
@@ -41,7 +42,8 @@ use build::Builder;
 ///
 /// Patterns are globs over the whole name (`*` any run of characters, `?` any one character), without regard to ASCII
 /// case.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct MapOptions {
     /// Take only what map compilers make part of the world: brushes of `worldspawn`, of `func_group` and of
     /// `func_detail…`, and brushes outside any entity.

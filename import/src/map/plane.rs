@@ -10,7 +10,7 @@
 use dashu_int::ops::{BitTest, Gcd, UnsignedAbs};
 use dashu_int::{IBig, UBig};
 use glam::DVec3;
-use planecut_kernel::{HalfSpace, HalfSpaceError};
+use planecut_kernel::{HalfSpace, HalfSpaceError, decompose_odd};
 
 use super::decimal::Decimal;
 
@@ -110,7 +110,7 @@ fn big_coefficients(points: &[Point; 3]) -> Result<[f64; 4], PlaneError> {
 
 /// The points' `f64` values times `2^shift`, with the smallest shift that makes them integers.
 fn big_integers(points: &[Point; 3]) -> ([[IBig; 3]; 3], usize) {
-    let parts = points.map(|p| p.map(|number| decompose(number.to_f64())));
+    let parts = points.map(|p| p.map(|number| decompose_odd(number.to_f64())));
     // Exponents are between −1,074 and 971, so integers have at most 2,100 bits.
     let exponents = parts.as_flattened().iter().filter(|(mantissa, _)| *mantissa != 0).map(|(_, exponent)| *exponent);
     let lowest = exponents.min().unwrap_or(0).min(0);
@@ -119,19 +119,6 @@ fn big_integers(points: &[Point; 3]) -> ([[IBig; 3]; 3], usize) {
         _ => IBig::from(mantissa) << (exponent - lowest) as usize,
     };
     (parts.map(|p| p.map(integer)), -lowest as usize)
-}
-
-/// `value = mantissa · 2^exponent`, the mantissa odd or zero, for a finite number.
-fn decompose(value: f64) -> (i64, i32) {
-    let bits = value.to_bits();
-    let fraction = (bits & ((1 << 52) - 1)) as i64;
-    let (mantissa, exponent) = match (bits >> 52 & 0x7ff) as i32 {
-        0 => (fraction, -1074),
-        field => (fraction | 1 << 52, field - 1075),
-    };
-    let zeros = mantissa.trailing_zeros() % i64::BITS;
-    let mantissa = mantissa >> zeros;
-    (if value.is_sign_negative() { -mantissa } else { mantissa }, exponent + zeros as i32)
 }
 
 /// Longest integer that is handed over unscaled.

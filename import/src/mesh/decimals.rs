@@ -14,7 +14,7 @@ pub(super) struct Decimals {
     with_digits: usize,
 }
 
-/// A shape of numbers that is shared by one in so many is no accident.
+/// A shape of numbers counts as deliberate where at least one number in this many has it.
 const SHARE: usize = 4;
 /// Numbers with as many places, zeros at the end written out, are those of a fixed format.
 const LEAST_PLACES: u32 = 4;

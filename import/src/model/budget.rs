@@ -31,7 +31,7 @@ impl Size {
         Self { brushes: tree.brushes().len(), planes }
     }
 
-    /// So many times as much.
+    /// A multiple of it.
     pub(super) fn times(self, count: f64) -> (f64, f64) {
         (self.brushes as f64 * count, self.planes as f64 * count)
     }
@@ -70,7 +70,7 @@ impl Budget {
         self.planes = self.planes.saturating_sub(size.planes);
     }
 
-    /// Whether so many copies of something still fit.
+    /// Whether this number of copies of something still fits.
     ///
     /// # Errors
     /// A fault of the node where they do not.

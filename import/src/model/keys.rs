@@ -8,13 +8,13 @@ pub(super) enum Want {
     Flag,
     /// One of these texts.
     Choice(&'static [&'static str]),
-    /// A list of so many numbers.
+    /// A list of this length.
     Vector(usize),
-    /// One number, or a list of so many.
+    /// One number, or a list of this length.
     Scale(usize),
-    /// One or more lists of so many numbers.
+    /// One or more lists of this length.
     Rows(usize),
-    /// A matrix of rows of so many numbers; the last row may be left out.
+    /// A matrix whose rows have this length; the last row may be left out.
     Matrix(usize),
     /// One or more loops of points in the plane, or one alone.
     Loops,

@@ -22,6 +22,7 @@ mod parameters;
 mod values;
 
 use planecut_csg::Model;
+use serde::{Deserialize, Serialize};
 
 pub use error::ModelError;
 
@@ -46,7 +47,8 @@ pub const MAX_BRUSHES: usize = 1 << 22;
 pub const MAX_PLANES: usize = 1 << 25;
 
 /// What a caller sets before a model is made.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct ModelOptions {
     /// Values that replace those of parameters of the file, by name; others that depend on them follow.
     pub parameters: Vec<(String, f64)>,

@@ -7,7 +7,6 @@ use planecut_csg::{Brush, Model, Tree};
 use planecut_shapes::Outline;
 
 use super::error::Fault;
-use super::font::Fonts;
 use super::frame::{Frame, Matrix};
 use super::materials::Materials;
 use super::problem::{Body, Geometry, Made, Problem};
@@ -34,7 +33,7 @@ pub(super) struct Evaluator<'s, 'a> {
     options: &'s ScadOptions,
     frames: Vec<Frame>,
     materials: Materials,
-    fonts: Fonts,
+    fonts: text::Fonts,
     /// What the children of each node gave, last one first.
     made: Vec<Vec<Option<Geometry>>>,
     pub(super) warnings: Vec<Warning>,
@@ -55,7 +54,7 @@ impl<'s, 'a> Evaluator<'s, 'a> {
             options,
             frames: Vec::new(),
             materials: Materials::new(),
-            fonts: Fonts::default(),
+            fonts: text::Fonts::default(),
             made,
             warnings: Vec::new(),
             planes: 0,

@@ -38,7 +38,7 @@ impl Fragments {
         self.exact_around(radius).and_then(accepted)
     }
 
-    /// The segments of an arc of so many degrees, cut off to a whole number.
+    /// The number of segments of an arc of `degrees`, rounded down.
     pub(super) fn along_arc(&self, radius: f64, degrees: f64) -> Result<u32, TooMany> {
         let whole = self.exact_around(radius)?;
         accepted((whole * degrees.abs() / 360.0).floor().max(1.0))

@@ -1,7 +1,7 @@
 //! What a node inherits from those around it: where it is put, and its colour.
 //!
 //! Maps are multiplied on the way down, so that each plane and each corner is moved once. Where a result is measured or summed
-//! before it is put in place (extrusions, Minkowski sums, offsets) a node begins anew in a frame of its own.
+//! before it is put in place (extrusions, Minkowski sums, offsets) a node starts in a frame of its own.
 
 use glam::{DMat2, DMat3};
 use planecut_csg::{MaterialId, Transform};

@@ -16,7 +16,6 @@ mod error;
 mod evaluate;
 mod extrusion;
 mod flat;
-mod font;
 mod fragments;
 mod frame;
 mod import;
@@ -26,6 +25,7 @@ mod polyhedron;
 mod problem;
 mod solid;
 mod syntax;
+#[cfg_attr(not(feature = "text"), path = "text_missing.rs")]
 mod text;
 mod token;
 mod turn;
@@ -34,6 +34,7 @@ mod value;
 use std::path::PathBuf;
 
 use planecut_csg::Model;
+use serde::{Deserialize, Serialize};
 
 pub use error::ScadError;
 
@@ -45,7 +46,8 @@ use evaluate::Evaluator;
 pub use crate::source::MAX_TEXT;
 
 /// How a tree is read.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct ScadOptions {
     /// Where files that `import` names are looked for; the current folder by default.
     pub folder: PathBuf,

@@ -7,8 +7,7 @@ pub(crate) fn exponent(v: f64) -> i32 {
 
 /// The exponent of the lowest set bit of a non-zero normal number.
 pub(crate) fn lowest_bit(v: f64) -> i32 {
-    let (mantissa, exponent) = decompose(v);
-    exponent + mantissa.trailing_zeros() as i32
+    decompose_odd(v).1
 }
 
 /// `v = mantissa · 2^exponent` for a finite number.
@@ -18,6 +17,14 @@ pub(crate) fn decompose(v: f64) -> (i64, i32) {
     let fraction = (bits & ((1 << 52) - 1)) as i64;
     let (mantissa, exponent) = if field == 0 { (fraction, -1074) } else { (fraction | (1 << 52), field - 1075) };
     (if v.is_sign_negative() { -mantissa } else { mantissa }, exponent)
+}
+
+/// `v = mantissa · 2^exponent` for a finite number, with an odd mantissa; zero is `0 · 2^-1074`.
+#[must_use]
+pub fn decompose_odd(v: f64) -> (i64, i32) {
+    let (mantissa, exponent) = decompose(v);
+    let zeros = mantissa.trailing_zeros() % i64::BITS;
+    (mantissa >> zeros, exponent + zeros as i32)
 }
 
 /// `v · 2^power`, rounded where it is below the normal range.

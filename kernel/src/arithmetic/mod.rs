@@ -7,5 +7,6 @@ mod quotient;
 
 pub(crate) use big::{big_cross, big_dot, big_integers};
 pub(crate) use double_double::{DoubleDouble, exact_product};
+pub use float::decompose_odd;
 pub(crate) use float::{decompose, exponent, ldexp, lowest_bit};
 pub(crate) use quotient::{round_quotient, square_root_of_quotient, unit_vector};

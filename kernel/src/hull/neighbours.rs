@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-/// Of a point with more neighbours than this, so many at a time are kept in a box: the apex of a cone over n points is asked
+/// Of a point with more neighbours than this, this number at a time is kept in a box: the apex of a cone over n points is asked
 /// about by each of its n facets.
 const CHUNK: usize = 256;
 
@@ -39,7 +39,7 @@ impl Bounds {
 }
 
 impl Neighbours {
-    /// No neighbours for so many points.
+    /// No neighbours yet, for this number of points.
     pub(super) fn of_none(points: usize) -> Self {
         Self { ranges: vec![0..0; points], ends: Vec::new(), boxes: HashMap::new() }
     }

@@ -1,7 +1,7 @@
 //! The empty state: a witness of at most four planes, and the planes that wait for its end.
 //!
 //! The structure stays as it was before the plane with which the set became empty. Planes that are added wait, and
-//! planes of the structure are taken back as always; only where the witness loses one of its planes, those that wait are
+//! planes of the structure are removed as always; only where the witness loses one of its planes, those that wait are
 //! tried again.
 
 use super::IncrementalPolytope;
@@ -32,7 +32,7 @@ impl IncrementalPolytope {
         self.after_loss(&[plane]);
     }
 
-    /// While the set is empty, planes were taken back or moved: where the witness needed one, the waiting planes try
+    /// While the set is empty, planes were removed or moved: where the witness needed one, the waiting planes try
     /// again. What comes back is new, all of it.
     pub(super) fn after_loss(&mut self, planes: &[u32]) {
         if planes.iter().any(|plane| self.witness.contains(plane)) {

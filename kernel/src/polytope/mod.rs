@@ -1,4 +1,4 @@
-//! [`IncrementalPolytope`]: a convex polyhedron to which planes are added and from which they are taken back.
+//! [`IncrementalPolytope`]: a convex polyhedron to which planes are added and from which they are removed.
 //!
 //! **Stored** is the dual triangulation: for each vertex its three planes, counter-clockwise seen from outside, and the
 //! neighbour across each edge; for each plane one vertex of its face. Ties are broken symbolically: plane `i` is moved
@@ -8,16 +8,16 @@
 //! **Unbounded** polyhedra need no special case: four hidden infinity planes, offset `M → ∞`, close every one of them.
 //!
 //! **Local.** A plane without a face keeps a certificate: three planes that make it redundant for as long as they are
-//! there. When planes are taken back, a face can only grow across an edge that it had with one of theirs, and a plane
-//! can only show itself whose certificate named one of them (the locality lemma, proved in `docs/kernel.md`). So a
+//! there. When planes are removed, a face can only grow across an edge that it had with one of theirs, and a plane
+//! can only show itself whose certificate named one of them (the removal lemma, proved in `docs/kernel.md`). So a
 //! removal looks at the ring around the hole and at the certificates that the removed planes carried, and at nothing
 //! else.
 //!
-//! One room per stage:
+//! One module for each stage:
 //! - [`store`] holds planes and vertices, [`side`] decides where a vertex lies, [`infinity`] closes what is unbounded;
 //! - [`climb`] finds the extreme vertex, [`add`] cuts, [`redundant`] keeps the certificates, [`empty`] remembers why a
 //!   set has no interior;
-//! - [`remove`] takes a plane back, [`remove_many`] several; [`fill`] closes the hole from its ring, [`remove_large`] by
+//! - [`remove`] removes a plane, [`remove_many`] several; [`fill`] closes the hole from its ring, [`remove_large`] by
 //!   a cap; [`move_plane`] and [`rebuild`] are made of these;
 //! - [`view`] reports with coincident vertices merged, [`query`] answers questions, [`measure`] sums up, [`validate`]
 //!   checks all of it.
@@ -36,6 +36,8 @@ mod redundant;
 mod remove;
 mod remove_large;
 mod remove_many;
+#[cfg(feature = "serde")]
+mod saved;
 mod side;
 mod starts;
 mod store;
@@ -55,14 +57,17 @@ use crate::sign::Homogeneous;
 use redundant::Certificates;
 use store::{Change, Link, NONE, PlaneState, PlaneStore, VertexStore};
 
-/// Handle of a plane of one [`IncrementalPolytope`]; given again after the plane was removed.
+/// Handle of a plane of one [`IncrementalPolytope`], counted from zero; a removed plane's handle is given to a later one. Planes of
+/// brushes of a live model have such handles, too; there none is given to another plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PlaneIdx(pub usize);
 
-/// Handle of a vertex of the simple structure; given again after the vertex was removed.
+/// Handle of a vertex of the simple structure; a removed vertex's handle is given to a later one.
 ///
 /// Several vertices of the simple structure can coincide and are then seen as one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct VertexIdx(pub u32);
 
 /// What [`IncrementalPolytope::add_plane`] did. The lists live until the next operation.
@@ -104,7 +109,7 @@ impl AddPlaneResult<'_> {
 /// A handle can stand in both lists: the place of a vertex that was removed is given to a new one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RemovePlaneResult<'a> {
-    /// The half-space that was taken back.
+    /// The half-space that was removed.
     pub half_space: HalfSpace,
     /// Whether it had a face, so that the polyhedron changed.
     pub had_face: bool,
@@ -117,7 +122,7 @@ pub struct RemovePlaneResult<'a> {
 /// What [`IncrementalPolytope::remove_planes`] did. The lists live until the next operation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct RemovePlanesResult<'a> {
-    /// How many planes were taken back.
+    /// How many planes were removed.
     pub count: usize,
     /// The vertices that are no longer there; none where the set was empty before.
     pub removed_vertices: &'a [VertexIdx],
@@ -181,7 +186,7 @@ pub struct IncrementalPolytope {
     epsilon: f64,
     /// What the last operation changed.
     change: Change,
-    /// How often a failed validation made the structure anew.
+    /// How often a failed validation rebuilt the structure.
     rebuilds: u64,
     scratch: Scratch,
 }

@@ -1,4 +1,4 @@
-//! Moving a plane: where no vertex changes its planes, only the positions of one face are made anew.
+//! Moving a plane: where no vertex changes its planes, only the positions of one face are computed again.
 //!
 //! That is so where the plane hides no other and, with the corners at their new places, every edge at the face is still
 //! convex: a closed surface that is convex at each edge is convex. Else the plane is taken out and added again with its
@@ -15,7 +15,7 @@ impl IncrementalPolytope {
     /// what it would be had the plane been added so.
     ///
     /// `None` where there is no such plane. Cost: while the faces keep their corners, one position and three signs a corner
-    /// of the face; else that of taking back and adding.
+    /// of the face; else that of removing and adding.
     pub fn move_plane(&mut self, idx: PlaneIdx, half_space: HalfSpace) -> Option<MovePlaneResult<'_>> {
         let plane = self.live(idx)?;
         let previous = *self.planes.half_space(plane);

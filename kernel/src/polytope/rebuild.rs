@@ -1,6 +1,6 @@
-//! A fresh build of the planes that are there: handles and stamps stay, vertices are made anew.
+//! A fresh build of the planes that are there: handles and stamps stay, vertices are made again.
 //!
-//! It takes over where so many planes leave at once that adding the others is less work, and where a validation fails
+//! It is used where most planes are removed at once, so that adding the others again is less work, and where a validation fails
 //! (which should never happen).
 
 use super::IncrementalPolytope;

@@ -1,7 +1,7 @@
-//! Taking a plane back: the edges that ended on its face grow until they meet the next plane (paper §3), made local.
+//! Removing a plane: the edges that ended on its face grow until they meet the next plane (paper §3), made local.
 //!
 //! Only planes adjacent to the removed face, and planes whose certificate it carried, can bound the new region
-//! (the locality lemma, `docs/kernel.md`). [`super::fill`] closes the hole from the ring of the face. Where the ring does not close, the
+//! (the removal lemma, `docs/kernel.md`). [`super::fill`] closes the hole from the ring of the face. Where the ring does not close, the
 //! region is open and reaches the infinity planes: like a large ring with uneven parts it is then built as a cap of its
 //! own ([`super::remove_large`]).
 
@@ -20,7 +20,7 @@ pub(super) struct RingEdge {
 }
 
 impl IncrementalPolytope {
-    /// Takes a half-space back: the set becomes what it would be had the plane never been added (paper §3.3).
+    /// Removes a half-space: the set becomes what it would be had the plane never been added (paper §3.3).
     ///
     /// `None` where there is no such plane. Cost: `k log k` for a face with `k` neighbours, and adding the planes it hid; not
     /// that of the polytope.
@@ -35,7 +35,7 @@ impl IncrementalPolytope {
         Some(RemovePlaneResult { half_space, had_face, removed_vertices, new_vertices })
     }
 
-    /// Takes a plane out and gives its slot back.
+    /// Takes a plane out of the structure and frees its slot.
     pub(super) fn remove_slot(&mut self, plane: u32) {
         if self.planes.state(plane) == PlaneState::Pending {
             self.remove_pending(plane);

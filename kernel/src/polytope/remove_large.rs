@@ -67,9 +67,12 @@ impl IncrementalPolytope {
     /// Which ring edge is the one between two planes, seen from the hole; the marks give the places in the ring.
     fn crossing_edge(&self, ring: &[RingEdge], p: u32, q: u32) -> Option<usize> {
         let at = self.planes.mark(p) as usize;
+        // the mark of a plane that is not in the ring is left from an earlier operation, or is none at all
+        if ring.get(at)?.plane != p {
+            return None;
+        }
         let next = if at + 1 == ring.len() { 0 } else { at + 1 };
-        // marks of planes that are not in the ring are left from earlier operations
-        (ring.get(at)?.plane == p && ring[next].plane == q).then_some(at)
+        (ring[next].plane == q).then_some(at)
     }
 
     /// A plane that takes part in the cap has a face there; an infinity plane may have been hidden until now.

@@ -1,19 +1,19 @@
 //! Taking several planes back at once: faces that touch are opened together, so that nothing is built between them, and
-//! what the planes hid is looked at once. Where little remains the whole is built anew.
+//! what the planes hid is looked at once. Where few planes remain, the whole is rebuilt.
 //!
 //! The faces of a connected patch leave one hole. As for a single face, only the planes around it and the planes whose
 //! certificates the patch carried can bound what comes instead (`docs/kernel.md`), so the same means close it. A patch
-//! whose border is not one simple ring of different planes is taken back face by face.
+//! whose border is not one simple ring of different planes is removed face by face.
 
 use super::remove::RingEdge;
 use super::store::{Leaving, Link, NEXT, PlaneState, Steps};
 use super::{IncrementalPolytope, PlaneIdx, RemovePlanesResult, infinity};
 
-/// So many faces that did not make a patch are a sign that the others will not either.
+/// After this many faces that did not make a patch, the others are not tried: they will hardly make one either.
 const FUTILE: usize = 8;
 
 impl IncrementalPolytope {
-    /// Takes half-spaces back: the same as [`remove_plane`](Self::remove_plane) one after the other (the paper's §8, "batch
+    /// Removes half-spaces: the same as [`remove_plane`](Self::remove_plane) one after the other (the paper's §8, "batch
     /// removal").
     ///
     /// Cost: what the neighbours around each patch of faces cost that leave together, several times less than one by one;
@@ -42,8 +42,8 @@ impl IncrementalPolytope {
         RemovePlanesResult { count, removed_vertices: &change.removed, new_vertices: &change.created }
     }
 
-    /// Whether adding the planes that stay is less work than taking back those that leave. To take a face back costs
-    /// about two thirds of adding a plane (`docs/benchmarks.md`); what has no face costs nothing to take back.
+    /// Whether adding the planes that stay is less work than removing those that leave. To remove a face costs
+    /// about two thirds of adding a plane (`docs/benchmarks.md`); a plane without a face costs nothing to remove.
     fn is_rebuild_cheaper(&self, leaving: &[u32]) -> bool {
         let opened = leaving.iter().filter(|plane| self.planes.has_face(**plane)).count();
         2 * opened > 3 * (self.planes.live_count() - leaving.len())

@@ -9,13 +9,13 @@ use super::IncrementalPolytope;
 use super::store::NONE;
 use crate::sign::Row;
 
-/// Up to so many planes, the octants do.
+/// Largest number of planes for which the eight octants suffice.
 const PLANES_FOR_OCTANTS: u32 = 192;
 
 /// Cells along the edge of a face of the first cube map.
 const FIRST_RESOLUTION: u32 = 4;
 
-/// A cube map grows when there are more than so many planes for each cell.
+/// A cube map grows when there are more planes than this for each cell.
 const PLANES_PER_CELL: u32 = 8;
 
 /// Where a climb ended; the slots may be free by now, or hold others.

@@ -13,6 +13,7 @@ thread_local! {
 /// Counted per thread: take [`Counts::now`] before and after a piece of work on one thread and subtract; add up the
 /// differences of several threads.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Counts {
     /// All signs.
     pub total: u64,

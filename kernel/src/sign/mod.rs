@@ -36,6 +36,7 @@ pub(crate) use point::{ExactPoint, POINT_BOUND, UNDERFLOW, integer_row, residual
 
 /// A three-way sign.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Sign {
     /// Below zero.
     Negative,

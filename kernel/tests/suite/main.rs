@@ -6,6 +6,7 @@
 //! - [`view`]: what is seen from outside: vertices, edges, faces, meshes and their validation.
 //! - [`hull`]: hulls of points against brute force.
 //! - [`figures`]: the figures of the documentation are what the program draws.
+//! - `saved`: polytopes and results as data (feature `serde`).
 //! - [`vectors`]: the public interface with arrays, tuples and the vectors of other libraries.
 
 mod figures;
@@ -13,5 +14,7 @@ mod hull;
 mod oracle;
 mod paper;
 mod query;
+#[cfg(feature = "serde")]
+mod saved;
 mod vectors;
 mod view;

@@ -8,22 +8,22 @@ use super::choice::best_cut;
 use super::edges::Edges;
 use super::error::PolyhedronError;
 use super::lumps::take_convex;
-use super::part::{Part, Points, Side};
+use super::part::{Part, PlaneSide, Points};
 use super::planes::Planes;
 use super::surface::Surface;
-use crate::primitives::MAX_PIECES;
+use crate::parameter::MAX_PIECES;
 
 /// The convex cells within a surface, each as sides of its planes.
 ///
 /// A part of space that is not convex is cut along the plane of a facet, so no plane is made that the surface does not have,
 /// and all of the part is cut: each point is in one cell, however planes are rounded, so there are no gaps between cells.
-pub(super) fn cells(surface: &Surface, planes: &Planes) -> Result<Vec<Vec<Side>>, PolyhedronError> {
-    let points = Points::new(surface.points.clone(), planes.slack(surface), &planes.flats, true);
+pub(super) fn cells(surface: &Surface, planes: &Planes) -> Result<Vec<Vec<PlaneSide>>, PolyhedronError> {
+    let points = Points::new(surface.points.clone(), planes.slack(surface), &planes.float_planes, true);
     cells_of(Part::whole(surface, planes), points).ok_or(PolyhedronError::TooLarge { limit: MAX_PIECES as usize })
 }
 
 /// The convex cells within the pieces of a part; `None` where there are more than [`MAX_PIECES`].
-pub(super) fn cells_of(whole: Part, mut points: Points<'_>) -> Option<Vec<Vec<Side>>> {
+pub(super) fn cells_of(whole: Part, mut points: Points<'_>) -> Option<Vec<Vec<PlaneSide>>> {
     let mut waiting = vec![whole];
     let mut done = Vec::new();
     while let Some(mut part) = waiting.pop() {
@@ -54,10 +54,14 @@ pub(super) fn cells_of(whole: Part, mut points: Points<'_>) -> Option<Vec<Vec<Si
 }
 
 /// The body on the given sides of planes and its volume, without planes that have no face; `None` where nothing is left of it.
-pub(super) fn brush(sides: &[Side], planes: &Planes, material_of: impl Fn(u32) -> MaterialId) -> Option<(Brush, f64)> {
+pub(super) fn brush(
+    sides: &[PlaneSide],
+    planes: &Planes,
+    material_of: impl Fn(u32) -> MaterialId,
+) -> Option<(Brush, f64)> {
     // walls between cells dissolve, so any material will do
     let inner = sides.iter().find_map(|side| side.facet).map_or(MaterialId(0), &material_of);
-    let half_space = |side: &Side| -> HalfSpace {
+    let half_space = |side: &PlaneSide| -> HalfSpace {
         let plane = planes.half_spaces[side.plane as usize];
         if side.is_above { plane.flipped() } else { plane }
     };

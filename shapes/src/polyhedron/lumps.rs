@@ -12,14 +12,14 @@
 use planecut_kernel::DVec3;
 
 use super::edges::Edges;
-use super::part::{Part, Piece, Points, Side};
+use super::part::{Part, Piece, PlaneSide, Points};
 
 /// Takes the lumps that are convex out of a part.
-pub(super) fn take_convex(part: &mut Part, edges: &Edges, points: &Points<'_>) -> Vec<Vec<Side>> {
+pub(super) fn take_convex(part: &mut Part, edges: &Edges, points: &Points<'_>) -> Vec<Vec<PlaneSide>> {
     if edges.sheets == 1 {
         // a closed surface without a reflex edge is convex (Tietze 1928, Nakajima 1928)
         let is_whole = points.is_closed && part.walls.is_empty();
-        let is_done = edges.reflex.is_empty() && (is_whole || Group::of(part, edges, 0).is_convex(points));
+        let is_done = edges.reflex.is_empty() && (is_whole || PieceGroup::of(part, edges, 0).is_convex(points));
         if !is_done {
             return Vec::new();
         }
@@ -32,7 +32,7 @@ pub(super) fn take_convex(part: &mut Part, edges: &Edges, points: &Points<'_>) -
     }
     let mut is_taken = vec![false; edges.sheets];
     let mut lumps = Vec::new();
-    let groups: Vec<Group> = (0..edges.sheets as u32).map(|sheet| Group::of(part, edges, sheet)).collect();
+    let groups: Vec<PieceGroup> = (0..edges.sheets as u32).map(|sheet| PieceGroup::of(part, edges, sheet)).collect();
     let convex: Vec<bool> =
         groups.iter().zip(&is_folded).map(|(group, folded)| !folded && group.is_convex(points)).collect();
     // one that is taken may have stood in the way of others
@@ -57,7 +57,7 @@ pub(super) fn take_convex(part: &mut Part, edges: &Edges, points: &Points<'_>) -
 
 /// The sheets that bound a convex lump together with one of them, where nothing of other lumps lies in it.
 fn complete(
-    groups: &[Group<'_>],
+    groups: &[PieceGroup<'_>],
     convex: &[bool],
     is_taken: &[bool],
     start: usize,
@@ -85,14 +85,14 @@ fn complete(
 
 /// Some pieces of a part.
 #[derive(Debug, Clone)]
-struct Group<'a> {
+struct PieceGroup<'a> {
     pieces: Vec<&'a Piece>,
     /// The different planes, one piece for each and each side.
     planes: Vec<&'a Piece>,
     vertices: Vec<u32>,
 }
 
-impl<'a> Group<'a> {
+impl<'a> PieceGroup<'a> {
     fn of(part: &'a Part, edges: &Edges, sheet: u32) -> Self {
         let own = part.pieces.iter().zip(&edges.sheet_of).filter(|(_, of)| **of == sheet).map(|(piece, _)| piece);
         Self::new(own.collect())
@@ -157,7 +157,7 @@ fn clipped(corners: &[DVec3], depth: impl Fn(DVec3) -> f64) -> Vec<DVec3> {
 }
 
 /// The sides that bound a lump: the part's walls, and the planes of pieces, each with the widest facet on it.
-fn lump<'p>(part: &Part, pieces: impl Iterator<Item = &'p Piece>, points: &Points<'_>) -> Vec<Side> {
+fn lump<'p>(part: &Part, pieces: impl Iterator<Item = &'p Piece>, points: &Points<'_>) -> Vec<PlaneSide> {
     let mut covers: Vec<(u32, bool, u32, f64)> =
         pieces.map(|p| (p.plane, p.is_reversed, p.facet, points.area(p).length())).collect();
     covers.sort_unstable_by_key(|(plane, is_above, facet, _)| (*plane, *is_above, *facet));
@@ -169,7 +169,7 @@ fn lump<'p>(part: &Part, pieces: impl Iterator<Item = &'p Piece>, points: &Point
     let mut sides = part.walls.clone();
     for on_plane in covers.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
         let widest = on_plane.iter().max_by(|a, b| a.3.total_cmp(&b.3));
-        sides.extend(widest.map(|(plane, is_above, facet, _)| Side {
+        sides.extend(widest.map(|(plane, is_above, facet, _)| PlaneSide {
             plane: *plane,
             is_above: *is_above,
             facet: Some(*facet),

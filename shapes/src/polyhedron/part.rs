@@ -6,13 +6,13 @@ use planecut_kernel::DVec3;
 use rustc_hash::FxHashMap;
 
 use super::edges::Edges;
-use super::planes::{Flat, Planes};
+use super::planes::{FloatPlane, Planes};
 use super::polygon::area_vector;
 use super::surface::Surface;
 
 /// A side of a plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Side {
+pub(super) struct PlaneSide {
     pub(super) plane: u32,
     /// Whether it is the side above.
     pub(super) is_above: bool,
@@ -40,7 +40,7 @@ impl Piece {
 /// What lies on one side of each of some planes: a convex part of space, and the pieces of the surface there.
 #[derive(Debug, Clone)]
 pub(super) struct Part {
-    pub(super) walls: Vec<Side>,
+    pub(super) walls: Vec<PlaneSide>,
     pub(super) pieces: Vec<Piece>,
 }
 
@@ -48,7 +48,7 @@ pub(super) struct Part {
 pub(super) struct Points<'a> {
     pub(super) positions: Vec<DVec3>,
     slack: Vec<f64>,
-    flats: &'a [Flat],
+    float_planes: &'a [FloatPlane],
     /// Whether the surface ends nowhere.
     pub(super) is_closed: bool,
     /// Where an edge crosses a plane: neighbours find the same point.
@@ -56,12 +56,12 @@ pub(super) struct Points<'a> {
 }
 
 impl<'a> Points<'a> {
-    pub(super) fn new(positions: Vec<DVec3>, slack: Vec<f64>, flats: &'a [Flat], is_closed: bool) -> Self {
-        Self { positions, slack, flats, is_closed, crossings: FxHashMap::default() }
+    pub(super) fn new(positions: Vec<DVec3>, slack: Vec<f64>, float_planes: &'a [FloatPlane], is_closed: bool) -> Self {
+        Self { positions, slack, float_planes, is_closed, crossings: FxHashMap::default() }
     }
 
-    pub(super) fn flat(&self, plane: u32) -> &Flat {
-        &self.flats[plane as usize]
+    pub(super) fn flat(&self, plane: u32) -> &FloatPlane {
+        &self.float_planes[plane as usize]
     }
 
     /// On which side of a plane a point lies: greater is above. What is as near as points are exact is on it.
@@ -192,7 +192,7 @@ impl Part {
             if !pieces.iter().any(|piece| points.is_wide(piece)) {
                 pieces.clear();
             }
-            let wall = Side { plane, is_above, facet: covers.widest(is_above) };
+            let wall = PlaneSide { plane, is_above, facet: covers.widest(is_above) };
             let has_solid = !pieces.is_empty() || covers.is_solid(is_above);
             has_solid.then(|| Self { walls: self.walls.iter().copied().chain([wall]).collect(), pieces })
         };

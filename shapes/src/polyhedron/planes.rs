@@ -16,12 +16,12 @@ use crate::tolerances::{LEANING, NEGLIGIBLE_COMPONENT, PLANE_ROUNDING};
 const DIRECTION_CELL: f64 = 1.0 / 64.0;
 /// A plane in floating point, its normal of unit length.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Flat {
+pub(super) struct FloatPlane {
     normal: DVec3,
     offset: f64,
 }
 
-impl Flat {
+impl FloatPlane {
     pub(super) fn of(half_space: &HalfSpace) -> Self {
         // no component leaves the range of numbers
         let scale = half_space.normal().abs().max_element();
@@ -51,7 +51,7 @@ impl Flat {
 /// The planes of a surface.
 #[derive(Debug)]
 pub(super) struct Planes {
-    pub(super) flats: Vec<Flat>,
+    pub(super) float_planes: Vec<FloatPlane>,
     pub(super) half_spaces: Vec<HalfSpace>,
     /// The plane of each triangle.
     pub(super) of_triangle: Vec<u32>,
@@ -73,7 +73,7 @@ impl Planes {
         let mut slack = surface.slack.clone();
         for (corners, plane) in surface.triangles.iter().zip(&self.of_triangle) {
             for vertex in corners.map(|v| v as usize) {
-                let height = self.flats[*plane as usize].height(surface.points[vertex]).abs();
+                let height = self.float_planes[*plane as usize].height(surface.points[vertex]).abs();
                 slack[vertex] = slack[vertex].max(height * (1.0 + PLANE_ROUNDING));
             }
         }
@@ -101,7 +101,7 @@ struct Gathering<'a> {
     /// The neighbour on the same plane through which a unit was found.
     like: Vec<Option<u32>>,
     /// The first idea of each plane, and its units.
-    patches: Vec<(Flat, Vec<u32>)>,
+    patches: Vec<(FloatPlane, Vec<u32>)>,
     directions: FxHashMap<[i32; 3], Vec<u32>>,
 }
 
@@ -160,15 +160,15 @@ impl<'a> Gathering<'a> {
         self.surface.triangles[unit.triangles.clone()].as_flattened().iter().copied()
     }
 
-    fn flat_of(&self, unit: &Unit) -> Flat {
-        Flat::amid(unit.area, self.vertices(unit).map(|v| self.surface.points[v as usize]))
+    fn flat_of(&self, unit: &Unit) -> FloatPlane {
+        FloatPlane::amid(unit.area, self.vertices(unit).map(|v| self.surface.points[v as usize]))
     }
 
-    fn fits(&self, unit: &Unit, flat: &Flat) -> bool {
+    fn fits(&self, unit: &Unit, flat: &FloatPlane) -> bool {
         self.vertices(unit).all(|v| self.is_on(v, flat))
     }
 
-    fn is_on(&self, vertex: u32, flat: &Flat) -> bool {
+    fn is_on(&self, vertex: u32, flat: &FloatPlane) -> bool {
         flat.height(self.surface.points[vertex as usize]).abs() <= self.surface.slack[vertex as usize]
     }
 
@@ -224,7 +224,7 @@ impl<'a> Gathering<'a> {
 
     /// The plane amid a patch and one more unit, where all lie on it: that of the first units alone, which may be narrow,
     /// leans.
-    fn common_flat(&self, flat: &Flat, patch: &[u32], more: u32) -> Option<Flat> {
+    fn common_flat(&self, flat: &FloatPlane, patch: &[u32], more: u32) -> Option<FloatPlane> {
         let is_near = |v: u32| {
             let off = flat.height(self.surface.points[v as usize]).abs();
             off <= LEANING * self.surface.slack[v as usize]
@@ -236,7 +236,7 @@ impl<'a> Gathering<'a> {
         let first = self.units[patch[0] as usize].area;
         let area: DVec3 = units().map(|unit| if unit.area.dot(first) < 0.0 { -unit.area } else { unit.area }).sum();
         let corners = units().flat_map(|unit| self.vertices(unit)).map(|v| self.surface.points[v as usize]);
-        let flat = Flat::amid(area, corners);
+        let flat = FloatPlane::amid(area, corners);
         units().all(|unit| self.fits(unit, &flat)).then_some(flat)
     }
 
@@ -246,7 +246,7 @@ impl<'a> Gathering<'a> {
     }
 
     /// A plane that is there and on which the patch lies.
-    fn known_plane(&self, flat: &Flat, patch: &[u32]) -> Option<u32> {
+    fn known_plane(&self, flat: &FloatPlane, patch: &[u32]) -> Option<u32> {
         let fits = |plane: &u32| {
             let known = &self.patches[*plane as usize].0;
             patch.iter().all(|unit| self.fits(&self.units[*unit as usize], known))
@@ -282,7 +282,7 @@ impl<'a> Gathering<'a> {
                 let across = [b - a, c - a, c - b].into_iter().map(DVec3::normalize_or_zero).sum::<DVec3>();
                 let normal = across.normalize_or(DVec3::X).any_orthonormal_vector();
                 self.plane[unit as usize] = Some(self.patches.len() as u32);
-                self.patches.push((Flat::amid(normal, [a, b, c].into_iter()), vec![unit]));
+                self.patches.push((FloatPlane::amid(normal, [a, b, c].into_iter()), vec![unit]));
             }
         }
     }
@@ -305,7 +305,7 @@ impl<'a> Gathering<'a> {
     fn finish(&self) -> Result<Planes, PolyhedronError> {
         let grid = Grid::of(&self.surface.points);
         let mut planes = Planes {
-            flats: Vec::new(),
+            float_planes: Vec::new(),
             half_spaces: Vec::new(),
             of_triangle: vec![0; self.surface.triangles.len()],
             is_reversed: vec![false; self.surface.triangles.len()],
@@ -313,7 +313,7 @@ impl<'a> Gathering<'a> {
         };
         for (number, (seed, units)) in self.patches.iter().enumerate() {
             let half_space = self.half_space(grid, seed, units)?;
-            let flat = Flat::of(&half_space);
+            let flat = FloatPlane::of(&half_space);
             for number_of_unit in units {
                 let unit = &self.units[*number_of_unit as usize];
                 // the corners of small facets can be off so far that these are folded over
@@ -324,14 +324,14 @@ impl<'a> Gathering<'a> {
                 planes.of_triangle[unit.triangles.clone()].fill(number as u32);
                 planes.is_reversed[unit.triangles.clone()].fill(is_reversed);
             }
-            planes.flats.push(flat);
+            planes.float_planes.push(flat);
             planes.half_spaces.push(half_space);
         }
         Ok(planes)
     }
 
     /// The plane of a patch: that of its corners where it is one, else one amid them.
-    fn half_space(&self, grid: Grid, seed: &Flat, units: &[u32]) -> Result<HalfSpace, PolyhedronError> {
+    fn half_space(&self, grid: Grid, seed: &FloatPlane, units: &[u32]) -> Result<HalfSpace, PolyhedronError> {
         let mut vertices: Vec<u32> = units.iter().flat_map(|u| self.vertices(&self.units[*u as usize])).collect();
         vertices.sort_unstable();
         vertices.dedup();
@@ -340,7 +340,7 @@ impl<'a> Gathering<'a> {
         if let Some(exact) = Plane::through(grid, self.surface.corners(first)) {
             let (normal, offset) = exact.half_space(grid, points());
             let half_space = accepted(normal, offset)?;
-            let flat = Flat::of(&half_space);
+            let flat = FloatPlane::of(&half_space);
             let size = points().map(|p| p.abs().max_element()).fold(0.0, f64::max);
             if points().all(|p| flat.height(p).abs() <= PLANE_ROUNDING * size) {
                 return Ok(half_space);
@@ -348,7 +348,7 @@ impl<'a> Gathering<'a> {
         }
         let side = |unit: &Unit| if unit.area.dot(seed.normal) < 0.0 { -unit.area } else { unit.area };
         let area: DVec3 = units.iter().map(|u| side(&self.units[*u as usize])).sum();
-        let flat = if area == DVec3::ZERO { *seed } else { Flat::amid(area, points()) };
+        let flat = if area == DVec3::ZERO { *seed } else { FloatPlane::amid(area, points()) };
         let flat = if vertices.iter().all(|v| self.is_on(*v, &flat)) { flat } else { *seed };
         accepted(flat.normal, flat.offset)
     }

@@ -3,8 +3,8 @@
 use planecut_kernel::{DVec3, HalfSpace};
 
 use super::cells::cells_of;
-use super::part::{Part, Piece, Points, Side};
-use super::planes::Flat;
+use super::part::{Part, Piece, PlaneSide, Points};
+use super::planes::FloatPlane;
 use super::precision::Precision;
 use super::surface::merged;
 
@@ -12,13 +12,13 @@ use super::surface::merged;
 /// the facet's plane where the facet's solid is not. `half_spaces` are those of the facets, the solid below them.
 ///
 /// Edges that only one facet has end the surface; what else bounds the solid there, the caller adds to each cell. `None` where
-/// there are more than [`MAX_PIECES`](crate::primitives::MAX_PIECES).
+/// there are more than [`MAX_PIECES`](crate::parameter::MAX_PIECES).
 pub(crate) fn cells_within(
     points: &[DVec3],
     facets: &[Vec<u32>],
     half_spaces: &[HalfSpace],
 ) -> Option<Vec<Vec<(u32, bool)>>> {
-    let flats: Vec<Flat> = half_spaces.iter().map(Flat::of).collect();
+    let float_planes: Vec<FloatPlane> = half_spaces.iter().map(FloatPlane::of).collect();
     let (points, number) = merged(points);
     let piece = |(facet, corners): (u32, &Vec<u32>)| Piece {
         plane: facet,
@@ -28,8 +28,8 @@ pub(crate) fn cells_within(
     };
     let whole = Part { walls: Vec::new(), pieces: (0..).zip(facets).map(piece).collect() };
     let slack = Precision::Double.slack(&points);
-    let points = Points::new(points, slack, &flats, false);
-    let side = |side: Side| (side.plane, side.is_above);
+    let points = Points::new(points, slack, &float_planes, false);
+    let side = |side: PlaneSide| (side.plane, side.is_above);
     let cells = cells_of(whole, points)?;
     Some(cells.into_iter().map(|cell| cell.into_iter().map(side).collect()).collect())
 }

@@ -6,15 +6,14 @@
 
 use planecut_kernel::{DVec3, HalfSpace};
 
-use super::ShapeError;
-use super::flat::plane as accepted;
-use super::parameter::MAX_PIECES;
+use super::simple::plane as accepted;
+use crate::parameter::{MAX_PIECES, ShapeError};
 use crate::polyhedron::cells_within;
 use crate::polyhedron::exact::{Grid, Plane};
 
 /// One side of the plane of a facet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Side {
+pub(super) struct PlaneSide {
     pub(super) facet: u32,
     /// Whether it is the side where the facet's solid is not.
     pub(super) is_outer: bool,
@@ -48,10 +47,10 @@ impl<'a> Surface<'a> {
 
     /// Convex cells that together are the solid, each as sides of planes of facets. What else bounds the solid, such as the
     /// planes of a slab in which the surface is closed, the caller adds to each cell.
-    pub(super) fn cells(&self) -> Result<Vec<Vec<Side>>, ShapeError> {
+    pub(super) fn cells(&self) -> Result<Vec<Vec<PlaneSide>>, ShapeError> {
         let too_many = || ShapeError::TooLarge { found: MAX_PIECES + 1, limit: MAX_PIECES };
         let cells = cells_within(self.points, self.facets, &self.half_spaces()?).ok_or_else(too_many)?;
-        let side = |(facet, is_outer): (u32, bool)| Side { facet, is_outer };
+        let side = |(facet, is_outer): (u32, bool)| PlaneSide { facet, is_outer };
         Ok(cells.into_iter().map(|cell| cell.into_iter().map(side).collect()).collect())
     }
 }

@@ -3,15 +3,14 @@
 use planecut_csg::{Brush, MaterialId, Tree, sine_and_cosine};
 use planecut_kernel::{DVec2, DVec3, HalfSpace, IncrementalPolytope};
 
-use super::ShapeError;
-use super::cells::Side;
-use super::flat::plane;
+use super::cells::PlaneSide;
 use super::layers;
-use super::parameter::{MAX_SEGMENTS, angle, not_negative, positive, refuse};
 use super::pockets::{HullAndPockets, hull_and_pockets};
 use super::region::Region;
+use super::simple::plane;
 use super::walls::Walls;
 use crate::outline::Outline;
+use crate::parameter::{MAX_SEGMENTS, ShapeError, angle, not_negative, positive, refuse};
 
 /// By whose rules layers are turned, stretched and bounded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -135,7 +134,7 @@ fn straight(corners: &[DVec2], extrusion: &Extrusion, material: MaterialId) -> R
     }
     let walls = Walls::over(corners)?;
     let sides = walls.half_spaces.iter().map(|side| tilted(side, extrusion)).collect::<Result<Vec<_>, _>>()?;
-    let brush = |cell: &Vec<Side>| {
+    let brush = |cell: &Vec<PlaneSide>| {
         let half_spaces = ends.iter().copied().chain(half_spaces(cell, &sides));
         Tree::from(Brush::from_half_spaces(half_spaces, material))
     };
@@ -164,7 +163,7 @@ fn tilted(side: &HalfSpace, extrusion: &Extrusion) -> Result<HalfSpace, ShapeErr
 }
 
 /// The half-spaces of a cell.
-pub(super) fn half_spaces<'a>(cell: &'a [Side], planes: &'a [HalfSpace]) -> impl Iterator<Item = HalfSpace> + 'a {
+pub(super) fn half_spaces<'a>(cell: &'a [PlaneSide], planes: &'a [HalfSpace]) -> impl Iterator<Item = HalfSpace> + 'a {
     cell.iter().map(|side| {
         let half_space = planes[side.facet as usize];
         if side.is_outer { half_space.flipped() } else { half_space }
@@ -174,7 +173,7 @@ pub(super) fn half_spaces<'a>(cell: &'a [Side], planes: &'a [HalfSpace]) -> impl
 /// The convex body on these sides of planes and within others; `None` where there is none, and without the planes that have
 /// no face.
 pub(super) fn brush_of(
-    cell: &[Side],
+    cell: &[PlaneSide],
     planes: &[HalfSpace],
     others: &[HalfSpace],
     material: MaterialId,

@@ -3,7 +3,7 @@
 //! What is convex is one [`Brush`](planecut_csg::Brush) whose planes come straight from the parameters: a face is one plane however
 //! many corners it has, planes along the axes and of short numbers are exact, and faces that mirror each other do so to the
 //! last bit. What is not convex is a union of touching convex cells whose common walls are the same plane seen from both
-//! sides, so that the skin dissolves them; what lies over holes of an outline is subtracted.
+//! sides, so that they vanish from the boundary; what lies over holes of an outline is subtracted.
 //!
 //! | file | bodies |
 //! |---|---|
@@ -18,27 +18,22 @@
 //! Lengths have no unit, angles are degrees.
 
 mod cells;
-mod circle;
-mod error;
 mod extruded;
-mod flat;
 mod layers;
-pub(crate) mod parameter;
 mod partition;
 mod pockets;
 mod region;
 mod regular;
 mod revolved;
 mod round;
+mod simple;
 mod walls;
 
-pub use error::ShapeError;
+pub use crate::parameter::{MAX_LENGTH, MAX_PIECES, MAX_SEGMENTS, ShapeError};
 pub use extruded::{Extrusion, LayerRules, extrude};
-pub use flat::{body_of_half_spaces, cuboid, half_space, hull_of_points, wedge};
-pub use parameter::{MAX_LENGTH, MAX_PIECES, MAX_SEGMENTS};
 pub use regular::{RegularSolid, regular};
 pub use revolved::{revolve, revolve_in_steps, torus};
 pub use round::{capsule, cone, cylinder, prism, pyramid, sphere};
+pub use simple::{body_of_half_spaces, cuboid, half_space, hull_of_points, wedge};
 
-pub(crate) use circle::direction;
-pub(crate) use flat::plane;
+pub(crate) use simple::plane;

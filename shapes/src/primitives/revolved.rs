@@ -16,15 +16,15 @@
 use planecut_csg::{Brush, MaterialId, Tree, sine_and_cosine};
 use planecut_kernel::{DVec2, DVec3, HalfSpace};
 
-use super::ShapeError;
-use super::cells::Side;
-use super::circle::{apothem, direction, middle};
+use super::cells::PlaneSide;
 use super::extruded::brush_of;
-use super::flat::plane;
-use super::parameter::{MAX_SEGMENTS, pieces, positive, refuse, segments as accepted_segments};
 use super::region::Region;
+use super::simple::plane;
 use super::walls::Walls;
 use crate::outline::Outline;
+use crate::parameter::{
+    MAX_SEGMENTS, ShapeError, apothem, direction, middle, pieces, positive, refuse, segments as accepted_segments,
+};
 
 /// A line of the outline `a x + b z = d`, the outline below it.
 type Line = (f64, f64, f64);
@@ -80,7 +80,7 @@ pub fn revolve(outline: &Outline, angle: f64, segments: u32, material: MaterialI
     turned(outline, Turn { angle, steps }, material)
 }
 
-/// An outline revolved as by [`revolve`], in so many equal steps.
+/// An outline revolved as by [`revolve`], in a number of equal steps.
 ///
 /// # Errors
 /// [`ShapeError::Parameter`] where the outline has a corner at a negative x, the angle is not above 0 and at most 360, or a
@@ -163,7 +163,7 @@ impl Turn {
             walls.half_spaces.iter().zip(walls.ends()).map(|(side, ends)| line(side, ends)).collect();
         // a side on the axis has nothing to bound
         let on_axis: Vec<bool> = walls.ends().map(|[p, q]| p.x == 0.0 && q.x == 0.0).collect();
-        let oriented = |side: &Side| {
+        let oriented = |side: &PlaneSide| {
             let line = lines[side.facet as usize];
             if side.is_outer { flipped(line) } else { line }
         };
@@ -213,14 +213,15 @@ impl Turn {
                 planes.push(self.plane(&(*a, *b, *d), step)?);
             }
         }
-        let sides: Vec<Side> = (0..planes.len() as u32).map(|facet| Side { facet, is_outer: false }).collect();
+        let sides: Vec<PlaneSide> =
+            (0..planes.len() as u32).map(|facet| PlaneSide { facet, is_outer: false }).collect();
         Ok(brush_of(&sides, &planes, &slab.0, material))
     }
 
     /// A convex outline, step by step.
     fn steps_of(&self, lines: &[Line], material: MaterialId) -> Result<Vec<Brush>, ShapeError> {
         pieces(u64::from(self.steps))?;
-        let cell: Vec<Side> = (0..lines.len() as u32).map(|facet| Side { facet, is_outer: false }).collect();
+        let cell: Vec<PlaneSide> = (0..lines.len() as u32).map(|facet| PlaneSide { facet, is_outer: false }).collect();
         let mut brushes = Vec::new();
         for step in 0..self.steps {
             let planes = lines.iter().map(|line| self.plane(line, step)).collect::<Result<Vec<_>, _>>()?;

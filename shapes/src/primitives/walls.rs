@@ -3,12 +3,11 @@
 use planecut_csg::PlaneTable;
 use planecut_kernel::{DVec2, DVec3, HalfSpace};
 
-use super::ShapeError;
-use super::cells::{Side, Surface};
-use super::flat::plane;
-use super::parameter::refuse;
+use super::cells::{PlaneSide, Surface};
 use super::partition::partition;
+use super::simple::plane;
 use crate::outline::{largest_coordinate, signed_area};
+use crate::parameter::{ShapeError, refuse};
 use crate::tolerances::SHORT_SIDE;
 
 /// The upright prism over a loop.
@@ -56,7 +55,7 @@ impl Walls {
     }
 
     /// Convex cells that together are the prism.
-    pub(super) fn cells(&self) -> Result<Vec<Vec<Side>>, ShapeError> {
+    pub(super) fn cells(&self) -> Result<Vec<Vec<PlaneSide>>, ShapeError> {
         if self.corners.len() < 3 {
             return Ok(Vec::new());
         }
@@ -67,7 +66,7 @@ impl Walls {
     }
 
     /// The same for loops that touch themselves, by planes through all of space.
-    fn cells_in_space(&self) -> Result<Vec<Vec<Side>>, ShapeError> {
+    fn cells_in_space(&self) -> Result<Vec<Vec<PlaneSide>>, ShapeError> {
         // any height does; one like the outline's size keeps the numbers short
         let size = largest_coordinate(&self.corners);
         let height = f64::from_bits(size.to_bits() & !((1 << 52) - 1));

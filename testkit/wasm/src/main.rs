@@ -6,8 +6,12 @@
 //! the message as well.
 #![forbid(unsafe_code)]
 
+mod csg;
 mod kernel;
+mod mesh;
 
 fn main() {
     kernel::check();
+    csg::check();
+    mesh::check();
 }

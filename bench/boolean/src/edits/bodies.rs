@@ -84,7 +84,7 @@ fn edit_once(
     times: &mut [Vec<Duration>; 3],
 ) -> Result<(), EditError> {
     let (plane, _) = time(&mut times[0], || live.add_plane(brush, cut, MaterialId(0)))?;
-    time(&mut times[1], || live.move_plane(brush, plane, moved.offset()))?;
+    time(&mut times[1], || live.move_plane(brush, plane, moved))?;
     time(&mut times[2], || live.remove_plane(brush, plane))?;
     Ok(())
 }

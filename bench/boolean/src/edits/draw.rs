@@ -1,7 +1,7 @@
 //! Random edits that make sense on any model of brushes.
 
 use planecut_csg::{Brush, BrushId, Edit, LiveModel, Material, MaterialId, Model, Role, Transform, evaluate};
-use planecut_kernel::{DMat3, DVec3, HalfSpace};
+use planecut_kernel::{DMat3, DVec3, HalfSpace, PlaneIdx};
 use rand::rngs::StdRng;
 use rand::{Rng, SeedableRng};
 
@@ -83,7 +83,7 @@ impl Draw {
         let (middle, size) = (0.5 * (min + max), max - min);
         let planes = model.planes(brush).map_or(&[][..], |planes| planes);
         let place = self.random.random_range(0..planes.len().max(1));
-        let plane = planes.get(place).copied().unwrap_or_default();
+        let plane = planes.get(place).copied().unwrap_or(PlaneIdx(0));
         match kind {
             Kind::AddPlane => {
                 let (normal, through) = (self.direction(), self.point(min, max));

@@ -1,23 +1,23 @@
 //! Decompositions that V-HACD and CoACD made, and how they fare beside plain greedy merging.
 
-use std::path::Path;
-
 use glam::DVec3;
 use planecut_cells::Solid;
 use planecut_cells::coarsen::{CoarsenOptions, Coarsener};
 use planecut_csg::{Brush, MaterialId, Tree};
 use planecut_kernel::hull;
 use planecut_shapes::primitives;
+use planecut_testkit::data::data;
 
 use super::judge::assert_holds_points;
 
-/// The points of each object; nothing where the data is not there.
-fn decomposition(name: &str) -> Option<Vec<Vec<DVec3>>> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/data/convex").join(name);
-    let Ok(text) = std::fs::read_to_string(&path) else {
-        eprintln!("skipped: no file {}", path.display());
-        return None;
-    };
+planecut_testkit::tests_on_data!(
+    all_points_of_decompositions_are_enclosed_exactly,
+    never_is_more_added_than_by_plain_greedy_merging
+);
+
+/// The points of each object.
+fn decomposition(name: &str) -> Vec<Vec<DVec3>> {
+    let text = std::fs::read_to_string(data("convex").join(name)).expect(name);
     let mut objects: Vec<Vec<DVec3>> = Vec::new();
     for line in text.lines() {
         match line.split_once(' ') {
@@ -29,7 +29,7 @@ fn decomposition(name: &str) -> Option<Vec<Vec<DVec3>>> {
             _ => {}
         }
     }
-    Some(objects)
+    objects
 }
 
 fn brush(points: &[DVec3]) -> Brush {
@@ -58,12 +58,11 @@ fn greedily(mut bodies: Vec<Vec<DVec3>>) -> Vec<(usize, f64)> {
     found
 }
 
-#[test]
 fn all_points_of_decompositions_are_enclosed_exactly() {
     for name in
         ["bullet3/cup_vhacd.obj", "bullet3/duck_vhacd.obj", "bullet3/link2_vhacd.obj", "coacd/SnowFlake_coacd.obj"]
     {
-        let Some(bodies) = decomposition(name) else { return };
+        let bodies = decomposition(name);
         let points = bodies.concat();
         let tree = Tree::union_of(bodies.iter().map(|points| brush(points)).collect());
         let coarsener = Coarsener::new(&tree, &points, &CoarsenOptions::default()).expect("a solid");
@@ -75,10 +74,9 @@ fn all_points_of_decompositions_are_enclosed_exactly() {
     }
 }
 
-#[test]
 fn never_is_more_added_than_by_plain_greedy_merging() {
     for name in ["bullet3/cup_vhacd.obj", "bullet3/duck_vhacd.obj"] {
-        let Some(bodies) = decomposition(name) else { return };
+        let bodies = decomposition(name);
         let tree = Tree::union_of(bodies.iter().map(|points| brush(points)).collect());
         let coarsener = Coarsener::new(&tree, &bodies.concat(), &CoarsenOptions::default()).expect("a solid");
         for (cells, greedy) in greedily(bodies) {

@@ -1,21 +1,17 @@
 //! Cells that another program made: a packing of 216 Voronoi cells in a box.
 
-use std::path::Path;
-
 use glam::DVec3;
 use planecut_cells::Solid;
 use planecut_check::check_topology;
 use planecut_csg::{Brush, Material, MaterialId, Model, Tree, evaluate};
-
+use planecut_testkit::data::data;
 use planecut_testkit::scene::half_space;
 
-/// Volume and half-spaces of each cell; nothing where the data is not there.
-fn packing() -> Option<(f64, Vec<(f64, Brush)>)> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/data/cells/pack_six_cube.cells.json");
-    let Ok(text) = std::fs::read_to_string(&path) else {
-        eprintln!("skipped: no file {}", path.display());
-        return None;
-    };
+planecut_testkit::tests_on_data!(a_packing_of_voronoi_cells_fills_its_box, the_skin_of_a_packing_is_that_of_its_box);
+
+/// Volume and half-spaces of each cell.
+fn packing() -> (f64, Vec<(f64, Brush)>) {
+    let text = std::fs::read_to_string(data("cells/pack_six_cube.cells.json")).expect("a text");
     let number = |text: &str, key: &str| {
         let rest = text.split(key).nth(1).expect("the key").trim_start_matches([':', ' ', '"']);
         let end = rest.find([',', '}']).expect("an end");
@@ -30,12 +26,11 @@ fn packing() -> Option<(f64, Vec<(f64, Brush)>)> {
         });
         (number(cell, "\"volume"), Brush::from_half_spaces(planes, MaterialId(0)))
     });
-    Some((number(&text, "\"box_volume"), cells.collect()))
+    (number(&text, "\"box_volume"), cells.collect())
 }
 
-#[test]
 fn a_packing_of_voronoi_cells_fills_its_box() {
-    let Some((whole, cells)) = packing() else { return };
+    let (whole, cells) = packing();
     assert_eq!((cells.len(), whole), (216, 216.0));
     for (volume, brush) in &cells {
         let found = Solid::from(brush.clone()).volume().expect("a bounded cell");
@@ -56,9 +51,8 @@ fn a_packing_of_voronoi_cells_fills_its_box() {
 }
 
 /// Where more than three walls of the decimal planes meet, hair-thin gaps are left between cells; nobody wants to see them.
-#[test]
 fn the_skin_of_a_packing_is_that_of_its_box() {
-    let Some((_, cells)) = packing() else { return };
+    let (_, cells) = packing();
     let tree = Tree::union_of(cells.into_iter().map(|(_, brush)| brush).collect());
     let (mesh, _) = Solid::from_tree(&tree).mesh(&[Material::default()]).expect("a mesh");
     assert_eq!(mesh.faces.len(), 6);

@@ -30,7 +30,7 @@ pub(super) struct PlaneUse {
 #[derive(Default)]
 pub(super) struct LivePlanes {
     pub(super) table: PlaneTable,
-    groups: Vec<Group>,
+    groups: Vec<EqualRows>,
     free_groups: Vec<u32>,
     by_key: FxHashMap<Key, Vec<u32>>,
     /// The distances from the origin, each with the number of groups that have it.
@@ -46,7 +46,7 @@ pub(super) struct LivePlanes {
 
 /// Rows of exactly one plane, on its side with a positive first coefficient.
 #[derive(Default)]
-struct Group {
+struct EqualRows {
     /// One of them, in use or not.
     plane: Option<Row>,
     /// Each with how often it is used; the least stands for the plane.
@@ -71,7 +71,7 @@ pub(super) struct Settled {
     pub(super) retired: Vec<u32>,
 }
 
-impl Group {
+impl EqualRows {
     fn is_plane_of(&self, row: &Row) -> bool {
         self.plane.as_ref().is_some_and(|plane| plane.is_same_plane(row))
     }
@@ -95,7 +95,7 @@ impl LivePlanes {
         let known = alike.iter().copied().find(|group| self.groups[*group as usize].is_plane_of(&row));
         let number = known.unwrap_or_else(|| {
             let number = self.free_groups.pop().unwrap_or_else(|| {
-                self.groups.push(Group::default());
+                self.groups.push(EqualRows::default());
                 self.groups.len() as u32 - 1
             });
             self.groups[number as usize].plane = Some(row);
@@ -291,10 +291,10 @@ impl LivePlanes {
         });
         let mut leaders: Vec<u32> = Vec::new();
         for number in order {
-            let Some((unit, is_exact)) = self.groups[number as usize].hashed else { continue };
+            let (unit, is_exact) = self.groups[number as usize].hashed.expect("what is in a cluster is hashed");
             let leads = |flipped: bool| {
                 let is_near = |leader: &&u32| {
-                    let other = self.groups[**leader as usize].hashed.map_or([f64::NAN; 4], |place| place.0);
+                    let (other, _) = self.groups[**leader as usize].hashed.expect("what leads a cluster is hashed");
                     is_nearly_same(&unit, &other, flipped, self.reach)
                 };
                 leaders.iter().find(is_near).map(|leader| (*leader, flipped))
@@ -326,14 +326,13 @@ impl LivePlanes {
         }
         let row = *group.row().expect("what is settled is in use");
         let is_same = |index: &&u32| self.table.row(PlaneId::of_index(**index)).is_same_plane(&row);
-        let index = match (kept.iter().find(is_same), self.free_indices.last()) {
-            (Some(index), _) => *index,
-            (None, Some(_)) => {
-                let index = self.free_indices.pop().unwrap_or_default();
-                self.table.put(index, &row);
-                index
-            }
-            (None, None) => self.table.push(&row).index(),
+        let index = if let Some(index) = kept.iter().find(is_same) {
+            *index
+        } else if let Some(index) = self.free_indices.pop() {
+            self.table.put(index, &row);
+            index
+        } else {
+            self.table.push(&row).index()
         };
         self.groups[number as usize].own = Some(index);
         index
@@ -344,12 +343,11 @@ impl LivePlanes {
         let group = &mut self.groups[number as usize];
         settled.retired.extend(group.own.take());
         group.id = None;
-        let Some(row) = group.plane.take() else { return };
-        if let Some(alike) = self.by_key.get_mut(&key(&row)) {
-            alike.retain(|other| *other != number);
-            if alike.is_empty() {
-                self.by_key.remove(&key(&row));
-            }
+        let row = group.plane.take().expect("a group that was used has a plane");
+        let alike = self.by_key.get_mut(&key(&row)).expect("a group is found by its plane");
+        alike.retain(|other| *other != number);
+        if alike.is_empty() {
+            self.by_key.remove(&key(&row));
         }
         self.free_groups.push(number);
     }

@@ -120,7 +120,7 @@ impl Regions {
     }
 }
 
-/// Faces of together so many corners are triangulated by several threads.
+/// Number of corners, of all faces together, from which several threads triangulate them.
 const CORNERS_FOR_THREADS: usize = 400;
 
 /// The faces, by number.

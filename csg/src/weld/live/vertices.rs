@@ -15,7 +15,7 @@ pub(super) struct Vertices {
 }
 
 impl Vertices {
-    /// Joins the corners anew around which something has changed.
+    /// Joins the corners again around which something has changed.
     pub(super) fn update(&mut self, pieces: &mut Pieces) {
         self.of_piece.resize(pieces.half_edges.len(), UNPAIRED);
         for gone in &pieces.gone {

@@ -1,9 +1,9 @@
 //! Edits that easily go wrong.
 
 use planecut_csg::{
-    Brush, BrushId, EditError, EvaluateError, LiveModel, Material, MaterialId, Model, Role, Tree, evaluate,
+    Brush, BrushId, Edit, EditError, EvaluateError, LiveModel, Material, MaterialId, Model, Role, Tree, evaluate,
 };
-use planecut_kernel::{DVec3, HalfSpace};
+use planecut_kernel::{DVec3, HalfSpace, PlaneIdx};
 
 fn cuboid(min: [f64; 3], max: [f64; 3]) -> Brush {
     Brush::cuboid(DVec3::from_array(min), DVec3::from_array(max), MaterialId(0))
@@ -107,12 +107,22 @@ fn brushes_and_planes_are_never_given_a_number_twice() {
     let (sixth, _) = live.add_plane(second, cut, MaterialId(0)).unwrap();
     live.undo().unwrap();
     let (seventh, _) = live.add_plane(second, cut, MaterialId(0)).unwrap();
-    assert_eq!((sixth, seventh, live.planes(second).unwrap()), (6, 7, &[0, 1, 2, 3, 4, 5, 7][..]));
-    assert_eq!(live.remove_plane(second, 6), Err(EditError::UnknownPlane { brush: second, plane: 6 }));
-    live.remove_plane(second, 7).unwrap();
-    assert_eq!(live.remove_plane(second, 7), Err(EditError::UnknownPlane { brush: second, plane: 7 }));
     assert_eq!(
-        live.move_plane(second, 0, f64::NAN).map_err(|error| error.to_string().starts_with("found a plane")),
+        (sixth, seventh, live.planes(second).unwrap()),
+        (PlaneIdx(6), PlaneIdx(7), &[0, 1, 2, 3, 4, 5, 7].map(PlaneIdx)[..])
+    );
+    assert_eq!(live.remove_plane(second, sixth), Err(EditError::UnknownPlane { brush: second, plane: sixth }));
+    live.remove_plane(second, seventh).unwrap();
+    assert_eq!(live.remove_plane(second, seventh), Err(EditError::UnknownPlane { brush: second, plane: seventh }));
+    let (third, _) = live.add_brush(cuboid([5.0; 3], [6.0; 3]), Role::Add).unwrap();
+    live.add_plane(third, cut, MaterialId(0)).unwrap();
+    (0..2).for_each(|_| drop(live.undo().unwrap()));
+    live.redo().unwrap();
+    assert_eq!(live.add_plane(third, cut, MaterialId(0)).unwrap().0, PlaneIdx(7));
+    live.remove_brush(third).unwrap();
+    assert_eq!(
+        live.apply(Edit::MovePlane { brush: second, plane: PlaneIdx(0), offset: f64::NAN })
+            .map_err(|error| error.to_string().starts_with("found a plane")),
         Err(true)
     );
     assert_eq!(live.triangle_count(), 12);

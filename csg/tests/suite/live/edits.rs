@@ -7,7 +7,7 @@ use planecut_csg::{
     Brush, BrushFace, BrushId, Change, EditError, EvaluateError, FaceId, LiveModel, Material, MaterialId, Mesh, Model,
     Operation, Role, Transform, Tree, evaluate,
 };
-use planecut_kernel::{DMat3, DVec3, HalfSpace};
+use planecut_kernel::{DMat3, DVec3, HalfSpace, PlaneIdx};
 
 /// A plane: normal and offset.
 pub(crate) type Plane = ([f64; 3], f64);
@@ -57,16 +57,16 @@ fn half_space((normal, offset): &Plane) -> HalfSpace {
 #[derive(Debug, Clone)]
 struct Held {
     id: BrushId,
-    faces: Vec<(u32, BrushFace)>,
-    next: u32,
+    faces: Vec<(PlaneIdx, BrushFace)>,
+    next: usize,
     role: Role,
 }
 
 impl Held {
-    fn new(id: BrushId, planes: &Planes, material: u32, role: Role, first: u32) -> Self {
+    fn new(id: BrushId, planes: &Planes, material: u32, role: Role, first: usize) -> Self {
         let face = |plane| BrushFace { half_space: half_space(plane), material: MaterialId(material) };
-        let faces: Vec<(u32, BrushFace)> = (first..).zip(planes.iter().map(face)).collect();
-        Self { id, next: first + faces.len() as u32, faces, role }
+        let faces: Vec<(PlaneIdx, BrushFace)> = (first..).map(PlaneIdx).zip(planes.iter().map(face)).collect();
+        Self { id, next: first + faces.len(), faces, role }
     }
 
     fn brush(&self) -> Brush {
@@ -153,10 +153,10 @@ impl Brushes {
             Edit::AddPlane(at, plane, material) => {
                 let held = &mut new[at % count];
                 let (half_space, material) = (half_space(plane), MaterialId(*material));
-                held.faces.push((held.next, BrushFace { half_space, material }));
+                held.faces.push((PlaneIdx(held.next), BrushFace { half_space, material }));
                 held.next += 1;
                 model.add_plane(held.id, half_space, material).map(|(number, change)| {
-                    assert_eq!(number + 1, held.next, "planes are numbered one by one");
+                    assert_eq!(number.0 + 1, held.next, "planes are numbered one by one");
                     change
                 })
             }
@@ -170,7 +170,7 @@ impl Brushes {
                 let place = plane % held.faces.len().max(1);
                 let (number, face) = &mut held.faces[place];
                 face.half_space = HalfSpace::new(face.half_space.normal(), *offset).expect("a valid plane");
-                model.move_plane(held.id, *number, *offset)
+                model.move_plane(held.id, *number, face.half_space)
             }
             Edit::Move(at, axis, degrees, by) => {
                 let held = &mut new[at % count];

@@ -80,7 +80,7 @@ fn area(mesh: &Mesh, cuts: &[CutMaterial]) -> f64 {
 #[test]
 fn what_is_left_and_what_is_cut_have_the_right_size() {
     let seed = 11;
-    let mut rng = Rng::new(seed);
+    let mut rng = Rng::spread(seed);
     let mut cut_through = 0;
     for round in 0..300 {
         let chain = Chain::random(&mut rng);

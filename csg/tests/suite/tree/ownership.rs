@@ -5,10 +5,10 @@ use glam::DVec3;
 use planecut_csg::Operation::{self, Complement, Difference, Intersection, Union, Xor};
 use planecut_csg::{Brush, Evaluation, Material, MaterialId, Mesh, Model, Tree, UnboundedBrushes, evaluate};
 
-use crate::random::Shape;
-use crate::rng::Rng;
-use crate::scene::{Scene, cuboid, ensure, ensure_eq, sweep};
-use crate::soundness::evaluate_soundly_with;
+use super::random::Shape;
+use planecut_testkit::random::Rng;
+use planecut_testkit::scene::{Scene, cuboid, ensure, ensure_eq, sweep};
+use planecut_testkit::soundness::evaluate_soundly_with;
 
 /// Boxes lie in `0..SIZE` along each axis.
 const SIZE: i32 = 5;
@@ -168,12 +168,12 @@ fn materials_at(mesh: &Mesh, axis: usize, cube: DVec3) -> Vec<(MaterialId, bool)
 }
 
 fn random_box(rng: &mut Rng) -> Brush {
-    let [a, b] = [0; 2].map(|_| [0; 3].map(|_| rng.integer(0, SIZE - 1)));
+    let [a, b] = [0; 2].map(|_| [0; 3].map(|_| rng.integer(0, i64::from(SIZE) - 1) as i32));
     let low: [i32; 3] = std::array::from_fn(|k| a[k].min(b[k]));
     let high: [i32; 3] = std::array::from_fn(|k| a[k].max(b[k]) + 1);
     let mut brush = cuboid(DVec3::from_array(low.map(f64::from)), DVec3::from_array(high.map(f64::from)));
     for face in &mut brush.faces {
-        face.material = MaterialId(rng.integer(0, MATERIALS as i32 - 1) as u32);
+        face.material = MaterialId(rng.below(MATERIALS as usize) as u32);
     }
     brush
 }
@@ -182,7 +182,7 @@ fn random_tree(rng: &mut Rng, depth: u32) -> Shape {
     if depth == 0 || rng.chance(0.25) {
         return Shape::Leaf(random_box(rng));
     }
-    let operation = *rng.pick(&[Union, Union, Intersection, Difference, Difference, Xor, Complement]);
+    let operation = rng.pick(&[Union, Union, Intersection, Difference, Difference, Xor, Complement]);
     let count = if operation == Complement { 1 } else { rng.integer(2, 3) };
     Shape::Node(operation, (0..count).map(|_| random_tree(rng, depth - 1)).collect())
 }

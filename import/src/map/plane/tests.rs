@@ -1,48 +1,31 @@
 //! Planes against rational arithmetic.
 
-use std::ops::RangeInclusive;
-
 use dashu_int::ops::{Gcd, UnsignedAbs};
 use dashu_int::{IBig, UBig};
 use dashu_ratio::RBig;
 use planecut_kernel::HalfSpace;
+use planecut_testkit::random::Rng;
 
 use super::{Decimal, PlaneError, Point, half_space};
 
-/// A small generator (SplitMix64); the seed is printed by the tests.
-struct Random(u64);
+/// A generator whose seed the test prints.
+fn seeded_by_clock() -> Rng {
+    let now = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).map_or(0, |d| d.as_nanos() as u64);
+    println!("seed {now}");
+    Rng::new(now)
+}
 
-impl Random {
-    fn from_clock() -> Self {
-        let now = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).map_or(0, |d| d.as_nanos() as u64);
-        println!("seed {now}");
-        Self(now)
-    }
-
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    fn within(&mut self, range: RangeInclusive<i64>) -> i64 {
-        let size = (range.end() - range.start() + 1) as u64;
-        range.start() + (self.next() % size) as i64
-    }
-
-    /// A number as an editor might write it; `style` picks whole numbers, decimals (the first three styles), a double in
-    /// full, or very different sizes.
-    fn number(&mut self, style: u64) -> String {
-        match style % 5 {
-            0 => self.within(-4096..=4096).to_string(),
-            1 => format!("{:.6}", self.within(-4_096_000_000..=4_096_000_000) as f64 / 1e6),
-            2 => format!("{:.2}", self.within(-400..=400) as f64 / 100.0),
-            3 => (self.within(-(1 << 53)..=1 << 53) as f64 * 2_f64.powi(self.within(-60..=-40) as i32)).to_string(),
-            _ => {
-                let power = if self.next().is_multiple_of(2) { self.within(-12..=-8) } else { self.within(16..=20) };
-                (self.within(-99..=99) as f64 * 10_f64.powi(power as i32)).to_string()
-            }
+/// A number as an editor might write it; `style` picks whole numbers, decimals (the first three styles), a double in
+/// full, or very different sizes.
+fn number(random: &mut Rng, style: u64) -> String {
+    match style % 5 {
+        0 => random.integer(-4096, 4096).to_string(),
+        1 => format!("{:.6}", random.whole(-4_096_000_000, 4_096_000_000) / 1e6),
+        2 => format!("{:.2}", random.whole(-400, 400) / 100.0),
+        3 => (random.whole(-(1 << 53), 1 << 53) * 2_f64.powi(random.integer(-60, -40) as i32)).to_string(),
+        _ => {
+            let power = if random.chance(0.5) { random.integer(-12, -8) } else { random.integer(16, 20) };
+            (random.whole(-99, 99) * 10_f64.powi(power as i32)).to_string()
         }
     }
 }
@@ -177,10 +160,10 @@ fn sizes_outside_the_range_are_refused() {
 
 #[test]
 fn random_points_against_rationals() {
-    let mut random = Random::from_clock();
+    let mut random = seeded_by_clock();
     let (mut exact_planes, mut rounded_planes) = (0, 0);
     for round in 0..20_000 {
-        let points: [[String; 3]; 3] = std::array::from_fn(|_| std::array::from_fn(|_| random.number(round)));
+        let points: [[String; 3]; 3] = std::array::from_fn(|_| std::array::from_fn(|_| number(&mut random, round)));
         let few_digits = round % 5 < 3;
         let exact = oracle(&points, few_digits);
         let found = half_space(&points.each_ref().map(|p| point(p.each_ref().map(String::as_str))));
@@ -202,14 +185,14 @@ fn random_points_against_rationals() {
 /// Points `o + i·u + j·v` for different `i, j` span one plane.
 #[test]
 fn coplanar_faces_are_bit_identical() {
-    let mut random = Random::from_clock();
+    let mut random = seeded_by_clock();
     for round in 0..5_000 {
-        let vector = |random: &mut Random| [0; 3].map(|_: i64| random.within(-2000..=2000));
+        let vector = |random: &mut Rng| [0; 3].map(|_: i64| random.integer(-2000, 2000));
         let (o, u, v) = (vector(&mut random), vector(&mut random), vector(&mut random));
         let places = round % 3;
         let mut face = |flip: bool| {
             let mut corner = |i: i64, j: i64| {
-                let (i, j) = (i * random.within(1..=9), j * random.within(1..=9));
+                let (i, j) = (i * random.integer(1, 9), j * random.integer(1, 9));
                 std::array::from_fn(|k| {
                     let value = o[k] + i * u[k] + j * v[k];
                     Decimal::parse(format!("{value}e-{places}").as_bytes()).expect("a number")

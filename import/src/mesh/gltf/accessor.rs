@@ -4,14 +4,22 @@ use std::borrow::Cow;
 use std::cell::{Cell, OnceCell};
 
 use glam::DVec3;
+use gltf::accessor::Item;
+use gltf::accessor::util::{ItemIter, SparseIndicesIter};
+use gltf::json::accessor::sparse::Sparse;
+use gltf::json::accessor::{Accessor, ComponentType, IndexComponentType, Type};
+use gltf::json::validation::{Checked, USize64};
+use serde_json::Value;
 
 use super::super::error::{Fault, Place, quoted};
-use super::document::{Accessor, BufferView, Document, PackedView, Sparse};
+use super::document::{Buffer, BufferView, Document, PackedView};
 use super::packed;
 
 /// The embedded buffers.
 pub(super) struct Buffers<'a> {
     document: &'a Document,
+    /// The document as the file has it.
+    json: &'a [u8],
     data: Vec<Cow<'a, [u8]>>,
     /// For each view its bytes, where they were packed and have been asked for.
     unpacked: Vec<OnceCell<Vec<u8>>>,
@@ -21,8 +29,8 @@ pub(super) struct Buffers<'a> {
 
 impl<'a> Buffers<'a> {
     /// Takes the first buffer from the container's binary chunk where it has no address, the others from data addresses.
-    pub(super) fn new(document: &'a Document, binary: Option<&'a [u8]>) -> Result<Self, Fault> {
-        let load = |(number, buffer): (usize, &'a super::document::Buffer)| {
+    pub(super) fn new(document: &'a Document, json: &'a [u8], binary: Option<&'a [u8]>) -> Result<Self, Fault> {
+        let load = |(number, buffer): (usize, &'a Buffer)| {
             let place = || Place::Json(format!("buffers/{number}"));
             if buffer.extensions.packed.as_ref().is_some_and(|packed| packed.fallback) {
                 return Ok(Cow::Borrowed(&[][..]));
@@ -38,110 +46,143 @@ impl<'a> Buffers<'a> {
         let data = document.buffers.iter().enumerate().map(load).collect::<Result<Vec<_>, _>>()?;
         let unpacked = document.buffer_views.iter().map(|_| OnceCell::new()).collect();
         let budget = Cell::new(data.iter().map(|data| data.len()).sum());
-        Ok(Self { document, data, unpacked, budget })
+        Ok(Self { document, json, data, unpacked, budget })
     }
 
     /// The vectors of an accessor of the type `VEC3`; all finite.
     pub(super) fn positions(&self, accessor: usize) -> Result<Vec<DVec3>, Fault> {
         let place = Place::Json(format!("accessors/{accessor}"));
-        let values: Vec<DVec3> = self.read(accessor, "VEC3", DVec3::ZERO, |c, bytes, normalized| {
-            DVec3::from_array([0, 1, 2].map(|k| c.number(&bytes[k * c.size()..], normalized)))
-        })?;
+        let (stated, component) = self.accessor(accessor, Type::Vec3, "VEC3")?;
+        let values = match component {
+            ComponentType::I8 => self.vectors::<i8>(stated, &place, 127.0),
+            ComponentType::U8 => self.vectors::<u8>(stated, &place, 255.0),
+            ComponentType::I16 => self.vectors::<i16>(stated, &place, 32767.0),
+            ComponentType::U16 => self.vectors::<u16>(stated, &place, 65535.0),
+            // The format has no fractions of these.
+            ComponentType::U32 => self.vectors::<u32>(stated, &place, 1.0),
+            ComponentType::F32 => self.vectors::<f32>(stated, &place, 1.0),
+        }?;
         match values.iter().find(|p| !p.is_finite()) {
             Some(p) => Err(Fault::new(place, format!("the position {p}"), "finite coordinates")),
             None => Ok(values),
         }
     }
 
-    /// The numbers of an accessor of the type `SCALAR` with whole, unsigned components.
-    pub(super) fn indices(&self, accessor: usize) -> Result<Vec<u32>, Fault> {
-        let values =
-            self.read(accessor, "SCALAR", 0, |component, bytes, _| component.index(bytes).unwrap_or(u32::MAX))?;
-        let kind = Component::from_code(self.document.accessors[accessor].component_type);
-        if kind.is_some_and(Component::is_unsigned) {
-            return Ok(values);
-        }
-        let found = format!("component type {}", self.document.accessors[accessor].component_type);
-        Err(Fault::new(Place::Json(format!("accessors/{accessor}")), found, "5121, 5123 or 5125 for indices"))
+    /// Vectors of numbers; normalized, whole numbers stand for fractions of the largest. The crate's own reader of positions knows `f32` alone.
+    fn vectors<T: Item + Copy + Into<f64>>(
+        &self,
+        accessor: &Accessor,
+        place: &Place,
+        largest: f64,
+    ) -> Result<Vec<DVec3>, Fault> {
+        let is_fraction = accessor.normalized && largest > 1.0;
+        let number = |value: T| if is_fraction { (value.into() / largest).max(-1.0) } else { value.into() };
+        let values = self.values::<[T; 3]>(accessor, place)?;
+        Ok(values.into_iter().map(|vector| DVec3::from_array(vector.map(number))).collect())
     }
 
-    fn read<T: Copy>(
-        &self,
-        number: usize,
-        shape: &str,
-        zero: T,
-        decode: impl Fn(Component, &[u8], bool) -> T,
-    ) -> Result<Vec<T>, Fault> {
-        let place = Place::Json(format!("accessors/{number}"));
+    /// The numbers of an accessor of the type `SCALAR` with whole, unsigned components.
+    pub(super) fn indices(&self, accessor: usize) -> Result<Vec<u32>, Fault> {
+        let place = Place::Json(format!("accessors/{accessor}"));
+        let (stated, component) = self.accessor(accessor, Type::Scalar, "SCALAR")?;
+        match component {
+            ComponentType::U8 => Ok(self.values::<u8>(stated, &place)?.into_iter().map(u32::from).collect()),
+            ComponentType::U16 => Ok(self.values::<u16>(stated, &place)?.into_iter().map(u32::from).collect()),
+            ComponentType::U32 => self.values(stated, &place),
+            ComponentType::I8 | ComponentType::I16 | ComponentType::F32 => {
+                let found = format!("component type {}", component.as_gl_enum());
+                Err(Fault::new(place, found, "5121, 5123 or 5125 for indices"))
+            }
+        }
+    }
+
+    /// The accessor of a number, which must be of this type.
+    fn accessor(&self, number: usize, shape: Type, shape_name: &str) -> Result<(&Accessor, ComponentType), Fault> {
+        let place = || Place::Json(format!("accessors/{number}"));
         let accessors = &self.document.accessors;
         let Some(accessor) = accessors.get(number) else {
-            return Err(Fault::new(place, "no such accessor", format!("one of {}", accessors.len())));
+            return Err(Fault::new(place(), "no such accessor", format!("one of {}", accessors.len())));
         };
-        if accessor.shape != shape {
-            let found = format!("the type `{}`", accessor.shape.escape_debug());
-            return Err(Fault::new(place, found, format!("`{shape}`")));
+        if accessor.type_ != Checked::Valid(shape) {
+            let found = format!("the type {}", self.stated(number, "type"));
+            return Err(Fault::new(place(), found, format!("`{shape_name}`")));
         }
-        let component = component(accessor.component_type, &place)?;
-        let width = component.size() * if shape == "VEC3" { 3 } else { 1 };
-        let decode = |bytes: &[u8]| decode(component, bytes, accessor.normalized);
+        match accessor.component_type {
+            Checked::Valid(component) => Ok((accessor, component.0)),
+            Checked::Invalid => {
+                let found = format!("component type {}", self.stated(number, "componentType"));
+                Err(Fault::new(place(), found, "5120 to 5123, 5125 or 5126"))
+            }
+        }
+    }
+
+    /// What the file states as a property of an accessor, for an error: the crate keeps no values that it does not know.
+    fn stated(&self, accessor: usize, property: &str) -> String {
+        let file: Value = serde_json::from_slice(self.json).unwrap_or_default();
+        match &file["accessors"][accessor][property] {
+            Value::String(text) => format!("`{}`", text.escape_debug()),
+            other => other.to_string(),
+        }
+    }
+
+    /// The items of an accessor, sparse ones replaced. The crate's own iterator over an accessor counts on a checked document and on views
+    /// that are not packed.
+    fn values<T: Item + Copy>(&self, accessor: &Accessor, place: &Place) -> Result<Vec<T>, Fault> {
+        let offset = size(accessor.byte_offset.unwrap_or_default());
+        let count = size(accessor.count);
         let mut values = match accessor.buffer_view {
-            Some(view) => {
-                let items = self.items(view, accessor.byte_offset, accessor.count, width, &place)?;
-                items.map(decode).collect()
-            }
-            None => vec![zero; self.checked_zeros(accessor, &place)?],
+            Some(view) => self.items(view.value(), offset, count, place)?.collect(),
+            None => vec![T::zero(); self.checked_zeros(count, place)?],
         };
-        if let Some(sparse) = &accessor.sparse {
-            let targets = self.sparse_targets(sparse, &place)?;
-            let replacements =
-                self.items(sparse.values.buffer_view, sparse.values.byte_offset, sparse.count, width, &place)?;
-            for (target, replacement) in targets.into_iter().zip(replacements) {
-                let Some(value) = values.get_mut(target as usize) else {
-                    return Err(Fault::new(
-                        place.clone(),
-                        format!("sparse index {target}"),
-                        format!("below {}", accessor.count),
-                    ));
-                };
-                *value = decode(replacement);
-            }
+        let Some(sparse) = &accessor.sparse else { return Ok(values) };
+        let replacements =
+            self.items(sparse.values.buffer_view.value(), size(sparse.values.byte_offset), size(sparse.count), place)?;
+        for (target, replacement) in self.sparse_targets(sparse, place)?.zip(replacements) {
+            let Some(value) = values.get_mut(target as usize) else {
+                return Err(Fault::new(place.clone(), format!("sparse index {target}"), format!("below {count}")));
+            };
+            *value = replacement;
         }
         Ok(values)
     }
 
+    fn sparse_targets(&self, sparse: &Sparse, place: &Place) -> Result<SparseIndicesIter<'_>, Fault> {
+        let indices = &sparse.indices;
+        let (view, offset, count) = (indices.buffer_view.value(), size(indices.byte_offset), size(sparse.count));
+        match indices.component_type {
+            Checked::Valid(IndexComponentType(ComponentType::U8)) => {
+                Ok(SparseIndicesIter::U8(self.items(view, offset, count, place)?))
+            }
+            Checked::Valid(IndexComponentType(ComponentType::U16)) => {
+                Ok(SparseIndicesIter::U16(self.items(view, offset, count, place)?))
+            }
+            Checked::Valid(IndexComponentType(ComponentType::U32)) => {
+                Ok(SparseIndicesIter::U32(self.items(view, offset, count, place)?))
+            }
+            _ => Err(Fault::new(place.clone(), "sparse indices of another component type", "5121, 5123 or 5125")),
+        }
+    }
+
     /// The count of an accessor without a buffer view, all of whose values are zero before sparse ones replace them.
-    fn checked_zeros(&self, accessor: &Accessor, place: &Place) -> Result<usize, Fault> {
+    fn checked_zeros(&self, count: usize, place: &Place) -> Result<usize, Fault> {
         // No data vouches for the count; a file of this size could have had no more values of its own.
         let most = self.data.iter().map(|d| d.len()).sum();
-        if accessor.count <= most {
-            return Ok(accessor.count);
+        if count <= most {
+            return Ok(count);
         }
-        Err(Fault::new(
-            place.clone(),
-            format!("{} values without a buffer view", accessor.count),
-            format!("at most {most}"),
-        ))
+        Err(Fault::new(place.clone(), format!("{count} values without a buffer view"), format!("at most {most}")))
     }
 
-    fn sparse_targets(&self, sparse: &Sparse, place: &Place) -> Result<Vec<u32>, Fault> {
-        let indices = &sparse.indices;
-        let component = component(indices.component_type, place)?;
-        let items = self.items(indices.buffer_view, indices.byte_offset, sparse.count, component.size(), place)?;
-        let targets: Option<Vec<u32>> = items.map(|bytes| component.index(bytes)).collect();
-        targets
-            .ok_or_else(|| Fault::new(place.clone(), "sparse indices that may be negative or broken", "whole numbers"))
-    }
-
-    /// `count` items of `width` bytes each from a buffer view, all inside it.
-    fn items(
+    /// `count` items from a buffer view, all inside it.
+    fn items<T: Item>(
         &self,
         view: usize,
         offset: usize,
         count: usize,
-        width: usize,
         place: &Place,
-    ) -> Result<impl Iterator<Item = &[u8]>, Fault> {
+    ) -> Result<ItemIter<'_, T>, Fault> {
         let bytes = self.view(view, place)?;
+        let width = size_of::<T>();
         let stride = self.document.buffer_views[view].byte_stride.unwrap_or(width);
         let fault = |found: String, expected: String| Err(Fault::new(place.clone(), found, expected));
         if stride < width {
@@ -155,7 +196,7 @@ impl<'a> Buffers<'a> {
                 format!("a range within the {} bytes", bytes.len()),
             );
         };
-        Ok(slice.chunks(stride).take(count).map(move |chunk| &chunk[..width]))
+        Ok(ItemIter::new(slice, stride))
     }
 
     fn view(&self, number: usize, place: &Place) -> Result<&[u8], Fault> {
@@ -212,72 +253,9 @@ impl<'a> Buffers<'a> {
     }
 }
 
-fn component(code: u32, place: &Place) -> Result<Component, Fault> {
-    let fault = || Fault::new(place.clone(), format!("component type {code}"), "5120 to 5123, 5125 or 5126");
-    Component::from_code(code).ok_or_else(fault)
-}
-
-/// The type of a number.
-#[derive(Clone, Copy)]
-enum Component {
-    I8,
-    U8,
-    I16,
-    U16,
-    U32,
-    F32,
-}
-
-impl Component {
-    fn from_code(code: u32) -> Option<Self> {
-        Some(match code {
-            5120 => Self::I8,
-            5121 => Self::U8,
-            5122 => Self::I16,
-            5123 => Self::U16,
-            5125 => Self::U32,
-            5126 => Self::F32,
-            _ => return None,
-        })
-    }
-
-    fn size(self) -> usize {
-        match self {
-            Self::I8 | Self::U8 => 1,
-            Self::I16 | Self::U16 => 2,
-            Self::U32 | Self::F32 => 4,
-        }
-    }
-
-    fn is_unsigned(self) -> bool {
-        matches!(self, Self::U8 | Self::U16 | Self::U32)
-    }
-
-    /// A whole, unsigned number from its bytes; `None` for other types and where bytes are missing.
-    fn index(self, bytes: &[u8]) -> Option<u32> {
-        match self {
-            Self::U8 => bytes.first().map(|&b| u32::from(b)),
-            Self::U16 => bytes.first_chunk().map(|b| u32::from(u16::from_le_bytes(*b))),
-            Self::U32 => bytes.first_chunk().map(|b| u32::from_le_bytes(*b)),
-            Self::I8 | Self::I16 | Self::F32 => None,
-        }
-    }
-
-    /// A number from its bytes; normalized, whole numbers stand for fractions of the largest. NaN where bytes are missing.
-    fn number(self, bytes: &[u8], normalized: bool) -> f64 {
-        let fraction = |value: f64, largest: f64| if normalized { (value / largest).max(-1.0) } else { value };
-        let two = || bytes.first_chunk::<2>().copied();
-        let four = || bytes.first_chunk::<4>().copied();
-        let value = match self {
-            Self::I8 => bytes.first().map(|&b| fraction(f64::from(b.cast_signed()), 127.0)),
-            Self::U8 => bytes.first().map(|&b| fraction(f64::from(b), 255.0)),
-            Self::I16 => two().map(|b| fraction(f64::from(i16::from_le_bytes(b)), 32767.0)),
-            Self::U16 => two().map(|b| fraction(f64::from(u16::from_le_bytes(b)), 65535.0)),
-            Self::U32 => four().map(|b| f64::from(u32::from_le_bytes(b))),
-            Self::F32 => four().map(|b| f64::from(f32::from_le_bytes(b))),
-        };
-        value.unwrap_or(f64::NAN)
-    }
+/// A size or offset; one that no memory has is beyond the end of every buffer.
+fn size(stated: USize64) -> usize {
+    usize::try_from(stated.0).unwrap_or(usize::MAX)
 }
 
 /// The bytes of an address such as `data:application/octet-stream;base64,AAAA`.

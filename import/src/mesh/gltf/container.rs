@@ -1,4 +1,7 @@
 //! The binary container (GLB) around a glTF document.
+//!
+//! The crate `gltf` reads it, too, but panics on a length below that of the header, and refuses chunks of unknown types, which the specification says to
+//! pass over.
 
 use super::super::error::{Fault, Place, quoted};
 

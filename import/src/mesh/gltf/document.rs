@@ -1,5 +1,11 @@
 //! The parts of a glTF document that say where triangles are. Unknown properties are passed over.
+//!
+//! Accessors and primitives are the types of the crate `gltf`. The types around them are ours, because the crate's lose what is needed here:
+//! its nodes hold transforms in single precision, its materials do not tell a factor that is stated from one by default, its scenes
+//! must list nodes although the specification does not ask for it, and extensions that it does not know are untyped.
 
+use gltf::json::accessor::Accessor;
+use gltf::json::mesh::Primitive;
 use serde::Deserialize;
 
 use super::super::error::{Fault, Place};
@@ -65,14 +71,6 @@ pub(super) struct Manifold {
     pub(super) manifold_primitive: Primitive,
 }
 
-#[derive(Debug, Deserialize)]
-pub(super) struct Primitive {
-    pub(super) attributes: Attributes,
-    pub(super) indices: Option<usize>,
-    pub(super) mode: Option<u32>,
-    pub(super) material: Option<usize>,
-}
-
 #[derive(Debug, Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
 pub(super) struct Material {
@@ -87,52 +85,6 @@ pub(super) struct PbrMetallicRoughness {
     pub(super) base_color_factor: Option<[f32; 4]>,
     pub(super) metallic_factor: Option<f32>,
     pub(super) roughness_factor: Option<f32>,
-}
-
-#[derive(Debug, Deserialize)]
-pub(super) struct Attributes {
-    #[serde(rename = "POSITION")]
-    pub(super) position: Option<usize>,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(rename_all = "camelCase")]
-pub(super) struct Accessor {
-    pub(super) buffer_view: Option<usize>,
-    #[serde(default)]
-    pub(super) byte_offset: usize,
-    pub(super) component_type: u32,
-    #[serde(default)]
-    pub(super) normalized: bool,
-    pub(super) count: usize,
-    #[serde(rename = "type")]
-    pub(super) shape: String,
-    pub(super) sparse: Option<Sparse>,
-}
-
-/// Values that replace some of an accessor's.
-#[derive(Debug, Deserialize)]
-pub(super) struct Sparse {
-    pub(super) count: usize,
-    pub(super) indices: SparseIndices,
-    pub(super) values: SparseValues,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(rename_all = "camelCase")]
-pub(super) struct SparseIndices {
-    pub(super) buffer_view: usize,
-    #[serde(default)]
-    pub(super) byte_offset: usize,
-    pub(super) component_type: u32,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(rename_all = "camelCase")]
-pub(super) struct SparseValues {
-    pub(super) buffer_view: usize,
-    #[serde(default)]
-    pub(super) byte_offset: usize,
 }
 
 #[derive(Debug, Deserialize)]

@@ -1,17 +1,14 @@
 //! The triangles of one glTF mesh, in its own coordinates.
 
 use glam::DVec3;
+use gltf::json::mesh::{Mode, Primitive, Semantic};
+use gltf::json::validation::Checked;
 
 use super::super::error::{Fault, Place};
 use super::super::merge::PositionMerger;
 use super::MAX_TRIANGLES;
 use super::accessor::Buffers;
-use super::document::{Document, Primitive};
-
-/// Primitive modes that give triangles.
-const TRIANGLES: u32 = 4;
-const TRIANGLE_STRIP: u32 = 5;
-const TRIANGLE_FAN: u32 = 6;
+use super::document::Document;
 
 /// A mesh with the vertices that its triangles use.
 pub(super) struct Geometry {
@@ -54,7 +51,8 @@ pub(super) fn read(document: &Document, buffers: &Buffers<'_>, mesh: usize) -> R
 
 /// The number of a primitive's material, where there is such a one.
 fn material(document: &Document, primitive: &Primitive) -> Option<u32> {
-    primitive.material.filter(|material| *material < document.materials.len()).map(|material| material as u32)
+    let number = primitive.material?.value();
+    if number < document.materials.len() { u32::try_from(number).ok() } else { None }
 }
 
 /// The materials of a manifold primitive's triangles, which are those of the mesh's primitives one after another; none where
@@ -95,13 +93,15 @@ fn read_primitive(
     buffers: &Buffers<'_>,
     place: &str,
 ) -> Result<(Vec<DVec3>, Vec<[u32; 3]>), Fault> {
-    let mode = primitive.mode.unwrap_or(TRIANGLES);
-    let (Some(position), TRIANGLES..=TRIANGLE_FAN) = (primitive.attributes.position, mode) else {
+    let position = primitive.attributes.get(&Checked::Valid(Semantic::Positions));
+    let (Some(position), Checked::Valid(mode @ (Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan))) =
+        (position, primitive.mode)
+    else {
         return Ok((Vec::new(), Vec::new()));
     };
-    let positions = buffers.positions(position)?;
+    let positions = buffers.positions(position.value())?;
     let indices = match primitive.indices {
-        Some(indices) => buffers.indices(indices)?,
+        Some(indices) => buffers.indices(indices.value())?,
         None => (0..positions.len() as u32).collect(),
     };
     let fault = |found, expected| Err(Fault::new(Place::Json(place.to_owned()), found, expected));
@@ -109,7 +109,7 @@ fn read_primitive(
         return fault(format!("vertex index {index}"), format!("an index below {}", positions.len()));
     }
     let triangles = match mode {
-        TRIANGLES => {
+        Mode::Triangles => {
             let (triangles, rest) = indices.as_chunks::<3>();
             if !rest.is_empty() {
                 return fault(format!("{} indices", indices.len()), "a multiple of 3".to_owned());
@@ -117,7 +117,7 @@ fn read_primitive(
             triangles.to_vec()
         }
         // Every other triangle of a strip is wound the other way.
-        TRIANGLE_STRIP => {
+        Mode::TriangleStrip => {
             let turned = |(k, w): (usize, &[u32])| if k % 2 == 0 { [w[0], w[1], w[2]] } else { [w[1], w[0], w[2]] };
             indices.windows(3).enumerate().map(turned).collect()
         }

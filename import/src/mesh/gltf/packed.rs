@@ -8,7 +8,7 @@
 use super::super::error::{Fault, Place};
 use super::document::PackedView;
 
-/// Elements are packed in blocks of so many bytes, and of so many elements at most.
+/// Maximum size of a block of packed elements, in bytes and in elements.
 const BLOCK_BYTES: usize = 8192;
 const BLOCK_ELEMENTS: usize = 256;
 /// Elements of a block, bytes of which are packed together.
@@ -17,7 +17,7 @@ const GROUP: usize = 16;
 const STRIDE_UNIT: usize = 4;
 const MAX_STRIDE: usize = 256;
 
-/// Unpacks so many elements; `None` where the bytes are damaged.
+/// Unpacks a number of elements; `None` where the bytes are damaged.
 type Unpack = fn(&[u8], usize) -> Option<Vec<u8>>;
 
 /// The function for each stride of attributes, 4, 8, 12, …
@@ -88,7 +88,7 @@ pub(super) fn unpack(view: &PackedView, packed: &[u8], place: &Place) -> Result<
     Ok(bytes)
 }
 
-/// Fewer bytes than this pack no so many elements; `None` for versions that the library does not know.
+/// The least number of bytes that `count` elements can be packed in; `None` for versions that the library does not know.
 fn least_attributes(packed: &[u8], count: usize, stride: usize) -> Option<usize> {
     let in_block = (BLOCK_BYTES / stride / GROUP * GROUP).min(BLOCK_ELEMENTS);
     let (block, tail) = match meshopt::decode_vertex_version(packed)? {

@@ -19,7 +19,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<IndexedMesh, Fault> {
     let mut positions = None;
     let mut triangles = None;
     for element in &header.elements {
-        // Each record takes at least so many bytes: a count that the file cannot hold is refused before anything is allocated.
+        // Each record takes at least this number of bytes: a count that the file cannot hold is refused before anything is allocated.
         let least = element.least_size(header.encoding) as u128 * element.count as u128;
         if least > body.remaining() as u128 {
             let found =

@@ -2,7 +2,7 @@
 //!
 //! What is to be done waits in a list, and results wait in another, as in a calculator of postfix formulas: no recursion.
 //! On the way down maps, materials and names are handed on, so that each plane is moved once. Where a result is needed by
-//! itself (copies, hulls, sums, sections) a node begins anew in a frame of its own, and its result is put in place afterwards.
+//! itself (copies, hulls, sums, sections) a node starts in a frame of its own, and its result is put in place afterwards.
 
 mod outline;
 
@@ -40,9 +40,9 @@ struct Context {
 /// What is still to be done.
 enum Task {
     Node(Context),
-    /// Combine the last so many trees.
+    /// Combine this number of trees, the last ones.
     Combine(Operation, usize),
-    /// The hull of the last so many trees.
+    /// The hull of this number of trees, the last ones.
     Hull(Context, usize),
     /// The sum of the last two trees.
     Minkowski(Context),
@@ -389,12 +389,12 @@ impl<'v, 'a> Evaluator<'v, 'a> {
 }
 
 impl Context {
-    /// A node that begins anew.
+    /// A node that starts in a frame of its own.
     fn frame(node: Entry, environment: Environment, depth: u32) -> Self {
         Self { node, map: Transform::identity(), material: NO_MATERIAL, name: None, environment, depth }
     }
 
-    /// A node below this one that begins anew.
+    /// A node below this one that starts in a frame of its own.
     fn frame_of(&self, node: Entry) -> Self {
         Self::frame(node, self.environment.clone(), self.depth + 1)
     }

@@ -27,7 +27,7 @@ enum Step {
     Parameter(u32),
     Negate,
     Binary(Binary),
-    /// A function of the last so many values.
+    /// A function and how many of the last values it takes.
     Call(Function, usize),
 }
 

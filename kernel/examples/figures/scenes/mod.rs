@@ -3,8 +3,8 @@
 mod certificate;
 mod fill;
 mod infinity;
-mod locality;
 mod patch;
+mod removal;
 mod unclip;
 
 use planecut_kernel::{DVec3, HalfSpace, HalfSpaceError, IncrementalPolytope, PlaneIdx};
@@ -13,7 +13,7 @@ use planecut_kernel::{DVec3, HalfSpace, HalfSpaceError, IncrementalPolytope, Pla
 pub(crate) fn all() -> Result<Vec<(&'static str, String)>, HalfSpaceError> {
     Ok(vec![
         ("unclip.svg", unclip::figure()?),
-        ("locality.svg", locality::figure()?),
+        ("removal.svg", removal::figure()?),
         ("fill.svg", fill::figure()?),
         ("certificate.svg", certificate::figure()?),
         ("infinity.svg", infinity::figure()?),

@@ -9,7 +9,7 @@ use super::super::svg::{Stroke, Svg, Word};
 use super::ball;
 
 const TOWARD: DVec3 = DVec3::new(0.3, -0.8, 0.5);
-/// So many faces leave.
+/// The number of faces that are removed.
 const COUNT: usize = 3;
 
 pub(crate) fn figure() -> Result<String, HalfSpaceError> {

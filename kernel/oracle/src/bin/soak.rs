@@ -20,10 +20,10 @@ use planecut_oracle::settings::{first_seed, operations};
 
 /// Most planes at one time, script by script.
 const CAPACITIES: [usize; 8] = [6, 8, 10, 12, 16, 24, 48, 128];
-/// One operation in so many is compared with the outline, where there are few enough planes.
+/// One operation in this many is compared with the outline, where there are few enough planes.
 const OUTLINE_EVERY: usize = 7;
 const OUTLINE_PLANES: usize = 16;
-/// One operation in so many is compared with the definition, where there are few enough planes.
+/// One operation in this many is compared with the definition, where there are few enough planes.
 const TRUTH_EVERY: usize = 29;
 const TRUTH_PLANES: usize = 10;
 

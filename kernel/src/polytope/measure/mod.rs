@@ -29,6 +29,7 @@ use moments::Figures;
 /// This holds wherever the body lies: the extents are its own, not its distance from the origin. Figures outside the range of
 /// normal numbers are exempt.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Measures {
     /// Volume; zero where the set is empty.
     pub volume: f64,

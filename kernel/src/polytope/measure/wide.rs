@@ -159,7 +159,7 @@ impl WideCorners {
         if (total_error << 55usize) > total {
             return None;
         }
-        // brought into the range of numbers: so many bits are more than enough for one rounding
+        // brought into the range of numbers: these bits are more than enough for one rounding
         let surplus = total.bit_len().saturating_sub(SUM_BITS as usize);
         let twice = round_quotient(total >> surplus, &IBig::ONE);
         Some(ldexp(twice, 2 * largest - 2 * width as i64 + surplus as i64 - 1))

@@ -7,6 +7,7 @@ use crate::polytope::IncrementalPolytope;
 
 /// A box `min ≤ x ≤ max`; components are infinite where the set goes on for ever.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct BoundingBox {
     /// The smallest coordinates.
     pub min: DVec3,

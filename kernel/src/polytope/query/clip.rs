@@ -11,6 +11,7 @@ use crate::sign::{POINT_BOUND, Row, Sign, UNDERFLOW, integer_row, residual_with_
 
 /// The part of a ray or a segment that lies in the closed set, by its parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ClippedLine {
     /// Where it begins, correctly rounded; 0 where the line begins in the set.
     pub from: f64,

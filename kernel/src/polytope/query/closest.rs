@@ -13,6 +13,7 @@ use crate::sign::{ExactPoint, Sign, integer_row, residual_with_error, side_of_po
 
 /// What of the boundary holds a nearest point: the fewest planes whose normals span the way to it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum ClosestFeature {
     /// The point asked about belongs to the set.
     Inside,
@@ -26,6 +27,7 @@ pub enum ClosestFeature {
 
 /// A nearest point.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ClosestPoint {
     /// The nearest point of the set, each coordinate correctly rounded.
     pub point: DVec3,

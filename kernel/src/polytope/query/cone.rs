@@ -13,6 +13,7 @@ use crate::sign::integer_row;
 
 /// The recession cone `{r : x + t·r in the set for all x in it and t ≥ 0}`: the sum of the lines and rays listed.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RecessionCone {
     /// Unit directions of its extreme rays, at right angles to the lines where there are any.
     pub rays: Vec<DVec3>,

@@ -7,6 +7,7 @@ use crate::sign::{Sign, side_of_point};
 
 /// Where a point lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Location {
     /// Strictly inside every half-space.
     Inside,

@@ -8,6 +8,7 @@ use crate::polytope::{IncrementalPolytope, PlaneIdx};
 
 /// A whole line that bounds a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct BoundaryLine {
     /// Its point nearest to the origin, correctly rounded.
     pub point: DVec3,
@@ -17,6 +18,7 @@ pub struct BoundaryLine {
 
 /// A face, counter-clockwise seen from outside.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FacePolygon {
     /// The plane it lies on.
     pub plane: PlaneIdx,

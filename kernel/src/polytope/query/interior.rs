@@ -10,6 +10,7 @@ use crate::polytope::IncrementalPolytope;
 
 /// A largest ball inside a set (its radius is the Chebyshev radius).
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct InscribedBall {
     /// The centre; one of many where several largest balls fit.
     pub center: DVec3,
@@ -19,6 +20,7 @@ pub struct InscribedBall {
 
 /// A point strictly inside, if there is one.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum InteriorPoint {
     /// This point lies strictly inside, exactly.
     Point(DVec3),

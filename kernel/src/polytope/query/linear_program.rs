@@ -14,7 +14,7 @@ use glam::DVec3;
 const SCALE: f64 = (1u64 << 60) as f64;
 /// Of two parts that differ by less, relative to their size, exact numbers decide.
 const NEGLIGIBLE: f64 = 1e-12;
-/// After so many steps the first violated plane is taken in instead of the worst, which cannot cycle (Bland 1977).
+/// After this many steps the first violated plane is taken in instead of the worst, which cannot cycle (Bland 1977).
 const PATIENCE: usize = 300;
 
 /// `u·c + r ≤ b`, where `b` is `offset`, or `M` for an artificial plane.

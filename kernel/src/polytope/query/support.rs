@@ -15,6 +15,7 @@ use crate::sign::{ExactPoint, OffsetColumn, Row, Sign, integer_row, orient3};
 
 /// Where a set lies farthest in a direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Support {
     /// At a vertex; where several lie equally far, at one of them.
     Vertex {

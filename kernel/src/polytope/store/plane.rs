@@ -98,6 +98,40 @@ impl PlaneStore {
         slot
     }
 
+    /// The free slots, the next one to be given last.
+    #[cfg(feature = "serde")]
+    pub(in crate::polytope) fn free_slots(&self) -> &[u32] {
+        &self.free
+    }
+
+    /// The stamp of the next plane.
+    #[cfg(feature = "serde")]
+    pub(in crate::polytope) fn next_stamp(&self) -> u64 {
+        self.next_stamp
+    }
+
+    /// Fills a store of nothing but infinity planes: `planes` by slot, with their stamps. The slots without one must be those in
+    /// `free`.
+    #[cfg(feature = "serde")]
+    pub(in crate::polytope) fn restore(
+        &mut self,
+        planes: &[Option<(HalfSpace, u64)>],
+        free: Vec<u32>,
+        next_stamp: u64,
+    ) {
+        // what a free slot holds is never looked at
+        let nothing = self.half_spaces[0];
+        for plane in planes {
+            let (half_space, stamp) = plane.unwrap_or((nothing, 0));
+            let slot = self.insert_with_stamp(half_space, Row::new(&half_space), stamp);
+            if plane.is_none() {
+                self.records[slot as usize].state = PlaneState::Free;
+            }
+        }
+        self.free = free;
+        self.next_stamp = next_stamp;
+    }
+
     /// Gives a plane other coefficients.
     pub(in crate::polytope) fn replace(&mut self, slot: u32, half_space: HalfSpace, row: Row) {
         self.records[slot as usize].row = row;

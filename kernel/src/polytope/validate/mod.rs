@@ -1,5 +1,5 @@
 //! Layered checks of the whole structure (paper §3.7): [`invariants`] of what is stored, [`topology`] of what is seen; and
-//! the paper's planned fallback, to build anew what fails them.
+//! the paper's planned fallback, to rebuild what fails them.
 
 mod invariants;
 mod topology;
@@ -19,7 +19,7 @@ use super::IncrementalPolytope;
 pub enum Validation {
     /// Every check passed; nothing was changed.
     Sound,
-    /// A check failed; the structure was built anew from the planes.
+    /// A check failed; the structure was rebuilt from the planes.
     Rebuilt(ValidationError),
 }
 
@@ -35,7 +35,7 @@ pub enum ValidationError {
 }
 
 impl IncrementalPolytope {
-    /// Checks invariants and topology, and where they fail builds the structure anew from the planes and their stamps
+    /// Checks invariants and topology, and where they fail rebuilds the structure from the planes and their stamps
     /// (the paper's planned fallback, §3.7). Handles and stamps of planes stay, those of vertices and edges do not.
     ///
     /// It should never fire; [`rebuild_count`](Self::rebuild_count) tells how often it did.
@@ -52,7 +52,7 @@ impl IncrementalPolytope {
         }
     }
 
-    /// How often [`validate_or_rebuild`](Self::validate_or_rebuild) had to build anew; a clone goes on counting.
+    /// How often [`validate_or_rebuild`](Self::validate_or_rebuild) had to rebuild; a clone goes on counting.
     #[must_use]
     pub fn rebuild_count(&self) -> u64 {
         self.rebuilds

@@ -10,12 +10,14 @@ use crate::meet::direction;
 
 /// Handle of an edge: four times the slot of a vertex of the simple structure at one end, plus which of its three edges.
 ///
-/// It is given again after the edge was removed. Several edges of the simple structure can be seen as one.
+/// A removed edge's handle is given to a later one. Several edges of the simple structure can be seen as one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct EdgeIdx(pub u32);
 
 /// What an edge is (paper §3.6).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum EdgeKind {
     /// Both ends are finite.
     Segment,
@@ -27,6 +29,7 @@ pub enum EdgeKind {
 
 /// An edge as seen from outside (paper §3.6, §6.1).
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Edge {
     /// The planes whose seen faces meet there, the smaller handle first.
     pub planes: (PlaneIdx, PlaneIdx),

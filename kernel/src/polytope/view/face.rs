@@ -7,8 +7,9 @@ use super::super::store::{BEFORE, NEXT};
 use super::super::{IncrementalPolytope, PlaneIdx, external};
 use super::cluster::{Clusters, Naming};
 
-/// A face as seen from outside.
+/// A face as seen from outside. Faces are listed by plane, in the order of the handles.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Face {
     /// The plane it lies on.
     pub plane: PlaneIdx,
@@ -22,6 +23,7 @@ pub struct Face {
 
 /// An edge of a facet and the corner at its end; see [`IncrementalPolytope::for_each_facet`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FacetEdge {
     /// The plane of the facet on the other side of the edge; `None` for an infinity plane.
     pub plane: Option<PlaneIdx>,

@@ -10,6 +10,7 @@ use super::edge::EdgeIdx;
 
 /// A vertex as seen from outside (paper §6.1).
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Vertex {
     /// Homogeneous position: `(x, y, z, 1)`, or for an ideal vertex (the end of a ray) its unit direction `(x, y, z, 0)`.
     pub position: DVec4,

@@ -20,13 +20,13 @@ fn sign(value: &IBig) -> Sign {
     }
 }
 
-/// The longest integers of so many bits, with signs and last bits by chance.
+/// The longest integers of a number of bits, with random signs and last bits.
 fn longest(rng: &mut Rng, bits: u32) -> f64 {
     let largest = (1i64 << bits) - 1;
     rng.pick(&[1.0, -1.0]) * (largest - 2 * rng.integer(0, 1)) as f64
 }
 
-/// Four integer rows whose normals have so many bits, one by one, and whose offsets so many.
+/// Four integer rows whose normals have these numbers of bits, one by one, and whose offsets have `offset`.
 fn long_rows(rng: &mut Rng, normals: [u32; 4], offset: u32) -> [[f64; 4]; 4] {
     normals.map(|bits| {
         // odd components keep the row from being divided by two

@@ -99,9 +99,9 @@ fn two_faces_leave_whose_hidden_planes_kept_an_infinity_plane_hidden() {
     ]);
 }
 
-/// So many faces leave at once that the rest is built anew, and the rest is empty as before.
+/// Most faces are removed at once, so that the rest is rebuilt, and the rest is empty as before.
 #[test]
-fn an_empty_set_is_built_anew_and_stays_empty() {
+fn an_empty_set_is_rebuilt_and_stays_empty() {
     let cube = [[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]];
     let mut ops = vec![add(0, [0.0, 0.0, -1.0, 1.0])];
     ops.extend(cube.iter().zip(1..).map(|([x, y, z], name)| add(name, [*x, *y, *z, 1.0])));

@@ -57,7 +57,7 @@ pub(crate) fn without(planes: &[Coefficients], k: usize) -> Vec<Coefficients> {
     planes.iter().enumerate().filter(|(i, _)| *i != k).map(|(_, plane)| *plane).collect()
 }
 
-/// Adds the planes in this order, then takes each one back and adds it again; all of it checked in layers.
+/// Adds the planes in this order, then removes each one and adds it again; all of it checked in layers.
 pub(crate) fn check_history(planes: &[Coefficients]) {
     let mut ops: Vec<Op> = planes.iter().enumerate().map(|(name, &plane)| Op::Add { name, plane }).collect();
     for (name, &plane) in planes.iter().enumerate() {

@@ -14,7 +14,7 @@ fn at_corner(n: [f64; 3], depth: f64) -> Coefficients {
     [n[0], n[1], n[2], (0..3).map(|i| n[i] * CORNER[i]).sum::<f64>() - depth]
 }
 
-/// All planes in 20 orders: counts, Euler's formula, and each plane taken back and added again.
+/// All planes in 20 orders: counts, Euler's formula, and each plane removed and added again.
 fn check_orders(planes: &[Coefficients]) {
     let mut rng = Rng::new(first_seed());
     let mut planes = planes.to_vec();

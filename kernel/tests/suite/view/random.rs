@@ -12,7 +12,7 @@ use super::solids::half_space;
 enum Op {
     /// Add `n·x ≤ d`.
     Add([f64; 4]),
-    /// Take back one of the planes that are there, counted modulo their number.
+    /// Remove one of the planes that are there, counted modulo their number.
     Remove(usize),
 }
 

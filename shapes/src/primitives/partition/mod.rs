@@ -14,7 +14,7 @@ mod sides;
 
 use planecut_kernel::DVec2;
 
-use super::cells::Side;
+use super::cells::PlaneSide;
 use crate::outline::signed_area;
 use crate::tolerances::{PARTITION_AREA, PARTITION_CONVEX};
 use polygon::Cutter;
@@ -22,7 +22,7 @@ use sides::Sides;
 
 /// Convex cells of a loop that runs counter-clockwise and does not cross itself, each as sides of its sides' lines; `lines`
 /// has of each side the number of its line. `None` where the loop is not what it should be.
-pub(super) fn partition(corners: &[DVec2], lines: &[u32]) -> Option<Vec<Vec<Side>>> {
+pub(super) fn partition(corners: &[DVec2], lines: &[u32]) -> Option<Vec<Vec<PlaneSide>>> {
     let mut cutter = Cutter::new(Sides::new(corners, lines));
     let cells = cutter.cells()?;
     // A loop that runs through one point several times, or into itself, may be cut wrongly. Cells that overlap or leave gaps

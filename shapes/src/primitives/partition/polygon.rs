@@ -6,7 +6,7 @@ use planecut_kernel::DVec2;
 
 use super::sides::{Sides, Vertex};
 use crate::outline::signed_area;
-use crate::primitives::cells::Side;
+use crate::primitives::cells::PlaneSide;
 
 /// An edge of a [`Polygon`], along the line of a side; the polygon lies to its left.
 #[derive(Debug, Clone, Copy)]
@@ -27,11 +27,11 @@ pub(super) struct Polygon(Vec<Edge>);
 
 impl Polygon {
     /// The sides of lines that bound it, where it is convex.
-    pub(super) fn sides(&self) -> Vec<Side> {
+    pub(super) fn sides(&self) -> Vec<PlaneSide> {
         let mut sides: Vec<(u32, bool)> = self.0.iter().map(|edge| (edge.side, edge.is_outer)).collect();
         sides.sort_unstable();
         sides.dedup();
-        sides.into_iter().map(|(facet, is_outer)| Side { facet, is_outer }).collect()
+        sides.into_iter().map(|(facet, is_outer)| PlaneSide { facet, is_outer }).collect()
     }
 }
 

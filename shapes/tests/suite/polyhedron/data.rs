@@ -1,19 +1,16 @@
 //! Meshes that others made.
 
-use std::path::Path;
-
 use glam::DVec3;
 use planecut_shapes::polyhedron::Precision;
+use planecut_testkit::data::data;
 
 use super::judge::{Given, ensure_membership, ensure_skin};
 
-/// The objects of a file of triangles; nothing where it is not there.
-fn objects(name: &str) -> Option<Vec<Given>> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/data/convex").join(name);
-    let Ok(text) = std::fs::read_to_string(&path) else {
-        eprintln!("skipped: no file {}", path.display());
-        return None;
-    };
+planecut_testkit::tests_on_data!(hulls_of_convex_decompositions_are_one_cell_each, a_snowflake_is_cut_exactly);
+
+/// The objects of a file of triangles.
+fn objects(name: &str) -> Vec<Given> {
+    let text = std::fs::read_to_string(data("convex").join(name)).expect(name);
     let mut points = Vec::new();
     let mut objects: Vec<Given> = Vec::new();
     for line in text.lines() {
@@ -39,15 +36,14 @@ fn objects(name: &str) -> Option<Vec<Given>> {
         }
     }
     objects.iter_mut().for_each(|object| object.points.clone_from(&points));
-    Some(objects)
+    objects
 }
 
-#[test]
 fn hulls_of_convex_decompositions_are_one_cell_each() {
     let files = ["chassis_vhacd", "cup_vhacd", "duck_vhacd", "lego_vhacd", "link2_vhacd"];
     let files = files.map(|name| (format!("bullet3/{name}.obj"), Precision::Places(6)));
     for (name, precision) in files.into_iter().chain([("coacd/SnowFlake_coacd.obj".to_owned(), Precision::Single)]) {
-        for (number, object) in objects(&name).into_iter().flatten().enumerate() {
+        for (number, object) in objects(&name).into_iter().enumerate() {
             let solid = object.cells(precision).unwrap_or_else(|error| panic!("{name} {number}: {error}"));
             assert_eq!(solid.cells.len(), 1, "{name} {number}");
             assert!((solid.volume / object.volume() - 1.0).abs() < 1e-9, "{name} {number}");
@@ -55,9 +51,8 @@ fn hulls_of_convex_decompositions_are_one_cell_each() {
     }
 }
 
-#[test]
 fn a_snowflake_is_cut_exactly() {
-    let Some(objects) = objects("coacd/SnowFlake.obj") else { return };
+    let objects = objects("coacd/SnowFlake.obj");
     let given = &objects[0];
     let solid = given.cells(Precision::Places(6)).expect("a closed surface");
     assert!((solid.volume / given.volume() - 1.0).abs() < 1e-13);

@@ -1,0 +1,136 @@
+//! Numbers for keys: equal keys get one number, and keys sort as integers.
+
+use std::hash::Hash;
+use std::sync::atomic::{AtomicU32, Ordering};
+
+use rayon::prelude::*;
+use rustc_hash::FxHashMap;
+
+/// Number of keys, about, that are numbered in a row: their map stays in the cache.
+const BUCKET: usize = 1 << 13;
+
+/// By which four numbers are multiplied and summed up to one that tells most of them apart: none is a short sum of the others.
+pub(crate) const WEIGHTS: [f64; 4] = [0.731_592_653_589, 0.467_182_818_284, 0.618_033_988_749, 0.914_213_562_373];
+
+/// The different keys, and for each key given the place of its like among them.
+///
+/// Keys are numbered bucket by bucket. `near` tells which keys go together: equal ones have the same number below `bound`,
+/// and those of near numbers are best found near each other.
+pub(crate) fn intern<K: Copy + Eq + Hash + Send + Sync>(
+    keys: &[K],
+    bound: usize,
+    near: impl Fn(&K) -> usize + Sync,
+) -> (Vec<K>, Vec<u32>) {
+    // a function of the keys alone, so that the numbers do not depend on the number of threads
+    let count = keys.len().div_ceil(BUCKET);
+    if count < 2 {
+        let mut bucket = Bucket::default();
+        let numbers = keys.iter().map(|key| bucket.number(*key)).collect();
+        return (bucket.keys, numbers);
+    }
+    let width = bound.div_ceil(count).max(1);
+    let bucket_of = |key: &K| (near(key) / width).min(count - 1) as u32;
+    let of_key: Vec<u32> = keys.par_iter().with_min_len(BUCKET).map(bucket_of).collect();
+    let (starts, members) = by_group(count, of_key.iter().copied());
+    let numbers: Vec<AtomicU32> = keys.par_iter().with_min_len(BUCKET).map(|_| AtomicU32::new(0)).collect();
+    let buckets: Vec<Vec<K>> = starts
+        .par_windows(2)
+        .map(|ends| {
+            let mut bucket = Bucket::default();
+            for &place in &members[ends[0] as usize..ends[1] as usize] {
+                numbers[place as usize].store(bucket.number(keys[place as usize]), Ordering::Relaxed);
+            }
+            bucket.keys
+        })
+        .collect();
+    let mut first = vec![0; count];
+    for k in 1..count {
+        first[k] = first[k - 1] + buckets[k - 1].len() as u32;
+    }
+    let number = |(number, bucket): (AtomicU32, u32)| number.into_inner() + first[bucket as usize];
+    let numbers = numbers.into_par_iter().with_min_len(BUCKET).zip(of_key).map(number).collect();
+    (buckets.concat(), numbers)
+}
+
+/// Keys that are numbered in a row.
+struct Bucket<K> {
+    keys: Vec<K>,
+    number: FxHashMap<K, u32>,
+    /// The last key and its number: the same key often comes twice in a row.
+    last: Option<(K, u32)>,
+}
+
+impl<K> Default for Bucket<K> {
+    fn default() -> Self {
+        Self { keys: Vec::new(), number: FxHashMap::default(), last: None }
+    }
+}
+
+impl<K: Copy + Eq + Hash> Bucket<K> {
+    fn number(&mut self, key: K) -> u32 {
+        if let Some((last, number)) = self.last
+            && last == key
+        {
+            return number;
+        }
+        let number = *self.number.entry(key).or_insert_with(|| {
+            self.keys.push(key);
+            self.keys.len() as u32 - 1
+        });
+        self.last = Some((key, number));
+        number
+    }
+}
+
+/// Sorts the places of groups: for groups numbered from 0 to `count`, where each begins in a list of all members by group, and
+/// that list; members keep their order.
+pub(crate) fn by_group(count: usize, of_member: impl Iterator<Item = u32> + Clone) -> (Vec<u32>, Vec<u32>) {
+    let mut starts = vec![0_u32; count + 1];
+    let mut members = 0;
+    for group in of_member.clone() {
+        starts[group as usize + 1] += 1;
+        members += 1;
+    }
+    for k in 0..count {
+        starts[k + 1] += starts[k];
+    }
+    let mut next = starts.clone();
+    let mut sorted = vec![0_u32; members];
+    for (member, group) in of_member.enumerate() {
+        sorted[next[group as usize] as usize] = member as u32;
+        next[group as usize] += 1;
+    }
+    (starts, sorted)
+}
+
+/// A number in the order of [`f64::total_cmp`].
+pub(crate) fn sortable(v: f64) -> u64 {
+    let bits = v.to_bits();
+    if bits >> 63 == 0 { bits | 1 << 63 } else { !bits }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_keys_share_a_number_however_many_there_are() {
+        for count in [0, 1, 100, BUCKET as u64 - 1, BUCKET as u64 + 1, 5 * BUCKET as u64 + 3] {
+            let keys: Vec<u64> = (0..count).map(|k| k.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 50).collect();
+            let (found, numbers) = intern(&keys, 1 << 14, |key| *key as usize);
+            assert!(keys.iter().zip(&numbers).all(|(key, number)| found[*number as usize] == *key));
+            let mut sorted = found.clone();
+            sorted.sort_unstable();
+            sorted.dedup();
+            assert_eq!(sorted.len(), found.len());
+        }
+    }
+
+    #[test]
+    fn members_are_listed_by_group_in_their_order() {
+        let groups = [2, 0, 2, 3, 0, 2];
+        let (starts, sorted) = by_group(5, groups.iter().copied());
+        assert_eq!(starts, [0, 2, 2, 5, 6, 6]);
+        assert_eq!(sorted, [1, 4, 0, 2, 5, 3]);
+    }
+}

@@ -1,0 +1,63 @@
+//! Where positions are stored: in single precision near an origin, or on a grid.
+
+use std::borrow::Cow;
+
+use glam::{DVec3, I16Vec3, Vec3};
+use planecut_csg::Mesh;
+
+use super::origin::choose_origin;
+use crate::ExportOptions;
+use crate::surface::without_lost_edges;
+
+/// The farthest that a position of 16 bits reaches.
+const REACH: f64 = i16::MAX as f64;
+
+/// How the positions of a mesh are stored.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Rounding {
+    /// The point that they are relative to; exact in single precision.
+    pub(super) origin: DVec3,
+    /// Of the grid that they lie on, a power of two; none where they are in single precision.
+    pub(super) step: Option<f64>,
+}
+
+impl Rounding {
+    pub(super) fn of(positions: &[DVec3], options: &ExportOptions) -> Self {
+        let origin = choose_origin(positions);
+        Self { origin, step: options.quantize.then(|| grid_step(positions, origin)) }
+    }
+
+    /// The mesh without the edges whose ends are stored as one place.
+    pub(super) fn reduced(self, mesh: &Mesh) -> Cow<'_, Mesh> {
+        without_lost_edges(mesh, |position| self.stored(position))
+    }
+
+    /// In single precision, relative to the origin.
+    pub(super) fn single(self, position: DVec3) -> Vec3 {
+        (position - self.origin).as_vec3()
+    }
+
+    /// On the grid.
+    pub(super) fn grid(self, position: DVec3, step: f64) -> I16Vec3 {
+        ((position - self.origin) / step).round().as_i16vec3()
+    }
+
+    /// Where readers find a position.
+    pub(super) fn place(self, position: DVec3) -> DVec3 {
+        self.stored(position).as_dvec3() * self.step.unwrap_or(1.0) + self.origin
+    }
+
+    fn stored(self, position: DVec3) -> Vec3 {
+        match self.step {
+            Some(step) => self.grid(position, step).as_vec3(),
+            None => self.single(position),
+        }
+    }
+}
+
+/// The step of the finest grid of a power of two on which positions have 16 bits.
+fn grid_step(positions: &[DVec3], origin: DVec3) -> f64 {
+    let reach = positions.iter().map(|position| (*position - origin).abs().max_element()).fold(0.0, f64::max);
+    let finest = reach / REACH;
+    if finest.is_normal() && finest.is_finite() { finest.log2().ceil().exp2() } else { 1.0 }
+}

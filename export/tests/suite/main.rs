@@ -1,0 +1,9 @@
+//! The writers: one executable. How much memory they take is measured by `../memory.rs`, alone in its process.
+#![forbid(unsafe_code)]
+
+mod assets;
+mod brushes;
+#[path = "../common/mod.rs"]
+mod common;
+mod gltf;
+mod obj_stl;

@@ -1,0 +1,8 @@
+//! The readers: one executable, a folder for each kind of file.
+#![forbid(unsafe_code)]
+
+mod edits;
+mod map;
+mod mesh;
+mod model;
+mod scad;

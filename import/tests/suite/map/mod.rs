@@ -1,0 +1,6 @@
+//! Quake maps.
+
+mod damaged;
+mod files;
+mod fuzz;
+mod syntax;

@@ -1,0 +1,10 @@
+//! Triangle meshes: OBJ, STL, PLY and glTF.
+
+mod damaged;
+mod files;
+mod formats;
+mod gltf;
+#[cfg(feature = "meshopt")]
+mod packed;
+mod solid;
+mod support;

@@ -1,0 +1,159 @@
+//! Deep, long and huge model files: done, or refused before anything is copied.
+
+use std::time::{Duration, Instant};
+
+use planecut_csg::TreeNode;
+use planecut_import::model::{MAX_BRUSHES, MAX_DEPTH};
+
+use super::support::{file, model, read};
+
+const CUBE: &str = r#"{"box": {"min": [0, 0, 0], "max": [1, 1, 1]}}"#;
+
+/// Runs on a stack as small as threads commonly get.
+fn on_a_small_stack(work: impl FnOnce() + Send + 'static) {
+    let thread = std::thread::Builder::new().stack_size(256 * 1024).spawn(work).expect("a thread");
+    thread.join().expect("no panic");
+}
+
+/// A node within so many others.
+fn nested(levels: usize, open: &str, close: &str) -> String {
+    format!("{}{CUBE}{}", open.repeat(levels), close.repeat(levels))
+}
+
+#[test]
+fn ten_thousand_nodes_within_one_another_are_read() {
+    on_a_small_stack(|| {
+        let depth = MAX_DEPTH as usize;
+        for (open, close) in [
+            (format!("{{\"difference\": [{CUBE}, "), "]}".to_owned()),
+            ("{\"union\": [".to_owned(), format!(", {CUBE}]}}")),
+            ("{\"complement\": ".to_owned(), "}".to_owned()),
+            ("{\"instances\": {\"at\": [[1, 0, 0]], \"of\": ".to_owned(), "}}".to_owned()),
+        ] {
+            let import = model(&nested(depth, &open, &close));
+            assert!(!import.model.tree.brushes().is_empty(), "{open}");
+            let error = read(&file(&nested(depth + 1, &open, &close))).expect_err("too deep").to_string();
+            assert!(
+                error.contains("found more than 10000 nodes within one another, expected at most 10000"),
+                "{error}"
+            );
+            assert!(error.len() < 1000, "{error}");
+        }
+    });
+}
+
+#[test]
+fn parts_within_parts_count_as_depth() {
+    on_a_small_stack(|| {
+        let chain = |length: usize| {
+            let parts: Vec<String> = (1..length).map(|k| format!("\"p{k}\": {{\"use\": \"p{}\"}}", k - 1)).collect();
+            format!(
+                "{{\"planecut\": 1, \"parts\": {{\"p0\": {CUBE}, {}}}, \"model\": {{\"use\": \"p{}\"}}}}",
+                parts.join(", "),
+                length - 1
+            )
+        };
+        assert_eq!(read(&chain(MAX_DEPTH as usize)).expect("read").model.tree.brushes().len(), 1);
+        let error = read(&chain(MAX_DEPTH as usize + 2)).expect_err("too deep").to_string();
+        assert!(error.contains("more than 10000 nodes within one another, parts included"), "{error}");
+    });
+}
+
+#[test]
+fn brackets_without_end_are_an_error() {
+    on_a_small_stack(|| {
+        for bracket in ["[", "{\"a\": ", "[{\"a\": "] {
+            let error = read(&bracket.repeat(1_000_000)).expect_err("no end").to_string();
+            assert!(error.contains("found the end of the file, expected a") && error.len() < 1000, "{error}");
+        }
+        let closed = format!("{}{}", "[".repeat(1_000_000), "]".repeat(1_000_000));
+        let error = read(&file(&closed)).expect_err("no node").to_string();
+        assert!(error.contains("$.model: found a list of 1 value, expected a NODE"), "{error}");
+    });
+}
+
+#[track_caller]
+fn refused_at_once(text: &str, words: &str) {
+    let begin = Instant::now();
+    let error = read(text).expect_err("too much").to_string();
+    assert!(error.contains(words), "{error}");
+    assert!(begin.elapsed() < Duration::from_secs(5), "{:?}", begin.elapsed());
+}
+
+#[test]
+fn a_billion_copies_are_refused_before_any_is_made() {
+    let limit = format!("expected at most {MAX_BRUSHES}");
+    for text in [
+        format!(r#"{{"array": {{"of": {CUBE}, "count": [1000, 1000, 1000], "step": [2, 2, 2]}}}}"#),
+        format!(r#"{{"array": {{"of": {CUBE}, "count": [1e300, 1e300, 1e300], "step": [2, 2, 2]}}}}"#),
+        format!(r#"{{"ring": {{"of": {CUBE}, "count": 1e9}}}}"#),
+    ] {
+        refused_at_once(&file(&text), &limit);
+    }
+    let mut nested = CUBE.to_owned();
+    for _ in 0..9 {
+        nested = format!(r#"{{"array": {{"of": {nested}, "count": [10, 1, 1], "step": [1, 1, 1]}}}}"#);
+    }
+    refused_at_once(&file(&nested), &limit);
+}
+
+#[test]
+fn parts_that_double_are_refused_before_they_are_copied() {
+    let doubling = |leaf: &str, levels: usize| {
+        let parts: Vec<String> = (1..=levels)
+            .map(|k| format!("\"p{k}\": {{\"union\": [{{\"use\": \"p{0}\"}}, {{\"use\": \"p{0}\"}}]}}", k - 1))
+            .collect();
+        format!(
+            "{{\"planecut\": 1, \"parts\": {{\"p0\": {leaf}, {}}}, \"model\": {{\"use\": \"p{levels}\"}}}}",
+            parts.join(", ")
+        )
+    };
+    assert_eq!(read(&doubling(CUBE, 10)).expect("read").model.tree.brushes().len(), 1024);
+    refused_at_once(&doubling(CUBE, 40), "brushes in all, expected at most 4194304");
+    // A million nodes that make nothing would do no harm, but a billion take time.
+    let nothing = r#"{"points": [[0, 0, 0], [1, 0, 0], [0, 1, 0]]}"#;
+    let import = read(&doubling(nothing, 16)).expect("read");
+    assert_eq!(import.model.tree.brushes().len(), 0);
+}
+
+#[test]
+fn a_hundred_thousand_copies_are_made() {
+    let text = format!(r#"{{"array": {{"of": {CUBE}, "count": [100, 100, 10], "step": [2, 2, 2]}}}}"#);
+    let import = model(&text);
+    assert_eq!(import.model.tree.brushes().len(), 100_000);
+    assert_eq!(import.model.tree.nodes().len(), 100_001, "one union of all");
+}
+
+#[test]
+fn a_chain_of_ten_thousand_differences_keeps_its_order() {
+    let mut text = CUBE.to_owned();
+    for k in 0..9_000 {
+        text = format!(r#"{{"difference": [{{"box": {{"min": [{k}, 0, 0], "max": [{}, 1, 1]}}}}, {text}]}}"#, k + 1);
+    }
+    let import = model(&text);
+    let nodes = import.model.tree.nodes();
+    assert_eq!(nodes.len(), 18_001);
+    assert!(nodes[..9_001].iter().all(|node| *node == TreeNode::Leaf), "all first operands, then the operations");
+    assert!(nodes[9_001..].iter().all(|node| matches!(node, TreeNode::Operation { operands: 2, .. })));
+}
+
+#[test]
+fn a_long_chain_of_parameters_is_read() {
+    let parameters: Vec<String> = (1..100_000).map(|k| format!("\"a{k}\": \"=a{} + 1\"", k - 1)).collect();
+    let text =
+        format!("{{\"planecut\": 1, \"parameters\": {{{}, \"a0\": 0}}, \"model\": {CUBE}}}", parameters.join(", "));
+    let import = read(&text).expect("read");
+    assert_eq!(import.parameters[99_998], ("a99999".to_owned(), 99_999.0));
+}
+
+#[test]
+fn a_list_of_many_bodies_is_read_in_linear_time() {
+    let bodies: Vec<String> = (0..200_000)
+        .map(|k| format!(r#"{{"box": {{"min": [{k}, 0, 0], "max": [{}, 1, 1]}}, "name": "b{k}"}}"#, k + 1))
+        .collect();
+    let begin = Instant::now();
+    let import = model(&format!("{{\"union\": [\n{}]}}", bodies.join(",\n")));
+    assert!(begin.elapsed() < Duration::from_secs(20), "{:?}", begin.elapsed());
+    let brush = &import.model.tree.brushes()[199_999];
+    assert_eq!((brush.name.as_deref(), brush.line), (Some("b199999"), 200_001));
+}

@@ -1,0 +1,8 @@
+//! The model file.
+
+mod damaged;
+mod errors;
+mod forms;
+mod limits;
+mod schema;
+mod support;

@@ -1,0 +1,73 @@
+//! What the grammar accepts, and what it says where it does not.
+
+use super::{assert_volume, read, refused};
+
+#[test]
+fn white_space_comments_and_empty_statements_do_not_matter() {
+    assert_volume("/* a\n * box */ cube ( size=[1,2 , 3] ,center=false ) ; ; // end", 6.0);
+    assert_volume("group(){cube([1,2,3]);};group();", 6.0);
+    assert_volume("\u{feff}cube(2);\r\n", 8.0);
+}
+
+#[test]
+fn a_single_statement_needs_no_braces() {
+    assert_volume("multmatrix([[2,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) group() cube(1); cube(1);", 2.0);
+    assert_volume("difference() { union() cube(3); cube(1); }", 26.0);
+}
+
+#[test]
+fn arguments_have_names_or_places() {
+    for text in ["cube([1, 2, 3], true);", "cube(center = true, size = [1, 2, 3]);", "cube(size = [1, 2, 3],);"] {
+        assert_volume(text, 6.0);
+    }
+    assert_volume("cylinder(2, 1, 1, $fn = 4);", 4.0);
+    assert_volume("cylinder(h = 2, d = 2, $fn = 4);", 4.0);
+}
+
+#[test]
+fn errors_name_line_and_what_was_expected() {
+    let cases = [
+        ("cube(1);\ncube(1", 2, "the end of the file", "`,` or `)`"),
+        ("cube(1);\n}", 2, "`}`", "a node such as `cube(…)`"),
+        ("group() {\n cube(1);\n\n", 2, "the end of the file", "a statement or `}`"),
+        ("group()\n}", 2, "`}`", "`;`, `{` or a statement"),
+        ("cube(size = [1, 2);", 1, "`)`", "`,` or `]`"),
+        ("cube(size = x);", 1, "`x`", "a value"),
+        ("a = 3;\ncube(a);", 1, "an assignment to `a`", "an evaluated tree"),
+        ("cube(\"1);", 1, "a text in quotes without an end", "a closing `\"`"),
+        ("/* cube(1);", 1, "a comment without an end", "a closing `*/`"),
+        ("\n\nfrob(1);", 3, "`frob`, which is not supported", "--keep-going"),
+        ("surface(file = \"a.dat\");", 1, "`surface`, which is not supported", "--keep-going"),
+        ("import(file = \"a.dxf\");", 1, "`a.dxf`, which is not supported", "`.stl`"),
+        ("linear_extrude(file = \"a.dxf\", height = 3);", 1, "`a.dxf`, which is not supported", "children"),
+        ("cube(1e30);", 1, "for `max`", "1e25"),
+        ("sphere(1, $fn = 1e9);", 1, "1000000000 segments", "at most 10000"),
+    ];
+    for (text, line, found, expected) in cases {
+        let error = refused(text.as_bytes());
+        assert_eq!(error.line(), Some(line), "{error}");
+        let message = error.to_string();
+        assert!(message.starts_with(&format!("test.csg:{line}: found ")), "{message}");
+        assert!(message.contains(found) && message.contains(expected) && !message.contains('\n'), "{message}");
+    }
+}
+
+#[test]
+fn brushes_know_their_lines() {
+    let import =
+        read("group() {\n cube(1);\n\n multmatrix([[1,0,0,4],[0,1,0,0],[0,0,1,0],[0,0,0,1]])\n  sphere(1);\n}");
+    assert_eq!(import.model.tree.brushes().iter().map(|brush| brush.line).collect::<Vec<_>>(), [2, 5]);
+}
+
+#[test]
+fn texts_keep_what_was_escaped() {
+    let message = refused(br#"import(file = "a\"b\\c\n.dxf");"#).to_string();
+    assert!(message.contains(r#"a\"b\\c\n.dxf"#), "{message}");
+}
+
+#[cfg(not(feature = "text"))]
+#[test]
+fn letters_need_a_feature() {
+    let error = refused(b"linear_extrude(height = 1) { text(text = \"A\", size = 10); }").to_string();
+    assert!(error.contains("found a text, and a program built without the feature `text`"), "{error}");
+}

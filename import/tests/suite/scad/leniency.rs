@@ -1,0 +1,117 @@
+//! What OpenSCAD forgives.
+
+use planecut_import::scad::{ScadImport, ScadOptions, read_scad};
+
+use super::{assert_volume, evaluated, read};
+
+fn assert_warns(text: &str, expected: f64, warning: &str) {
+    assert_volume(text, expected);
+    let warnings = read(text).warnings;
+    assert!(warnings.iter().any(|w| w.message.contains(warning) && w.line > 0), "{text}: {warnings:?}");
+}
+
+#[test]
+fn sizes_that_are_none_give_nothing() {
+    for text in [
+        "cube([1, 0, 1]);",
+        "cube([1, -1, 1]);",
+        "sphere(0);",
+        "sphere(-1);",
+        "cylinder(h = -1, r = 1);",
+        "cylinder(h = 1, r1 = -1, r2 = 2);",
+        "cylinder(h = 1, r1 = 0, r2 = 0);",
+        "linear_extrude(height = -1) square(1);",
+        "linear_extrude(height = 1) square([0, 1]);",
+        "rotate_extrude(angle = 0) square(1);",
+        "intersection() { cube(1); group(); }",
+        "difference() { group(); cube(1); }",
+        "union();",
+        "hull();",
+        "minkowski();",
+        "group() { difference() {} }",
+        "polyhedron(points = undef, faces = undef);",
+    ] {
+        let evaluation = evaluated(text);
+        assert!(evaluation.mesh.triangles.is_empty() && evaluation.solid.volume == 0.0, "{text}");
+    }
+}
+
+#[test]
+fn values_of_another_kind_are_the_defaults() {
+    assert_volume("cube(undef);", 1.0);
+    assert_volume("cube(size = \"large\");", 1.0);
+    assert_volume("cube(size = [2, true, 3]);", 1.0);
+    // `inf` and `nan` are names that OpenSCAD does not know when it reads its own output
+    assert_volume("cube(size = [inf, 1, 1]);", 1.0);
+    assert_volume("multmatrix([[nan, 0, 0, 0], [0, 2, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]) cube(1);", 2.0);
+}
+
+#[test]
+fn what_has_another_dimension_is_left_out() {
+    assert_warns("union() { cube(1); square(3); }", 1.0, "an outline among them");
+    assert_warns("linear_extrude(height = 1) { square(2); cube(9); }", 4.0, "a solid among them");
+    assert_warns("intersection() { cube(2); square(3); }", 0.0, "an outline among them");
+    let import = read("cube(1); square(4);");
+    assert!(
+        import.warnings.iter().any(|warning| warning.message.contains("nothing extrudes")),
+        "{:?}",
+        import.warnings
+    );
+}
+
+#[test]
+fn matrices_that_flatten_leave_nothing() {
+    let flat = "multmatrix([[1, 0, 0, 0], [0, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])";
+    assert_warns(&format!("cube(1); {flat} cube(5);"), 1.0, "flattens solids");
+    assert_warns(&format!("linear_extrude(height = 1) {{ square(2); {flat} square(9); }}"), 4.0, "flattens outlines");
+    let upright = "multmatrix([[1, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1]])";
+    // turned upright, and back again: once flat, always flat
+    assert_warns(&format!("linear_extrude(height = 1) {upright} {upright} square(2);"), 0.0, "flattens outlines");
+}
+
+#[test]
+fn surfaces_that_bound_no_solid_are_left_out() {
+    let points = "points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]";
+    assert_volume(&format!("polyhedron({points}, faces = [[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]]);"), 1.0 / 6.0);
+    let turned = format!("polyhedron({points}, faces = [[2, 1, 0], [1, 3, 0], [2, 3, 1], [0, 3, 2]]);");
+    assert_warns(&turned, 1.0 / 6.0, "turned around");
+    let open = format!("cube(1); polyhedron({points}, faces = [[0, 1, 2], [0, 3, 1], [1, 3, 2]]);");
+    assert_warns(&open, 1.0, "not closed");
+    let nan = "polyhedron(points = [[0, nan, 0], [1, 0, 0], [0, 1, 0]], faces = [[0, 1, 2]]); cube(1);";
+    assert_warns(nan, 1.0, "three finite numbers");
+}
+
+#[test]
+fn what_touches_itself_is_not_combined() {
+    let bow = "linear_extrude(height = 1) polygon(points = [[0, 0], [2, 2], [2, 0], [0, 2]]);";
+    assert_volume(bow, 2.0);
+    assert_warns(&format!("union() {{ {bow} cube([1, 1, 9]); }}"), 9.0, "touches itself");
+    // two cones tip to tip
+    let cones = "rotate_extrude($fn = 4) polygon(points = [[0, 1], [1, 0], [1, 2]]);";
+    assert_warns(&format!("{cones} cube([9, 9, 9]);"), 729.0, "touches itself");
+    // both axes shrink to nothing: the hole ends in the very tip of the outside
+    let frame = "difference() { square(4, center = true); square(2, center = true); }";
+    let tips = format!("linear_extrude(height = 3, scale = [0, 0]) {frame}");
+    assert_volume(&tips, 12.0);
+    assert_warns(&format!("cube(9); {tips}"), 729.0, "touches itself");
+}
+
+#[test]
+fn outlines_on_both_sides_of_the_axis_are_left_out() {
+    assert_warns("cube(1); rotate_extrude() square(2, center = true);", 1.0, "both sides of the axis");
+}
+
+#[test]
+fn keeping_on_leaves_out_what_is_not_supported() {
+    let options = ScadOptions { keep_going: true, ..ScadOptions::default() };
+    let text = b"cube(1);\nsurface(file = \"a.dat\");\ndifference() { cube(9); frob() cube(8); }";
+    let ScadImport { model, warnings } = read_scad(text, "test.csg", &options).expect("goes on");
+    assert_eq!(warnings.iter().map(|warning| warning.line).collect::<Vec<_>>(), [2, 3]);
+    assert!(warnings.iter().all(|warning| warning.message.contains("is left out")), "{warnings:?}");
+    assert_eq!(planecut_csg::evaluate(&model).expect("a mesh").solid.volume, 729.0);
+}
+
+#[test]
+fn an_import_that_is_not_there_is_left_out() {
+    assert_warns("cube(1); import(file = \"nowhere.stl\");", 1.0, "cannot be read");
+}
