@@ -16,7 +16,8 @@
 //! | [`shapes`] | [`primitives`](shapes::primitives), [`outline`](shapes::outline)s, [`shaping`](shapes::shaping), closed polyhedra |
 //! | [`check`] | [`check_mesh`](check::check_mesh): is any mesh watertight, manifold, free of self-intersections |
 //! | [`import`] | readers of the native [model file](import::model), of OpenSCAD's evaluated trees ([`scad`](import::scad)), of Quake-family [`map`](import::map)s, and of [`mesh`](import::mesh) files: OBJ, STL, PLY and glTF |
-//! | [`export`] | [`encode`](export::encode) a mesh as GLB, glTF, OBJ, STL, 3MF or PLY; rendered previews |
+//! | [`export`] | [`encode`](export::encode) a mesh as GLB, glTF, OBJ, STL, 3MF or PLY |
+//! | `picture` | pictures of meshes and cells (feature `picture`, on unless turned off) |
 //!
 //! Everything of `cells`, `shapes` and `check` can also be reached through [`csg`]. The feature `cli` (default) is for the program alone: with `default-features = false` a library
 //! gets none of its dependencies.
@@ -97,10 +98,20 @@ pub mod csg {
 
 pub use planecut_cells as cells;
 pub use planecut_check as check;
-pub use planecut_export as export;
 pub use planecut_import as import;
 pub use planecut_kernel as kernel;
 pub use planecut_shapes as shapes;
+
+pub mod export {
+    //! What leaves: mesh files, convex bodies and, with the feature `picture`, what [`picture`](crate::picture) holds.
+    pub use planecut_export::*;
+
+    #[cfg(feature = "picture")]
+    #[doc(no_inline)]
+    pub use crate::picture::*;
+}
+#[cfg(feature = "picture")]
+pub mod picture;
 
 /// The example of the README, run as a test.
 #[cfg(doctest)]

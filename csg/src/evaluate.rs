@@ -6,7 +6,9 @@ use planecut_kernel::sign::Counts;
 use thiserror::Error;
 
 use crate::base::Clock;
-use crate::body::{Body, BrushBodies, BrushBody, OuterBox, build_bodies, kinds, mark_of};
+use crate::body::{
+    Body, BrushBodies, BrushBody, BuiltBodies, OuterBox, build_bodies, build_other_bodies, kinds, mark_of,
+};
 use crate::boundary::{BoundaryEdge, Scene, boundary_edges, boundary_of_union};
 use crate::expression::Expression;
 use crate::mesh::{Mesh, SolidMeasures};
@@ -122,10 +124,22 @@ pub fn evaluate_shape(tree: Tree) -> Result<Evaluation, EvaluateError> {
 /// # Errors
 /// As [`evaluate`].
 pub fn evaluate_with(model: &Model, unbounded: UnboundedBrushes) -> Result<Evaluation, EvaluateError> {
+    evaluate_built(model, unbounded, &BuiltBodies::default())
+}
+
+/// The same, where bodies of some brushes are built already.
+///
+/// # Errors
+/// As [`evaluate`].
+pub fn evaluate_built(
+    model: &Model,
+    unbounded: UnboundedBrushes,
+    built: &BuiltBodies,
+) -> Result<Evaluation, EvaluateError> {
     let begin = Clock::start();
     let used = model.tree.brushes().iter().flat_map(|brush| &brush.faces).map(|face| face.material);
     check_materials(used, model.materials.len())?;
-    let BrushBodies { mut table, planes, bodies, mut signs } = build_bodies(model.tree.brushes());
+    let BrushBodies { mut table, planes, bodies, mut signs } = build_other_bodies(model.tree.brushes(), built);
     let summary = summary_of(&table, &bodies);
     let expression = Expression::new(model.tree.nodes());
     let keeps = unbounded == UnboundedBrushes::Keep && !summary.unbounded.is_empty();

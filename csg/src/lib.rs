@@ -35,15 +35,16 @@ pub mod tolerances;
 mod weld;
 
 pub use blocks::{Block, BlockOptions, BlocksError, BlocksSummary, evaluate_in_blocks};
-pub use body::Built;
+pub use body::BuiltBodies;
 pub use evaluate::{
-    EvaluateError, Evaluation, ModelSummary, StageTimes, UnboundedBrushes, evaluate, evaluate_with, summarize,
+    EvaluateError, Evaluation, ModelSummary, StageTimes, UnboundedBrushes, evaluate, evaluate_built, evaluate_with,
+    summarize,
 };
 pub use live::{BrushId, Change, Edit, EditError, Edited, FaceId, LiveFace, LiveModel, Role};
 pub use mesh::{Mesh, MeshFace, SolidMeasures, contract_edges, contract_short_edges};
 pub use model::{
-    Brush, BrushFace, Cutaway, FaceSource, Material, MaterialId, Model, Operation, TextureAxes, TextureUnit, Transform,
-    TransformError, Tree, TreeNode, sine_and_cosine,
+    Brush, BrushFace, CutMaterial, Cutaway, FaceSource, Material, MaterialId, Model, Operation, TextureAxes,
+    TextureUnit, Transform, TransformError, Tree, TreeNode, sine_and_cosine,
 };
 pub use plane_table::{PlaneId, PlaneTable};
 pub use tolerances::SNAP_TOLERANCE;

@@ -3,7 +3,7 @@
 use std::io;
 use std::path::PathBuf;
 
-/// Why a mesh could not be written or drawn. Each message is one line.
+/// Why a mesh could not be written. Each message is one line.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ExportError {
@@ -73,54 +73,6 @@ pub enum ExportError {
     TooLarge {
         /// Which count overflows.
         what: String,
-    },
-    /// The picture has a side of 0 or more than [`crate::MAX_IMAGE_SIDE`] pixels.
-    #[error("picture size is {width}x{height}, expected 1 to 16384 pixels each way")]
-    ImageSize {
-        /// Width asked for, in pixels.
-        width: u32,
-        /// Height asked for, in pixels.
-        height: u32,
-    },
-    /// A contact sheet has no room for its tiles, or nothing to show.
-    #[error(
-        "{count} pictures on a sheet of {width}x{height} pixels{}, expected at least 1 and room for all",
-        .columns.map_or(String::new(), |columns| format!(" in {columns} columns"))
-    )]
-    SheetSize {
-        /// Width of the sheet, in pixels.
-        width: u32,
-        /// Height of the sheet, in pixels.
-        height: u32,
-        /// How many pictures there are.
-        count: usize,
-        /// How many were to be side by side, where that was said.
-        columns: Option<u32>,
-    },
-    /// A camera angle is not a finite number.
-    #[error("camera angle is {0}, expected a finite number of degrees")]
-    CameraAngle(f64),
-    /// The file name ends in something that no writer of animations makes.
-    #[error("unknown animation format '.{extension}', expected .gif or .apng")]
-    UnknownAnimationFormat {
-        /// The ending as given, without the dot.
-        extension: String,
-    },
-    /// A frame of an animation is not as large as the animation.
-    #[error("a frame is {}x{} pixels, expected {}x{}", .found[0], .found[1], .expected[0], .expected[1])]
-    FrameSize {
-        /// Width and height of the frame, in pixels.
-        found: [u32; 2],
-        /// Width and height of the animation, in pixels.
-        expected: [u32; 2],
-    },
-    /// An animation has more or fewer frames than were announced.
-    #[error("found {found} frames, expected {expected}")]
-    FrameCount {
-        /// How many were given.
-        found: u32,
-        /// How many were announced.
-        expected: u32,
     },
     /// An option needs a library that this build leaves out.
     #[error("{what} is not in this build, expected one with the feature `{feature}`")]

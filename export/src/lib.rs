@@ -1,4 +1,4 @@
-//! Mesh writers and rendered previews.
+//! Mesh writers.
 //!
 //! - [`encode`] turns a [`planecut_csg::Mesh`] into the bytes of a mesh file ([`Format`]); [`encode_parts`]
 //!   does so for several named meshes in one file, and [`write_parts`] piece by piece. [`Format`] says what each format keeps of the mesh.
@@ -6,7 +6,6 @@
 //! - [`write_brushes`] puts convex bodies back into formats that editors open: a Quake map, or OpenSCAD's evaluated tree
 //!   ([`BrushFormat`]).
 //! - [`AtomicFile`] and [`write_atomic`] put bytes under a file name, completely or not at all.
-//! - [`render`] draws a mesh as a picture.
 //!
 //! Every writer gives the same bytes for the same input, whatever the number of threads.
 #![forbid(unsafe_code)]
@@ -22,7 +21,6 @@ mod material;
 mod obj;
 mod part;
 mod ply;
-mod preview;
 mod stl;
 mod surface;
 mod threemf;
@@ -31,14 +29,9 @@ pub use brushes::{BrushFormat, write_brushes};
 pub use error::ExportError;
 pub use file::{AtomicFile, write_atomic};
 pub use format::{Format, encode, encode_parts, write_parts, written};
-pub use material::distinct_color;
+pub use material::{distinct_color, material_color};
 pub use obj::write_mtl;
 pub use part::{ExportOptions, Part, Projection, Shading, TextureMapping, Unit, Written};
-pub use preview::{
-    AnimationFormat, AnimationWriter, Background, Buffers, CameraKind, MAX_IMAGE_SIDE, Picture, PreviewOptions,
-    PreviewStyle, SheetColors, SheetLayout, Subject, Tile, Turntable, contact_sheet, render, render_buffers,
-    sheet_layout,
-};
 
 /// The example of the README, run as a test.
 #[cfg(doctest)]

@@ -16,13 +16,14 @@
 #![deny(missing_docs)]
 
 pub mod outline;
+mod parameter;
 pub mod polyhedron;
 pub mod primitives;
 pub mod shaping;
 pub mod tolerances;
 
 pub use outline::Outline;
-pub use primitives::ShapeError;
+pub use parameter::ShapeError;
 
 /// The example of the README, run as a test.
 #[cfg(doctest)]

@@ -7,10 +7,10 @@ use clap::{Args, CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 use planecut::csg::Tree;
 use planecut::csg::coarsen::{CoarsenOptions, LEAST_MAX_FACES, LEAST_MAX_VERTICES, Side};
-use planecut::export::{MAX_IMAGE_SIDE, PreviewOptions};
 use planecut::import::map::MapOptions;
 use planecut::import::model::ModelOptions;
 use planecut::import::scad::ScadOptions;
+use planecut::picture::{MAX_IMAGE_SIDE, PreviewOptions};
 
 use super::asset_args::AssetArgs;
 use super::error::CliError;

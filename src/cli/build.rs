@@ -2,7 +2,8 @@
 
 use std::time::Instant;
 
-use planecut::export::{Part, Subject};
+use planecut::export::Part;
+use planecut::picture::Subject;
 
 use super::args::BuildArgs;
 use super::error::CliError;

@@ -12,6 +12,7 @@ use planecut::import::map::MapError;
 use planecut::import::mesh::{MeshError, SolidError};
 use planecut::import::model::ModelError;
 use planecut::import::scad::ScadError;
+use planecut::picture::PictureError;
 use rayon::ThreadPoolBuildError;
 use thiserror::Error;
 
@@ -120,7 +121,15 @@ pub(crate) enum CliError {
         /// What happened.
         source: EvaluateError,
     },
-    /// A mesh or picture cannot be encoded.
+    /// A picture cannot be drawn or encoded.
+    #[error("{output}: {source}")]
+    Draw {
+        /// The output.
+        output: String,
+        /// Why.
+        source: PictureError,
+    },
+    /// A mesh cannot be encoded.
     #[error("{output}: {source}")]
     Encode {
         /// The output.
@@ -173,6 +182,7 @@ impl CliError {
             | Self::Evaluate { .. }
             | Self::Coarsen { .. }
             | Self::Bug { .. }
+            | Self::Draw { .. }
             | Self::Encode { .. }
             | Self::Write { .. }
             | Self::Stdout(_)

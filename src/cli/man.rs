@@ -7,6 +7,7 @@ use super::args::{self, ManArgs};
 use super::error::CliError;
 use super::output::{Output, Target};
 use super::terminal;
+use planecut::export::ExportError;
 
 /// Runs the command: one page on standard output, or all of them into a folder.
 ///
@@ -21,7 +22,7 @@ pub(crate) fn run(args: &ManArgs) -> Result<(), CliError> {
         let outputs: Vec<Output> = commands
             .map(|command| {
                 let page = page(command);
-                Target::File(folder.join(page.get_filename())).begin(|out| Ok(page.render(out)?))
+                Target::File(folder.join(page.get_filename())).begin(|out| Ok::<_, ExportError>(page.render(out)?))
             })
             .collect::<Result<_, _>>()?;
         return outputs.into_iter().try_for_each(Output::commit);

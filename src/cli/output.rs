@@ -5,7 +5,8 @@ use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use planecut::export::{AnimationFormat, AtomicFile, BrushFormat, ExportError, Format};
+use planecut::export::{AtomicFile, BrushFormat, ExportError, Format};
+use planecut::picture::{AnimationFormat, PictureError};
 
 use super::error::CliError;
 use super::terminal;
@@ -50,19 +51,19 @@ impl Target {
     /// # Errors
     /// [`CliError::Write`] or [`CliError::Stdout`] where the system refuses.
     pub(crate) fn write(&self, bytes: &[u8]) -> Result<(), CliError> {
-        self.begin(|out| Ok(out.write_all(bytes)?))?.commit()
+        self.begin(|out| Ok::<_, ExportError>(out.write_all(bytes)?))?.commit()
     }
 
     /// Has something written there, piece by piece. A file gets its name with [`Output::commit`], and is gone without it; what is for standard
     /// output waits for it in memory.
     ///
     /// # Errors
-    /// [`CliError::Write`] where the system refuses, [`CliError::Encode`] for what `write` gives.
-    pub(crate) fn begin(
+    /// [`CliError::Write`] where the system refuses, [`CliError::Encode`] or [`CliError::Draw`] for what `write` gives.
+    pub(crate) fn begin<E: OutputError>(
         &self,
-        write: impl FnOnce(&mut dyn Write) -> Result<(), ExportError>,
+        write: impl FnOnce(&mut dyn Write) -> Result<(), E>,
     ) -> Result<Output, CliError> {
-        let failed = |error| self.error_of(error);
+        let failed = |error: E| error.at(self);
         let Self::File(path) = self else {
             let mut bytes = Vec::new();
             write(&mut bytes).map_err(failed)?;
@@ -71,16 +72,33 @@ impl Target {
         if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
             fs::create_dir_all(folder).map_err(|source| CliError::Write { path: path.clone(), source })?;
         }
-        let mut file = AtomicFile::create(path).map_err(failed)?;
+        let mut file = AtomicFile::create(path).map_err(|error| error.at(self))?;
         write(&mut file).map_err(failed)?;
         Ok(Output { target: self.clone(), content: Content::File(file) })
     }
+}
 
-    fn error_of(&self, error: ExportError) -> CliError {
-        match (error, self) {
-            (ExportError::Write { path, source }, _) => CliError::Write { path, source },
-            (ExportError::Io(source), Self::File(path)) => CliError::Write { path: path.clone(), source },
-            (source, _) => CliError::Encode { output: self.to_string(), source },
+/// What may go wrong while an output is written.
+pub(crate) trait OutputError {
+    /// The same with the output that it is about.
+    fn at(self, target: &Target) -> CliError;
+}
+
+impl OutputError for ExportError {
+    fn at(self, target: &Target) -> CliError {
+        match (self, target) {
+            (Self::Write { path, source }, _) => CliError::Write { path, source },
+            (Self::Io(source), Target::File(path)) => CliError::Write { path: path.clone(), source },
+            (source, _) => CliError::Encode { output: target.to_string(), source },
+        }
+    }
+}
+
+impl OutputError for PictureError {
+    fn at(self, target: &Target) -> CliError {
+        match (self, target) {
+            (Self::Io(source), Target::File(path)) => CliError::Write { path: path.clone(), source },
+            (source, _) => CliError::Draw { output: target.to_string(), source },
         }
     }
 }
@@ -138,7 +156,7 @@ impl Output {
     /// [`CliError::Write`] or [`CliError::Stdout`] where the system refuses.
     pub(crate) fn commit(self) -> Result<(), CliError> {
         match self.content {
-            Content::File(file) => file.commit().map_err(|error| self.target.error_of(error)),
+            Content::File(file) => file.commit().map_err(|error| error.at(&self.target)),
             Content::Waiting(bytes) => terminal::print_bytes(&bytes),
         }
     }

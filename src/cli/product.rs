@@ -4,10 +4,9 @@ use std::cell::LazyCell;
 use std::time::{Duration, Instant};
 
 use planecut::csg::{Brush, Material};
-use planecut::export::{
-    ExportOptions, Part, PreviewOptions, Subject, Written, render, write_brushes, write_mtl, write_parts, written,
-};
+use planecut::export::{ExportOptions, Part, Written, write_brushes, write_mtl, write_parts, written};
 use planecut::import::Warning;
+use planecut::picture::{PictureError, PreviewOptions, Subject, render};
 
 use super::args::CommonArgs;
 use super::error::CliError;
@@ -69,9 +68,9 @@ pub(crate) fn produce(
 /// Draws a subject for a place.
 ///
 /// # Errors
-/// [`CliError::Encode`], [`CliError::Write`].
+/// [`CliError::Draw`], [`CliError::Write`].
 pub(crate) fn draw(subject: &Subject<'_>, target: &Target, options: &PreviewOptions) -> Result<Output, CliError> {
-    target.begin(|out| Ok(out.write_all(&render(subject, options)?.to_png()?)?))
+    target.begin(|out| Ok::<_, PictureError>(out.write_all(&render(subject, options)?.to_png()?)?))
 }
 
 /// What may be written of a solid.

@@ -13,6 +13,12 @@ impl Rng {
         Self(seed)
     }
 
+    /// A generator for seeds that follow one another: their bits are spread first.
+    #[must_use]
+    pub fn spread(seed: u64) -> Self {
+        Self(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ 0x5851_F42D_4C95_7F2D)
+    }
+
     /// 64 uniform bits.
     pub fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
@@ -63,9 +69,14 @@ impl Rng {
         }
     }
 
-    /// The same as a vector.
+    /// A direction as a vector of unit length.
     pub fn unit(&mut self) -> DVec3 {
-        DVec3::from_array(self.direction()).normalize()
+        loop {
+            let p = self.point(-1.0, 1.0);
+            if (0.01..1.0).contains(&p.length_squared()) {
+                return p.normalize();
+            }
+        }
     }
 
     /// A point of the cube `low..high`, component by component.

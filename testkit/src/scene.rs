@@ -108,7 +108,7 @@ pub fn sweep<S: Scene>(count: u64, generate: impl Fn(&mut Rng) -> S, judge: impl
         })
     };
     for seed in 0..scaled(count) {
-        let mut scene = generate(&mut Rng::new(seed));
+        let mut scene = generate(&mut Rng::spread(seed));
         let Err(first) = guarded(&scene) else { continue };
         let mut message = first.clone();
         let fails = |s: &S| guarded(s).err().filter(|m| kind(m) == kind(&first));

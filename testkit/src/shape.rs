@@ -241,7 +241,7 @@ pub fn ensure_sound(solid: &Solid) -> Result<(), String> {
 
 /// The same membership for random points.
 pub fn ensure_membership(shape: &Shape, solid: &Solid, points: usize) -> Result<(), String> {
-    let mut rng = Rng::new(points as u64);
+    let mut rng = Rng::spread(points as u64);
     for _ in 0..points {
         let point = rng.point(-6.0, 6.0);
         let Some(expected) = shape.holds(point) else { continue };

@@ -3,10 +3,10 @@
 use std::f64::consts::PI;
 use std::path::Path;
 
-use planecut_shapes::primitives::capsule;
 use planecut_csg::{Brush, MaterialId, Transform};
 use planecut_import::map::{MapOptions, read_map};
 use planecut_kernel::{DMat3, DVec3, HalfSpace};
+use planecut_shapes::primitives::capsule;
 use rand::rngs::StdRng;
 use rand::{Rng, SeedableRng};
 

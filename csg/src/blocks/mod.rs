@@ -15,7 +15,6 @@ use thiserror::Error;
 
 use crate::base::Bounds;
 use crate::evaluate::{EvaluateError, check_materials, evaluate};
-use crate::expression::Expression;
 use crate::mesh::Mesh;
 use crate::model::{Brush, Material, MaterialId, Model};
 use crate::plane_table::Snapped;
@@ -109,7 +108,7 @@ pub fn evaluate_in_blocks<E>(
     let brushes = model.tree.brushes();
     let used = brushes.iter().flat_map(|brush| &brush.faces).map(|face| face.material);
     check_materials(used, model.materials.len())?;
-    if Expression::new(model.tree.nodes()).base() {
+    if model.tree.holds_outside() {
         return Err(EvaluateError::Unbounded.into());
     }
     let bounds = bounds_of(brushes).map_err(|brush| BlocksError::Unbounded { brush })?;

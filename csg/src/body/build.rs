@@ -1,12 +1,12 @@
 //! From the planes of brushes to their bodies, all at once and in parallel.
 
-use std::borrow::Cow;
+use std::borrow::{Borrow, Cow};
 
 use planecut_kernel::sign::{Counts, Row};
 use planecut_kernel::{HalfSpace, IncrementalPolytope, PlaneIdx};
 use rayon::prelude::*;
 
-use super::built::{self, BrushShape};
+use super::built::{self, BrushShape, BuiltBodies};
 use super::{Body, BrushBody, Shape};
 use crate::base::{Bounds, map_chunks};
 use crate::model::{Brush, BrushFace, MaterialId};
@@ -26,6 +26,11 @@ pub(crate) struct BrushBodies {
 
 /// Interns the planes of brushes and builds the body of each, in parallel.
 pub(crate) fn build_bodies(brushes: &[Brush]) -> BrushBodies {
+    build_other_bodies(brushes, &BuiltBodies::default())
+}
+
+/// The same, where some may be built already.
+pub(crate) fn build_other_bodies(brushes: &[Brush], built: &BuiltBodies) -> BrushBodies {
     let half_spaces: Vec<HalfSpace> =
         brushes.iter().flat_map(|brush| brush.faces.iter().map(|face| face.half_space)).collect();
     let (mut table, ids) = PlaneTable::intern(&half_spaces);
@@ -41,7 +46,7 @@ pub(crate) fn build_bodies(brushes: &[Brush]) -> BrushBodies {
     let with_planes: Vec<(&Brush, &Vec<PlaneId>)> = brushes.iter().zip(&planes).collect();
     let (parts, signs) = map_chunks(&with_planes, least_of_chunk(brushes), |chunk| {
         let mut polytope = IncrementalPolytope::with_epsilon(0.0);
-        chunk.iter().map(|&(brush, planes)| shape_of(&table, brush, planes, &mut polytope)).collect::<Vec<_>>()
+        chunk.iter().map(|&(brush, planes)| shape_of(&table, built, brush, planes, &mut polytope)).collect::<Vec<_>>()
     });
     let shapes: Vec<Cow<'_, BrushShape>> = parts.into_iter().flatten().collect();
     let bounds: Vec<Option<Bounds>> = shapes.iter().map(|shape| shape.bounds().copied()).collect();
@@ -56,8 +61,8 @@ pub(crate) fn build_bodies(brushes: &[Brush]) -> BrushBodies {
 }
 
 /// Number of brushes in a chunk; each chunk has a polytope of its own, which is worth the while from some planes on.
-pub(super) fn least_of_chunk(brushes: &[Brush]) -> usize {
-    let planes: usize = brushes.iter().map(|brush| brush.faces.len()).sum();
+pub(super) fn least_of_chunk<B: Borrow<Brush>>(brushes: &[B]) -> usize {
+    let planes: usize = brushes.iter().map(|brush| brush.borrow().faces.len()).sum();
     PLANES_OF_CHUNK * brushes.len() / planes.max(1)
 }
 
@@ -65,7 +70,8 @@ pub(super) fn least_of_chunk(brushes: &[Brush]) -> usize {
 /// table has taken none of the planes for another.
 fn shape_of<'a>(
     table: &PlaneTable,
-    brush: &'a Brush,
+    built: &'a BuiltBodies,
+    brush: &Brush,
     planes: &[PlaneId],
     polytope: &mut IncrementalPolytope,
 ) -> Cow<'a, BrushShape> {
@@ -73,7 +79,7 @@ fn shape_of<'a>(
         let row = Row::new(&face.half_space);
         row.coefficients() == table.row(*plane).coefficients() || row.is_same_plane(table.row(*plane))
     };
-    let known = brush.built.shape_of(&brush.faces);
+    let known = built.shape_of(&brush.faces);
     match known.filter(|_| brush.faces.iter().zip(planes).all(stays)) {
         Some(known) => Cow::Borrowed(known),
         None => Cow::Owned(shape_in_table(table, planes, polytope)),
@@ -88,11 +94,12 @@ fn shape_in_table(table: &PlaneTable, planes: &[PlaneId], polytope: &mut Increme
 /// The body of a brush, whose planes have ids in a table; `polytope` is a buffer.
 pub(crate) fn built_or_build(
     table: &PlaneTable,
+    built: &BuiltBodies,
     brush: &Brush,
     planes: &[PlaneId],
     polytope: &mut IncrementalPolytope,
 ) -> BrushBody {
-    shape_of(table, brush, planes, polytope).body(planes, |k| brush.faces[k].material)
+    shape_of(table, built, brush, planes, polytope).body(planes, |k| brush.faces[k].material)
 }
 
 /// The body that planes bound, each with the material of its face; `polytope` is a buffer.

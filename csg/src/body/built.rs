@@ -1,9 +1,11 @@
-//! What a brush keeps once its body is built.
+//! Bodies that were built ahead.
 
+use std::hash::Hasher;
 use std::sync::Arc;
 
 use planecut_kernel::sign::Row;
 use planecut_kernel::{HalfSpace, IncrementalPolytope, PlaneIdx};
+use rustc_hash::{FxHashMap, FxHasher};
 
 use super::Shape;
 use super::build::least_of_chunk;
@@ -19,48 +21,88 @@ pub(super) enum BrushShape {
     Unbounded,
 }
 
-/// The body of a brush, where it was built: evaluations start from it, and clones of the brush share it. Nothing tells brushes
-/// apart by it. Where faces are changed it is passed over until it is built again.
-#[derive(Clone, Default)]
-pub struct Built(Option<Arc<(Vec<HalfSpace>, BrushShape)>>);
+/// The half-spaces of a brush, and what it is.
+type BuiltBody = (Vec<HalfSpace>, BrushShape);
 
-impl Built {
+/// Bodies of brushes that were built ahead, to be found by the half-spaces of a brush in their order: what is given them builds only the
+/// bodies that are not among them. Outcomes are the same with and without. They take memory, some 150 bytes for each face; clones share
+/// it.
+///
+/// ```
+/// use planecut_csg::{Brush, BuiltBodies, Material, MaterialId, Model, Tree, UnboundedBrushes, evaluate_built};
+/// use planecut_kernel::DVec3;
+///
+/// # fn main() -> Result<(), planecut_csg::EvaluateError> {
+/// let block = Brush::cuboid(DVec3::ZERO, DVec3::splat(2.0), MaterialId(0));
+/// let tool = Brush::cuboid(DVec3::ONE, DVec3::splat(3.0), MaterialId(0));
+/// let bodies = BuiltBodies::of([&block, &tool]);
+/// let cut = Model { materials: vec![Material::named("steel")], tree: Tree::from(block) - tool.into() };
+/// assert_eq!(evaluate_built(&cut, UnboundedBrushes::Keep, &bodies)?.solid.volume, 7.0);
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone, Default)]
+pub struct BuiltBodies(Arc<FxHashMap<u64, Vec<BuiltBody>>>);
+
+impl BuiltBodies {
+    /// Builds the bodies of brushes, in parallel.
+    #[must_use]
+    pub fn of<'a>(brushes: impl IntoIterator<Item = &'a Brush>) -> Self {
+        let brushes: Vec<&Brush> = brushes.into_iter().collect();
+        let (parts, _) = map_chunks(&brushes, least_of_chunk(&brushes), |chunk| {
+            let mut polytope = IncrementalPolytope::with_epsilon(0.0);
+            chunk.iter().map(|brush| ahead(brush, &mut polytope)).collect::<Vec<BuiltBody>>()
+        });
+        let mut bodies: FxHashMap<u64, Vec<BuiltBody>> = FxHashMap::default();
+        for (brush, built) in brushes.iter().zip(parts.into_iter().flatten()) {
+            let alike = bodies.entry(key(&brush.faces)).or_default();
+            if shape_among(alike, &brush.faces).is_none() {
+                alike.push(built);
+            }
+        }
+        Self(Arc::new(bodies))
+    }
+
+    /// How many different bodies there are.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.0.values().map(Vec::len).sum()
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
     /// What the brush of some faces is, where that is known.
     pub(super) fn shape_of(&self, faces: &[BrushFace]) -> Option<&BrushShape> {
-        let (half_spaces, shape) = self.0.as_deref()?;
-        let is_same = half_spaces.len() == faces.len()
-            && half_spaces.iter().zip(faces).all(|(half_space, face)| *half_space == face.half_space);
-        is_same.then_some(shape)
+        if self.is_empty() { None } else { shape_among(self.0.get(&key(faces))?, faces) }
     }
 }
 
-impl std::fmt::Debug for Built {
+impl std::fmt::Debug for BuiltBodies {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(if self.0.is_some() { "built" } else { "not built" })
+        write!(f, "{} bodies", self.len())
     }
 }
 
-impl PartialEq for Built {
-    fn eq(&self, _: &Self) -> bool {
-        true
+/// A number that depends on the half-spaces of faces alone.
+fn key(faces: &[BrushFace]) -> u64 {
+    let mut hasher = FxHasher::default();
+    for face in faces {
+        let [x, y, z] = face.half_space.normal().to_array();
+        [x, y, z, face.half_space.offset()].iter().for_each(|v| hasher.write_u64(v.to_bits()));
     }
+    hasher.finish()
 }
 
-/// Builds the bodies of brushes that have none, in parallel.
-pub(crate) fn build_ahead(brushes: &mut [Brush]) {
-    let (parts, _) = map_chunks(brushes, least_of_chunk(brushes), |chunk| {
-        let mut polytope = IncrementalPolytope::with_epsilon(0.0);
-        chunk.iter().map(|brush| ahead(brush, &mut polytope)).collect::<Vec<Built>>()
-    });
-    for (brush, built) in brushes.iter_mut().zip(parts.into_iter().flatten()) {
-        brush.built = built;
-    }
+fn shape_among<'a>(bodies: &'a [BuiltBody], faces: &[BrushFace]) -> Option<&'a BrushShape> {
+    let is_same = |half_spaces: &[HalfSpace]| half_spaces.iter().eq(faces.iter().map(|face| &face.half_space));
+    bodies.iter().find(|(half_spaces, _)| is_same(half_spaces)).map(|(_, shape)| shape)
 }
 
-fn ahead(brush: &Brush, polytope: &mut IncrementalPolytope) -> Built {
-    if brush.built.shape_of(&brush.faces).is_some() {
-        return brush.built.clone();
-    }
+fn ahead(brush: &Brush, polytope: &mut IncrementalPolytope) -> BuiltBody {
     let half_spaces: Vec<HalfSpace> = brush.faces.iter().map(|face| face.half_space).collect();
     // as a table has them
     let in_table = |half_space: &HalfSpace| {
@@ -69,7 +111,7 @@ fn ahead(brush: &Brush, polytope: &mut IncrementalPolytope) -> Built {
     };
     let planes: Vec<(Row, HalfSpace)> = half_spaces.iter().map(in_table).collect();
     let shape = shape_of_planes(planes.len(), |k| (&planes[k].0, &planes[k].1), polytope);
-    Built(Some(Arc::new((half_spaces, shape))))
+    (half_spaces, shape)
 }
 
 /// What planes bound: the coefficients of each, exact ones and the same as a half-space; `polytope` is a buffer.

@@ -1,7 +1,7 @@
 //! The exact boundary of each brush, as plane ids: what the boundary is made of.
 //!
 //! - [`shape`] is a body in numbers of its own, which it keeps whatever table its planes are in.
-//! - [`build`] makes those of brushes, where they were not made before ([`Built`]).
+//! - [`build`] makes those of brushes, where they were not made before ([`BuiltBodies`]).
 //! - [`polar_dual`] tells where points lie in a body of many faces.
 
 mod build;
@@ -21,9 +21,8 @@ use crate::base::Bounds;
 use crate::model::MaterialId;
 use crate::plane_table::{PlaneId, PlaneTable};
 
-pub(crate) use build::{BrushBodies, build, build_bodies, built_or_build, read};
-pub use built::Built;
-pub(crate) use built::build_ahead;
+pub(crate) use build::{BrushBodies, build, build_bodies, build_other_bodies, built_or_build, read};
+pub use built::BuiltBodies;
 pub(crate) use corner::{Corner, PlaneFilter};
 pub(crate) use kinds::{kinds, mark_of};
 pub(crate) use outer::OuterBox;

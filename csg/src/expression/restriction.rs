@@ -262,7 +262,7 @@ impl Branch {
 mod tests {
     use super::*;
     use crate::expression::random_trees::{Random, random_tree, value};
-    use crate::model::TreeNode;
+    use crate::model::{TreeNode, holds_outside};
 
     #[test]
     fn restrictions_follow_random_trees() {
@@ -272,6 +272,7 @@ mod tests {
             let count = entries.iter().filter(|entry| **entry == TreeNode::Leaf).count();
             let expression = Expression::new(&entries);
             assert_eq!(expression.base(), value(&entries, &vec![false; count]), "seed {seed}");
+            assert_eq!(expression.base(), holds_outside(&entries), "seed {seed}");
             let near: Vec<u32> = (0..count as u32).filter(|_| random.below(3) > 0).collect();
             if near.is_empty() {
                 continue;

@@ -100,7 +100,7 @@ impl LiveModel {
         let table = &self.planes.table;
         let planes = self.ids(operand);
         let brush = &operand.state.brush;
-        let bounded = match built_or_build(table, brush, &planes, polytope) {
+        let bounded = match built_or_build(table, &self.built, brush, &planes, polytope) {
             BrushBody::Unbounded if self.unbounded == UnboundedBrushes::Keep => {
                 let materials: Vec<MaterialId> = brush.faces.iter().map(|face| face.material).collect();
                 self.outer.cut(table, &planes, &materials)

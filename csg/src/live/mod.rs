@@ -27,7 +27,7 @@ use planecut_kernel::{IncrementalPolytope, PlaneIdx};
 use rustc_hash::FxHashSet;
 use thiserror::Error;
 
-use crate::body::{Body, OuterBox};
+use crate::body::{Body, BuiltBodies, OuterBox};
 use crate::boundary::BoundaryEdge;
 use crate::evaluate::{EvaluateError, UnboundedBrushes, check_materials, material_ranks};
 use crate::expression::Expression;
@@ -131,6 +131,8 @@ pub struct LiveModel {
     free: Vec<u32>,
     by_id: BTreeMap<u64, u32>,
     next_id: u64,
+    /// Bodies that are built already.
+    built: BuiltBodies,
     /// What becomes of brushes that are not bounded.
     unbounded: UnboundedBrushes,
     /// The first brushes, where these are not one after another.
@@ -181,6 +183,7 @@ impl LiveModel {
             free: Vec::new(),
             by_id: BTreeMap::new(),
             next_id: 0,
+            built: BuiltBodies::default(),
             unbounded: UnboundedBrushes::Keep,
             base: None,
             places: Places::default(),
@@ -255,6 +258,11 @@ impl LiveModel {
         self.materials.push(material);
         self.rank = material_ranks(&self.materials);
         MaterialId(self.materials.len() as u32 - 1)
+    }
+
+    /// Gives bodies that are built already: brushes to come that have one of them are not built.
+    pub fn set_built_bodies(&mut self, bodies: BuiltBodies) {
+        self.built = bodies;
     }
 
     /// The brushes, in their order.

@@ -4,7 +4,6 @@ use glam::DVec3;
 use planecut_kernel::HalfSpace;
 
 use super::MaterialId;
-use crate::body::Built;
 
 /// One bounding plane of a [`Brush`] and what its face is made of.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,8 +23,6 @@ pub struct Brush {
     pub name: Option<String>,
     /// Line of the input on which the brush begins, counted from 1; 0 where there is none.
     pub line: u32,
-    /// Its body, where that was built before: see [`Model::build_bodies`].
-    pub built: Built,
 }
 
 impl Brush {

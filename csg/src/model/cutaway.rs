@@ -4,8 +4,6 @@ use planecut_kernel::HalfSpace;
 use rustc_hash::FxHashMap;
 
 use super::{Brush, BrushFace, Material, MaterialId, Model, Tree};
-use crate::body::Built;
-use crate::expression::Expression;
 
 /// The part of a model inside a half-space.
 #[derive(Debug, Clone)]
@@ -13,14 +11,20 @@ pub struct Cutaway {
     /// What is left. Brushes and their faces keep their numbers; each brush has one face more, the cut.
     pub model: Model,
     /// The materials of the faces that were cut: they follow those of the whole.
-    pub cuts: Vec<MaterialId>,
+    pub cuts: Vec<CutMaterial>,
 }
 
-impl Cutaway {
-    /// What the names of cut materials end with, behind the name of the material and a space; alone it is the name of a cut through brushes
-    /// of several.
-    pub const SUFFIX: &str = "(cut)";
+/// The material of cut faces.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct CutMaterial {
+    /// Its number among the materials of the model that was cut open.
+    pub id: MaterialId,
+    /// The material that was cut, whose looks it has; `None` for cuts through brushes of several materials.
+    pub of: Option<MaterialId>,
 }
+
+/// What the names of cut materials end with, for people: behind the name of the material and a space, or alone.
+const SUFFIX: &str = "(cut)";
 
 impl Model {
     /// Cuts the model open along the plane of a half-space. Where it goes through a brush that is made of one material, the face of the cut has that
@@ -36,7 +40,7 @@ impl Model {
     /// let tree = Tree::from(block(0.0, 4.0)) - block(1.0, 3.0).into();
     /// let cut = Model { materials: vec![Material::named("oak")], tree }.cut_open(&HalfSpace::new(DVec3::X, 2.0)?);
     /// assert_eq!(evaluate(&cut.model)?.solid.volume, 2.0 * 16.0 - 4.0);
-    /// assert_eq!(cut.model.materials[cut.cuts[0].0 as usize].name, "oak (cut)");
+    /// assert_eq!(cut.model.materials[cut.cuts[0].id.0 as usize].name, "oak (cut)");
     /// # Ok(())
     /// # }
     /// ```
@@ -46,19 +50,19 @@ impl Model {
         let (mut cuts, mut known) = (Vec::new(), FxHashMap::default());
         let mut cut_of = |inside: Option<MaterialId>| {
             *known.entry(inside).or_insert_with(|| {
-                let material = MaterialId(materials.len() as u32);
-                materials.push(cut_through(inside.and_then(|id| self.materials.get(id.0 as usize))));
-                cuts.push(material);
-                material
+                let id = MaterialId(materials.len() as u32);
+                let of = inside.filter(|id| (id.0 as usize) < self.materials.len());
+                materials.push(cut_through(of.map(|id| &self.materials[id.0 as usize])));
+                cuts.push(CutMaterial { id, of });
+                id
             })
         };
         // Inside the half-space each brush is what it was, outside it is nothing: whatever the tree makes of the brushes, it makes the same of
         // them inside, and outside what it makes of nothing.
         for brush in tree.brushes_mut() {
             brush.faces.push(BrushFace { half_space: *half_space, material: cut_of(inside_of(brush)) });
-            brush.built = Built::default();
         }
-        if Expression::new(tree.nodes()).base() {
+        if tree.holds_outside() {
             let rest = Brush::from_half_spaces([*half_space], cut_of(None));
             tree = Tree::intersection([tree, rest.into()]);
         }
@@ -75,7 +79,7 @@ fn inside_of(brush: &Brush) -> Option<MaterialId> {
 /// How the cut through a material is called, and what it looks like.
 fn cut_through(material: Option<&Material>) -> Material {
     match material {
-        Some(material) => Material { name: format!("{} {}", material.name, Cutaway::SUFFIX), ..material.clone() },
-        None => Material::named(Cutaway::SUFFIX),
+        Some(material) => Material { name: format!("{} {}", material.name, SUFFIX), ..material.clone() },
+        None => Material::named(SUFFIX),
     }
 }

@@ -180,6 +180,12 @@ impl Tree {
         })
     }
 
+    /// Whether it holds what none of its brushes holds, as a complement does: then it is not bounded.
+    #[must_use]
+    pub fn holds_outside(&self) -> bool {
+        holds_outside(&self.nodes)
+    }
+
     /// The parts of a union by the names of their brushes: an operand whose brushes have one name is a part, as are single brushes of one
     /// name that follow one another; unions of several names are taken apart further. What has no name, or is no union of several names, is the part
     /// without a name, which comes first.
@@ -300,6 +306,28 @@ impl Tree {
         }
         self
     }
+}
+
+/// Whether what well-formed nodes make of leaves holds what no leaf holds.
+pub(crate) fn holds_outside(nodes: &[TreeNode]) -> bool {
+    let mut values: Vec<bool> = Vec::new();
+    for node in nodes {
+        let TreeNode::Operation { operation, operands } = node else {
+            values.push(false);
+            continue;
+        };
+        let operands = values.split_off(values.len() - *operands as usize);
+        values.push(match operation {
+            Operation::Union => operands.contains(&true),
+            Operation::Intersection => !operands.contains(&false),
+            Operation::Difference => {
+                operands.split_first().is_some_and(|(first, others)| *first && !others.contains(&true))
+            }
+            Operation::Xor => operands.iter().filter(|value| **value).count() % 2 == 1,
+            Operation::Complement => !operands.contains(&true),
+        });
+    }
+    values.pop().expect("a root")
 }
 
 fn operation(operation: Operation, operands: usize) -> TreeNode {

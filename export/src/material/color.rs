@@ -5,7 +5,8 @@ use planecut_csg::Material;
 /// Linear RGB base colour of a material, each channel from 0 to 1: the stated one, or one derived from the name.
 ///
 /// The derived colour depends on the name alone, so a material looks the same in every file and on every run.
-pub(crate) fn material_color(material: &Material) -> [f32; 3] {
+#[must_use]
+pub fn material_color(material: &Material) -> [f32; 3] {
     match material.color {
         Some(color) => color.map(|channel| if channel.is_nan() { 0.0 } else { channel.clamp(0.0, 1.0) }),
         None => name_color(&material.name),

@@ -4,7 +4,7 @@ mod color;
 mod library;
 mod looks;
 
-pub use color::distinct_color;
-pub(crate) use color::{linear_to_srgb, material_color, srgb_to_linear};
+pub(crate) use color::linear_to_srgb;
+pub use color::{distinct_color, material_color};
 pub(crate) use library::{Library, unique_names};
 pub(crate) use looks::{Looks, looks};

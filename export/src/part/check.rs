@@ -1,4 +1,4 @@
-//! The one gate that every mesh passes before a writer or the renderer trusts its indices.
+//! The one gate that every mesh passes before a writer trusts its indices.
 
 use planecut_csg::Mesh;
 

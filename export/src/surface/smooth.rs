@@ -5,7 +5,7 @@ use planecut_csg::Mesh;
 use planecut_csg::stages::{DisjointSets, HalfEdges, NO_TWIN, next};
 
 /// Room for rounding in the cosine of the crease angle: faces that meet at exactly this angle share.
-const ROUNDING: f64 = 1e-9;
+const NORMAL_ROUNDING: f64 = 1e-9;
 
 /// The normals at the corners of triangles. Corners at one vertex share theirs where a way from one to the other crosses no edge that is
 /// sharper than the crease angle.
@@ -21,7 +21,7 @@ impl SharedNormals {
     pub(super) fn of(mesh: &Mesh, crease: f64) -> Self {
         // half-edges and corners have the same numbers: each begins at its corner
         let mut sets = DisjointSets::new(3 * mesh.triangles.len());
-        let least = crease.to_radians().cos() - ROUNDING;
+        let least = crease.to_radians().cos() - NORMAL_ROUNDING;
         let normal = |triangle: u32| mesh.faces[mesh.triangle_faces[triangle as usize] as usize].normal.normalize();
         let twins = HalfEdges::new(mesh.positions.len(), &mesh.triangles).twins();
         for (a, b) in (0..).zip(twins) {
@@ -42,7 +42,7 @@ impl SharedNormals {
         }
         for corner in 0..normals.len() as u32 {
             // of opposite faces nothing is left: then each its own would be as good
-            if standing[corner as usize] == corner && normals[corner as usize].length() < ROUNDING {
+            if standing[corner as usize] == corner && normals[corner as usize].length() < NORMAL_ROUNDING {
                 normals[corner as usize] = normal(corner / 3);
             }
         }

@@ -6,7 +6,7 @@ use planecut_csg::{FaceSource, Mesh, TextureAxes, TextureUnit};
 use crate::part::{Projection, TextureMapping};
 
 /// Faces whose normals are as near to z as to another axis, but for rounding, are floors and ceilings.
-const ROUNDING: f64 = 1e-9;
+const AXIS_TIE: f64 = 1e-9;
 
 /// How textures lie on the faces of a mesh.
 #[derive(Debug, Clone, Copy)]
@@ -74,7 +74,7 @@ impl Side {
     /// The side that a normal is nearest to.
     fn of(normal: DVec3) -> Self {
         let DVec3 { x, y, z } = normal.normalize();
-        if z.abs() >= x.abs().max(y.abs()) - ROUNDING {
+        if z.abs() >= x.abs().max(y.abs()) - AXIS_TIE {
             return if z > 0.0 { Self::Up } else { Self::Down };
         }
         match (x.abs() >= y.abs(), x > 0.0, y > 0.0) {

@@ -13,8 +13,7 @@ use planecut_kernel::DVec2;
 use rustc_hash::FxHashMap;
 
 use super::{FillRule, Outline, largest_coordinate, signed_area};
-use crate::primitives::ShapeError;
-use crate::primitives::parameter::refuse;
+use crate::parameter::{ShapeError, refuse};
 use crate::tolerances::SLIVER;
 
 /// Bits that the largest coordinate gets; the library takes 62.

@@ -11,8 +11,7 @@ use planecut_kernel::DVec2;
 use super::boolean::Grid;
 use super::hull::turn;
 use super::{Outline, signed_area};
-use crate::primitives::ShapeError;
-use crate::primitives::parameter::pieces;
+use crate::parameter::{ShapeError, pieces};
 
 impl Outline {
     /// All sums of a point of one outline and a point of the other; nothing where one of them is.

@@ -9,12 +9,11 @@ use glam::DMat2;
 pub(crate) use i_overlay::core::fill_rule::FillRule;
 use planecut_kernel::DVec2;
 
-use crate::primitives::parameter::{planar_point, positive, refuse, segments as accepted_segments};
-use crate::primitives::{ShapeError, direction};
-use crate::tolerances::{NEGLIGIBLE_COORDINATE, SINGULAR_DETERMINANT};
-
 pub(crate) use hull::{corners_of_hull, turn};
 pub use offset::{ClipperJoin, Join, MITER_LIMIT, OffsetRule};
+
+use crate::parameter::{ShapeError, direction, planar_point, positive, refuse, segments as accepted_segments};
+use crate::tolerances::{NEGLIGIBLE_COORDINATE, SINGULAR_DETERMINANT};
 
 /// A region of the plane, bounded by loops that do not cross: outer ones counter-clockwise, holes clockwise. Lengths have no
 /// unit.

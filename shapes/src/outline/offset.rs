@@ -9,8 +9,7 @@ use planecut_csg::sine_and_cosine;
 use planecut_kernel::DVec2;
 
 use super::{FillRule, Outline};
-use crate::primitives::ShapeError;
-use crate::primitives::parameter::{coordinate, segments as accepted_segments};
+use crate::parameter::{ShapeError, coordinate, segments as accepted_segments};
 use crate::tolerances::CLIPPER_GRID;
 
 /// What an offset makes of a corner that it goes around.

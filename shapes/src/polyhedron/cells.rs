@@ -11,7 +11,7 @@ use super::lumps::take_convex;
 use super::part::{Part, PlaneSide, Points};
 use super::planes::Planes;
 use super::surface::Surface;
-use crate::primitives::MAX_PIECES;
+use crate::parameter::MAX_PIECES;
 
 /// The convex cells within a surface, each as sides of its planes.
 ///

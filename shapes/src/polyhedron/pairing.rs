@@ -3,19 +3,20 @@
 use std::cmp::Ordering;
 use std::f64::consts::PI;
 
-use crate::tolerances::SAME_ANGLE;
 use planecut_csg::stages::{HalfEdges, NO_TWIN};
 use planecut_kernel::DVec3;
 
+use crate::tolerances::SAME_ANGLE;
+
 /// One side of a triangle.
 #[derive(Debug, Clone, Copy)]
-struct TriangleSide {
+struct Side {
     from: u32,
     to: u32,
     half_edge: u32,
 }
 
-impl TriangleSide {
+impl Side {
     fn of(triangles: &[[u32; 3]], half_edge: u32) -> Self {
         let corners = triangles[half_edge as usize / 3];
         let k = half_edge as usize % 3;
@@ -42,8 +43,7 @@ pub(super) fn pair_half_edges(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<u
         }
         // the triangles of a facet with a spike can have sides from a vertex to itself
         let back = half_edges.between(b, a).filter(|_| a != b);
-        let sides: Vec<TriangleSide> =
-            half_edges.between(a, b).chain(back).map(|h| TriangleSide::of(triangles, h)).collect();
+        let sides: Vec<Side> = half_edges.between(a, b).chain(back).map(|h| Side::of(triangles, h)).collect();
         let pairs = if let [a, b] = sides[..] { vec![(a, b)] } else { wedges(points, triangles, &sides) };
         for (a, b) in pairs {
             mates[a.half_edge as usize] = b.half_edge;
@@ -55,9 +55,8 @@ pub(super) fn pair_half_edges(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<u
 
 /// Pairs of sides with solid between them. Turning about the edge against the sense of its forward direction, the solid begins
 /// behind a forward side and ends at a backward one.
-fn wedges(points: &[DVec3], triangles: &[[u32; 3]], sides: &[TriangleSide]) -> Vec<(TriangleSide, TriangleSide)> {
-    let mut around: Vec<(f64, TriangleSide)> =
-        sides.iter().map(|side| (angle(points, triangles, side), *side)).collect();
+fn wedges(points: &[DVec3], triangles: &[[u32; 3]], sides: &[Side]) -> Vec<(Side, Side)> {
+    let mut around: Vec<(f64, Side)> = sides.iter().map(|side| (angle(points, triangles, side), *side)).collect();
     around.sort_by(|(p, _), (q, _)| q.total_cmp(p));
     for same in around.chunk_by_mut(|(p, _), (q, _)| p - q <= SAME_ANGLE) {
         same.sort_by(|(_, a), (_, b)| touching(a, b));
@@ -82,12 +81,12 @@ fn wedges(points: &[DVec3], triangles: &[[u32; 3]], sides: &[TriangleSide]) -> V
 }
 
 /// Of facets that lie on each other, what ends comes before what begins.
-fn touching(a: &TriangleSide, b: &TriangleSide) -> Ordering {
+fn touching(a: &Side, b: &Side) -> Ordering {
     a.is_forward().cmp(&b.is_forward()).then(a.half_edge.cmp(&b.half_edge))
 }
 
 /// The direction of a triangle about its side, counter-clockwise about the side's forward direction.
-fn angle(points: &[DVec3], triangles: &[[u32; 3]], side: &TriangleSide) -> f64 {
+fn angle(points: &[DVec3], triangles: &[[u32; 3]], side: &Side) -> f64 {
     let at = |v: u32| points[v as usize];
     let (low, high) = side.ends();
     let along = (at(high) - at(low)).normalize_or_zero();

@@ -6,9 +6,8 @@
 
 use planecut_kernel::{DVec3, HalfSpace};
 
-use super::ShapeError;
-use super::parameter::MAX_PIECES;
 use super::simple::plane as accepted;
+use crate::parameter::{MAX_PIECES, ShapeError};
 use crate::polyhedron::cells_within;
 use crate::polyhedron::exact::{Grid, Plane};
 

@@ -3,15 +3,14 @@
 use planecut_csg::{Brush, MaterialId, Tree, sine_and_cosine};
 use planecut_kernel::{DVec2, DVec3, HalfSpace, IncrementalPolytope};
 
-use super::ShapeError;
 use super::cells::PlaneSide;
 use super::layers;
-use super::parameter::{MAX_SEGMENTS, angle, not_negative, positive, refuse};
 use super::pockets::{HullAndPockets, hull_and_pockets};
 use super::region::Region;
 use super::simple::plane;
 use super::walls::Walls;
 use crate::outline::Outline;
+use crate::parameter::{MAX_SEGMENTS, ShapeError, angle, not_negative, positive, refuse};
 
 /// By whose rules layers are turned, stretched and bounded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]

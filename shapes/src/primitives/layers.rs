@@ -8,11 +8,10 @@ use planecut_csg::{Brush, MaterialId, Tree};
 use planecut_kernel::{DVec2, DVec3};
 use robust::{Coord3D, orient3d};
 
-use super::ShapeError;
 use super::cells::{PlaneSide, Surface};
 use super::extruded::{Extrusion, LayerRules, brush_of, ends};
-use super::parameter::{pieces, refuse};
 use crate::outline::largest_coordinate;
+use crate::parameter::{ShapeError, pieces, refuse};
 
 /// Of each facet the numbers of its corners, counter-clockwise seen from outside.
 type Facets = Vec<Vec<u32>>;

@@ -18,11 +18,8 @@
 //! Lengths have no unit, angles are degrees.
 
 mod cells;
-mod circle;
-mod error;
 mod extruded;
 mod layers;
-pub(crate) mod parameter;
 mod partition;
 mod pockets;
 mod region;
@@ -32,13 +29,11 @@ mod round;
 mod simple;
 mod walls;
 
-pub use error::ShapeError;
+pub use crate::parameter::{MAX_LENGTH, MAX_PIECES, MAX_SEGMENTS, ShapeError};
 pub use extruded::{Extrusion, LayerRules, extrude};
-pub use parameter::{MAX_LENGTH, MAX_PIECES, MAX_SEGMENTS};
 pub use regular::{RegularSolid, regular};
 pub use revolved::{revolve, revolve_in_steps, torus};
 pub use round::{capsule, cone, cylinder, prism, pyramid, sphere};
 pub use simple::{body_of_half_spaces, cuboid, half_space, hull_of_points, wedge};
 
-pub(crate) use circle::direction;
 pub(crate) use simple::plane;

@@ -7,11 +7,11 @@
 
 use planecut_kernel::{DVec2, HalfSpace};
 
-use super::ShapeError;
 use super::extruded::half_spaces;
 use super::simple::plane;
 use super::walls::{Walls, side};
 use crate::outline::{corners_of_hull, largest_coordinate, signed_area, turn};
+use crate::parameter::ShapeError;
 use crate::tolerances::{LID_NOISE, LID_REACH};
 
 /// Loops of fewer reflex corners are cut into cells.

@@ -2,8 +2,7 @@
 
 use planecut_csg::{Brush, Tree, TreeNode};
 
-use super::ShapeError;
-use super::parameter::pieces;
+use crate::parameter::{ShapeError, pieces};
 
 /// The bodies over the shapes of an outline.
 ///

@@ -3,9 +3,8 @@
 use planecut_csg::{Brush, MaterialId};
 use planecut_kernel::DVec3;
 
-use super::ShapeError;
-use super::parameter::positive;
 use super::simple::brush;
+use crate::parameter::{ShapeError, positive};
 
 /// A regular polyhedron about the origin.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

@@ -16,15 +16,15 @@
 use planecut_csg::{Brush, MaterialId, Tree, sine_and_cosine};
 use planecut_kernel::{DVec2, DVec3, HalfSpace};
 
-use super::ShapeError;
 use super::cells::PlaneSide;
-use super::circle::{apothem, direction, middle};
 use super::extruded::brush_of;
-use super::parameter::{MAX_SEGMENTS, pieces, positive, refuse, segments as accepted_segments};
 use super::region::Region;
 use super::simple::plane;
 use super::walls::Walls;
 use crate::outline::Outline;
+use crate::parameter::{
+    MAX_SEGMENTS, ShapeError, apothem, direction, middle, pieces, positive, refuse, segments as accepted_segments,
+};
 
 /// A line of the outline `a x + b z = d`, the outline below it.
 type Line = (f64, f64, f64);

@@ -3,10 +3,10 @@
 use planecut_csg::{Brush, MaterialId};
 use planecut_kernel::{DVec2, DVec3};
 
-use super::ShapeError;
-use super::circle::{apothem, direction, middle};
-use super::parameter::{not_negative, positive, refuse, segments as accepted_segments};
 use super::simple::brush;
+use crate::parameter::{
+    ShapeError, apothem, direction, middle, not_negative, positive, refuse, segments as accepted_segments,
+};
 
 /// A face plane, as a normal and an offset.
 type Plane = (DVec3, f64);

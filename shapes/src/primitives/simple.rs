@@ -3,8 +3,7 @@
 use planecut_csg::{Brush, MaterialId};
 use planecut_kernel::{DVec3, HalfSpace};
 
-use super::ShapeError;
-use super::parameter::{point, positive, refuse};
+use crate::parameter::{ShapeError, point, positive, refuse};
 use crate::tolerances::NEGLIGIBLE_COMPONENT;
 
 /// The box between two corners.

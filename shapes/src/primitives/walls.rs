@@ -3,12 +3,11 @@
 use planecut_csg::PlaneTable;
 use planecut_kernel::{DVec2, DVec3, HalfSpace};
 
-use super::ShapeError;
 use super::cells::{PlaneSide, Surface};
-use super::parameter::refuse;
 use super::partition::partition;
 use super::simple::plane;
 use crate::outline::{largest_coordinate, signed_area};
+use crate::parameter::{ShapeError, refuse};
 use crate::tolerances::SHORT_SIDE;
 
 /// The upright prism over a loop.

@@ -7,7 +7,7 @@ use planecut_kernel::sign::Row;
 use planecut_kernel::{DVec3, HalfSpace, IncrementalPolytope, PlaneIdx, meet};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use crate::primitives::ShapeError;
+use crate::parameter::ShapeError;
 use crate::tolerances::MERGED_VERTICES;
 
 /// A bounded convex body with interior.

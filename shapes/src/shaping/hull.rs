@@ -5,7 +5,7 @@ use planecut_csg::{Brush, MaterialId, Tree};
 use planecut_kernel::{DVec3, HalfSpace, HullError};
 
 use super::convex::{Convex, evaluated, parts_of_union, wide_faces};
-use crate::primitives::ShapeError;
+use crate::parameter::ShapeError;
 
 /// The convex hull of all operands together; empty where none has an interior. A single convex body is its own hull, with its
 /// own planes and materials. Other hulls get the material; where one of their faces is one of an operand, it is the very same

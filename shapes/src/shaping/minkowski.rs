@@ -11,8 +11,7 @@ use planecut_kernel::sign::{Row, Sign, orient3};
 use planecut_kernel::{DVec3, HalfSpace, direction_across, line_direction};
 
 use super::convex::{Convex, Edge, parts_of_union, wide_faces};
-use crate::primitives::ShapeError;
-use crate::primitives::parameter::pieces;
+use crate::parameter::{ShapeError, pieces};
 
 /// All sums of a point of `a` and a point of `b`; empty where one of them is. All faces get the material.
 ///

@@ -7,8 +7,8 @@ use rustc_hash::FxHashMap;
 
 use super::convex::evaluated;
 use crate::outline::{FillRule, Outline};
-use crate::primitives::parameter::coordinate;
-use crate::primitives::{ShapeError, body_of_half_spaces};
+use crate::parameter::{ShapeError, coordinate};
+use crate::primitives::body_of_half_spaces;
 
 /// Where a solid meets the plane `z = height`: what there is just below it. Move the tree first for any other plane.
 ///

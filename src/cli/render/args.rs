@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use planecut::export::{Background, CameraKind, PreviewOptions, PreviewStyle};
 use planecut::kernel::{DVec3, HalfSpace};
+use planecut::picture::{Background, CameraKind, PreviewOptions, PreviewStyle};
 
 use crate::cli::args::{CommonArgs, ReadingArgs, Size, parse_size};
 use crate::cli::asset_args::UnitName;
@@ -72,7 +72,7 @@ impl RenderArgs {
             },
             dimensions: self.labels.dimensions,
             scale_bar: self.labels.scale_bar,
-            unit: self.labels.unit.map(UnitName::unit),
+            unit: self.labels.unit.map(|name| name.unit().symbol()),
             ..size.preview()
         }
     }
@@ -246,7 +246,7 @@ pub(crate) enum Section {
 impl Section {
     /// The half-space to keep of a model between two corners, as the camera sees it.
     pub(crate) fn half_space(self, [min, max]: [DVec3; 2], options: &PreviewOptions) -> Option<HalfSpace> {
-        let towards_eye = options.towards_camera();
+        let towards_eye = DVec3::from(options.towards_camera());
         let middle = round_middle(min, max);
         let (axis, place) = match self {
             Self::Plane(half_space) => return Some(half_space),

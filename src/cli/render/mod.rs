@@ -6,11 +6,11 @@ mod subject;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use planecut::export::{
-    AnimationFormat, AnimationWriter, Background, ExportError, Picture, PreviewOptions, SheetColors, Tile, Turntable,
+use planecut::import::Warning;
+use planecut::picture::{
+    AnimationFormat, AnimationWriter, Background, Picture, PictureError, PreviewOptions, SheetColors, Tile, Turntable,
     contact_sheet, render, render_buffers, sheet_layout,
 };
-use planecut::import::Warning;
 
 use self::args::IdKind;
 pub(crate) use self::args::RenderArgs;
@@ -127,7 +127,7 @@ impl<'a> Plan<'a> {
             let sides = sequence.frames.min(4);
             let samples = (0..sides).map(|side| side * sequence.frames / sides);
             let drawn = samples.map(|number| Ok((number, turntable.frame(number)?)));
-            let mut drawn = drawn.collect::<Result<BTreeMap<u32, Picture>, ExportError>>()?;
+            let mut drawn = drawn.collect::<Result<BTreeMap<u32, Picture>, PictureError>>()?;
             drawn.values().for_each(|sample| animation.learn(sample));
             for number in 0..turntable.frames() {
                 let frame = match drawn.remove(&number) {
@@ -142,7 +142,7 @@ impl<'a> Plan<'a> {
 
     fn contact_sheet(&self, progress: &Progress) -> Result<Made, CliError> {
         let PreviewOptions { width, height, .. } = self.options;
-        let failed = |source| CliError::Encode { output: self.picture.to_string(), source };
+        let failed = |source| CliError::Draw { output: self.picture.to_string(), source };
         let layout = sheet_layout(self.inputs.len(), [width, height], self.args.sequence.columns).map_err(failed)?;
         let [width, height] = layout.tile;
         let options = PreviewOptions { width, height, ..self.options };
@@ -159,27 +159,26 @@ impl<'a> Plan<'a> {
             Background::Transparent => SheetColors::TRANSPARENT,
         };
         let sheet = contact_sheet(&tiles, &layout, &colors).map_err(failed)?;
-        Ok((vec![self.picture.begin(|out| Ok(out.write_all(&sheet.to_png()?)?))?], warnings))
+        Ok((vec![self.picture.begin(|out| Ok::<_, PictureError>(out.write_all(&sheet.to_png()?)?))?], warnings))
     }
 
     /// Depth and ids, as far as they are asked for.
     fn buffers(&self, drawn: &Drawn) -> Result<Vec<Output>, CliError> {
         let Some(first) = self.depth.as_ref().or(self.ids.as_ref()) else { return Ok(Vec::new()) };
         let buffers = render_buffers(&drawn.subject, &self.options)
-            .map_err(|source| CliError::Encode { output: first.to_string(), source })?;
+            .map_err(|source| CliError::Draw { output: first.to_string(), source })?;
         let mut outputs = Vec::new();
         if let Some(target) = &self.depth {
-            outputs.push(target.begin(|out| Ok(out.write_all(&buffers.depth_png()?)?))?);
+            outputs.push(target.begin(|out| Ok::<_, PictureError>(out.write_all(&buffers.depth_png()?)?))?);
         }
         if let Some(target) = &self.ids {
-            let mesh = drawn.subject.as_mesh();
-            let material = |face: u32| mesh.faces[face as usize].material.0;
+            let material = |face: u32| drawn.subject.faces()[face as usize].paint;
             let number = |face: u32| match self.args.buffers.id_of {
                 IdKind::Face => face,
                 IdKind::Material => material(face),
                 IdKind::Brush => drawn.sources.get(material(face) as usize).map_or(0, |source| source.brush),
             };
-            outputs.push(target.begin(|out| Ok(out.write_all(&buffers.id_png(number)?)?))?);
+            outputs.push(target.begin(|out| Ok::<_, PictureError>(out.write_all(&buffers.id_png(number)?)?))?);
         }
         Ok(outputs)
     }

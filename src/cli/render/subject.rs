@@ -3,10 +3,10 @@
 use planecut::csg::{
     Cutaway, FaceSource, Material, MaterialId, Mesh, MeshFace, Model, Solid, Tree, evaluate, summarize,
 };
-use planecut::export::{PreviewOptions, Subject};
 use planecut::import::Warning;
 use planecut::import::mesh::{IndexedMesh, MeshFormat, read_mesh};
 use planecut::kernel::DVec3;
+use planecut::picture::{PreviewOptions, Subject};
 
 use super::args::{IdKind, RenderArgs};
 use crate::cli::error::CliError;
@@ -104,7 +104,7 @@ fn inside(
     }
     let Some(spread) = args.spread() else {
         let mesh = evaluate(&model).map_err(failed)?.mesh;
-        return Ok(Drawn::new(Subject::from(mesh).hatching(cuts), read.warnings));
+        return Ok(Drawn::new(Subject::from(mesh).hatching(&cuts), read.warnings));
     };
     let cells = if matches!(kind, InputKind::Mesh(_)) && is_union(&model.tree) {
         // A file of convex bodies: they are the cells, even where they overlap.

@@ -3,13 +3,19 @@
 
 use std::time::Instant;
 
-use planecut_csg::{Brush, BrushId, LiveModel, Material, Model, Role, Tree, evaluate};
+use planecut_csg::{Brush, BrushId, BuiltBodies, LiveModel, Material, Model, Role, UnboundedBrushes, evaluate_built};
 use planecut_kernel::DVec3;
 
 use super::{Contestant, Outcome};
 use crate::scene::{Action, Convex, Plan, Scene};
 
-pub(super) enum Planecut {
+pub(super) struct Planecut {
+    task: Task,
+    /// The bodies that are built before the clock starts.
+    built: BuiltBodies,
+}
+
+enum Task {
     AtOnce(Model),
     Steps(Vec<(Brush, Role)>),
     /// A model, the brush that is moved, and its forms.
@@ -20,30 +26,28 @@ fn materials() -> Vec<Material> {
     vec![Material::named("all")]
 }
 
-/// Brushes with their bodies.
-fn built(brushes: Vec<Brush>) -> Vec<Brush> {
-    let mut model = Model { materials: materials(), tree: Tree::union_of(brushes) };
-    model.build_bodies();
-    model.tree.into_brushes()
-}
-
 impl Planecut {
     /// With all bodies built before the clock starts.
     pub(super) fn with_bodies(scene: &Scene) -> Result<Self, String> {
-        Ok(match Self::new(scene)? {
-            Self::AtOnce(mut model) => {
-                model.build_bodies();
-                Self::AtOnce(model)
-            }
-            Self::Steps(steps) => {
-                let (brushes, roles): (Vec<Brush>, Vec<Role>) = steps.into_iter().unzip();
-                Self::Steps(built(brushes).into_iter().zip(roles).collect())
-            }
-            Self::Moves(live, moved, forms) => Self::Moves(live, moved, built(forms)),
-        })
+        let mut planecut = Self::new(scene)?;
+        planecut.built = match &planecut.task {
+            Task::AtOnce(model) => BuiltBodies::of(model.tree.brushes()),
+            Task::Steps(steps) => BuiltBodies::of(steps.iter().map(|(brush, _)| brush)),
+            Task::Moves(_, _, forms) => BuiltBodies::of(forms),
+        };
+        if let Task::Moves(live, _, _) = &mut planecut.task {
+            live.set_built_bodies(planecut.built.clone());
+        }
+        Ok(planecut)
     }
 
     pub(super) fn new(scene: &Scene) -> Result<Self, String> {
+        Ok(Self { task: Task::new(scene)?, built: BuiltBodies::default() })
+    }
+}
+
+impl Task {
+    fn new(scene: &Scene) -> Result<Self, String> {
         match &scene.plan {
             Plan::Tree(entries) => Ok(Self::AtOnce(Model { materials: materials(), tree: scene.tree(entries) })),
             Plan::Steps(steps) => {
@@ -70,10 +74,11 @@ impl Planecut {
 
 impl Contestant for Planecut {
     fn run(&mut self) -> Result<Outcome, String> {
-        match self {
-            Self::AtOnce(model) => {
+        match &mut self.task {
+            Task::AtOnce(model) => {
                 let begin = Instant::now();
-                let evaluation = evaluate(model).map_err(|error| error.to_string())?;
+                let evaluation =
+                    evaluate_built(model, UnboundedBrushes::Keep, &self.built).map_err(|error| error.to_string())?;
                 let seconds = begin.elapsed().as_secs_f64();
                 Ok(Outcome {
                     seconds,
@@ -82,16 +87,17 @@ impl Contestant for Planecut {
                     triangles: evaluation.mesh.triangles.len(),
                 })
             }
-            Self::Steps(steps) => {
+            Task::Steps(steps) => {
                 let steps = steps.clone();
                 let begin = Instant::now();
                 let mut live = LiveModel::new(materials());
+                live.set_built_bodies(self.built.clone());
                 for (brush, role) in steps {
                     live.add_brush(brush, role).map_err(|error| error.to_string())?;
                 }
                 Ok(outcome(&live, begin.elapsed().as_secs_f64()))
             }
-            Self::Moves(live, moved, forms) => {
+            Task::Moves(live, moved, forms) => {
                 let forms = forms.clone();
                 let (before, _) = live.brush(*moved).map_err(|error| error.to_string())?;
                 let before = before.clone();

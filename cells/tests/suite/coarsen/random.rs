@@ -12,7 +12,7 @@ const CASES: u64 = 24;
 
 /// Bodies of a few lattice points each, on a lattice so coarse that faces, edges and corners coincide.
 fn bodies(seed: u64) -> Vec<Vec<DVec3>> {
-    let mut rng = Rng::new(seed);
+    let mut rng = Rng::spread(seed);
     let (count, size) = (2 + rng.below(8), rng.integer(1, 4));
     let mut bodies = Vec::new();
     while bodies.len() < count {

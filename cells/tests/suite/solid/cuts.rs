@@ -57,7 +57,7 @@ fn cuts_that_are_taken_back_leave_nothing_behind() {
         sweep(40, generate, |shape| {
             let mut solid = Solid::from_tree(&shape.tree());
             let (before, volume) = (seen(&solid), solid.volume());
-            let mut rng = Rng::new(solid.cells().count() as u64);
+            let mut rng = Rng::spread(solid.cells().count() as u64);
             let mut cuts: Vec<(CutId, HalfSpace)> = Vec::new();
             for _ in 0..30 {
                 if cuts.is_empty() || rng.chance(0.55) {
@@ -117,7 +117,7 @@ fn divided_cells_grow_back_together() {
         sweep(30, generate, |shape| {
             let base = Solid::from_tree(&shape.tree());
             let mut solid = base.clone();
-            let mut rng = Rng::new(solid.cells().count() as u64 + 5);
+            let mut rng = Rng::spread(solid.cells().count() as u64 + 5);
             let mut done: Vec<(CutId, Operation)> = Vec::new();
             for _ in 0..16 {
                 if done.is_empty() || rng.chance(0.6) {
@@ -174,7 +174,7 @@ fn halves_add_up() {
         };
         sweep(60, generate, |shape| {
             let solid = Solid::from_tree(&shape.tree());
-            let cut = random_cut(&mut Rng::new(solid.cells().count() as u64));
+            let cut = random_cut(&mut Rng::spread(solid.cells().count() as u64));
             let (inside, outside) = solid.split(&cut);
             ensure_sound(&inside)?;
             ensure_sound(&outside)?;

@@ -76,7 +76,7 @@ fn large_trees() {
 fn unbounded_results_hold_the_right_points() {
     let mut unbounded = 0;
     for seed in 0..scaled(200) {
-        let mut rng = Rng::new(seed);
+        let mut rng = Rng::spread(seed);
         let leaves = 1 + rng.below(6);
         let shape = random_shape(&mut rng, Kind::Mixed, leaves);
         let solid = Solid::from_tree(&shape.tree());

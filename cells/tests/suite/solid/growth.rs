@@ -16,7 +16,7 @@ fn block(min: DVec3, max: DVec3) -> Tree {
 
 /// A block minus turned cubes, as dense whatever their number, and the volume of one cube.
 fn block_without_cubes(count: u32) -> Solid {
-    let mut rng = Rng::new(count.into());
+    let mut rng = Rng::spread(count.into());
     let side = 5.0 * f64::from(count).cbrt();
     let cubes = (0..count).map(|_| {
         let at = rng.point(0.0, side);
@@ -142,7 +142,7 @@ fn figures() {
         "sponge by bars",
         &Tree::difference([block(DVec3::ZERO, DVec3::splat(27.0))].into_iter().chain(menger_bars(3))),
     );
-    let mut rng = Rng::new(1);
+    let mut rng = Rng::spread(1);
     let mut balls = Vec::new();
     for _ in 0..250 {
         let at = rng.point(0.0, 20.0);

@@ -15,7 +15,7 @@ fn random_motion(rng: &mut Rng) -> Transform {
 }
 
 fn judge(shape: &Shape) -> Result<(), String> {
-    let mut rng = Rng::new(shape.model().tree.brushes().len() as u64);
+    let mut rng = Rng::spread(shape.model().tree.brushes().len() as u64);
     let motion = random_motion(&mut rng);
     let solid = Solid::from_tree(&shape.tree());
     let moved = solid.transformed(&motion).map_err(|error| error.to_string())?;
@@ -48,7 +48,7 @@ fn turned_boxes_have_the_skin_of_the_turned_tree() {
         bounded(random_shape(rng, Kind::Boxes, leaves))
     };
     sweep(60, generate, |shape| {
-        let motion = random_motion(&mut Rng::new(9));
+        let motion = random_motion(&mut Rng::spread(9));
         let Model { materials, tree } = shape.model();
         let moved = Solid::from_tree(&tree).transformed(&motion).map_err(|error| error.to_string())?;
         let tree = tree.transformed(&motion).map_err(|error| error.to_string())?;

@@ -10,7 +10,7 @@ use planecut_testkit::shape::{Kind, Shape, bounded, random_shape};
 /// The closest point belongs to the solid, lies as far away as is told, and no point nearer belongs to the tree.
 fn judge(shape: &Shape) -> Result<(), String> {
     let solid = Solid::from_tree(&shape.tree());
-    let mut rng = Rng::new(solid.cells().count() as u64);
+    let mut rng = Rng::spread(solid.cells().count() as u64);
     for _ in 0..20 {
         let point = rng.point(-9.0, 9.0);
         let Some((closest, distance)) = solid.closest_point(point) else {

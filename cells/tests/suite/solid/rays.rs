@@ -45,7 +45,7 @@ fn first_change(
 fn judge(shape: &Shape) -> Result<(), String> {
     let solid = Solid::from_tree(&shape.tree());
     let brushes = shape.model().tree.into_brushes();
-    let mut rng = Rng::new(brushes.len() as u64);
+    let mut rng = Rng::spread(brushes.len() as u64);
     let mut asked = 0;
     for _ in 0..60 {
         let (origin, direction) = (rng.point(-8.0, 8.0), rng.unit() * rng.float(0.5, 3.0));

@@ -92,7 +92,7 @@ fn brushes(rng: &mut Rng, count: usize) -> Vec<Brush> {
 #[test]
 fn unions_and_differences_are_the_same_in_blocks() {
     for seed in 0..12 {
-        let rng = &mut Rng::new(seed);
+        let rng = &mut Rng::spread(seed);
         let parts: Vec<Tree> = brushes(rng, 60).into_iter().map(Tree::from).collect();
         let (first, rest) = parts.split_at(40);
         let tree = match seed % 4 {

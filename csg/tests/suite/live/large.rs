@@ -122,7 +122,7 @@ fn sweep(seeds: u64, length: usize, first: fn(&mut Rng) -> Planes, shape: fn(&mu
     let factor: u64 = std::env::var("PLANECUT_SCENES").ok().and_then(|v| v.parse().ok()).unwrap_or(1);
     let seeds = factor * seeds;
     let tally =
-        (0..seeds).map(|seed| check(seed, &sequence(&mut Rng::new(seed), length, first, shape), Faces::Same)).sum();
+        (0..seeds).map(|seed| check(seed, &sequence(&mut Rng::spread(seed), length, first, shape), Faces::Same)).sum();
     println!("{seeds} sequences of {length} edits: {tally:?}");
     tally
 }

@@ -102,7 +102,7 @@ fn sequence(random: &mut Rng, length: usize, shape: fn(&mut Rng) -> Planes) -> V
 }
 
 fn sweep(seeds: u64, length: usize, shape: fn(&mut Rng) -> Planes, faces: Faces) -> Tally {
-    (0..seeds).map(|seed| check(seed, &sequence(&mut Rng::new(seed), length, shape), faces)).sum()
+    (0..seeds).map(|seed| check(seed, &sequence(&mut Rng::spread(seed), length, shape), faces)).sum()
 }
 
 #[test]

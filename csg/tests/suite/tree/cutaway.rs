@@ -1,7 +1,7 @@
 //! Models cut open, against counts of unit cubes.
 
 use glam::DVec3;
-use planecut_csg::{Brush, Material, MaterialId, Mesh, Model, Operation, Tree, evaluate};
+use planecut_csg::{Brush, CutMaterial, Material, MaterialId, Mesh, Model, Operation, Tree, evaluate};
 use planecut_kernel::HalfSpace;
 
 use planecut_testkit::random::Rng;
@@ -67,11 +67,11 @@ fn cubes() -> impl Iterator<Item = [usize; 3]> {
 }
 
 /// The area of the faces of some materials, from their triangles.
-fn area(mesh: &Mesh, materials: &[MaterialId]) -> f64 {
+fn area(mesh: &Mesh, cuts: &[CutMaterial]) -> f64 {
     let of = |triangle: usize| {
         let [a, b, c] = mesh.triangles[triangle].map(|corner| mesh.positions[corner as usize]);
         let face = mesh.faces[mesh.triangle_faces[triangle] as usize];
-        if materials.contains(&face.material) { (b - a).cross(c - a).length() / 2.0 } else { 0.0 }
+        if cuts.iter().any(|cut| cut.id == face.material) { (b - a).cross(c - a).length() / 2.0 } else { 0.0 }
     };
     (0..mesh.triangles.len()).map(of).sum()
 }
@@ -80,7 +80,7 @@ fn area(mesh: &Mesh, materials: &[MaterialId]) -> f64 {
 #[test]
 fn what_is_left_and_what_is_cut_have_the_right_size() {
     let seed = 11;
-    let mut rng = Rng::new(seed);
+    let mut rng = Rng::spread(seed);
     let mut cut_through = 0;
     for round in 0..300 {
         let chain = Chain::random(&mut rng);
@@ -125,8 +125,10 @@ fn complements_are_cut_and_numbers_stay() {
     let evaluation = evaluate(&cut.model).expect("closed");
     assert!((evaluation.solid.volume - (16.0 * 2.5 - 4.0 * 1.5)).abs() < 1e-12);
     assert!((area(&evaluation.mesh, &cut.cuts) - (16.0 - 4.0)).abs() < 1e-12);
-    let names: Vec<&str> = cut.cuts.iter().map(|id| cut.model.materials[id.0 as usize].name.as_str()).collect();
+    let names: Vec<&str> = cut.cuts.iter().map(|made| cut.model.materials[made.id.0 as usize].name.as_str()).collect();
     assert!(names.contains(&"stone (cut)"), "{names:?}");
+    let stone = CutMaterial { id: MaterialId(3), of: Some(MaterialId(1)) };
+    assert!(cut.cuts.contains(&stone), "{:?}", cut.cuts);
     assert_eq!(cut.model.tree.brushes()[1].faces.len(), 7);
 }
 
@@ -141,7 +143,8 @@ fn brushes_of_several_materials_share_a_cut() {
     let materials = vec![Material::named("a"), Material::named("b")];
     let model = Model { materials, tree: Tree::union_of(vec![painted(0.0), painted(5.0)]) };
     let cut = model.cut_open(&HalfSpace::new(DVec3::Z, 0.5).expect("a plane"));
-    assert_eq!((cut.cuts.len(), cut.model.materials[2].name.as_str()), (1, "(cut)"));
+    assert_eq!(cut.cuts, [CutMaterial { id: MaterialId(2), of: None }]);
+    assert_eq!(cut.model.materials[2].name, "(cut)");
     let evaluation = evaluate(&cut.model).expect("closed");
     assert!((area(&evaluation.mesh, &cut.cuts) - 2.0).abs() < 1e-12);
 }

@@ -105,7 +105,7 @@ fn winding_number(mesh: &Mesh, point: DVec3) -> f64 {
 /// Compares winding numbers with membership: close to the faces on either side, and anywhere around.
 pub(crate) fn check_membership(shape: &Shape, evaluation: &Evaluation, points: usize) -> Result<(), String> {
     let (mesh, solid) = (&evaluation.mesh, &evaluation.solid);
-    let mut rng = Rng::new(mesh.triangles.len() as u64);
+    let mut rng = Rng::spread(mesh.triangles.len() as u64);
     let margin = 1e-7 + contraction(solid);
     let (mut decided, mut brushes) = (0, shape.leaves());
     brushes.retain(|brush| !brush.faces.is_empty());
@@ -136,7 +136,7 @@ pub(crate) fn check_membership(shape: &Shape, evaluation: &Evaluation, points: u
 #[test]
 fn the_polynomial_of_a_tree_is_that_of_inclusion_and_exclusion() {
     use planecut_csg::Operation::Union;
-    let mut rng = Rng::new(1);
+    let mut rng = Rng::spread(1);
     let leaf = |rng: &mut Rng| Shape::Leaf(super::random::random_leaf(rng, super::random::Kind::Lattice));
     let shape = Shape::Node(Union, (0..3).map(|_| leaf(&mut rng)).collect());
     assert_eq!(coefficients(&shape, 3), [0, 1, 1, -1, 1, -1, -1, 1]);

@@ -85,7 +85,7 @@ fn redundant_planes_are_counted_and_change_nothing() {
 #[test]
 fn a_single_body_is_its_own_boundary() {
     for planes in [4, 7, 50, 200] {
-        let body = ball(&mut Rng::new(planes as u64), DVec3::new(0.3, -2.0, 1.0), 1.5, planes);
+        let body = ball(&mut Rng::spread(planes as u64), DVec3::new(0.3, -2.0, 1.0), 1.5, planes);
         let mut polytope = IncrementalPolytope::with_epsilon(0.0);
         for face in &body.faces {
             polytope.add_plane(face.half_space);
@@ -103,7 +103,7 @@ fn a_single_body_is_its_own_boundary() {
 
 #[test]
 fn bodies_of_many_faces_meet() {
-    let mut rng = Rng::new(5);
+    let mut rng = Rng::spread(5);
     let balls = (0..4).map(|k| ball(&mut rng, DVec3::new(f64::from(k) * 0.7, 0.1, 0.0), 1.0, 200)).collect();
     let model = model(balls);
     let evaluation = sound(&model);
@@ -116,7 +116,7 @@ fn bodies_of_many_faces_meet() {
 #[test]
 fn many_boxes_through_one_point() {
     for at in [DVec3::ZERO, DVec3::new(0.1, 0.2, -0.3)] {
-        let mut rng = Rng::new(11);
+        let mut rng = Rng::spread(11);
         let through = |rng: &mut Rng| {
             let rotation = rng.rotation();
             let planes = DVec3::AXES.into_iter().flat_map(|axis| {
@@ -135,7 +135,7 @@ fn many_boxes_through_one_point() {
 /// Integer slopes that share a line: wedges between half-planes of a pencil.
 #[test]
 fn many_boxes_through_one_edge() {
-    let mut rng = Rng::new(13);
+    let mut rng = Rng::spread(13);
     let wedge = |rng: &mut Rng| {
         let normal = loop {
             let n = rng.point(-9.0, 9.0).round();
@@ -228,7 +228,7 @@ fn a_frame_has_a_handle_and_a_shell_has_an_inside() {
 
 #[test]
 fn a_crowd_of_turned_boxes_is_sound() {
-    let mut rng = Rng::new(17);
+    let mut rng = Rng::spread(17);
     let boxes = (0..500).map(|_| {
         let (at, half) = (rng.point(-2.0, 2.0), rng.point(0.1, 0.6));
         turned_box(&mut rng, at, half)

@@ -148,7 +148,7 @@ pub(crate) fn check_membership(model: &Model, evaluation: &Evaluation, points: u
     let extent = solid.max - solid.min;
     let reach = solid.min.abs().max(solid.max.abs()).max_element();
     let margin = 1e-9 * extent.length() + contraction(solid) + snap_distance(evaluation, reach);
-    let mut rng = Rng::new(mesh.triangles.len() as u64);
+    let mut rng = Rng::spread(mesh.triangles.len() as u64);
     let mut decided = 0;
     for k in 0..points {
         let corner = |rng: &mut Rng| rng.pick(&mesh.positions);

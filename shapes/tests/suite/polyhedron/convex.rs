@@ -34,7 +34,7 @@ fn in_triangles(given: &Given) -> Given {
 #[test]
 fn hulls_of_random_points_are_one_cell() {
     for seed in 0..scaled(60) {
-        let given = random_hull(&mut Rng::new(seed));
+        let given = random_hull(&mut Rng::spread(seed));
         let solid = given.cells(Precision::Double).unwrap_or_else(|error| panic!("seed {seed}: {error}"));
         assert_eq!(solid.cells.len(), 1, "seed {seed}");
         assert_eq!(solid.cells[0].faces.len(), given.facets.len(), "seed {seed}");
@@ -49,7 +49,7 @@ fn rounded_prisms_are_one_cell_with_a_plane_for_each_side() {
     type Case = (Precision, fn(f64) -> f64);
     let cases: [Case; 3] = [(Precision::Single, single), (Precision::Digits(6), six), (Precision::Places(6), places)];
     for seed in 0..scaled(20) {
-        let mut rng = Rng::new(seed);
+        let mut rng = Rng::spread(seed);
         let sides = 3 + rng.below(90) as u32;
         let given = in_triangles(&turned_prism(sides, &mut rng));
         for (precision, round) in cases {

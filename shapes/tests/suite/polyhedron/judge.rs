@@ -95,7 +95,7 @@ fn depth(brush: &Brush, point: DVec3) -> f64 {
 
 /// Random points must be in one cell where the surface winds around them, and in none elsewhere.
 pub(crate) fn ensure_membership(given: &Given, cells: &[Brush], count: usize, margin: f64) -> Result<(), String> {
-    let mut rng = Rng::new(count as u64);
+    let mut rng = Rng::spread(count as u64);
     let (low, high) =
         given.points.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), p| (l.min(*p), h.max(*p)));
     for _ in 0..count {

@@ -81,7 +81,7 @@ fn judge(voxels: &Voxels, turn: &dyn Fn(DVec3) -> DVec3, noise: f64) -> Result<(
 /// Random lattices; one that fails loses cubes for as long as it does.
 fn sweep(count: u64, turn: &dyn Fn(DVec3) -> DVec3, noise: f64) {
     for seed in 0..scaled(count) {
-        let mut voxels = Voxels::random(&mut Rng::new(seed));
+        let mut voxels = Voxels::random(&mut Rng::spread(seed));
         let Err(mut message) = judge(&voxels, turn, noise) else { continue };
         while let Some((smaller, still)) = (0..voxels.0.len()).filter(|k| voxels.0[*k]).find_map(|k| {
             let mut smaller = voxels.clone();

@@ -106,7 +106,7 @@ pub(crate) fn winds_around(triangles: &[[DVec3; 3]], point: DVec3) -> bool {
 pub(crate) fn sweep(count: u64, judge: impl Fn(&mut Rng)) {
     let factor: u64 = std::env::var("PLANECUT_SCENES").ok().and_then(|v| v.parse().ok()).unwrap_or(1);
     for seed in 0..count * factor {
-        let run = || judge(&mut Rng::new(seed));
+        let run = || judge(&mut Rng::spread(seed));
         if catch_unwind(AssertUnwindSafe(run)).is_err() {
             panic!("seed {seed} (the message is above)");
         }

@@ -1,0 +1,5 @@
+//! Edges worth drawing, and their ink.
+
+pub(crate) mod dashes;
+pub(crate) mod edges;
+pub(crate) mod ink;
