@@ -11,6 +11,6 @@ if (imports.length > 0) {
 const { exports } = await WebAssembly.instantiate(module);
 const start = performance.now();
 const status = exports.main(0, 0);
-const pages = exports.memory.buffer.byteLength / 2 ** 20;
-console.log(`WebAssembly: all checks passed in ${Math.round(performance.now() - start)} ms, ${pages.toFixed(0)} MB of memory`);
+const megabytes = exports.memory.buffer.byteLength / 2 ** 20;
+console.log(`WebAssembly: all checks passed in ${Math.round(performance.now() - start)} ms, ${megabytes.toFixed(0)} MB of memory`);
 process.exit(status);
