@@ -31,7 +31,7 @@ pub(crate) fn intern<K: Copy + Eq + Hash + Send + Sync>(
     let width = bound.div_ceil(count).max(1);
     let bucket_of = |key: &K| (near(key) / width).min(count - 1) as u32;
     let of_key: Vec<u32> = keys.par_iter().with_min_len(BUCKET).map(bucket_of).collect();
-    let (starts, members) = by_group(count, of_key.iter().copied());
+    let (starts, members) = by_group(count, of_key.iter().map(|bucket| *bucket as usize), |place| place as u32);
     let numbers: Vec<AtomicU32> = keys.par_iter().with_min_len(BUCKET).map(|_| AtomicU32::new(0)).collect();
     let buckets: Vec<Vec<K>> = starts
         .par_windows(2)
@@ -83,22 +83,26 @@ impl<K: Copy + Eq + Hash> Bucket<K> {
 }
 
 /// Sorts the places of groups: for groups numbered from 0 to `count`, where each begins in a list of all members by group, and
-/// that list; members keep their order.
-pub(crate) fn by_group(count: usize, of_member: impl Iterator<Item = u32> + Clone) -> (Vec<u32>, Vec<u32>) {
+/// that list; members keep their order. `number` gives the number of a member from its place.
+pub(crate) fn by_group<M: Copy>(
+    count: usize,
+    of_member: impl Iterator<Item = usize> + Clone,
+    number: impl Fn(usize) -> M,
+) -> (Vec<u32>, Vec<M>) {
     let mut starts = vec![0_u32; count + 1];
     let mut members = 0;
     for group in of_member.clone() {
-        starts[group as usize + 1] += 1;
+        starts[group + 1] += 1;
         members += 1;
     }
     for k in 0..count {
         starts[k + 1] += starts[k];
     }
     let mut next = starts.clone();
-    let mut sorted = vec![0_u32; members];
+    let mut sorted = vec![number(0); members];
     for (member, group) in of_member.enumerate() {
-        sorted[next[group as usize] as usize] = member as u32;
-        next[group as usize] += 1;
+        sorted[next[group] as usize] = number(member);
+        next[group] += 1;
     }
     (starts, sorted)
 }
@@ -129,7 +133,7 @@ mod tests {
     #[test]
     fn members_are_listed_by_group_in_their_order() {
         let groups = [2, 0, 2, 3, 0, 2];
-        let (starts, sorted) = by_group(5, groups.iter().copied());
+        let (starts, sorted) = by_group(5, groups.iter().copied(), |place| place);
         assert_eq!(starts, [0, 2, 2, 5, 6, 6]);
         assert_eq!(sorted, [1, 4, 0, 2, 5, 3]);
     }

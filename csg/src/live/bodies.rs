@@ -12,9 +12,9 @@ use crate::base::map_chunks;
 use crate::body::{Body, BodyFace, BrushBody, built_or_build, mark_of, read};
 use crate::boundary::BoundaryEdge;
 use crate::evaluate::UnboundedBrushes;
+use crate::ids::EdgeId;
 use crate::model::MaterialId;
 use crate::plane_table::PlaneId;
-use crate::weld::EdgeId;
 
 /// Number of brushes from which several threads build them.
 pub(super) const MANY: usize = 32;

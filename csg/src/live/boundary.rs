@@ -8,8 +8,9 @@ use crate::base::{Bounds, map_chunks};
 use crate::body::{Body, kinds};
 use crate::boundary::{BoundaryEdge, FaceWorker, Scene};
 use crate::expression::Expression;
+use crate::ids::EdgeId;
 use crate::plane_table::PlaneTable;
-use crate::weld::{EdgeId, LiveWeld};
+use crate::weld::LiveWeld;
 
 /// Number of faces from which several threads work on them: waking them takes as long as a few faces.
 const FACES_FOR_THREADS: usize = 64;

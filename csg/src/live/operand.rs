@@ -10,8 +10,8 @@ use super::planes::PlaneUse;
 use crate::base::Bounds;
 use crate::body::Body;
 use crate::boundary::BoundaryEdge;
+use crate::ids::EdgeId;
 use crate::model::{Brush, BrushFace};
-use crate::weld::EdgeId;
 
 /// What a brush of a live model does to what the brushes before it have made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]

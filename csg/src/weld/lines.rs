@@ -10,6 +10,7 @@ use rustc_hash::FxHashMap;
 use super::points::Points;
 use crate::base::{WEIGHTS, intern, map_chunks};
 use crate::boundary::BoundaryEdge;
+use crate::ids::{Id, LineId, PointId};
 use crate::plane_table::{PlaneId, PlaneTable};
 
 /// A geometric line, directed so that the component of its first axis is positive.
@@ -27,7 +28,7 @@ pub(super) struct Line {
 pub(super) type Key = (usize, [u64; 4]);
 
 /// Numbers the lines of edges; gives the lines and the number of the line of each edge, in order.
-pub(super) fn identify(table: &PlaneTable, edges: &[BoundaryEdge]) -> (Vec<Line>, Vec<u32>, Counts) {
+pub(super) fn identify(table: &PlaneTable, edges: &[BoundaryEdge]) -> (Vec<Line>, Vec<LineId>, Counts) {
     let keys: Vec<u64> = edges.par_iter().with_min_len(1024).map(pair).collect();
     let (different, of_pair) = intern(&keys, table.len(), |key| (key >> 32) as usize);
     let (lines, of_different, counts) = number(table, &different);
@@ -41,7 +42,7 @@ pub(super) fn pair(edge: &BoundaryEdge) -> u64 {
 }
 
 /// Numbers the lines of different pairs, each two plane indices.
-fn number(table: &PlaneTable, pairs: &[u64]) -> (Vec<Line>, Vec<u32>, Counts) {
+fn number(table: &PlaneTable, pairs: &[u64]) -> (Vec<Line>, Vec<LineId>, Counts) {
     let line = |pair: &u64| {
         let line = Line::of(table, *pair);
         (line, mark(table, &line))
@@ -82,10 +83,10 @@ fn number(table: &PlaneTable, pairs: &[u64]) -> (Vec<Line>, Vec<u32>, Counts) {
     }
     counts += joining;
     let mut lines: Vec<Line> = Vec::with_capacity(found.len());
-    let mut number = vec![0; found.len()];
+    let mut number = vec![LineId::NONE; found.len()];
     for k in 0..found.len() {
         if first[k] == k as u32 {
-            number[k] = lines.len() as u32;
+            number[k] = LineId::from_index(lines.len());
             lines.push(found[k].0);
         } else {
             number[k] = number[first[k] as usize];
@@ -164,11 +165,11 @@ impl Line {
     /// The exact order of two points of the line along its direction.
     ///
     /// Coordinates are correctly rounded: where they differ, the points are in that order.
-    pub(super) fn compare(&self, table: &PlaneTable, points: &Points, p: u32, q: u32) -> Ordering {
+    pub(super) fn compare(&self, table: &PlaneTable, points: &Points, p: PointId, q: PointId) -> Ordering {
         if p == q {
             return Ordering::Equal;
         }
-        let (at_p, at_q) = (points.positions[p as usize], points.positions[q as usize]);
+        let (at_p, at_q) = (points.positions[p.index()], points.positions[q.index()]);
         for axis in 0..3 {
             if at_p[axis] != at_q[axis] && self.direction[axis] != Sign::Zero {
                 let forward = self.direction[axis] == Sign::Positive;
@@ -179,9 +180,9 @@ impl Line {
     }
 
     #[cold]
-    fn compare_exactly(&self, table: &PlaneTable, points: &Points, p: u32, q: u32) -> Ordering {
+    fn compare_exactly(&self, table: &PlaneTable, points: &Points, p: PointId, q: PointId) -> Ordering {
         let [a, b] = self.planes;
-        let across = points.planes[q as usize].into_iter().map(|c| (c, table.orient3(a, b, c)));
+        let across = points.planes[q.index()].into_iter().map(|c| (c, table.orient3(a, b, c)));
         let Some((plane, ahead)) = across.into_iter().find(|(_, sign)| *sign != Sign::Zero) else {
             return Ordering::Equal;
         };

@@ -5,6 +5,7 @@ use planecut_kernel::sign::Sign;
 
 use super::grid::Grid;
 use super::{Boundary, orient};
+use crate::ids::LineId;
 use crate::tolerances::EAR_NOISE;
 
 /// How strict the test of an ear is. The exact points leave a strict one unless a bridge was placed badly within noise; then
@@ -96,13 +97,13 @@ impl Boundary<'_> {
     }
 
     /// A line of the boundary through both nodes.
-    fn shared_line(&self, a: u32, c: u32) -> Option<u32> {
+    fn shared_line(&self, a: u32, c: u32) -> Option<LineId> {
         let at_c = self.nodes[c as usize].lines;
         self.nodes[a as usize].lines.into_iter().find(|line| at_c.contains(line))
     }
 
     /// Whether another corner of what is left lies between two on the same line, which rounding may hide.
-    fn has_corner_between(&self, a: u32, c: u32, line: u32) -> bool {
+    fn has_corner_between(&self, a: u32, c: u32, line: LineId) -> bool {
         let (from, along) = (self.at(a), self.at(c) - self.at(a));
         let length = along.length_squared();
         self.ring(c).any(|node| {

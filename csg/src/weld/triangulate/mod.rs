@@ -13,10 +13,11 @@ mod turn;
 use planecut_kernel::DVec2;
 use planecut_kernel::sign::Sign;
 
-use super::cancel::{HalfEdge, UNPAIRED};
+use super::cancel::HalfEdge;
 use super::manifold::Labels;
 use super::nest::Projection;
 use super::points::Points;
+use crate::ids::{HalfEdgeId, Id, LineId, PointId};
 use crate::plane_table::PlaneTable;
 use ears::Ears;
 use flip::Flips;
@@ -27,31 +28,29 @@ use turn::Turns;
 struct Corner {
     at: DVec2,
     /// The exact point.
-    point: u32,
-    /// The mesh vertex.
-    vertex: u32,
+    point: PointId,
     /// The line on which the edge to the next corner lies.
-    line: u32,
+    line: LineId,
     /// The half-edge to the next corner.
-    piece: u32,
+    piece: HalfEdgeId,
 }
 
-/// The triangles of a face: mesh vertices, and for each side the half-edge it lies on.
+/// Triangles of faces: for each corner the half-edge of a loop that begins there, and for each side the half-edge it lies on.
 #[derive(Debug, Default)]
 pub(super) struct Triangles {
-    pub(super) vertices: Vec<[u32; 3]>,
+    pub(super) corners: Vec<[HalfEdgeId; 3]>,
     pub(super) labels: Labels,
 }
 
 /// The line of a bridge or a diagonal.
-const NO_LINE: u32 = u32::MAX;
+const NO_LINE: LineId = LineId::NONE;
 
 /// A corner in the doubly linked boundary of what is left to triangulate.
 #[derive(Debug, Clone, Copy)]
 struct Node {
     corner: Corner,
     /// The lines of the two boundary edges that met here.
-    lines: [u32; 2],
+    lines: [LineId; 2],
     previous: u32,
     next: u32,
     /// Not strictly convex: only such corners can lie inside an ear.
@@ -94,18 +93,18 @@ impl<'a> Triangulator<'a> {
         self.rings.clear();
     }
 
-    /// Adds a loop, the outer one first, the inside to the left: half-edges with their numbers and the vertices they begin at.
-    pub(super) fn add_loop<'b>(&mut self, pieces: impl ExactSizeIterator<Item = (u32, &'b HalfEdge, u32)>) {
+    /// Adds a loop, the outer one first, the inside to the left: half-edges with their numbers.
+    pub(super) fn add_loop<'b>(&mut self, pieces: impl ExactSizeIterator<Item = (HalfEdgeId, &'b HalfEdge)>) {
         let Turns { points, projection, .. } = self.boundary.turns;
         let nodes = &mut self.boundary.nodes;
         let (first, count) = (nodes.len() as u32, pieces.len() as u32);
         self.rings.push(first);
-        for (k, (piece, half_edge, vertex)) in (0..).zip(pieces) {
+        for (k, (piece, half_edge)) in (0..).zip(pieces) {
             let HalfEdge { from: point, line, .. } = *half_edge;
-            let at = projection.of(points.positions[point as usize]);
+            let at = projection.of(points.positions[point.index()]);
             let before = nodes.last().filter(|_| k > 0).map_or(NO_LINE, |node| node.corner.line);
             nodes.push(Node {
-                corner: Corner { at, point, vertex, line, piece },
+                corner: Corner { at, point, line, piece },
                 lines: [before, line],
                 previous: first + (k + count - 1) % count,
                 next: first + (k + 1) % count,
@@ -120,8 +119,9 @@ impl<'a> Triangulator<'a> {
     pub(super) fn triangulate(&mut self, out: &mut Triangles) {
         let Self { boundary, rings, ears, ahead, flips } = self;
         if let [a, b, c] = boundary.nodes[..] {
-            out.vertices.push([a, b, c].map(|node| node.corner.vertex));
-            out.labels.push([a, b, c].map(|node| node.corner.piece));
+            let pieces = [a, b, c].map(|node| node.corner.piece);
+            out.corners.push(pieces);
+            out.labels.push(pieces);
             return;
         }
         let start = rings[0];
@@ -131,8 +131,8 @@ impl<'a> Triangulator<'a> {
         let triangles = ears.cut(boundary, start);
         flips.improve(&boundary.nodes, triangles);
         let corner = |node: u32| &boundary.nodes[node as usize].corner;
-        out.vertices.extend(triangles.iter().map(|t| t.map(|node| corner(node).vertex)));
-        let label = |from: u32, to: u32| if ahead[from as usize] == to { corner(from).piece } else { UNPAIRED };
+        out.corners.extend(triangles.iter().map(|t| t.map(|node| corner(node).piece)));
+        let label = |from: u32, to: u32| if ahead[from as usize] == to { corner(from).piece } else { HalfEdgeId::NONE };
         out.labels.extend(triangles.iter().map(|[a, b, c]| [label(*a, *b), label(*b, *c), label(*c, *a)]));
     }
 }

@@ -1,0 +1,121 @@
+//! Typed numbers: a number of one kind of thing cannot be taken for that of another, nor for a count or a place in a list.
+//!
+//! Each is the place of a thing in the list of its kind, kept in 32 bits. They sort and hash as these bare numbers do.
+
+use std::fmt::Debug;
+use std::hash::Hash;
+
+/// The number of a thing of one kind.
+pub(crate) trait Id: Copy + Ord + Hash + Debug + Send + Sync {
+    /// The number of no thing. It is greater than all others.
+    const NONE: Self;
+
+    /// The number of what has a place in the list of its kind.
+    ///
+    /// # Panics
+    /// Where the place does not fit into 32 bits, or is [`NONE`](Self::NONE).
+    fn from_index(index: usize) -> Self;
+
+    /// The place in the list of its kind.
+    fn index(self) -> usize;
+
+    /// The bare number, for messages and public results.
+    fn number(self) -> u32;
+
+    /// The number this many further on.
+    fn plus(self, count: usize) -> Self {
+        Self::from_index(self.index() + count)
+    }
+
+    /// The numbers of all things of a list, in order.
+    fn all(count: usize) -> impl DoubleEndedIterator<Item = Self> + ExactSizeIterator + Clone {
+        (0..count).map(Self::from_index)
+    }
+}
+
+macro_rules! ids {
+    ($($(#[$attribute:meta])* $visibility:vis $name:ident;)*) => {
+        $(
+            $(#[$attribute])*
+            #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+            #[repr(transparent)]
+            $visibility struct $name(u32);
+
+            impl Id for $name {
+                const NONE: Self = Self(u32::MAX);
+
+                fn from_index(index: usize) -> Self {
+                    assert!(index < u32::MAX as usize, "too many things of one kind for numbers of 32 bits");
+                    Self(index as u32)
+                }
+
+                fn index(self) -> usize {
+                    self.0 as usize
+                }
+
+                fn number(self) -> u32 {
+                    self.0
+                }
+            }
+        )*
+    };
+}
+
+ids! {
+    /// A point of a weld: equal points have one number, whichever planes meet there.
+    pub(crate) PointId;
+
+    /// A line of a weld: equal lines have one number, whichever planes meet there.
+    pub(crate) LineId;
+
+    /// A region of a weld: an oriented plane with a material.
+    pub(crate) RegionId;
+
+    /// A half-edge of the boundary: an elementary piece of a line along which a region ends on one side.
+    pub(crate) HalfEdgeId;
+
+    /// A vertex of the mesh.
+    pub(crate) VertexId;
+
+    /// A boundary edge, before opposite ones cancel.
+    pub(crate) EdgeId;
+
+    /// The number of a face, as long as it stays as it is.
+    pub FaceId;
+
+    /// A name in use of a thing that several names stand for: a point by three planes, or a line by two.
+    pub(crate) NameId;
+}
+
+/// A point on a line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(crate) struct PointOnLine {
+    pub(crate) line: LineId,
+    pub(crate) point: PointId,
+}
+
+/// A point at the border of a region.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(crate) struct PointOfRegion {
+    pub(crate) region: RegionId,
+    pub(crate) point: PointId,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_take_32_bits_and_sort_by_place() {
+        assert_eq!(size_of::<PointId>(), size_of::<u32>());
+        let sorted: Vec<PointId> = PointId::all(3).chain([PointId::NONE]).collect();
+        assert!(sorted.is_sorted_by(|a, b| a < b));
+        assert_eq!(sorted.iter().take(3).map(|id| id.index()).collect::<Vec<_>>(), [0, 1, 2]);
+    }
+
+    #[test]
+    #[should_panic(expected = "too many")]
+    fn no_thing_has_the_number_of_none() {
+        let _ = PointId::from_index(PointId::NONE.index());
+    }
+}
