@@ -74,6 +74,12 @@ ids! {
     /// A half-edge of the boundary: an elementary piece of a line along which a region ends on one side.
     pub(crate) HalfEdgeId;
 
+    /// A corner in the boundary of a face that is triangulated, bridges included.
+    pub(crate) NodeId;
+
+    /// A triangle of a face that is triangulated.
+    pub(crate) TriangleId;
+
     /// A vertex of the mesh.
     pub(crate) VertexId;
 

@@ -130,7 +130,7 @@ pub(super) struct Faces {
     removed: Vec<FaceId>,
     added: Vec<FaceId>,
     /// The place of the first half-edge of each point among those of the region that is looked at.
-    first_at: Vec<u32>,
+    first_at: Vec<HalfEdgeId>,
 }
 
 struct Face {
@@ -181,7 +181,7 @@ impl Faces {
         pieces: &mut Pieces,
     ) -> Result<(), WeldError> {
         let (order, half_edges) = sorted(table, numbers, regions, pieces);
-        self.first_at.resize(numbers.points.planes.len(), 0);
+        self.first_at.resize(numbers.points.planes.len(), HalfEdgeId::NONE);
         let mut nester = Nester::new(table, &numbers.points);
         let mut following = Vec::with_capacity(half_edges.len());
         let mut found = nest::Faces::default();
@@ -190,9 +190,9 @@ impl Faces {
         for members in half_edges.chunk_by(|a, b| a.region == b.region) {
             let plane = numbers.planes[members[0].region.index()];
             for (place, piece) in members.iter().enumerate().rev() {
-                first_at[piece.from.index()] = (start + place) as u32;
+                first_at[piece.from.index()] = HalfEdgeId::from_index(start + place);
             }
-            let first = |point: PointId| (first_at[point.index()] as usize).wrapping_sub(start);
+            let first = |point: PointId| first_at[point.index()].index().wrapping_sub(start);
             loops::follow(table, plane, members, start, first, &mut following)?;
             nester.add_faces(plane, members, start, &following[start..], &mut found)?;
             start += members.len();
