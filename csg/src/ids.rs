@@ -62,6 +62,30 @@ macro_rules! ids {
 }
 
 ids! {
+    /// A leaf of a tree, in the order of its brushes.
+    pub(crate) LeafId;
+
+    /// A leaf that a restricted expression keeps, in the order of these.
+    pub(crate) KeptLeafId;
+
+    /// A body of those of which the boundary is taken.
+    pub(crate) BodyId;
+
+    /// A corner of a body, whichever of its faces it is seen in.
+    pub(crate) CornerId;
+
+    /// A face of a body, in the order of its faces.
+    pub(crate) BodyFaceId;
+
+    /// A brush of a live model by its place, which another brush may have once it is gone.
+    pub(crate) OperandId;
+
+    /// A body among those near another one.
+    pub(crate) NearId;
+
+    /// A part of a face that another body covers.
+    pub(crate) SectionId;
+
     /// A point of a weld: equal points have one number, whichever planes meet there.
     pub(crate) PointId;
 
@@ -91,6 +115,13 @@ ids! {
 
     /// A name in use of a thing that several names stand for: a point by three planes, or a line by two.
     pub(crate) NameId;
+}
+
+/// A face of the body of a brush of a live model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(crate) struct OperandFace {
+    pub(crate) operand: OperandId,
+    pub(crate) face: BodyFaceId,
 }
 
 /// A point on a line.

@@ -18,6 +18,7 @@ use planecut_kernel::sign::Sign;
 use planecut_kernel::{IncrementalPolytope, PlaneIdx};
 
 use crate::base::Bounds;
+use crate::ids::Id;
 use crate::model::MaterialId;
 use crate::plane_table::{PlaneId, PlaneTable};
 
@@ -108,7 +109,7 @@ impl Body {
     /// The corners of a face: corner `i` between the edges `i` and `i + 1`.
     pub(crate) fn corners(&self, face: &BodyFace) -> impl ExactSizeIterator<Item = &Corner> + Clone {
         let numbers = &self.corners.numbers[face.start as usize..face.end as usize];
-        numbers.iter().map(|number| &self.corners.different[*number as usize])
+        numbers.iter().map(|number| &self.corners.different[number.index()])
     }
 
     /// How many different corners there are: their numbers are below this.

@@ -9,6 +9,7 @@ mod random_trees;
 mod repeats;
 mod restriction;
 
+use crate::ids::{Id, LeafId};
 use crate::model::{Operation, TreeNode};
 pub(crate) use restriction::Restriction;
 
@@ -139,14 +140,15 @@ impl Expression {
     }
 
     /// Whether a leaf adds to the solid or takes from it.
-    pub(crate) fn polarity(&self, leaf: u32) -> Polarity {
-        self.nodes[self.leaves[leaf as usize] as usize].polarity
+    pub(crate) fn polarity(&self, leaf: LeafId) -> Polarity {
+        self.nodes[self.leaves[leaf.index()] as usize].polarity
     }
 
     /// The lowest node above two different leaves, `p < q`.
-    fn lowest_above(&self, p: u32, q: u32) -> u32 {
+    fn lowest_above(&self, p: LeafId, q: LeafId) -> u32 {
+        let (p, q) = (p.index(), q.index());
         let level = (q - p).ilog2() as usize;
-        let (a, b) = (self.between[level][p as usize], self.between[level][q as usize - (1 << level)]);
+        let (a, b) = (self.between[level][p], self.between[level][q - (1 << level)]);
         shallower(&self.nodes, a, b)
     }
 }

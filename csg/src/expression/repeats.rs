@@ -12,13 +12,14 @@
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::{Expression, NONE};
+use crate::ids::{Id, LeafId};
 use crate::model::Operation;
 
 impl Expression {
-    /// For each leaf whether the tree says the same where it is 0; `kinds` tells which leaves are equal.
-    pub(crate) fn repeated_leaves(&self, kinds: &[u32]) -> Vec<bool> {
+    /// For each leaf whether the tree says the same where it is 0; `kinds` gives one number to equal leaves: that of one of them.
+    pub(crate) fn repeated_leaves(&self, kinds: &[LeafId]) -> Vec<bool> {
         let mut repeated = vec![false; kinds.len()];
-        let different: FxHashSet<u32> = kinds.iter().copied().collect();
+        let different: FxHashSet<LeafId> = kinds.iter().copied().collect();
         if different.len() == kinds.len() {
             return repeated;
         }
@@ -76,14 +77,14 @@ impl Expression {
     }
 
     /// Numbers that are equal for nodes of the same operations on equal leaves.
-    fn numbers(&self, kinds: &[u32]) -> Vec<u32> {
+    fn numbers(&self, kinds: &[LeafId]) -> Vec<u32> {
         let mut operands: Vec<Vec<u32>> = vec![Vec::new(); self.nodes.len()];
         let mut numbers: Vec<u32> = Vec::with_capacity(self.nodes.len());
         let mut known: FxHashMap<(Option<Operation>, Vec<u32>), u32> = FxHashMap::default();
         for (k, node) in self.nodes.iter().enumerate() {
             let mut key = std::mem::take(&mut operands[k]);
             match node.operation {
-                None => key.push(kinds[node.first_leaf as usize]),
+                None => key.push(kinds[node.first_leaf as usize].number()),
                 Some(Operation::Difference) => key[1.min(node.operands as usize)..].sort_unstable(),
                 Some(_) => key.sort_unstable(),
             }
@@ -112,11 +113,11 @@ mod tests {
             let mut random = Random(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15));
             let entries = random_tree(&mut random);
             let count = entries.iter().filter(|entry| **entry == TreeNode::Leaf).count();
-            let kinds: Vec<u32> = (0..count).map(|_| random.below(KINDS) as u32).collect();
+            let kinds: Vec<LeafId> = (0..count).map(|_| LeafId::from_index(random.below(KINDS) as usize)).collect();
             let repeated = Expression::new(&entries).repeated_leaves(&kinds);
             found += repeated.iter().filter(|repeated| **repeated).count();
             for values in 0..1 << KINDS {
-                let all: Vec<bool> = kinds.iter().map(|kind| values >> kind & 1 == 1).collect();
+                let all: Vec<bool> = kinds.iter().map(|kind| values >> kind.index() & 1 == 1).collect();
                 let fewer: Vec<bool> = all.iter().zip(&repeated).map(|(value, repeated)| *value && !repeated).collect();
                 let message = || format!("seed {seed}: {entries:?} {kinds:?} without {repeated:?} at {values:b}");
                 assert_eq!(value(&entries, &all), value(&entries, &fewer), "{}", message());
@@ -132,14 +133,18 @@ mod tests {
         // (b ∪ c) − (a ∪ b), where b is taken away
         let either = [TreeNode::Leaf, TreeNode::Leaf, operation(Union, 2)];
         let entries = [&either[..], &either, &[operation(Difference, 2)]].concat();
-        assert_eq!(Expression::new(&entries).repeated_leaves(&[1, 2, 0, 1]), [true, false, false, false]);
+        assert_eq!(
+            Expression::new(&entries).repeated_leaves(&[1, 2, 0, 1].map(LeafId::from_index)),
+            [true, false, false, false]
+        );
         // (a − b − c) ∪ ((a − c − b) ∪ (a ∩ b)) ∪ (a − b)
         let less_two = [TreeNode::Leaf, TreeNode::Leaf, TreeNode::Leaf, operation(Difference, 3)];
         let both = [TreeNode::Leaf, TreeNode::Leaf, operation(Intersection, 2)];
         let less_one = [TreeNode::Leaf, TreeNode::Leaf, operation(Difference, 2)];
         let inner = [&less_two[..], &both, &[operation(Union, 2)]].concat();
         let entries = [&less_two[..], &inner, &less_one, &[operation(Union, 3)]].concat();
-        let repeated = Expression::new(&entries).repeated_leaves(&[0, 1, 2, 0, 2, 1, 0, 1, 0, 1]);
+        let repeated =
+            Expression::new(&entries).repeated_leaves(&[0, 1, 2, 0, 2, 1, 0, 1, 0, 1].map(LeafId::from_index));
         let places: Vec<usize> = (0..repeated.len()).filter(|k| repeated[*k]).collect();
         assert_eq!(places, [3, 4, 5]);
     }

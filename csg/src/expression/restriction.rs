@@ -1,6 +1,7 @@
 //! What a few leaves leave of an expression while all others are 0.
 
 use super::{Expression, NONE, Node};
+use crate::ids::{Id, KeptLeafId, LeafId};
 use crate::model::Operation;
 
 /// One evaluation among several that are kept side by side.
@@ -46,7 +47,7 @@ pub(crate) struct Restriction {
 
 impl Restriction {
     /// Restricts an expression to `leaves`, ascending and each once; all are 0 in every channel at first.
-    pub(crate) fn restrict(&mut self, expression: &Expression, leaves: &[u32]) {
+    pub(crate) fn restrict(&mut self, expression: &Expression, leaves: &[LeafId]) {
         self.base = expression.base();
         self.collect_nodes(expression, leaves);
         self.link(expression, leaves);
@@ -55,20 +56,26 @@ impl Restriction {
     }
 
     /// Whether a leaf, by its place among those given, can change the root at all.
-    pub(crate) fn matters(&self, leaf: usize) -> bool {
-        !self.branches[self.leaves[leaf] as usize].is_mute
+    pub(crate) fn matters(&self, leaf: KeptLeafId) -> bool {
+        !self.branches[self.leaves[leaf.index()] as usize].is_mute
     }
 
     /// The value of the root that a value of a leaf alone decides, whatever the other leaves are.
-    pub(crate) fn decides(&self, leaf: usize, value: bool) -> Option<bool> {
-        let branch = &self.branches[self.leaves[leaf] as usize];
+    pub(crate) fn decides(&self, leaf: KeptLeafId, value: bool) -> Option<bool> {
+        let branch = &self.branches[self.leaves[leaf.index()] as usize];
         if branch.is_mute { None } else { branch.decides[usize::from(value)] }
     }
 
     /// The value that a leaf of some value forces upon the lowest node above it and another leaf, which then changes nothing.
-    pub(crate) fn forces(&self, expression: &Expression, leaf: usize, value: bool, other: usize) -> Option<bool> {
-        let other = &expression.nodes[self.branches[self.leaves[other] as usize].node as usize];
-        let (mut at, mut value) = (&self.branches[self.leaves[leaf] as usize], value);
+    pub(crate) fn forces(
+        &self,
+        expression: &Expression,
+        leaf: KeptLeafId,
+        value: bool,
+        other: KeptLeafId,
+    ) -> Option<bool> {
+        let other = &expression.nodes[self.branches[self.leaves[other.index()] as usize].node as usize];
+        let (mut at, mut value) = (&self.branches[self.leaves[leaf.index()] as usize], value);
         if at.is_mute {
             return None;
         }
@@ -84,8 +91,8 @@ impl Restriction {
     }
 
     /// Sets a leaf in one channel.
-    pub(crate) fn set(&mut self, expression: &Expression, leaf: usize, channel: Channel, value: bool) {
-        let mut at = self.leaves[leaf];
+    pub(crate) fn set(&mut self, expression: &Expression, leaf: KeptLeafId, channel: Channel, value: bool) {
+        let mut at = self.leaves[leaf.index()];
         let branch = &mut self.branches[at as usize];
         if branch.is_mute || branch.value[channel] == value {
             return;
@@ -125,17 +132,17 @@ impl Restriction {
     }
 
     /// The nodes at which ways of leaves meet, and the leaves, each before what is below it.
-    fn collect_nodes(&mut self, expression: &Expression, leaves: &[u32]) {
+    fn collect_nodes(&mut self, expression: &Expression, leaves: &[LeafId]) {
         let nodes = &expression.nodes;
         self.order.clear();
-        self.order.extend(leaves.iter().map(|leaf| expression.leaves[*leaf as usize]));
+        self.order.extend(leaves.iter().map(|leaf| expression.leaves[leaf.index()]));
         self.order.extend(leaves.windows(2).map(|pair| expression.lowest_above(pair[0], pair[1])));
         self.order.sort_unstable_by_key(|k| (nodes[*k as usize].first_leaf, nodes[*k as usize].depth));
         self.order.dedup();
     }
 
     /// Makes the branches and finds the parent of each.
-    fn link(&mut self, expression: &Expression, leaves: &[u32]) {
+    fn link(&mut self, expression: &Expression, leaves: &[LeafId]) {
         let nodes = &expression.nodes;
         self.branches.clear();
         self.leaves.clear();
@@ -151,7 +158,7 @@ impl Restriction {
             let above = self.branches.get(parent as usize).map(|above: &Branch| &nodes[above.node as usize]);
             self.branches.push(Branch::new(node, this, parent, above));
             if this.operation.is_none() {
-                debug_assert_eq!(leaves[self.leaves.len()], this.first_leaf);
+                debug_assert_eq!(leaves[self.leaves.len()].number(), this.first_leaf);
                 self.leaves.push(number as u32);
             }
             self.stack.push(number as u32);
@@ -273,7 +280,7 @@ mod tests {
             let expression = Expression::new(&entries);
             assert_eq!(expression.base(), value(&entries, &vec![false; count]), "seed {seed}");
             assert_eq!(expression.base(), holds_outside(&entries), "seed {seed}");
-            let near: Vec<u32> = (0..count as u32).filter(|_| random.below(3) > 0).collect();
+            let near: Vec<LeafId> = LeafId::all(count).filter(|_| random.below(3) > 0).collect();
             if near.is_empty() {
                 continue;
             }
@@ -281,21 +288,21 @@ mod tests {
             restriction.restrict(&expression, &near);
             let mut all = vec![false; count];
             for _ in 0..40 {
-                let k = random.below(near.len() as u64) as usize;
+                let k = KeptLeafId::from_index(random.below(near.len() as u64) as usize);
                 let on = random.below(2) == 1;
-                all[near[k] as usize] = on;
+                all[near[k.index()].index()] = on;
                 restriction.set(&expression, k, 1, on);
                 assert_eq!(restriction.root(1), value(&entries, &all), "seed {seed}: {entries:?} {near:?} {all:?}");
                 if let Some(root) = restriction.decides(k, on) {
-                    assert_eq!(root, value(&entries, &all), "seed {seed}: leaf {k} of {near:?} decides {entries:?}");
+                    assert_eq!(root, value(&entries, &all), "seed {seed}: leaf {k:?} of {near:?} decides {entries:?}");
                 }
             }
             assert_eq!(restriction.root(0), expression.base(), "channels are apart");
-            for (k, &leaf) in near.iter().enumerate() {
-                for (j, &other) in near.iter().enumerate().filter(|(j, _)| *j != k) {
+            for (k, &leaf) in KeptLeafId::all(near.len()).zip(&near) {
+                for (j, &other) in KeptLeafId::all(near.len()).zip(&near).filter(|(j, _)| *j != k) {
                     let with = |on: bool, other_on: bool| {
                         let mut all: Vec<bool> = all.clone();
-                        (all[leaf as usize], all[other as usize]) = (on, other_on);
+                        (all[leaf.index()], all[other.index()]) = (on, other_on);
                         value(&entries, &all)
                     };
                     let forced = [false, true].map(|on| restriction.forces(&expression, k, on, j));
@@ -303,21 +310,21 @@ mod tests {
                         assert_eq!(
                             with(on, false),
                             with(on, true),
-                            "seed {seed}: {other} at {leaf} {on} in {entries:?}"
+                            "seed {seed}: {other:?} at {leaf:?} {on} in {entries:?}"
                         );
                     }
                     let (on, other_on) = (random.below(2) == 1, random.below(2) == 1);
                     let by_other = restriction.forces(&expression, j, other_on, k);
                     if by_other.is_some() && by_other == forced[usize::from(on)] {
-                        let message = || format!("seed {seed}: {leaf} {on} as {other} {other_on} in {entries:?}");
+                        let message = || format!("seed {seed}: {leaf:?} {on} as {other:?} {other_on} in {entries:?}");
                         assert_eq!(with(on, !other_on), with(!on, other_on), "{}", message());
                     }
                 }
             }
-            for (k, leaf) in near.iter().enumerate().filter(|(k, _)| !restriction.matters(*k)) {
+            for (k, leaf) in KeptLeafId::all(near.len()).zip(&near).filter(|(k, _)| !restriction.matters(*k)) {
                 let mut other = all.clone();
-                other[*leaf as usize] ^= true;
-                assert_eq!(value(&entries, &all), value(&entries, &other), "seed {seed}: leaf {k} of {near:?}");
+                other[leaf.index()] ^= true;
+                assert_eq!(value(&entries, &all), value(&entries, &other), "seed {seed}: leaf {k:?} of {near:?}");
             }
         }
     }

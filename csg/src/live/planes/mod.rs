@@ -15,6 +15,7 @@ use planecut_kernel::sign::Row;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::base::sortable;
+use crate::ids::OperandId;
 use crate::plane_table::{
     Key, NearCells, PlaneId, PlaneTable, compare_coefficients, first_side, is_exact, is_nearly_same, key, unit,
 };
@@ -52,7 +53,7 @@ struct EqualRows {
     /// Each with how often it is used; the least stands for the plane.
     rows: Vec<(Row, u32)>,
     /// The numbers of those who use it, as often as they do.
-    users: Vec<u32>,
+    users: Vec<OperandId>,
     /// The unit normal and distance under which it is hashed, and whether it is exact; nothing before that.
     hashed: Option<([f64; 4], bool)>,
     /// The plane that it is taken for.
@@ -66,7 +67,7 @@ struct EqualRows {
 #[derive(Default)]
 pub(super) struct Settled {
     /// Users of planes that are now taken for others than before, ascending.
-    pub(super) users: Vec<u32>,
+    pub(super) users: Vec<OperandId>,
     /// Indices that no group uses any more.
     pub(super) retired: Vec<u32>,
 }
@@ -89,7 +90,7 @@ impl LivePlanes {
     }
 
     /// Uses the plane of a half-space; its id is known once it is settled.
-    pub(super) fn take(&mut self, half_space: &HalfSpace, user: u32) -> PlaneUse {
+    pub(super) fn take(&mut self, half_space: &HalfSpace, user: OperandId) -> PlaneUse {
         let (row, is_reversed) = first_side(&Row::new(half_space));
         let alike = self.by_key.entry(key(&row)).or_default();
         let known = alike.iter().copied().find(|group| self.groups[*group as usize].is_plane_of(&row));
@@ -115,7 +116,7 @@ impl LivePlanes {
     }
 
     /// Uses a plane once less.
-    pub(super) fn release(&mut self, half_space: &HalfSpace, used: PlaneUse, user: u32) {
+    pub(super) fn release(&mut self, half_space: &HalfSpace, used: PlaneUse, user: OperandId) {
         let (row, _) = first_side(&Row::new(half_space));
         let group = &mut self.groups[used.group as usize];
         let place = group.users.iter().rposition(|known| *known == user).expect("a user is known");
