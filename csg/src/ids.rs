@@ -80,6 +80,9 @@ ids! {
     /// A brush of a live model by its place, which another brush may have once it is gone.
     pub(crate) OperandId;
 
+    /// Rows of exactly one plane in a live model.
+    pub(crate) RowGroupId;
+
     /// A body among those near another one.
     pub(crate) NearId;
 
@@ -113,7 +116,7 @@ ids! {
     /// The number of a face, as long as it stays as it is.
     pub FaceId;
 
-    /// A name in use of a thing that several names stand for: a point by three planes, or a line by two.
+    /// A name of a point, three planes, or of a line, two planes: several names may stand for one thing.
     pub(crate) NameId;
 }
 

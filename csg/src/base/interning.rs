@@ -15,17 +15,18 @@ pub(crate) const WEIGHTS: [f64; 4] = [0.731_592_653_589, 0.467_182_818_284, 0.61
 /// The different keys, and for each key given the place of its like among them.
 ///
 /// Keys are numbered bucket by bucket. `near` tells which keys go together: equal ones have the same number below `bound`,
-/// and those of near numbers are best found near each other.
-pub(crate) fn intern<K: Copy + Eq + Hash + Send + Sync>(
+/// and those of near numbers are best found near each other. `number_of` gives the number of a key from its place.
+pub(crate) fn intern<K: Copy + Eq + Hash + Send + Sync, N: Send>(
     keys: &[K],
     bound: usize,
     near: impl Fn(&K) -> usize + Sync,
-) -> (Vec<K>, Vec<u32>) {
+    number_of: impl Fn(usize) -> N + Sync,
+) -> (Vec<K>, Vec<N>) {
     // a function of the keys alone, so that the numbers do not depend on the number of threads
     let count = keys.len().div_ceil(BUCKET);
     if count < 2 {
         let mut bucket = Bucket::default();
-        let numbers = keys.iter().map(|key| bucket.number(*key)).collect();
+        let numbers = keys.iter().map(|key| number_of(bucket.number(*key) as usize)).collect();
         return (bucket.keys, numbers);
     }
     let width = bound.div_ceil(count).max(1);
@@ -47,7 +48,8 @@ pub(crate) fn intern<K: Copy + Eq + Hash + Send + Sync>(
     for k in 1..count {
         first[k] = first[k - 1] + buckets[k - 1].len() as u32;
     }
-    let number = |(number, bucket): (AtomicU32, u32)| number.into_inner() + first[bucket as usize];
+    let number =
+        |(number, bucket): (AtomicU32, u32)| number_of((number.into_inner() + first[bucket as usize]) as usize);
     let numbers = numbers.into_par_iter().with_min_len(BUCKET).zip(of_key).map(number).collect();
     (buckets.concat(), numbers)
 }
@@ -121,8 +123,8 @@ mod tests {
     fn equal_keys_share_a_number_however_many_there_are() {
         for count in [0, 1, 100, BUCKET as u64 - 1, BUCKET as u64 + 1, 5 * BUCKET as u64 + 3] {
             let keys: Vec<u64> = (0..count).map(|k| k.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 50).collect();
-            let (found, numbers) = intern(&keys, 1 << 14, |key| *key as usize);
-            assert!(keys.iter().zip(&numbers).all(|(key, number)| found[*number as usize] == *key));
+            let (found, numbers) = intern(&keys, 1 << 14, |key| *key as usize, |place| place);
+            assert!(keys.iter().zip(&numbers).all(|(key, number)| found[*number] == *key));
             let mut sorted = found.clone();
             sorted.sort_unstable();
             sorted.dedup();

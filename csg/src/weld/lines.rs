@@ -10,7 +10,7 @@ use rustc_hash::FxHashMap;
 use super::points::Points;
 use crate::base::{WEIGHTS, intern, map_chunks};
 use crate::boundary::BoundaryEdge;
-use crate::ids::{Id, LineId, PointId};
+use crate::ids::{Id, LineId, NameId, PointId};
 use crate::plane_table::{PlaneId, PlaneTable};
 
 /// A geometric line, directed so that the component of its first axis is positive.
@@ -30,9 +30,9 @@ pub(super) type Key = (usize, [u64; 4]);
 /// Numbers the lines of edges; gives the lines and the number of the line of each edge, in order.
 pub(super) fn identify(table: &PlaneTable, edges: &[BoundaryEdge]) -> (Vec<Line>, Vec<LineId>, Counts) {
     let keys: Vec<u64> = edges.par_iter().with_min_len(1024).map(pair).collect();
-    let (different, of_pair) = intern(&keys, table.len(), |key| (key >> 32) as usize);
+    let (different, of_pair) = intern(&keys, table.len(), |key| (key >> 32) as usize, NameId::from_index);
     let (lines, of_different, counts) = number(table, &different);
-    (lines, of_pair.into_par_iter().with_min_len(1024).map(|k| of_different[k as usize]).collect(), counts)
+    (lines, of_pair.into_par_iter().with_min_len(1024).map(|k| of_different[k.index()]).collect(), counts)
 }
 
 /// What names the line of an edge: the indices of its two planes.
@@ -49,13 +49,14 @@ fn number(table: &PlaneTable, pairs: &[u64]) -> (Vec<Line>, Vec<LineId>, Counts)
     };
     let (found, mut counts) = map_chunks(pairs, 256, |pairs| pairs.iter().map(line).collect::<Vec<_>>());
     let found: Vec<(Line, Mark)> = found.into_iter().flatten().collect();
-    let mut order: Vec<(Mark, u32)> = found.iter().zip(0..).map(|((_, mark), k)| (*mark, k)).collect();
+    let mut order: Vec<(Mark, NameId)> =
+        found.iter().zip(NameId::all(found.len())).map(|((_, mark), k)| (*mark, k)).collect();
     order.par_sort_unstable_by(|p, q| p.0.compare(&q.0).then(p.1.cmp(&q.1)));
     // of lines that may be equal, the first in the order given; most are alone
-    let mut first: Vec<u32> = (0..found.len() as u32).collect();
+    let mut first: Vec<NameId> = NameId::all(found.len()).collect();
     let axes = AxisPlanes::default();
     // runs of lines that may be equal
-    let mut runs: Vec<&[(Mark, u32)]> = Vec::new();
+    let mut runs: Vec<&[(Mark, NameId)]> = Vec::new();
     let mut start = 0;
     while start < order.len() {
         let (mut end, mut reach) = (start + 1, order[start].0.high());
@@ -79,17 +80,17 @@ fn number(table: &PlaneTable, pairs: &[u64]) -> (Vec<Line>, Vec<LineId>, Counts)
         equal
     });
     for (line, other) in parts.into_iter().flatten() {
-        first[line as usize] = other;
+        first[line.index()] = other;
     }
     counts += joining;
     let mut lines: Vec<Line> = Vec::with_capacity(found.len());
     let mut number = vec![LineId::NONE; found.len()];
     for k in 0..found.len() {
-        if first[k] == k as u32 {
+        if first[k].index() == k {
             number[k] = LineId::from_index(lines.len());
             lines.push(found[k].0);
         } else {
-            number[k] = number[first[k] as usize];
+            number[k] = number[first[k].index()];
         }
     }
     (lines, number, counts)
@@ -100,14 +101,14 @@ fn find_equal(
     table: &PlaneTable,
     axes: &AxisPlanes,
     found: &[(Line, Mark)],
-    some: &[u32],
-    equal: &mut Vec<(u32, u32)>,
+    some: &[NameId],
+    equal: &mut Vec<(NameId, NameId)>,
 ) {
-    let mut by_key: FxHashMap<Key, Vec<u32>> = FxHashMap::default();
+    let mut by_key: FxHashMap<Key, Vec<NameId>> = FxHashMap::default();
     for k in some {
-        let line = &found[*k as usize].0;
+        let line = &found[k.index()].0;
         let bucket = by_key.entry(key(table, line)).or_default();
-        match bucket.iter().copied().find(|other| axes.is_same(table, &found[*other as usize].0, line)) {
+        match bucket.iter().copied().find(|other| axes.is_same(table, &found[other.index()].0, line)) {
             Some(other) => equal.push((*k, other)),
             None => bucket.push(*k),
         }

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use super::cancel::HalfEdge;
 use crate::base::{Bounds, intern, map_chunks, sortable};
 use crate::boundary::BoundaryEdge;
-use crate::ids::{Id, PointId};
+use crate::ids::{Id, NameId, PointId};
 use crate::plane_table::{PlaneId, PlaneTable, curve_number};
 
 /// The points of a weld.
@@ -42,15 +42,16 @@ impl Points {
     pub(super) fn identify(table: &PlaneTable, edges: &[BoundaryEdge]) -> (Self, Vec<[PointId; 2]>, Counts) {
         let ends = |edge: &BoundaryEdge| [edge.start, edge.end].map(|end| key([edge.face, edge.edge, end]));
         let keys: Vec<[Triple; 2]> = edges.par_iter().with_min_len(1024).map(ends).collect();
-        let (different, of_triple) = intern(keys.as_flattened(), table.len(), |key| (key.0 >> 32) as usize);
+        let (different, of_triple) =
+            intern(keys.as_flattened(), table.len(), |key| (key.0 >> 32) as usize, NameId::from_index);
         let (named, mut counts) = map_chunks(&different, 256, |keys| {
             keys.iter().map(|key| Named::of(table, planes(*key))).collect::<Vec<_>>()
         });
         let named: Vec<Named> = named.into_iter().flatten().collect();
-        let place = |(k, point): (usize, &Named)| (place(point.position), k as u32);
-        let mut sorted: Vec<(Place, u32)> = named.par_iter().enumerate().with_min_len(1024).map(place).collect();
+        let place = |(k, point): (usize, &Named)| (place(point.position), NameId::from_index(k));
+        let mut sorted: Vec<(Place, NameId)> = named.par_iter().enumerate().with_min_len(1024).map(place).collect();
         sorted.par_sort_unstable();
-        let alike: Vec<&[(Place, u32)]> = sorted.chunk_by(|a, b| a.0 == b.0).collect();
+        let alike: Vec<&[(Place, NameId)]> = sorted.chunk_by(|a, b| a.0 == b.0).collect();
         let (parts, joining) = map_chunks(&alike, 512, |chunk| {
             let mut joined = Vec::with_capacity(chunk.len());
             chunk.iter().for_each(|alike| join_equal(table, &named, alike, &mut joined));
@@ -62,11 +63,11 @@ impl Points {
         let mut number = PointId::NONE;
         for (k, is_first) in parts.into_iter().flatten() {
             if is_first {
-                number = points.push(&named[k as usize]);
+                number = points.push(&named[k.index()]);
             }
-            of_named[k as usize] = number;
+            of_named[k.index()] = number;
         }
-        let number = |ends: &[u32]| [ends[0], ends[1]].map(|k| of_named[k as usize]);
+        let number = |ends: &[NameId]| [ends[0], ends[1]].map(|k| of_named[k.index()]);
         (points, of_triple.par_chunks_exact(2).with_min_len(1024).map(number).collect(), counts)
     }
 
@@ -168,17 +169,17 @@ fn place(position: DVec3) -> Place {
 
 /// Adds points that round alike in their exact order, each with those that are equal to it; tells of each whether it is the first
 /// of these.
-fn join_equal(table: &PlaneTable, named: &[Named], alike: &[(Place, u32)], joined: &mut Vec<(u32, bool)>) {
+fn join_equal(table: &PlaneTable, named: &[Named], alike: &[(Place, NameId)], joined: &mut Vec<(NameId, bool)>) {
     if let [(_, one)] = alike {
         joined.push((*one, true));
         return;
     }
-    let rows = |k: u32| named[k as usize].planes.map(|plane| table.row(plane));
+    let rows = |k: NameId| named[k.index()].planes.map(|plane| table.row(plane));
     // mostly all are equal
-    let mut groups: Vec<Vec<u32>> = Vec::new();
+    let mut groups: Vec<Vec<NameId>> = Vec::new();
     for (_, k) in alike {
-        let planes = named[*k as usize].planes;
-        match groups.iter_mut().find(|group| is_at(table, named[group[0] as usize].planes, planes)) {
+        let planes = named[k.index()].planes;
+        match groups.iter_mut().find(|group| is_at(table, named[group[0].index()].planes, planes)) {
             Some(group) => group.push(*k),
             None => groups.push(vec![*k]),
         }
