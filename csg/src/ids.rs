@@ -65,6 +65,12 @@ ids! {
     /// A leaf of a tree, in the order of its brushes.
     pub(crate) LeafId;
 
+    /// A node of a tree, in postfix order.
+    pub(crate) TreeNodeId;
+
+    /// A node of a restricted expression.
+    pub(crate) BranchId;
+
     /// A leaf that a restricted expression keeps, in the order of these.
     pub(crate) KeptLeafId;
 

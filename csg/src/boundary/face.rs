@@ -231,10 +231,10 @@ impl<'a> FaceWorker<'a> {
         };
         self.bodies.clear();
         self.places.clear();
-        let mut own = KeptLeafId::NONE;
+        let mut own = None;
         for (place, &other) in NearId::all(near.len()).zip(near) {
             if other == body {
-                own = KeptLeafId::from_index(self.bodies.len());
+                own = Some(KeptLeafId::from_index(self.bodies.len()));
             }
             if other == body || reaches(other) {
                 self.bodies.push(other);
@@ -243,7 +243,7 @@ impl<'a> FaceWorker<'a> {
         }
         self.leaves.clear();
         self.leaves.extend(self.bodies.iter().map(|body| scene.leaf_of_body[body.index()]));
-        own
+        own.expect("a body is near itself")
     }
 
     /// Finds what each body does to the face and cuts the face down to what is required; false where nothing is left.

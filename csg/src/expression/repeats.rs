@@ -11,8 +11,8 @@
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::{Expression, NONE};
-use crate::ids::{Id, LeafId};
+use super::Expression;
+use crate::ids::{Id, LeafId, TreeNodeId};
 use crate::model::Operation;
 
 impl Expression {
@@ -26,15 +26,16 @@ impl Expression {
         let (numbers, unions) = (self.numbers(kinds), self.unions());
         let has_leaves = |k: usize| self.nodes[k].first_leaf < self.nodes[k].end_leaf;
         // operands of unions within unions are compared instead of these
-        let is_operand =
-            |k: usize| unions[k] != NONE && self.nodes[k].operation != Some(Operation::Union) && has_leaves(k);
+        let is_operand = |k: usize| {
+            unions[k] != TreeNodeId::NONE && self.nodes[k].operation != Some(Operation::Union) && has_leaves(k)
+        };
         let mut operands: Vec<Vec<u32>> = vec![Vec::new(); self.nodes.len()];
-        let mut said: FxHashSet<(u32, u32)> = FxHashSet::default();
+        let mut said: FxHashSet<(TreeNodeId, u32)> = FxHashSet::default();
         let mut is_again = vec![false; self.nodes.len()];
         for k in (0..self.nodes.len()).filter(|k| is_operand(*k)) {
             is_again[k] = !said.insert((unions[k], numbers[k]));
             if !is_again[k] {
-                operands[unions[k] as usize].push(numbers[k]);
+                operands[unions[k].index()].push(numbers[k]);
             }
         }
         // from the root down: how many of the unions around a node have an operand of each number
@@ -50,7 +51,7 @@ impl Expression {
             let others = around.get(&numbers[k]).copied().unwrap_or(0) - u32::from(is_operand(k));
             // without its leaves it must come to nothing
             if (is_again[k] || others > 0) && !node.base {
-                repeated[node.first_leaf as usize..node.end_leaf as usize].fill(true);
+                repeated[node.first_leaf.index()..node.end_leaf.index()].fill(true);
             }
             if !operands[k].is_empty() {
                 operands[k].iter().for_each(|number| *around.entry(*number).or_insert(0) += 1);
@@ -61,16 +62,16 @@ impl Expression {
     }
 
     /// For each node the one in which it is an operand of a union, that of unions within unions being the outermost.
-    fn unions(&self) -> Vec<u32> {
-        let mut unions = vec![NONE; self.nodes.len()];
+    fn unions(&self) -> Vec<TreeNodeId> {
+        let mut unions = vec![TreeNodeId::NONE; self.nodes.len()];
         for k in (0..self.nodes.len()).rev() {
             let parent = self.parents[k];
-            let Some(above) = self.nodes.get(parent as usize) else { continue };
+            let Some(above) = self.nodes.get(parent.index()) else { continue };
             unions[k] = match above.operation {
-                Some(Operation::Union) if unions[parent as usize] != NONE => unions[parent as usize],
+                Some(Operation::Union) if unions[parent.index()] != TreeNodeId::NONE => unions[parent.index()],
                 Some(Operation::Union | Operation::Complement) => parent,
                 Some(Operation::Difference) if above.negates(self.nodes[k].first_leaf) => parent,
-                _ => NONE,
+                _ => TreeNodeId::NONE,
             };
         }
         unions
@@ -84,14 +85,14 @@ impl Expression {
         for (k, node) in self.nodes.iter().enumerate() {
             let mut key = std::mem::take(&mut operands[k]);
             match node.operation {
-                None => key.push(kinds[node.first_leaf as usize].number()),
+                None => key.push(kinds[node.first_leaf.index()].number()),
                 Some(Operation::Difference) => key[1.min(node.operands as usize)..].sort_unstable(),
                 Some(_) => key.sort_unstable(),
             }
             let next = known.len() as u32;
             let number = *known.entry((node.operation, key)).or_insert(next);
             numbers.push(number);
-            if let Some(above) = operands.get_mut(self.parents[k] as usize) {
+            if let Some(above) = operands.get_mut(self.parents[k].index()) {
                 above.push(number);
             }
         }

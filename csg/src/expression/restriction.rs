@@ -1,7 +1,7 @@
 //! What a few leaves leave of an expression while all others are 0.
 
-use super::{Expression, NONE, Node};
-use crate::ids::{Id, KeptLeafId, LeafId};
+use super::{Expression, Node};
+use crate::ids::{BranchId, Id, KeptLeafId, LeafId, TreeNodeId};
 use crate::model::Operation;
 
 /// One evaluation among several that are kept side by side.
@@ -14,8 +14,8 @@ pub(crate) const CHANNELS: usize = 4;
 #[derive(Debug, Clone, Copy)]
 struct Branch {
     /// The node of the expression.
-    node: u32,
-    parent: u32,
+    node: TreeNodeId,
+    parent: BranchId,
     /// Whether the operand of the parent that holds this node is the negation of it.
     is_negated: bool,
     /// Whether that operand is the first of a difference.
@@ -38,11 +38,11 @@ struct Branch {
 pub(crate) struct Restriction {
     branches: Vec<Branch>,
     /// The branch of each leaf in the order in which they were given.
-    leaves: Vec<u32>,
+    leaves: Vec<BranchId>,
     root_negated: bool,
     base: bool,
-    order: Vec<u32>,
-    stack: Vec<u32>,
+    order: Vec<TreeNodeId>,
+    stack: Vec<BranchId>,
 }
 
 impl Restriction {
@@ -57,12 +57,12 @@ impl Restriction {
 
     /// Whether a leaf, by its place among those given, can change the root at all.
     pub(crate) fn matters(&self, leaf: KeptLeafId) -> bool {
-        !self.branches[self.leaves[leaf.index()] as usize].is_mute
+        !self.branches[self.leaves[leaf.index()].index()].is_mute
     }
 
     /// The value of the root that a value of a leaf alone decides, whatever the other leaves are.
     pub(crate) fn decides(&self, leaf: KeptLeafId, value: bool) -> Option<bool> {
-        let branch = &self.branches[self.leaves[leaf.index()] as usize];
+        let branch = &self.branches[self.leaves[leaf.index()].index()];
         if branch.is_mute { None } else { branch.decides[usize::from(value)] }
     }
 
@@ -74,14 +74,14 @@ impl Restriction {
         value: bool,
         other: KeptLeafId,
     ) -> Option<bool> {
-        let other = &expression.nodes[self.branches[self.leaves[other.index()] as usize].node as usize];
-        let (mut at, mut value) = (&self.branches[self.leaves[leaf.index()] as usize], value);
+        let other = &expression.nodes[self.branches[self.leaves[other.index()].index()].node.index()];
+        let (mut at, mut value) = (&self.branches[self.leaves[leaf.index()].index()], value);
         if at.is_mute {
             return None;
         }
         loop {
-            let above = self.branches.get(at.parent as usize)?;
-            let node = &expression.nodes[above.node as usize];
+            let above = self.branches.get(at.parent.index())?;
+            let node = &expression.nodes[above.node.index()];
             value = above.forced_by(node, at, value ^ at.is_negated)?;
             if node.first_leaf <= other.first_leaf && other.end_leaf <= node.end_leaf {
                 return Some(value);
@@ -93,15 +93,15 @@ impl Restriction {
     /// Sets a leaf in one channel.
     pub(crate) fn set(&mut self, expression: &Expression, leaf: KeptLeafId, channel: Channel, value: bool) {
         let mut at = self.leaves[leaf.index()];
-        let branch = &mut self.branches[at as usize];
+        let branch = &mut self.branches[at.index()];
         if branch.is_mute || branch.value[channel] == value {
             return;
         }
         branch.value[channel] = value;
         // From here on each step carries a change of value up.
-        while let Some(&Branch { parent, is_negated, is_first, value, .. }) = self.branches.get(at as usize) {
-            let Some(above) = self.branches.get_mut(parent as usize) else { return };
-            let node = &expression.nodes[above.node as usize];
+        while let Some(&Branch { parent, is_negated, is_first, value, .. }) = self.branches.get(at.index()) {
+            let Some(above) = self.branches.get_mut(parent.index()) else { return };
+            let node = &expression.nodes[above.node.index()];
             let operand = value[channel] ^ is_negated;
             let before = above.value[channel];
             if node.operation == Some(Operation::Xor) {
@@ -137,7 +137,7 @@ impl Restriction {
         self.order.clear();
         self.order.extend(leaves.iter().map(|leaf| expression.leaves[leaf.index()]));
         self.order.extend(leaves.windows(2).map(|pair| expression.lowest_above(pair[0], pair[1])));
-        self.order.sort_unstable_by_key(|k| (nodes[*k as usize].first_leaf, nodes[*k as usize].depth));
+        self.order.sort_unstable_by_key(|k| (nodes[k.index()].first_leaf, nodes[k.index()].depth));
         self.order.dedup();
     }
 
@@ -147,23 +147,23 @@ impl Restriction {
         self.branches.clear();
         self.leaves.clear();
         self.stack.clear();
-        for (number, &node) in self.order.iter().enumerate() {
-            let this = &nodes[node as usize];
+        for (number, &node) in BranchId::all(self.order.len()).zip(&self.order) {
+            let this = &nodes[node.index()];
             while let Some(top) = self.stack.last()
-                && nodes[self.order[*top as usize] as usize].end_leaf <= this.first_leaf
+                && nodes[self.order[top.index()].index()].end_leaf <= this.first_leaf
             {
                 self.stack.pop();
             }
-            let parent = self.stack.last().copied().unwrap_or(NONE);
-            let above = self.branches.get(parent as usize).map(|above: &Branch| &nodes[above.node as usize]);
+            let parent = self.stack.last().copied().unwrap_or(BranchId::NONE);
+            let above = self.branches.get(parent.index()).map(|above: &Branch| &nodes[above.node.index()]);
             self.branches.push(Branch::new(node, this, parent, above));
             if this.operation.is_none() {
-                debug_assert_eq!(leaves[self.leaves.len()].number(), this.first_leaf);
-                self.leaves.push(number as u32);
+                debug_assert_eq!(leaves[self.leaves.len()], this.first_leaf);
+                self.leaves.push(number);
             }
-            self.stack.push(number as u32);
+            self.stack.push(number);
         }
-        self.root_negated = self.order.first().is_some_and(|top| nodes[*top as usize].is_negated);
+        self.root_negated = self.order.first().is_some_and(|top| nodes[top.index()].is_negated);
     }
 
     /// Marks what cannot change the root: where the way up is blocked, and where operands that are not below any branch
@@ -172,15 +172,15 @@ impl Restriction {
         let nodes = &expression.nodes;
         for k in (0..self.branches.len()).rev() {
             let branch = self.branches[k];
-            let node = &nodes[branch.node as usize];
-            let is_blocked = match self.branches.get(branch.parent as usize) {
+            let node = &nodes[branch.node.index()];
+            let is_blocked = match self.branches.get(branch.parent.index()) {
                 // blocked before it comes to the operand of the parent: what blocks that operand may be a branch itself
-                Some(above) => node.blocked_at > nodes[above.node as usize].depth + 2,
+                Some(above) => node.blocked_at > nodes[above.node.index()].depth + 2,
                 None => node.blocked_at > 0,
             };
             self.branches[k].is_mute = is_blocked || branch.is_fixed(node);
             if !self.branches[k].is_mute
-                && let Some(above) = self.branches.get_mut(branch.parent as usize)
+                && let Some(above) = self.branches.get_mut(branch.parent.index())
             {
                 if branch.is_first {
                     above.below.2 = true;
@@ -191,7 +191,7 @@ impl Restriction {
             }
         }
         for k in 0..self.branches.len() {
-            let parent = self.branches[k].parent as usize;
+            let parent = self.branches[k].parent.index();
             self.branches[k].is_mute |= self.branches.get(parent).is_some_and(|above| above.is_mute);
         }
     }
@@ -200,10 +200,10 @@ impl Restriction {
     fn decide(&mut self, expression: &Expression) {
         for k in 0..self.branches.len() {
             let branch = self.branches[k];
-            let decides = match self.branches.get(branch.parent as usize) {
+            let decides = match self.branches.get(branch.parent.index()) {
                 None => [self.root_negated, !self.root_negated].map(Some),
                 Some(above) => {
-                    let node = &expression.nodes[above.node as usize];
+                    let node = &expression.nodes[above.node.index()];
                     [false, true].map(|value| {
                         let forced = above.forced_by(node, &branch, value ^ branch.is_negated)?;
                         above.decides[usize::from(forced)]
@@ -216,7 +216,7 @@ impl Restriction {
 }
 
 impl Branch {
-    fn new(node: u32, this: &Node, parent: u32, above: Option<&Node>) -> Self {
+    fn new(node: TreeNodeId, this: &Node, parent: BranchId, above: Option<&Node>) -> Self {
         let is_first = above.is_some_and(|above| above.is_in_first(this.first_leaf));
         // Between this node and the operand of `above` that holds it; an exclusive or is told of changes alone.
         let is_negated = above.is_some_and(|above| {
