@@ -88,20 +88,6 @@ pub(crate) fn random_boxes(count: usize, seed: u64) -> Mesh {
     mesh
 }
 
-/// The splitmix64 generator.
-pub(crate) struct Random(pub(crate) u64);
-
-impl Random {
-    /// A number from `low` up to `high`.
-    pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        low + (high - low) * ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-}
-
 fn push_quad(mesh: &mut Mesh, [a, b, c, d]: [u32; 4], normal: DVec3, material: &str) {
     let face = push_face(mesh, normal, material);
     mesh.triangles.extend([[a, b, c], [a, c, d]]);

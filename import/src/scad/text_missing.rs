@@ -1,6 +1,6 @@
 //! `text` in a build without the feature of that name: no fonts, and an error where a tree has letters.
 
-use planecut_csg::Outline;
+use planecut_shapes::Outline;
 
 use super::problem::Problem;
 use super::syntax::Node;
