@@ -26,6 +26,7 @@
 
 mod bvh;
 mod components;
+mod contact;
 mod crossing;
 mod edges;
 mod measure;
@@ -41,7 +42,8 @@ mod topology;
 
 use glam::DVec3;
 
-pub use crossing::{Contact, ContactKind, CrossingReport};
+pub use contact::{Contact, ContactKind};
+pub use crossing::CrossingReport;
 pub use measure::{Measures, measure_triangles};
 pub use options::{CheckOptions, TOLERANCE_F32, TOLERANCE_F64};
 pub use report::{CheckReport, MeshProblem};

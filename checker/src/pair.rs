@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::bvh::Aabb;
-use crate::crossing::{Contact, ContactKind};
+use crate::contact::{Contact, ContactKind};
 use crate::parallel;
 use crate::separation::{Triangle, interiors_cross, interiors_overlap, normal, overlap_depth, penetration_depth};
 use crate::sheet::Sheets;

@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-use crate::crossing::{Contact, CrossingReport};
+use crate::contact::Contact;
+use crate::crossing::CrossingReport;
 use crate::topology::{TopologyDefect, TopologyReport};
 
 /// The answer of [`check_mesh`](crate::check_mesh). Its `Display` is one line: the first problem, or that there is none.

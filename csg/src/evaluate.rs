@@ -11,6 +11,7 @@ use crate::body::{
 };
 use crate::boundary::{BoundaryEdge, Scene, boundary_edges, boundary_of_union};
 use crate::expression::Expression;
+use crate::ids::{Id, LeafId};
 use crate::mesh::{Mesh, SolidMeasures};
 use crate::model::{Material, MaterialId, Model, Operation, Tree, TreeNode};
 use crate::plane_table::PlaneTable;
@@ -145,7 +146,7 @@ pub fn evaluate_built(
     let keeps = unbounded == UnboundedBrushes::Keep && !summary.unbounded.is_empty();
     let mut leaves = Leaves::default();
     let outer = (keeps || expression.base()).then(|| OuterBox::new(&mut table));
-    let faces = |number: u32| match &bodies[number as usize] {
+    let faces = |leaf: LeafId| match &bodies[leaf.index()] {
         BrushBody::Bounded(body, _) => body.faces.as_slice(),
         BrushBody::Empty | BrushBody::Unbounded => &[],
     };
@@ -216,13 +217,13 @@ pub fn check_materials(mut used: impl Iterator<Item = MaterialId>, count: usize)
 #[derive(Default)]
 struct Leaves {
     bodies: Vec<Body>,
-    leaf_of_body: Vec<u32>,
+    leaf_of_body: Vec<LeafId>,
 }
 
 impl Leaves {
     fn push(&mut self, leaf: usize, body: Body) {
         self.bodies.push(body);
-        self.leaf_of_body.push(leaf as u32);
+        self.leaf_of_body.push(LeafId::from_index(leaf));
     }
 
     fn boundary_edges(&self, table: &PlaneTable, expression: &Expression, rank: &[u32]) -> (Vec<BoundaryEdge>, Counts) {

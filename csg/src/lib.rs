@@ -26,6 +26,7 @@ mod body;
 mod boundary;
 mod evaluate;
 mod expression;
+mod ids;
 mod live;
 mod mesh;
 mod model;

@@ -94,12 +94,12 @@ pub(crate) fn encode_png(pixels: &[u8], [width, height]: [u32; 2], color: ColorT
         writer.write_image_data(pixels)?;
         writer.finish()
     });
-    written.map_err(png_error)?;
+    written.map_err(|error| png_error(&error))?;
     Ok(png)
 }
 
 /// What the PNG library says, as an error of this crate.
-pub(crate) fn png_error(error: EncodingError) -> PictureError {
+pub(crate) fn png_error(error: &EncodingError) -> PictureError {
     PictureError::Encode { format: "PNG", message: error.to_string() }
 }
 

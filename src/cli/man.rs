@@ -2,12 +2,12 @@
 
 use clap::Command;
 use clap_mangen::Man;
+use planecut::export::ExportError;
 
 use super::args::{self, ManArgs};
 use super::error::CliError;
 use super::output::{Output, Target};
 use super::terminal;
-use planecut::export::ExportError;
 
 /// Runs the command: one page on standard output, or all of them into a folder.
 ///

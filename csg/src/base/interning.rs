@@ -15,23 +15,24 @@ pub(crate) const WEIGHTS: [f64; 4] = [0.731_592_653_589, 0.467_182_818_284, 0.61
 /// The different keys, and for each key given the place of its like among them.
 ///
 /// Keys are numbered bucket by bucket. `near` tells which keys go together: equal ones have the same number below `bound`,
-/// and those of near numbers are best found near each other.
-pub(crate) fn intern<K: Copy + Eq + Hash + Send + Sync>(
+/// and those of near numbers are best found near each other. `number_of` gives the number of a key from its place.
+pub(crate) fn intern<K: Copy + Eq + Hash + Send + Sync, N: Send>(
     keys: &[K],
     bound: usize,
     near: impl Fn(&K) -> usize + Sync,
-) -> (Vec<K>, Vec<u32>) {
+    number_of: impl Fn(usize) -> N + Sync,
+) -> (Vec<K>, Vec<N>) {
     // a function of the keys alone, so that the numbers do not depend on the number of threads
     let count = keys.len().div_ceil(BUCKET);
     if count < 2 {
         let mut bucket = Bucket::default();
-        let numbers = keys.iter().map(|key| bucket.number(*key)).collect();
+        let numbers = keys.iter().map(|key| number_of(bucket.number(*key) as usize)).collect();
         return (bucket.keys, numbers);
     }
     let width = bound.div_ceil(count).max(1);
     let bucket_of = |key: &K| (near(key) / width).min(count - 1) as u32;
     let of_key: Vec<u32> = keys.par_iter().with_min_len(BUCKET).map(bucket_of).collect();
-    let (starts, members) = by_group(count, of_key.iter().copied());
+    let (starts, members) = by_group(count, of_key.iter().map(|bucket| *bucket as usize), |place| place as u32);
     let numbers: Vec<AtomicU32> = keys.par_iter().with_min_len(BUCKET).map(|_| AtomicU32::new(0)).collect();
     let buckets: Vec<Vec<K>> = starts
         .par_windows(2)
@@ -47,7 +48,8 @@ pub(crate) fn intern<K: Copy + Eq + Hash + Send + Sync>(
     for k in 1..count {
         first[k] = first[k - 1] + buckets[k - 1].len() as u32;
     }
-    let number = |(number, bucket): (AtomicU32, u32)| number.into_inner() + first[bucket as usize];
+    let number =
+        |(number, bucket): (AtomicU32, u32)| number_of((number.into_inner() + first[bucket as usize]) as usize);
     let numbers = numbers.into_par_iter().with_min_len(BUCKET).zip(of_key).map(number).collect();
     (buckets.concat(), numbers)
 }
@@ -83,22 +85,26 @@ impl<K: Copy + Eq + Hash> Bucket<K> {
 }
 
 /// Sorts the places of groups: for groups numbered from 0 to `count`, where each begins in a list of all members by group, and
-/// that list; members keep their order.
-pub(crate) fn by_group(count: usize, of_member: impl Iterator<Item = u32> + Clone) -> (Vec<u32>, Vec<u32>) {
+/// that list; members keep their order. `number` gives the number of a member from its place.
+pub(crate) fn by_group<M: Copy>(
+    count: usize,
+    of_member: impl Iterator<Item = usize> + Clone,
+    number: impl Fn(usize) -> M,
+) -> (Vec<u32>, Vec<M>) {
     let mut starts = vec![0_u32; count + 1];
     let mut members = 0;
     for group in of_member.clone() {
-        starts[group as usize + 1] += 1;
+        starts[group + 1] += 1;
         members += 1;
     }
     for k in 0..count {
         starts[k + 1] += starts[k];
     }
     let mut next = starts.clone();
-    let mut sorted = vec![0_u32; members];
+    let mut sorted = vec![number(0); members];
     for (member, group) in of_member.enumerate() {
-        sorted[next[group as usize] as usize] = member as u32;
-        next[group as usize] += 1;
+        sorted[next[group] as usize] = number(member);
+        next[group] += 1;
     }
     (starts, sorted)
 }
@@ -117,8 +123,8 @@ mod tests {
     fn equal_keys_share_a_number_however_many_there_are() {
         for count in [0, 1, 100, BUCKET as u64 - 1, BUCKET as u64 + 1, 5 * BUCKET as u64 + 3] {
             let keys: Vec<u64> = (0..count).map(|k| k.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 50).collect();
-            let (found, numbers) = intern(&keys, 1 << 14, |key| *key as usize);
-            assert!(keys.iter().zip(&numbers).all(|(key, number)| found[*number as usize] == *key));
+            let (found, numbers) = intern(&keys, 1 << 14, |key| *key as usize, |place| place);
+            assert!(keys.iter().zip(&numbers).all(|(key, number)| found[*number] == *key));
             let mut sorted = found.clone();
             sorted.sort_unstable();
             sorted.dedup();
@@ -129,7 +135,7 @@ mod tests {
     #[test]
     fn members_are_listed_by_group_in_their_order() {
         let groups = [2, 0, 2, 3, 0, 2];
-        let (starts, sorted) = by_group(5, groups.iter().copied());
+        let (starts, sorted) = by_group(5, groups.iter().copied(), |place| place);
         assert_eq!(starts, [0, 2, 2, 5, 6, 6]);
         assert_eq!(sorted, [1, 4, 0, 2, 5, 3]);
     }

@@ -5,6 +5,7 @@ use planecut_kernel::HalfSpace;
 use planecut_kernel::sign::{Homogeneous, Sign};
 
 use crate::base::Bounds;
+use crate::ids::{BodyId, CornerId, Id};
 
 /// Three products and three sums, each rounded, and more.
 const PLANE_VALUE_BOUND: f64 = 8.0 * f64::EPSILON;
@@ -51,16 +52,16 @@ pub(crate) struct Corner {
     /// nothing is known.
     pub(crate) error: f64,
     /// The number of a body that it is known to lie in, or [`NOWHERE`](Self::NOWHERE).
-    pub(crate) within: u32,
+    pub(crate) within: BodyId,
     /// A number that it has in its body, whichever face it is seen in; [`NEW`](Self::NEW) for a corner that cutting made.
-    pub(crate) number: u32,
+    pub(crate) number: CornerId,
 }
 
 impl Corner {
     /// No body.
-    pub(crate) const NOWHERE: u32 = u32::MAX;
+    pub(crate) const NOWHERE: BodyId = BodyId::NONE;
     /// No corner of a body.
-    pub(crate) const NEW: u32 = u32::MAX;
+    pub(crate) const NEW: CornerId = CornerId::NONE;
 
     pub(crate) fn new(point: Homogeneous) -> Self {
         let [x, y, z, w] = point.value;

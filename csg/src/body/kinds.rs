@@ -5,20 +5,25 @@ use std::hash::BuildHasher;
 use rustc_hash::{FxBuildHasher, FxHashMap};
 
 use super::BodyFace;
+use crate::ids::{Id, LeafId};
 use crate::model::MaterialId;
 use crate::plane_table::PlaneId;
 
-/// Numbers that are equal for bodies with the same faces of the same materials, and for no others; `faces` gives those of a
+/// For the body of each leaf the first leaf with an equal one: equal for bodies with the same faces of the same materials, and for no others; `faces` gives those of a
 /// body, and `mark` a [`mark_of`] them.
-pub(crate) fn kinds<'a>(bodies: usize, faces: impl Fn(u32) -> &'a [BodyFace], mark: impl Fn(u32) -> u64) -> Vec<u32> {
-    let sorted = |number: u32| {
+pub(crate) fn kinds<'a>(
+    bodies: usize,
+    faces: impl Fn(LeafId) -> &'a [BodyFace],
+    mark: impl Fn(LeafId) -> u64,
+) -> Vec<LeafId> {
+    let sorted = |number: LeafId| {
         let mut faces: Vec<(PlaneId, MaterialId)> =
             faces(number).iter().map(|face| (face.plane, face.material)).collect();
         faces.sort_unstable();
         faces
     };
-    let mut known: FxHashMap<u64, Vec<u32>> = FxHashMap::default();
-    let kind = |number: u32| {
+    let mut known: FxHashMap<u64, Vec<LeafId>> = FxHashMap::default();
+    let kind = |number: LeafId| {
         if faces(number).is_empty() {
             return number;
         }
@@ -30,7 +35,7 @@ pub(crate) fn kinds<'a>(bodies: usize, faces: impl Fn(u32) -> &'a [BodyFace], ma
             number
         })
     };
-    (0..bodies as u32).map(kind).collect()
+    LeafId::all(bodies).map(kind).collect()
 }
 
 /// A number that faces of the same planes and materials share, whatever their order.

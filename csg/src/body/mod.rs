@@ -18,6 +18,7 @@ use planecut_kernel::sign::Sign;
 use planecut_kernel::{IncrementalPolytope, PlaneIdx};
 
 use crate::base::Bounds;
+use crate::ids::{BodyFaceId, Id};
 use crate::model::MaterialId;
 use crate::plane_table::{PlaneId, PlaneTable};
 
@@ -51,7 +52,7 @@ pub struct Body {
     pub(crate) bounds: Bounds,
     pub(crate) volume: f64,
     /// For a body of many faces their planes without sides, ascending, and the face on each; made when first asked for.
-    by_plane: OnceLock<Vec<(u32, u32)>>,
+    by_plane: OnceLock<Vec<(u32, BodyFaceId)>>,
 }
 
 impl Body {
@@ -108,7 +109,7 @@ impl Body {
     /// The corners of a face: corner `i` between the edges `i` and `i + 1`.
     pub(crate) fn corners(&self, face: &BodyFace) -> impl ExactSizeIterator<Item = &Corner> + Clone {
         let numbers = &self.corners.numbers[face.start as usize..face.end as usize];
-        numbers.iter().map(|number| &self.corners.different[*number as usize])
+        numbers.iter().map(|number| &self.corners.different[number.index()])
     }
 
     /// How many different corners there are: their numbers are below this.
@@ -135,23 +136,23 @@ impl Body {
 
     /// The face on a plane, whatever its side.
     pub(crate) fn face_on(&self, plane: PlaneId) -> Option<&BodyFace> {
-        self.place_on(plane).map(|place| &self.faces[place])
+        self.place_on(plane).map(|place| &self.faces[place.index()])
     }
 
     /// The place of the face on a plane, whatever its side.
-    pub(crate) fn place_on(&self, plane: PlaneId) -> Option<usize> {
+    pub(crate) fn place_on(&self, plane: PlaneId) -> Option<BodyFaceId> {
         const MANY: usize = 16;
+        let mut faces = BodyFaceId::all(self.faces.len()).zip(&self.faces);
         if self.faces.len() < MANY {
-            return self.faces.iter().position(|face| face.plane.index() == plane.index());
+            return faces.find(|(_, face)| face.plane.index() == plane.index()).map(|(place, _)| place);
         }
         let by_plane = self.by_plane.get_or_init(|| {
-            let mut by_plane: Vec<(u32, u32)> =
-                (0..).zip(&self.faces).map(|(k, face)| (face.plane.index(), k)).collect();
+            let mut by_plane: Vec<(u32, BodyFaceId)> = faces.map(|(place, face)| (face.plane.index(), place)).collect();
             by_plane.sort_unstable();
             by_plane
         });
         let place = by_plane.binary_search_by_key(&plane.index(), |entry| entry.0).ok()?;
-        Some(by_plane[place].1 as usize)
+        Some(by_plane[place].1)
     }
 }
 

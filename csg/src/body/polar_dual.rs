@@ -13,6 +13,7 @@ use planecut_kernel::{DVec3, HalfSpace};
 
 use super::Corner;
 use super::shape::Corners;
+use crate::ids::{BodyFaceId, Id};
 
 /// Bodies of fewer faces are asked plane by plane.
 const MANY: usize = 14;
@@ -26,22 +27,22 @@ pub(crate) struct PolarDual {
     duals: Vec<DVec3>,
     /// Where the neighbours of each face begin.
     starts: Vec<u32>,
-    neighbours: Vec<u32>,
+    neighbours: Vec<BodyFaceId>,
     /// The largest sum of a dual's magnitudes.
     reach: f64,
     /// For each octant around the center the face in its middle.
-    seeds: [u32; 8],
+    seeds: [BodyFaceId; 8],
 }
 
 /// Where a point lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Place {
     /// Strictly inside of all planes; this face is the nearest.
-    Inside(u32),
+    Inside(BodyFaceId),
     /// Strictly outside of the plane of this face.
-    Outside(u32),
+    Outside(BodyFaceId),
     /// On the surface or close to it; this face is the nearest, or one of them.
-    Near(u32),
+    Near(BodyFaceId),
     /// The numbers tell nothing.
     Unknown,
 }
@@ -75,11 +76,11 @@ impl PolarDual {
             duals,
             starts: vec![0],
             neighbours: Vec::with_capacity(corners.edges.len()),
-            seeds: [0; 8],
+            seeds: [BodyFaceId::from_index(0); 8],
         };
         let planes = corners.planes.iter().chain(&corners.edges).map(|plane| plane.0 + 1).max().unwrap_or(0);
-        let mut face_of: Vec<Option<u32>> = vec![None; planes];
-        for (plane, face) in corners.planes.iter().zip(0..) {
+        let mut face_of: Vec<Option<BodyFaceId>> = vec![None; planes];
+        for (plane, face) in corners.planes.iter().zip(BodyFaceId::all(corners.planes.len())) {
             face_of[plane.0] = Some(face);
         }
         for edges in edges {
@@ -101,13 +102,13 @@ impl PolarDual {
     }
 
     /// A face from which the climb to a point is short.
-    pub(crate) fn seed(&self, point: &Corner) -> u32 {
+    pub(crate) fn seed(&self, point: &Corner) -> BodyFaceId {
         let from_center = point.at - self.center;
         self.seeds[from_center.is_negative_bitmask() as usize]
     }
 
     /// Where a point lies, climbing from a face.
-    pub(crate) fn place(&self, point: &Corner, from: u32) -> Place {
+    pub(crate) fn place(&self, point: &Corner, from: BodyFaceId) -> Place {
         let (at, room) = self.relative(point);
         let (face, value) = self.climb(at, from, room);
         let room = room * value.max(1.0);
@@ -123,14 +124,14 @@ impl PolarDual {
     }
 
     /// Whether a point surely lies strictly outside of the plane of a face.
-    pub(crate) fn is_beyond(&self, point: &Corner, face: u32) -> bool {
+    pub(crate) fn is_beyond(&self, point: &Corner, face: BodyFaceId) -> bool {
         let (at, room) = self.relative(point);
         let value = self.value(face, at);
         value > 1.0 + room * value.max(1.0)
     }
 
     /// The faces on or beyond whose planes a point may lie, `face` being the one where its value is largest.
-    pub(crate) fn near(&self, point: &Corner, face: u32, found: &mut Vec<u32>) {
+    pub(crate) fn near(&self, point: &Corner, face: BodyFaceId, found: &mut Vec<BodyFaceId>) {
         let (at, room) = self.relative(point);
         let level = 1.0 - 4.0 * room;
         self.above(at, face, level, found);
@@ -146,16 +147,16 @@ impl PolarDual {
         (point.at - self.center, 2.0 * room)
     }
 
-    fn value(&self, face: u32, at: DVec3) -> f64 {
-        self.duals[face as usize].dot(at)
+    fn value(&self, face: BodyFaceId, at: DVec3) -> f64 {
+        self.duals[face.index()].dot(at)
     }
 
-    fn neighbours(&self, face: u32) -> &[u32] {
-        &self.neighbours[self.starts[face as usize] as usize..self.starts[face as usize + 1] as usize]
+    fn neighbours(&self, face: BodyFaceId) -> &[BodyFaceId] {
+        &self.neighbours[self.starts[face.index()] as usize..self.starts[face.index() + 1] as usize]
     }
 
     /// The face with the largest value, and this.
-    fn climb(&self, at: DVec3, from: u32, room: f64) -> (u32, f64) {
+    fn climb(&self, at: DVec3, from: BodyFaceId, room: f64) -> (BodyFaceId, f64) {
         let (mut best, mut value) = (from, self.value(from, at));
         loop {
             let (start, mut second) = (best, f64::NEG_INFINITY);
@@ -191,7 +192,7 @@ impl PolarDual {
     }
 
     /// The faces with values above a level that are connected to one.
-    fn above(&self, at: DVec3, face: u32, level: f64, found: &mut Vec<u32>) {
+    fn above(&self, at: DVec3, face: BodyFaceId, level: f64, found: &mut Vec<BodyFaceId>) {
         found.clear();
         found.push(face);
         let mut next = 0;

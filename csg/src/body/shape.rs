@@ -9,6 +9,7 @@ use planecut_kernel::{HalfSpace, IncrementalPolytope, PlaneIdx, meet};
 use super::Corner;
 use super::polar_dual::PolarDual;
 use crate::base::Bounds;
+use crate::ids::{CornerId, Id};
 
 /// A bounded convex body with interior, its planes named as in the polytope that it was read from.
 #[derive(Debug, Clone)]
@@ -34,7 +35,7 @@ pub(super) struct Corners {
     /// The different corners.
     pub(super) different: Vec<Corner>,
     /// Face by face the numbers of its corners, and the planes of its edges: those of the neighbouring faces.
-    pub(super) numbers: Vec<u32>,
+    pub(super) numbers: Vec<CornerId>,
     pub(super) edges: Vec<PlaneIdx>,
     /// The plane of each face.
     pub(super) planes: Vec<PlaneIdx>,
@@ -45,7 +46,7 @@ pub(super) struct Corners {
 impl Corners {
     /// The mean of the corners, each counted once for each face at it.
     pub(super) fn middle(&self) -> DVec3 {
-        let corners = self.numbers.iter().map(|number| self.different[*number as usize].at);
+        let corners = self.numbers.iter().map(|number| self.different[number.index()].at);
         corners.sum::<DVec3>() / self.numbers.len() as f64
     }
 }
@@ -62,7 +63,7 @@ impl Shape {
         let mut volume = Volume::default();
         let mut is_bounded = true;
         // the corners that other faces have as well, by their numbers
-        let mut shared: Vec<Option<u32>> = vec![None; polytope.corner_bound()];
+        let mut shared: Vec<Option<CornerId>> = vec![None; polytope.corner_bound()];
         polytope.for_each_facet(|own, edges| {
             let start = corners.edges.len();
             for edge in edges {
@@ -79,14 +80,14 @@ impl Shape {
                 let [a, b, c] = triple.map(|idx| plane(idx).0);
                 let known = edge.corner.and_then(|number| shared[number]);
                 let number = known.unwrap_or_else(|| {
-                    let number = corners.different.len() as u32;
+                    let number = CornerId::from_index(corners.different.len());
                     corners.different.push(Corner { number, ..Corner::new(Homogeneous::meet(a, b, c)) });
                     number
                 });
                 if let Some(shared_number) = edge.corner {
                     shared[shared_number] = Some(number);
                 }
-                let corner = &corners.different[number as usize];
+                let corner = &corners.different[number.index()];
                 bounds = bounds.with_corner(corner);
                 volume.add(if corner.is_well_known() { Some(corner.at) } else { meet(a, b, c) });
                 corners.numbers.push(number);

@@ -5,20 +5,18 @@ use planecut_kernel::sign::Sign;
 use super::Scene;
 use super::section::{Clip, Polygon};
 use crate::body::{BodyFace, Corner, Place, PolarDual};
+use crate::ids::{BodyFaceId, BodyId, Id, NearId};
 
 /// For more pairs of a corner and a body near nothing is kept.
 const MOST: usize = 1 << 20;
-
-/// No face.
-const NONE: u32 = u32::MAX;
 
 /// Clips polygons by bodies, reusing its buffers.
 #[derive(Debug, Default)]
 pub(super) struct Clipper {
     spare: Polygon,
-    near: Vec<u32>,
-    /// For each body near the one whose faces are clipped, the face at which the last point was found, or [`NONE`].
-    last: Vec<u32>,
+    near: Vec<BodyFaceId>,
+    /// For each body near the one whose faces are clipped, the face at which the last point was found, or [`Id::NONE`].
+    last: Vec<BodyFaceId>,
     /// How many corners the body has whose faces are clipped.
     corners: usize,
     /// Where each of these corners lies in each body near: a corner is seen from several faces.
@@ -30,9 +28,9 @@ pub(super) struct Clipper {
 pub(super) struct Cutter<'a> {
     pub(super) scene: &'a Scene<'a>,
     pub(super) face: &'a BodyFace,
-    pub(super) body: usize,
+    pub(super) body: BodyId,
     /// Its place among the bodies near.
-    pub(super) place: usize,
+    pub(super) place: NearId,
 }
 
 impl Clipper {
@@ -40,7 +38,7 @@ impl Clipper {
     pub(super) fn begin(&mut self, corners: usize, near: usize) {
         self.corners = if corners.saturating_mul(near) <= MOST { corners } else { 0 };
         self.last.clear();
-        self.last.resize(near, NONE);
+        self.last.resize(near, BodyFaceId::NONE);
         self.known.clear();
     }
 
@@ -65,7 +63,7 @@ impl Clipper {
     /// By the planes of all faces.
     fn clip_by_all(&mut self, Cutter { scene, face, body, .. }: Cutter<'_>, polygon: &mut Polygon) -> Clip {
         let mut whole = true;
-        let cuts = scene.bodies[body].faces.iter().map(|face| face.plane);
+        let cuts = scene.body(body).faces.iter().map(|face| face.plane);
         for cut in cuts.filter(|cut| cut.index() != face.plane.index()) {
             match polygon.clip(scene.table, face.plane, cut, &mut self.spare) {
                 Clip::Nothing => return Clip::Nothing,
@@ -99,22 +97,21 @@ impl Clipper {
         }
         let Some((known, mut beyond)) = first else { return Clip::Whole };
         out.copy_from(polygon);
-        let number = body as u32;
-        out.corners[..known].iter_mut().for_each(|corner| corner.within = number);
+        out.corners[..known].iter_mut().for_each(|corner| corner.within = body);
         let mut i = known;
         loop {
-            let cut = scene.bodies[body].faces[beyond as usize].plane;
+            let cut = scene.body(body).faces[beyond.index()].plane;
             match out.clip(scene.table, face.plane, cut, &mut self.spare) {
                 Clip::Nothing => return Clip::Nothing,
                 Clip::Part => {}
                 // signs decide
-                Clip::Whole => out.corners[i].within = number,
+                Clip::Whole => out.corners[i].within = body,
             }
             let next = loop {
-                let Some(k) = out.corners.iter().position(|corner| corner.within != number) else { break None };
+                let Some(k) = out.corners.iter().position(|corner| corner.within != body) else { break None };
                 i = k;
                 match self.place(cutter, dual, out, i) {
-                    Found::Inside(_) => out.corners[i].within = number,
+                    Found::Inside(_) => out.corners[i].within = body,
                     Found::Beyond(other) => break Some(other),
                     Found::Unknown => {
                         return if self.clip_by_all(cutter, out) == Clip::Nothing { Clip::Nothing } else { Clip::Part };
@@ -132,14 +129,14 @@ impl Clipper {
 
     /// Where a corner lies, exactly where numbers do not tell.
     fn place(&mut self, cutter: Cutter<'_>, dual: &PolarDual, polygon: &Polygon, i: usize) -> Found {
-        let number = polygon.corners[i].number as usize;
+        let number = polygon.corners[i].number.index();
         let found = if number >= self.corners {
             self.find(cutter, dual, polygon, i)
         } else {
             if self.known.is_empty() {
                 self.known.resize(self.last.len() * self.corners, Found::Unknown);
             }
-            let entry = cutter.place * self.corners + number;
+            let entry = cutter.place.index() * self.corners + number;
             if self.known[entry] == Found::Unknown {
                 self.stay_near(cutter.place, polygon);
                 self.known[entry] = self.find(cutter, dual, polygon, i);
@@ -147,40 +144,41 @@ impl Clipper {
             self.known[entry]
         };
         if let Found::Inside(nearest) | Found::Beyond(nearest) = found {
-            self.last[cutter.place] = nearest;
+            self.last[cutter.place.index()] = nearest;
         }
         found
     }
 
     /// Lets the search begin near a corner of the polygon that was placed with another face: faces that follow one another may lie
     /// far apart.
-    fn stay_near(&mut self, place: usize, polygon: &Polygon) {
+    fn stay_near(&mut self, place: NearId, polygon: &Polygon) {
         let known = |corner: &Corner| {
-            let number = corner.number as usize;
-            let found = if number < self.corners { self.known[place * self.corners + number] } else { Found::Unknown };
+            let number = corner.number.index();
+            let found =
+                if number < self.corners { self.known[place.index() * self.corners + number] } else { Found::Unknown };
             match found {
                 Found::Inside(nearest) | Found::Beyond(nearest) => Some(nearest),
                 Found::Unknown => None,
             }
         };
         if let Some(nearest) = polygon.corners.iter().find_map(known) {
-            self.last[place] = nearest;
+            self.last[place.index()] = nearest;
         }
     }
 
     fn find(&mut self, cutter: Cutter<'_>, dual: &PolarDual, polygon: &Polygon, i: usize) -> Found {
         let Cutter { scene, face, body, place } = cutter;
         let corner = &polygon.corners[i];
-        let last = self.last[place];
-        match dual.place(corner, if last == NONE { dual.seed(corner) } else { last }) {
+        let last = self.last[place.index()];
+        match dual.place(corner, if last == BodyFaceId::NONE { dual.seed(corner) } else { last }) {
             Place::Inside(nearest) => Found::Inside(nearest),
             Place::Outside(other) => Found::Beyond(other),
             Place::Near(other) => {
                 let planes = polygon.corner(face.plane, i);
                 dual.near(corner, other, &mut self.near);
-                let faces = &scene.bodies[body].faces;
-                let is_beyond = |other: &u32| {
-                    let plane = faces[*other as usize].plane;
+                let faces = &scene.body(body).faces;
+                let is_beyond = |other: &BodyFaceId| {
+                    let plane = faces[other.index()].plane;
                     scene.table.side(planes, &corner.point, plane) == Sign::Positive
                 };
                 self.near.iter().copied().find(is_beyond).map_or(Found::Inside(other), Found::Beyond)
@@ -194,8 +192,8 @@ impl Clipper {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Found {
     /// Inside of all planes or on some; this face is the nearest.
-    Inside(u32),
+    Inside(BodyFaceId),
     /// Outside of the plane of this face.
-    Beyond(u32),
+    Beyond(BodyFaceId),
     Unknown,
 }

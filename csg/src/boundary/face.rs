@@ -10,16 +10,17 @@ use super::{BoundaryEdge, Scene};
 use crate::base::Bounds;
 use crate::body::BodyFace;
 use crate::expression::{OneLevel, Restriction};
+use crate::ids::{BodyFaceId, BodyId, Id, KeptLeafId, LeafId, NearId};
 use crate::plane_table::PlaneTable;
 
 /// A body that reaches the plane of the face.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Reaching {
-    body: usize,
+    body: BodyId,
     /// Its place among the bodies near.
-    place: usize,
+    place: NearId,
     /// Its place among the leaves of the restriction.
-    pub(super) leaf: usize,
+    pub(super) leaf: KeptLeafId,
     pub(super) contact: Contact,
     /// When its face on the plane has its turn, where it has one.
     pub(super) turn: Turn,
@@ -37,15 +38,15 @@ pub(super) struct Section {
 pub(crate) struct FaceWorker<'a> {
     scene: &'a Scene<'a>,
     restriction: Restriction,
-    bodies: Vec<usize>,
+    bodies: Vec<BodyId>,
     /// The places of these among the bodies near.
-    places: Vec<usize>,
-    leaves: Vec<u32>,
+    places: Vec<NearId>,
+    leaves: Vec<LeafId>,
     others: Vec<Reaching>,
     covering: Vec<Reaching>,
     open: Vec<Reaching>,
     /// Bodies that hold both sides of all of the region.
-    holding: Vec<usize>,
+    holding: Vec<KeptLeafId>,
     region: Polygon,
     part: Polygon,
     sections: Vec<Section>,
@@ -80,16 +81,16 @@ impl<'a> FaceWorker<'a> {
     }
 
     /// Begins with the faces of another body; `near` is the number of bodies near it.
-    pub(crate) fn begin(&mut self, body: usize, near: usize) {
-        self.clipper.begin(self.scene.bodies[body].corner_count(), near);
+    pub(crate) fn begin(&mut self, body: BodyId, near: usize) {
+        self.clipper.begin(self.scene.body(body).corner_count(), near);
     }
 
     /// Emits the boundary of what face `face` of body `body` is of the boundary; `near` are the bodies whose boxes touch it,
     /// by number, its own among them.
-    pub(crate) fn emit(&mut self, body: usize, face: usize, near: &[u32], out: &mut Vec<BoundaryEdge>) {
+    pub(crate) fn emit(&mut self, body: BodyId, face: BodyFaceId, near: &[BodyId], out: &mut Vec<BoundaryEdge>) {
         let scene = self.scene;
-        let solid = scene.bodies[body];
-        let this = &solid.faces[face];
+        let solid = scene.body(body);
+        let this = &solid.faces[face.index()];
         let own = self.gather(body, this, near);
         self.region.set(solid.edges(this), solid.corners(this));
         if let Some(operation) = scene.one_level
@@ -108,7 +109,7 @@ impl<'a> FaceWorker<'a> {
             return;
         }
         let turn = scene.turn(body, this);
-        let own = Reaching { body, place: 0, leaf: own, contact: Contact::SameWay, turn };
+        let own = Reaching { body, place: NearId::NONE, leaf: own, contact: Contact::SameWay, turn };
         self.ownership.begin(scene.expression, &mut self.restriction, &own);
         if !self.sort_out(&own, this) {
             return;
@@ -166,17 +167,17 @@ impl<'a> FaceWorker<'a> {
 
     /// What [`sort_out`](Self::sort_out) finds where the tree has one level and no other face lies on the plane; and which
     /// boundary the face is, where it is any.
-    fn sort_out_one_level(&mut self, own: usize, face: &'a BodyFace, operation: OneLevel) -> Option<Facing> {
+    fn sort_out_one_level(&mut self, own: KeptLeafId, face: &'a BodyFace, operation: OneLevel) -> Option<Facing> {
         self.covering.clear();
-        let is_tool = operation == OneLevel::Difference && self.leaves[own] != 0;
+        let is_tool = operation == OneLevel::Difference && self.leaves[own.index()].index() != 0;
         let mut is_in_first = !is_tool;
-        for leaf in 0..self.bodies.len() {
+        for leaf in KeptLeafId::all(self.bodies.len()) {
             if leaf == own {
                 continue;
             }
-            let (body, place) = (self.bodies[leaf], self.places[leaf]);
+            let (body, place) = (self.bodies[leaf.index()], self.places[leaf.index()]);
             let across = Reaching { body, place, leaf, contact: Contact::Across, turn: self.scene.turn(body, face) };
-            if is_tool && self.leaves[leaf] == 0 {
+            if is_tool && self.leaves[leaf.index()].index() == 0 {
                 if !self.require(face, &across) {
                     return None;
                 }
@@ -208,8 +209,9 @@ impl<'a> FaceWorker<'a> {
     }
 
     /// Whether a body changes nothing within the region, as others hold all of it.
-    fn is_silenced(&self, leaf: usize) -> bool {
-        let silences = |other: &usize| self.restriction.forces(self.scene.expression, *other, true, leaf).is_some();
+    fn is_silenced(&self, leaf: KeptLeafId) -> bool {
+        let silences =
+            |other: &KeptLeafId| self.restriction.forces(self.scene.expression, *other, true, leaf).is_some();
         self.holding.iter().any(silences)
     }
 
@@ -219,20 +221,20 @@ impl<'a> FaceWorker<'a> {
     }
 
     /// Finds the bodies that may reach the face, and their leaves; gives the place of its own body.
-    fn gather(&mut self, body: usize, face: &BodyFace, near: &[u32]) -> usize {
+    fn gather(&mut self, body: BodyId, face: &BodyFace, near: &[BodyId]) -> KeptLeafId {
         let scene = self.scene;
         let half_space = scene.table.half_space(face.plane);
         let (normal, offset) = (half_space.normal(), half_space.offset());
-        let reaches = |other: usize| {
-            let bounds = &scene.bodies[other].bounds;
+        let reaches = |other: BodyId| {
+            let bounds = &scene.body(other).bounds;
             bounds.may_share_area(&face.bounds) && !misses(bounds, normal, offset)
         };
         self.bodies.clear();
         self.places.clear();
-        let mut own = 0;
-        for (place, other) in near.iter().enumerate().map(|(place, other)| (place, *other as usize)) {
+        let mut own = None;
+        for (place, &other) in NearId::all(near.len()).zip(near) {
             if other == body {
-                own = self.bodies.len();
+                own = Some(KeptLeafId::from_index(self.bodies.len()));
             }
             if other == body || reaches(other) {
                 self.bodies.push(other);
@@ -240,8 +242,8 @@ impl<'a> FaceWorker<'a> {
             }
         }
         self.leaves.clear();
-        self.leaves.extend(self.bodies.iter().map(|body| scene.leaf_of_body[*body]));
-        own
+        self.leaves.extend(self.bodies.iter().map(|body| scene.leaf_of_body[body.index()]));
+        own.expect("a body is near itself")
     }
 
     /// Finds what each body does to the face and cuts the face down to what is required; false where nothing is left.
@@ -250,7 +252,7 @@ impl<'a> FaceWorker<'a> {
         self.open.clear();
         self.holding.clear();
         self.others.clear();
-        for leaf in 0..self.bodies.len() {
+        for leaf in KeptLeafId::all(self.bodies.len()) {
             if leaf != own.leaf && self.restriction.matters(leaf) {
                 self.others.push(self.reaching(leaf, face));
             }
@@ -273,10 +275,10 @@ impl<'a> FaceWorker<'a> {
         true
     }
 
-    fn reaching(&self, leaf: usize, face: &BodyFace) -> Reaching {
-        let body = self.bodies[leaf];
+    fn reaching(&self, leaf: KeptLeafId, face: &BodyFace) -> Reaching {
+        let body = self.bodies[leaf.index()];
         let is_shared = self.scene.is_plane_shared(face);
-        let other = if is_shared { self.scene.bodies[body].face_on(face.plane) } else { None };
+        let other = if is_shared { self.scene.body(body).face_on(face.plane) } else { None };
         let contact = match other {
             None => Contact::Across,
             Some(other) if other.plane == face.plane => Contact::SameWay,
@@ -284,7 +286,7 @@ impl<'a> FaceWorker<'a> {
         };
         // a body that crosses the plane has no face there, and its turn is never asked for
         let turn = self.scene.turn(body, other.unwrap_or(face));
-        Reaching { body, place: self.places[leaf], leaf, contact, turn }
+        Reaching { body, place: self.places[leaf.index()], leaf, contact, turn }
     }
 
     fn cutter(&self, face: &'a BodyFace, by: &Reaching) -> Cutter<'a> {

@@ -22,6 +22,7 @@ use planecut_kernel::sign::Counts;
 use crate::base::{Boxes, map_chunks};
 use crate::body::{Body, BodyFace, PolarDual};
 use crate::expression::{Expression, OneLevel, Polarity};
+use crate::ids::{BodyFaceId, BodyId, Id, LeafId};
 use crate::model::MaterialId;
 use crate::plane_table::{PlaneId, PlaneTable};
 use contact::Facing;
@@ -67,7 +68,7 @@ pub(crate) struct Scene<'a> {
     pub(crate) table: &'a PlaneTable,
     pub(crate) bodies: Vec<&'a Body>,
     /// The leaf of each body, ascending.
-    pub(crate) leaf_of_body: &'a [u32],
+    pub(crate) leaf_of_body: &'a [LeafId],
     pub(crate) expression: &'a Expression,
     /// Where the expression is of one level, what it does.
     one_level: Option<OneLevel>,
@@ -82,7 +83,7 @@ impl<'a> Scene<'a> {
     pub(crate) fn new(
         table: &'a PlaneTable,
         bodies: &'a [Body],
-        leaf_of_body: &'a [u32],
+        leaf_of_body: &'a [LeafId],
         expression: &'a Expression,
         rank: &'a [u32],
     ) -> Self {
@@ -98,7 +99,7 @@ impl<'a> Scene<'a> {
     pub(crate) fn of_some(
         table: &'a PlaneTable,
         bodies: Vec<&'a Body>,
-        leaf_of_body: &'a [u32],
+        leaf_of_body: &'a [LeafId],
         expression: &'a Expression,
         bodies_on_plane: impl Into<Cow<'a, [u8]>>,
         rank: &'a [u32],
@@ -107,8 +108,12 @@ impl<'a> Scene<'a> {
         Self { table, bodies, leaf_of_body, expression, one_level, bodies_on_plane, rank }
     }
 
-    fn polar_dual(&self, body: usize) -> Option<&'a PolarDual> {
-        self.bodies[body].polar_dual(self.table)
+    fn body(&self, body: BodyId) -> &'a Body {
+        self.bodies[body.index()]
+    }
+
+    fn polar_dual(&self, body: BodyId) -> Option<&'a PolarDual> {
+        self.body(body).polar_dual(self.table)
     }
 
     /// Whether bodies other than the face's own may have a face on its plane.
@@ -116,12 +121,12 @@ impl<'a> Scene<'a> {
         self.bodies_on_plane[face.plane.index() as usize] > 1
     }
 
-    fn polarity(&self, body: usize) -> Polarity {
-        self.expression.polarity(self.leaf_of_body[body])
+    fn polarity(&self, body: BodyId) -> Polarity {
+        self.expression.polarity(self.leaf_of_body[body.index()])
     }
 
     /// When a face of a body has its turn among those on its plane.
-    fn turn(&self, body: usize, face: &BodyFace) -> Turn {
+    fn turn(&self, body: BodyId, face: &BodyFace) -> Turn {
         Turn { polarity: self.polarity(body), material_rank: self.rank[face.material.0 as usize], body }
     }
 }
@@ -132,14 +137,18 @@ pub(crate) fn boundary_edges(scene: &Scene<'_>) -> (Vec<BoundaryEdge>, Counts) {
     let boxes = Boxes::new(bodies.iter().map(|body| body.bounds).collect());
     // in the order of space, so that what is near is at hand
     let in_order: Vec<u32> = boxes.in_order().collect();
+    let body_of = |place: &u32| BodyId::from_index(*place as usize);
     let (parts, counts) = map_chunks(&in_order, 1, |chunk| {
         let mut edges = Vec::new();
         let mut worker = FaceWorker::new(scene);
-        let mut near = Vec::new();
-        for body in chunk.iter().map(|body| *body as usize) {
-            boxes.find(|other| other.may_share_area(&bodies[body].bounds), &mut near);
+        let (mut found, mut near) = (Vec::new(), Vec::new());
+        for body in chunk.iter().map(body_of) {
+            let solid = scene.body(body);
+            boxes.find(|other| other.may_share_area(&solid.bounds), &mut found);
+            near.clear();
+            near.extend(found.iter().map(body_of));
             worker.begin(body, near.len());
-            for face in 0..bodies[body].faces.len() {
+            for face in BodyFaceId::all(solid.faces.len()) {
                 worker.emit(body, face, &near, &mut edges);
             }
         }
@@ -152,7 +161,7 @@ pub(crate) fn boundary_edges(scene: &Scene<'_>) -> (Vec<BoundaryEdge>, Counts) {
 /// The boundary edges of the union of bodies.
 pub(crate) fn boundary_of_union(table: &PlaneTable, bodies: &[Body], rank: &[u32]) -> (Vec<BoundaryEdge>, Counts) {
     let count = bodies.len();
-    let leaves: Vec<u32> = (0..count as u32).collect();
+    let leaves: Vec<LeafId> = LeafId::all(count).collect();
     let expression = Expression::union_of(count);
     boundary_edges(&Scene::new(table, bodies, &leaves, &expression, rank))
 }

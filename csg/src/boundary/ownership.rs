@@ -8,6 +8,7 @@ use super::contact::{Contact, Facing};
 use super::face::Reaching;
 use crate::body::BodyFace;
 use crate::expression::{Expression, Polarity, Restriction};
+use crate::ids::{BodyId, Id, KeptLeafId};
 use crate::model::MaterialId;
 
 /// A side of a directed edge.
@@ -42,7 +43,7 @@ pub(super) struct Turn {
     pub(super) polarity: Polarity,
     /// The place of the face's material by name.
     pub(super) material_rank: u32,
-    pub(super) body: usize,
+    pub(super) body: BodyId,
 }
 
 /// Whether there is boundary on a side of an edge on a face, and which way it faces: where the tree differs between just inside and
@@ -58,11 +59,17 @@ pub(super) fn material_of(emitting: &BodyFace) -> MaterialId {
 
 /// What is known of either side of an edge on a face: the values of the leaves, kept in the channels of a restriction, and the faces
 /// on the plane.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub(super) struct Ownership {
-    own: usize,
+    own: KeptLeafId,
     /// For each side the bodies with a face on the plane that covers it, this one among them, by turn.
     coplanar: [Vec<Reaching>; 2],
+}
+
+impl Default for Ownership {
+    fn default() -> Self {
+        Self { own: KeptLeafId::NONE, coplanar: Default::default() }
+    }
 }
 
 impl Ownership {
@@ -94,7 +101,7 @@ impl Ownership {
         restriction: &mut Restriction,
         side: EdgeSide,
         facing: Facing,
-    ) -> usize {
+    ) -> KeptLeafId {
         let coplanar = &self.coplanar[side as usize];
         if let [only] = coplanar.as_slice() {
             return only.leaf;

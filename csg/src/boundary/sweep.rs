@@ -15,12 +15,13 @@ use super::section::{Cover, Line, Piece, Polygon};
 use super::{BoundaryEdge, Scene};
 use crate::body::BodyFace;
 use crate::expression::{Expression, Restriction};
+use crate::ids::{Id, SectionId};
 use crate::plane_table::{PlaneId, PlaneTable};
 
 /// Where along a line a section begins or ends to cover one or both sides.
 #[derive(Debug, Clone, Copy)]
 struct Event {
-    section: u32,
+    section: SectionId,
     sides: [bool; 2],
     begins: bool,
     /// The plane of the section's edge that is met.
@@ -33,10 +34,10 @@ struct Event {
 pub(super) struct Sweep {
     pieces: Vec<Piece>,
     /// The sections that may cover parts of the pieces.
-    beside: Vec<u32>,
+    beside: Vec<SectionId>,
     events: Vec<Event>,
     /// The sections that cover sides of the piece, until each is let go.
-    covering: Vec<(u32, [bool; 2])>,
+    covering: Vec<(SectionId, [bool; 2])>,
 }
 
 /// What stays the same during the sweep over one face.
@@ -69,6 +70,7 @@ impl Sweep {
             for (i, &edge) in polygon.edges.iter().enumerate().filter(|(_, edge)| !region.edges.contains(edge)) {
                 self.pieces.clear();
                 self.pieces.push(Piece::of_edge(polygon, i));
+                let k = SectionId::from_index(k);
                 self.drop_silent(context, edge, Some(k));
                 self.sweep_pieces(context, edge, Some(k), restriction, ownership, out);
             }
@@ -77,26 +79,26 @@ impl Sweep {
 
     /// Takes out of the pieces of an edge of section `own`, or of the region, what is covered on both sides, and what lies on edges of
     /// earlier sections: these emit it. Finds the sections that matter to the rest.
-    fn drop_silent(&mut self, context: &Context<'_>, edge: PlaneId, own: Option<usize>) {
+    fn drop_silent(&mut self, context: &Context<'_>, edge: PlaneId, own: Option<SectionId>) {
         let line = Line { plane: context.face.plane, edge };
         let whole = self.pieces[0];
         let bounds = whole.bounds();
         self.beside.clear();
-        for (k, other) in context.sections.iter().enumerate() {
-            let covers = k < context.covering;
+        for (k, other) in SectionId::all(context.sections.len()).zip(context.sections) {
+            let covers = k.index() < context.covering;
             let is_earlier = own.is_some_and(|own| k < own);
             if own == Some(k) || self.pieces.is_empty() || !other.bounds.touches(&bounds) {
                 continue;
             }
             if !covers && !is_earlier {
-                self.beside.push(k as u32);
+                self.beside.push(k);
                 continue;
             }
             match line.cover(context.scene.table, &whole, &bounds, &other.polygon) {
                 Cover::Along(part, _) if is_earlier => line.subtract(context.scene.table, &mut self.pieces, &part),
                 Cover::Across(part) if covers => line.subtract(context.scene.table, &mut self.pieces, &part),
                 Cover::Apart => {}
-                Cover::Along(..) | Cover::Across(_) => self.beside.push(k as u32),
+                Cover::Along(..) | Cover::Across(_) => self.beside.push(k),
             }
         }
     }
@@ -106,7 +108,7 @@ impl Sweep {
         &mut self,
         context: &Context<'_>,
         edge: PlaneId,
-        own: Option<usize>,
+        own: Option<SectionId>,
         restriction: &mut Restriction,
         ownership: &mut Ownership,
         out: &mut Vec<BoundaryEdge>,
@@ -115,7 +117,7 @@ impl Sweep {
         for k in 0..self.pieces.len() {
             let piece = self.pieces[k];
             self.covering.clear();
-            self.covering.extend(own.map(|own| (own as u32, [true, false])));
+            self.covering.extend(own.map(|own| (own, [true, false])));
             self.find_events(context, line, &piece);
             self.events.sort_by(|a, b| a.compare(b, context.scene.table, line));
             let expression = context.scene.expression;
@@ -159,7 +161,7 @@ impl Sweep {
         let bounds = piece.bounds();
         self.events.clear();
         for &section in &self.beside {
-            let other = &context.sections[section as usize];
+            let other = &context.sections[section.index()];
             if !other.bounds.touches(&bounds) {
                 continue;
             }
@@ -214,8 +216,8 @@ struct Walk<'a, 'b> {
 }
 
 impl Walk<'_, '_> {
-    fn change(&mut self, expression: &Expression, section: u32, sides: [bool; 2], covers: bool) {
-        let of = &self.context.sections[section as usize].of;
+    fn change(&mut self, expression: &Expression, section: SectionId, sides: [bool; 2], covers: bool) {
+        let of = &self.context.sections[section.index()].of;
         for side in EdgeSide::BOTH.into_iter().filter(|side| sides[*side as usize]) {
             self.ownership.set_cover(expression, self.restriction, of, side, covers);
         }

@@ -9,11 +9,9 @@ mod random_trees;
 mod repeats;
 mod restriction;
 
+use crate::ids::{Id, LeafId, TreeNodeId};
 use crate::model::{Operation, TreeNode};
 pub(crate) use restriction::Restriction;
-
-/// No node.
-const NONE: u32 = u32::MAX;
 
 /// What is known of a node of the tree. *Base* is the value where all leaves are 0.
 #[derive(Debug, Clone, Copy)]
@@ -22,14 +20,14 @@ struct Node {
     operation: Option<Operation>,
     depth: u32,
     /// The leaves below are `first_leaf..end_leaf`.
-    first_leaf: u32,
-    end_leaf: u32,
+    first_leaf: LeafId,
+    end_leaf: LeafId,
     operands: u32,
     base: bool,
     /// Operands with base 1; for a difference without the first operand.
     true_operands: u32,
     /// For a difference: the end of the leaves of its first operand, and the base of that.
-    first_operand: (u32, bool),
+    first_operand: (LeafId, bool),
     /// Whether the root sees the negation of this node where all that is beside its way to the root is at base; not
     /// counting constants on that way.
     is_negated: bool,
@@ -74,37 +72,37 @@ pub(crate) enum OneLevel {
 pub(crate) struct Expression {
     nodes: Vec<Node>,
     /// The node above each node.
-    parents: Vec<u32>,
-    leaves: Vec<u32>,
+    parents: Vec<TreeNodeId>,
+    leaves: Vec<TreeNodeId>,
     /// For the leaves `k` and `k + 1` the lowest node above both, then minima over ranges of powers of two of it.
-    between: Vec<Vec<u32>>,
+    between: Vec<Vec<TreeNodeId>>,
 }
 
 impl Expression {
     /// Reads the postfix order of a tree.
     pub(crate) fn new(entries: &[TreeNode]) -> Self {
         let mut nodes: Vec<Node> = Vec::with_capacity(entries.len());
-        let mut parents: Vec<u32> = Vec::with_capacity(entries.len());
-        let mut open: Vec<u32> = Vec::new();
+        let mut parents: Vec<TreeNodeId> = Vec::with_capacity(entries.len());
+        let mut open: Vec<TreeNodeId> = Vec::new();
         let mut leaves = Vec::new();
-        for entry in entries {
-            let number = nodes.len() as u32;
+        for (number, entry) in TreeNodeId::all(entries.len()).zip(entries) {
+            let next_leaf = LeafId::from_index(leaves.len());
             let node = match *entry {
                 TreeNode::Leaf => {
                     leaves.push(number);
-                    Node::leaf(leaves.len() as u32 - 1)
+                    Node::leaf(next_leaf)
                 }
                 TreeNode::Operation { operation, operands } => {
                     let taken = open.split_off(open.len() - operands as usize);
                     for operand in &taken {
-                        parents[*operand as usize] = number;
+                        parents[operand.index()] = number;
                     }
-                    let operands: Vec<&Node> = taken.iter().map(|k| &nodes[*k as usize]).collect();
-                    Node::operation(operation, &operands, leaves.len() as u32)
+                    let operands: Vec<&Node> = taken.iter().map(|k| &nodes[k.index()]).collect();
+                    Node::operation(operation, &operands, next_leaf)
                 }
             };
             nodes.push(node);
-            parents.push(NONE);
+            parents.push(TreeNodeId::NONE);
             open.push(number);
         }
         descend(&mut nodes, &parents);
@@ -133,31 +131,32 @@ impl Expression {
         }
         match root.operation {
             None | Some(Operation::Union) => Some(OneLevel::Union),
-            Some(Operation::Difference) if root.first_operand.0 == 1 => Some(OneLevel::Difference),
+            Some(Operation::Difference) if root.first_operand.0.index() == 1 => Some(OneLevel::Difference),
             _ => None,
         }
     }
 
     /// Whether a leaf adds to the solid or takes from it.
-    pub(crate) fn polarity(&self, leaf: u32) -> Polarity {
-        self.nodes[self.leaves[leaf as usize] as usize].polarity
+    pub(crate) fn polarity(&self, leaf: LeafId) -> Polarity {
+        self.nodes[self.leaves[leaf.index()].index()].polarity
     }
 
     /// The lowest node above two different leaves, `p < q`.
-    fn lowest_above(&self, p: u32, q: u32) -> u32 {
+    fn lowest_above(&self, p: LeafId, q: LeafId) -> TreeNodeId {
+        let (p, q) = (p.index(), q.index());
         let level = (q - p).ilog2() as usize;
-        let (a, b) = (self.between[level][p as usize], self.between[level][q as usize - (1 << level)]);
+        let (a, b) = (self.between[level][p], self.between[level][q - (1 << level)]);
         shallower(&self.nodes, a, b)
     }
 }
 
 impl Node {
-    fn leaf(number: u32) -> Self {
+    fn leaf(number: LeafId) -> Self {
         Self {
             operation: None,
             depth: 0,
             first_leaf: number,
-            end_leaf: number + 1,
+            end_leaf: number.plus(1),
             operands: 0,
             base: false,
             true_operands: 0,
@@ -169,7 +168,7 @@ impl Node {
     }
 
     /// An operation on operands, of which the last leaf before it is `end_leaf - 1`.
-    fn operation(operation: Operation, operands: &[&Self], end_leaf: u32) -> Self {
+    fn operation(operation: Operation, operands: &[&Self], end_leaf: LeafId) -> Self {
         let first_leaf = operands.first().map_or(end_leaf, |first| first.first_leaf);
         let first_operand = operands.first().map_or((end_leaf, false), |first| (first.end_leaf, first.base));
         // of a difference without operands nothing is taken away either
@@ -182,7 +181,7 @@ impl Node {
             operands: operands.len() as u32,
             true_operands,
             first_operand,
-            ..Self::leaf(0)
+            ..Self::leaf(first_leaf)
         };
         node.base = node.value(true_operands, first_operand.1);
         node
@@ -201,7 +200,7 @@ impl Node {
     }
 
     /// Whether `leaf`, which is below, is below the first operand of this difference.
-    fn is_in_first(&self, leaf: u32) -> bool {
+    fn is_in_first(&self, leaf: LeafId) -> bool {
         self.operation == Some(Operation::Difference) && leaf < self.first_operand.0
     }
 
@@ -222,7 +221,7 @@ impl Node {
     }
 
     /// Whether the value falls as the operand that holds `leaf` rises; of an exclusive or this is not told.
-    fn negates(&self, leaf: u32) -> bool {
+    fn negates(&self, leaf: LeafId) -> bool {
         match self.operation {
             Some(Operation::Difference) => !self.is_in_first(leaf),
             Some(Operation::Complement) => true,
@@ -232,9 +231,9 @@ impl Node {
 }
 
 /// Fills in what depends on the way to the root.
-fn descend(nodes: &mut [Node], parents: &[u32]) {
+fn descend(nodes: &mut [Node], parents: &[TreeNodeId]) {
     for k in (0..nodes.len()).rev() {
-        let Some(parent) = nodes.get(parents[k] as usize).copied() else { continue };
+        let Some(parent) = nodes.get(parents[k].index()).copied() else { continue };
         let depth = parent.depth + 1;
         let node = &mut nodes[k];
         let negates = parent.negates(node.first_leaf);
@@ -250,20 +249,20 @@ fn descend(nodes: &mut [Node], parents: &[u32]) {
     }
 }
 
-fn shallower(nodes: &[Node], a: u32, b: u32) -> u32 {
-    if nodes[b as usize].depth < nodes[a as usize].depth { b } else { a }
+fn shallower(nodes: &[Node], a: TreeNodeId, b: TreeNodeId) -> TreeNodeId {
+    if nodes[b.index()].depth < nodes[a.index()].depth { b } else { a }
 }
 
 /// The lowest nodes above neighbouring leaves, and minima over their ranges.
-fn lowest_between(nodes: &[Node], leaves: &[u32], parents: &[u32]) -> Vec<Vec<u32>> {
+fn lowest_between(nodes: &[Node], leaves: &[TreeNodeId], parents: &[TreeNodeId]) -> Vec<Vec<TreeNodeId>> {
     // In postfix order a node's way up from its last leaf ends where the node that follows has it as an operand, so the
     // ways climbed from all leaves together are as long as the tree has nodes.
-    let mut lowest: Vec<u32> = Vec::with_capacity(leaves.len());
+    let mut lowest: Vec<TreeNodeId> = Vec::with_capacity(leaves.len());
     for pair in leaves.windows(2) {
-        let next_leaf = nodes[pair[1] as usize].first_leaf;
+        let next_leaf = nodes[pair[1].index()].first_leaf;
         let mut node = pair[0];
-        while nodes[node as usize].end_leaf <= next_leaf {
-            node = parents[node as usize];
+        while nodes[node.index()].end_leaf <= next_leaf {
+            node = parents[node.index()];
         }
         lowest.push(node);
     }

@@ -11,29 +11,31 @@
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::{Expression, NONE};
+use super::Expression;
+use crate::ids::{Id, LeafId, TreeNodeId};
 use crate::model::Operation;
 
 impl Expression {
-    /// For each leaf whether the tree says the same where it is 0; `kinds` tells which leaves are equal.
-    pub(crate) fn repeated_leaves(&self, kinds: &[u32]) -> Vec<bool> {
+    /// For each leaf whether the tree says the same where it is 0; `kinds` gives one number to equal leaves: that of one of them.
+    pub(crate) fn repeated_leaves(&self, kinds: &[LeafId]) -> Vec<bool> {
         let mut repeated = vec![false; kinds.len()];
-        let different: FxHashSet<u32> = kinds.iter().copied().collect();
+        let different: FxHashSet<LeafId> = kinds.iter().copied().collect();
         if different.len() == kinds.len() {
             return repeated;
         }
         let (numbers, unions) = (self.numbers(kinds), self.unions());
         let has_leaves = |k: usize| self.nodes[k].first_leaf < self.nodes[k].end_leaf;
         // operands of unions within unions are compared instead of these
-        let is_operand =
-            |k: usize| unions[k] != NONE && self.nodes[k].operation != Some(Operation::Union) && has_leaves(k);
+        let is_operand = |k: usize| {
+            unions[k] != TreeNodeId::NONE && self.nodes[k].operation != Some(Operation::Union) && has_leaves(k)
+        };
         let mut operands: Vec<Vec<u32>> = vec![Vec::new(); self.nodes.len()];
-        let mut said: FxHashSet<(u32, u32)> = FxHashSet::default();
+        let mut said: FxHashSet<(TreeNodeId, u32)> = FxHashSet::default();
         let mut is_again = vec![false; self.nodes.len()];
         for k in (0..self.nodes.len()).filter(|k| is_operand(*k)) {
             is_again[k] = !said.insert((unions[k], numbers[k]));
             if !is_again[k] {
-                operands[unions[k] as usize].push(numbers[k]);
+                operands[unions[k].index()].push(numbers[k]);
             }
         }
         // from the root down: how many of the unions around a node have an operand of each number
@@ -49,7 +51,7 @@ impl Expression {
             let others = around.get(&numbers[k]).copied().unwrap_or(0) - u32::from(is_operand(k));
             // without its leaves it must come to nothing
             if (is_again[k] || others > 0) && !node.base {
-                repeated[node.first_leaf as usize..node.end_leaf as usize].fill(true);
+                repeated[node.first_leaf.index()..node.end_leaf.index()].fill(true);
             }
             if !operands[k].is_empty() {
                 operands[k].iter().for_each(|number| *around.entry(*number).or_insert(0) += 1);
@@ -60,37 +62,37 @@ impl Expression {
     }
 
     /// For each node the one in which it is an operand of a union, that of unions within unions being the outermost.
-    fn unions(&self) -> Vec<u32> {
-        let mut unions = vec![NONE; self.nodes.len()];
+    fn unions(&self) -> Vec<TreeNodeId> {
+        let mut unions = vec![TreeNodeId::NONE; self.nodes.len()];
         for k in (0..self.nodes.len()).rev() {
             let parent = self.parents[k];
-            let Some(above) = self.nodes.get(parent as usize) else { continue };
+            let Some(above) = self.nodes.get(parent.index()) else { continue };
             unions[k] = match above.operation {
-                Some(Operation::Union) if unions[parent as usize] != NONE => unions[parent as usize],
+                Some(Operation::Union) if unions[parent.index()] != TreeNodeId::NONE => unions[parent.index()],
                 Some(Operation::Union | Operation::Complement) => parent,
                 Some(Operation::Difference) if above.negates(self.nodes[k].first_leaf) => parent,
-                _ => NONE,
+                _ => TreeNodeId::NONE,
             };
         }
         unions
     }
 
     /// Numbers that are equal for nodes of the same operations on equal leaves.
-    fn numbers(&self, kinds: &[u32]) -> Vec<u32> {
+    fn numbers(&self, kinds: &[LeafId]) -> Vec<u32> {
         let mut operands: Vec<Vec<u32>> = vec![Vec::new(); self.nodes.len()];
         let mut numbers: Vec<u32> = Vec::with_capacity(self.nodes.len());
         let mut known: FxHashMap<(Option<Operation>, Vec<u32>), u32> = FxHashMap::default();
         for (k, node) in self.nodes.iter().enumerate() {
             let mut key = std::mem::take(&mut operands[k]);
             match node.operation {
-                None => key.push(kinds[node.first_leaf as usize]),
+                None => key.push(kinds[node.first_leaf.index()].number()),
                 Some(Operation::Difference) => key[1.min(node.operands as usize)..].sort_unstable(),
                 Some(_) => key.sort_unstable(),
             }
             let next = known.len() as u32;
             let number = *known.entry((node.operation, key)).or_insert(next);
             numbers.push(number);
-            if let Some(above) = operands.get_mut(self.parents[k] as usize) {
+            if let Some(above) = operands.get_mut(self.parents[k].index()) {
                 above.push(number);
             }
         }
@@ -112,11 +114,11 @@ mod tests {
             let mut random = Random(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15));
             let entries = random_tree(&mut random);
             let count = entries.iter().filter(|entry| **entry == TreeNode::Leaf).count();
-            let kinds: Vec<u32> = (0..count).map(|_| random.below(KINDS) as u32).collect();
+            let kinds: Vec<LeafId> = (0..count).map(|_| LeafId::from_index(random.below(KINDS) as usize)).collect();
             let repeated = Expression::new(&entries).repeated_leaves(&kinds);
             found += repeated.iter().filter(|repeated| **repeated).count();
             for values in 0..1 << KINDS {
-                let all: Vec<bool> = kinds.iter().map(|kind| values >> kind & 1 == 1).collect();
+                let all: Vec<bool> = kinds.iter().map(|kind| values >> kind.index() & 1 == 1).collect();
                 let fewer: Vec<bool> = all.iter().zip(&repeated).map(|(value, repeated)| *value && !repeated).collect();
                 let message = || format!("seed {seed}: {entries:?} {kinds:?} without {repeated:?} at {values:b}");
                 assert_eq!(value(&entries, &all), value(&entries, &fewer), "{}", message());
@@ -132,14 +134,18 @@ mod tests {
         // (b ∪ c) − (a ∪ b), where b is taken away
         let either = [TreeNode::Leaf, TreeNode::Leaf, operation(Union, 2)];
         let entries = [&either[..], &either, &[operation(Difference, 2)]].concat();
-        assert_eq!(Expression::new(&entries).repeated_leaves(&[1, 2, 0, 1]), [true, false, false, false]);
+        assert_eq!(
+            Expression::new(&entries).repeated_leaves(&[1, 2, 0, 1].map(LeafId::from_index)),
+            [true, false, false, false]
+        );
         // (a − b − c) ∪ ((a − c − b) ∪ (a ∩ b)) ∪ (a − b)
         let less_two = [TreeNode::Leaf, TreeNode::Leaf, TreeNode::Leaf, operation(Difference, 3)];
         let both = [TreeNode::Leaf, TreeNode::Leaf, operation(Intersection, 2)];
         let less_one = [TreeNode::Leaf, TreeNode::Leaf, operation(Difference, 2)];
         let inner = [&less_two[..], &both, &[operation(Union, 2)]].concat();
         let entries = [&less_two[..], &inner, &less_one, &[operation(Union, 3)]].concat();
-        let repeated = Expression::new(&entries).repeated_leaves(&[0, 1, 2, 0, 2, 1, 0, 1, 0, 1]);
+        let repeated =
+            Expression::new(&entries).repeated_leaves(&[0, 1, 2, 0, 2, 1, 0, 1, 0, 1].map(LeafId::from_index));
         let places: Vec<usize> = (0..repeated.len()).filter(|k| repeated[*k]).collect();
         assert_eq!(places, [3, 4, 5]);
     }

@@ -1,6 +1,7 @@
 //! What a few leaves leave of an expression while all others are 0.
 
-use super::{Expression, NONE, Node};
+use super::{Expression, Node};
+use crate::ids::{BranchId, Id, KeptLeafId, LeafId, TreeNodeId};
 use crate::model::Operation;
 
 /// One evaluation among several that are kept side by side.
@@ -13,8 +14,8 @@ pub(crate) const CHANNELS: usize = 4;
 #[derive(Debug, Clone, Copy)]
 struct Branch {
     /// The node of the expression.
-    node: u32,
-    parent: u32,
+    node: TreeNodeId,
+    parent: BranchId,
     /// Whether the operand of the parent that holds this node is the negation of it.
     is_negated: bool,
     /// Whether that operand is the first of a difference.
@@ -37,16 +38,16 @@ struct Branch {
 pub(crate) struct Restriction {
     branches: Vec<Branch>,
     /// The branch of each leaf in the order in which they were given.
-    leaves: Vec<u32>,
+    leaves: Vec<BranchId>,
     root_negated: bool,
     base: bool,
-    order: Vec<u32>,
-    stack: Vec<u32>,
+    order: Vec<TreeNodeId>,
+    stack: Vec<BranchId>,
 }
 
 impl Restriction {
     /// Restricts an expression to `leaves`, ascending and each once; all are 0 in every channel at first.
-    pub(crate) fn restrict(&mut self, expression: &Expression, leaves: &[u32]) {
+    pub(crate) fn restrict(&mut self, expression: &Expression, leaves: &[LeafId]) {
         self.base = expression.base();
         self.collect_nodes(expression, leaves);
         self.link(expression, leaves);
@@ -55,26 +56,32 @@ impl Restriction {
     }
 
     /// Whether a leaf, by its place among those given, can change the root at all.
-    pub(crate) fn matters(&self, leaf: usize) -> bool {
-        !self.branches[self.leaves[leaf] as usize].is_mute
+    pub(crate) fn matters(&self, leaf: KeptLeafId) -> bool {
+        !self.branches[self.leaves[leaf.index()].index()].is_mute
     }
 
     /// The value of the root that a value of a leaf alone decides, whatever the other leaves are.
-    pub(crate) fn decides(&self, leaf: usize, value: bool) -> Option<bool> {
-        let branch = &self.branches[self.leaves[leaf] as usize];
+    pub(crate) fn decides(&self, leaf: KeptLeafId, value: bool) -> Option<bool> {
+        let branch = &self.branches[self.leaves[leaf.index()].index()];
         if branch.is_mute { None } else { branch.decides[usize::from(value)] }
     }
 
     /// The value that a leaf of some value forces upon the lowest node above it and another leaf, which then changes nothing.
-    pub(crate) fn forces(&self, expression: &Expression, leaf: usize, value: bool, other: usize) -> Option<bool> {
-        let other = &expression.nodes[self.branches[self.leaves[other] as usize].node as usize];
-        let (mut at, mut value) = (&self.branches[self.leaves[leaf] as usize], value);
+    pub(crate) fn forces(
+        &self,
+        expression: &Expression,
+        leaf: KeptLeafId,
+        value: bool,
+        other: KeptLeafId,
+    ) -> Option<bool> {
+        let other = &expression.nodes[self.branches[self.leaves[other.index()].index()].node.index()];
+        let (mut at, mut value) = (&self.branches[self.leaves[leaf.index()].index()], value);
         if at.is_mute {
             return None;
         }
         loop {
-            let above = self.branches.get(at.parent as usize)?;
-            let node = &expression.nodes[above.node as usize];
+            let above = self.branches.get(at.parent.index())?;
+            let node = &expression.nodes[above.node.index()];
             value = above.forced_by(node, at, value ^ at.is_negated)?;
             if node.first_leaf <= other.first_leaf && other.end_leaf <= node.end_leaf {
                 return Some(value);
@@ -84,17 +91,17 @@ impl Restriction {
     }
 
     /// Sets a leaf in one channel.
-    pub(crate) fn set(&mut self, expression: &Expression, leaf: usize, channel: Channel, value: bool) {
-        let mut at = self.leaves[leaf];
-        let branch = &mut self.branches[at as usize];
+    pub(crate) fn set(&mut self, expression: &Expression, leaf: KeptLeafId, channel: Channel, value: bool) {
+        let mut at = self.leaves[leaf.index()];
+        let branch = &mut self.branches[at.index()];
         if branch.is_mute || branch.value[channel] == value {
             return;
         }
         branch.value[channel] = value;
         // From here on each step carries a change of value up.
-        while let Some(&Branch { parent, is_negated, is_first, value, .. }) = self.branches.get(at as usize) {
-            let Some(above) = self.branches.get_mut(parent as usize) else { return };
-            let node = &expression.nodes[above.node as usize];
+        while let Some(&Branch { parent, is_negated, is_first, value, .. }) = self.branches.get(at.index()) {
+            let Some(above) = self.branches.get_mut(parent.index()) else { return };
+            let node = &expression.nodes[above.node.index()];
             let operand = value[channel] ^ is_negated;
             let before = above.value[channel];
             if node.operation == Some(Operation::Xor) {
@@ -125,38 +132,38 @@ impl Restriction {
     }
 
     /// The nodes at which ways of leaves meet, and the leaves, each before what is below it.
-    fn collect_nodes(&mut self, expression: &Expression, leaves: &[u32]) {
+    fn collect_nodes(&mut self, expression: &Expression, leaves: &[LeafId]) {
         let nodes = &expression.nodes;
         self.order.clear();
-        self.order.extend(leaves.iter().map(|leaf| expression.leaves[*leaf as usize]));
+        self.order.extend(leaves.iter().map(|leaf| expression.leaves[leaf.index()]));
         self.order.extend(leaves.windows(2).map(|pair| expression.lowest_above(pair[0], pair[1])));
-        self.order.sort_unstable_by_key(|k| (nodes[*k as usize].first_leaf, nodes[*k as usize].depth));
+        self.order.sort_unstable_by_key(|k| (nodes[k.index()].first_leaf, nodes[k.index()].depth));
         self.order.dedup();
     }
 
     /// Makes the branches and finds the parent of each.
-    fn link(&mut self, expression: &Expression, leaves: &[u32]) {
+    fn link(&mut self, expression: &Expression, leaves: &[LeafId]) {
         let nodes = &expression.nodes;
         self.branches.clear();
         self.leaves.clear();
         self.stack.clear();
-        for (number, &node) in self.order.iter().enumerate() {
-            let this = &nodes[node as usize];
+        for (number, &node) in BranchId::all(self.order.len()).zip(&self.order) {
+            let this = &nodes[node.index()];
             while let Some(top) = self.stack.last()
-                && nodes[self.order[*top as usize] as usize].end_leaf <= this.first_leaf
+                && nodes[self.order[top.index()].index()].end_leaf <= this.first_leaf
             {
                 self.stack.pop();
             }
-            let parent = self.stack.last().copied().unwrap_or(NONE);
-            let above = self.branches.get(parent as usize).map(|above: &Branch| &nodes[above.node as usize]);
+            let parent = self.stack.last().copied().unwrap_or(BranchId::NONE);
+            let above = self.branches.get(parent.index()).map(|above: &Branch| &nodes[above.node.index()]);
             self.branches.push(Branch::new(node, this, parent, above));
             if this.operation.is_none() {
                 debug_assert_eq!(leaves[self.leaves.len()], this.first_leaf);
-                self.leaves.push(number as u32);
+                self.leaves.push(number);
             }
-            self.stack.push(number as u32);
+            self.stack.push(number);
         }
-        self.root_negated = self.order.first().is_some_and(|top| nodes[*top as usize].is_negated);
+        self.root_negated = self.order.first().is_some_and(|top| nodes[top.index()].is_negated);
     }
 
     /// Marks what cannot change the root: where the way up is blocked, and where operands that are not below any branch
@@ -165,15 +172,15 @@ impl Restriction {
         let nodes = &expression.nodes;
         for k in (0..self.branches.len()).rev() {
             let branch = self.branches[k];
-            let node = &nodes[branch.node as usize];
-            let is_blocked = match self.branches.get(branch.parent as usize) {
+            let node = &nodes[branch.node.index()];
+            let is_blocked = match self.branches.get(branch.parent.index()) {
                 // blocked before it comes to the operand of the parent: what blocks that operand may be a branch itself
-                Some(above) => node.blocked_at > nodes[above.node as usize].depth + 2,
+                Some(above) => node.blocked_at > nodes[above.node.index()].depth + 2,
                 None => node.blocked_at > 0,
             };
             self.branches[k].is_mute = is_blocked || branch.is_fixed(node);
             if !self.branches[k].is_mute
-                && let Some(above) = self.branches.get_mut(branch.parent as usize)
+                && let Some(above) = self.branches.get_mut(branch.parent.index())
             {
                 if branch.is_first {
                     above.below.2 = true;
@@ -184,7 +191,7 @@ impl Restriction {
             }
         }
         for k in 0..self.branches.len() {
-            let parent = self.branches[k].parent as usize;
+            let parent = self.branches[k].parent.index();
             self.branches[k].is_mute |= self.branches.get(parent).is_some_and(|above| above.is_mute);
         }
     }
@@ -193,10 +200,10 @@ impl Restriction {
     fn decide(&mut self, expression: &Expression) {
         for k in 0..self.branches.len() {
             let branch = self.branches[k];
-            let decides = match self.branches.get(branch.parent as usize) {
+            let decides = match self.branches.get(branch.parent.index()) {
                 None => [self.root_negated, !self.root_negated].map(Some),
                 Some(above) => {
-                    let node = &expression.nodes[above.node as usize];
+                    let node = &expression.nodes[above.node.index()];
                     [false, true].map(|value| {
                         let forced = above.forced_by(node, &branch, value ^ branch.is_negated)?;
                         above.decides[usize::from(forced)]
@@ -209,7 +216,7 @@ impl Restriction {
 }
 
 impl Branch {
-    fn new(node: u32, this: &Node, parent: u32, above: Option<&Node>) -> Self {
+    fn new(node: TreeNodeId, this: &Node, parent: BranchId, above: Option<&Node>) -> Self {
         let is_first = above.is_some_and(|above| above.is_in_first(this.first_leaf));
         // Between this node and the operand of `above` that holds it; an exclusive or is told of changes alone.
         let is_negated = above.is_some_and(|above| {
@@ -273,7 +280,7 @@ mod tests {
             let expression = Expression::new(&entries);
             assert_eq!(expression.base(), value(&entries, &vec![false; count]), "seed {seed}");
             assert_eq!(expression.base(), holds_outside(&entries), "seed {seed}");
-            let near: Vec<u32> = (0..count as u32).filter(|_| random.below(3) > 0).collect();
+            let near: Vec<LeafId> = LeafId::all(count).filter(|_| random.below(3) > 0).collect();
             if near.is_empty() {
                 continue;
             }
@@ -281,21 +288,21 @@ mod tests {
             restriction.restrict(&expression, &near);
             let mut all = vec![false; count];
             for _ in 0..40 {
-                let k = random.below(near.len() as u64) as usize;
+                let k = KeptLeafId::from_index(random.below(near.len() as u64) as usize);
                 let on = random.below(2) == 1;
-                all[near[k] as usize] = on;
+                all[near[k.index()].index()] = on;
                 restriction.set(&expression, k, 1, on);
                 assert_eq!(restriction.root(1), value(&entries, &all), "seed {seed}: {entries:?} {near:?} {all:?}");
                 if let Some(root) = restriction.decides(k, on) {
-                    assert_eq!(root, value(&entries, &all), "seed {seed}: leaf {k} of {near:?} decides {entries:?}");
+                    assert_eq!(root, value(&entries, &all), "seed {seed}: leaf {k:?} of {near:?} decides {entries:?}");
                 }
             }
             assert_eq!(restriction.root(0), expression.base(), "channels are apart");
-            for (k, &leaf) in near.iter().enumerate() {
-                for (j, &other) in near.iter().enumerate().filter(|(j, _)| *j != k) {
+            for (k, &leaf) in KeptLeafId::all(near.len()).zip(&near) {
+                for (j, &other) in KeptLeafId::all(near.len()).zip(&near).filter(|(j, _)| *j != k) {
                     let with = |on: bool, other_on: bool| {
                         let mut all: Vec<bool> = all.clone();
-                        (all[leaf as usize], all[other as usize]) = (on, other_on);
+                        (all[leaf.index()], all[other.index()]) = (on, other_on);
                         value(&entries, &all)
                     };
                     let forced = [false, true].map(|on| restriction.forces(&expression, k, on, j));
@@ -303,21 +310,21 @@ mod tests {
                         assert_eq!(
                             with(on, false),
                             with(on, true),
-                            "seed {seed}: {other} at {leaf} {on} in {entries:?}"
+                            "seed {seed}: {other:?} at {leaf:?} {on} in {entries:?}"
                         );
                     }
                     let (on, other_on) = (random.below(2) == 1, random.below(2) == 1);
                     let by_other = restriction.forces(&expression, j, other_on, k);
                     if by_other.is_some() && by_other == forced[usize::from(on)] {
-                        let message = || format!("seed {seed}: {leaf} {on} as {other} {other_on} in {entries:?}");
+                        let message = || format!("seed {seed}: {leaf:?} {on} as {other:?} {other_on} in {entries:?}");
                         assert_eq!(with(on, !other_on), with(!on, other_on), "{}", message());
                     }
                 }
             }
-            for (k, leaf) in near.iter().enumerate().filter(|(k, _)| !restriction.matters(*k)) {
+            for (k, leaf) in KeptLeafId::all(near.len()).zip(&near).filter(|(k, _)| !restriction.matters(*k)) {
                 let mut other = all.clone();
-                other[*leaf as usize] ^= true;
-                assert_eq!(value(&entries, &all), value(&entries, &other), "seed {seed}: leaf {k} of {near:?}");
+                other[leaf.index()] ^= true;
+                assert_eq!(value(&entries, &all), value(&entries, &other), "seed {seed}: leaf {k:?} of {near:?}");
             }
         }
     }

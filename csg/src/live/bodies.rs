@@ -12,19 +12,16 @@ use crate::base::map_chunks;
 use crate::body::{Body, BodyFace, BrushBody, built_or_build, mark_of, read};
 use crate::boundary::BoundaryEdge;
 use crate::evaluate::UnboundedBrushes;
+use crate::ids::{BodyFaceId, EdgeId, Id, OperandId};
 use crate::model::MaterialId;
 use crate::plane_table::PlaneId;
-use crate::weld::EdgeId;
 
 /// Number of brushes from which several threads build them.
 pub(super) const MANY: usize = 32;
 
-/// No face.
-const NOWHERE: u32 = u32::MAX;
-
 /// A body in the place of which another is put, or was, and for each of its faces the edges of the boundary on it.
 pub(super) struct Placed {
-    pub(super) number: u32,
+    pub(super) number: OperandId,
     pub(super) body: Option<Body>,
     pub(super) edges: Vec<Vec<(BoundaryEdge, EdgeId)>>,
     /// Where it was replaced by another, how that one differs.
@@ -34,7 +31,7 @@ pub(super) struct Placed {
 /// How a body differs from the one before it.
 pub(super) struct Difference {
     /// The faces of the new body that the old one did not have, ascending.
-    pub(super) faces: Vec<u32>,
+    pub(super) faces: Vec<BodyFaceId>,
     /// A box around these and around the faces of the old body that the new one does not have. Points outside of it lie in
     /// both bodies or in neither: what lies in one alone is bounded by such faces.
     pub(super) bounds: Bounds,
@@ -43,20 +40,20 @@ pub(super) struct Difference {
 impl LiveModel {
     /// The bodies of brushes as they are now; none for those that are gone. `before` are the brushes that were edited, as
     /// they were.
-    pub(super) fn build(&mut self, numbers: &[u32], before: &[New]) -> Vec<Placed> {
-        let placed = |number: u32, body: Option<Body>| {
+    pub(super) fn build(&mut self, numbers: &[OperandId], before: &[New]) -> Vec<Placed> {
+        let placed = |number: OperandId, body: Option<Body>| {
             let edges = body.as_ref().map_or(Vec::new(), |body| vec![Vec::new(); body.faces.len()]);
             Placed { number, body, edges, difference: None }
         };
         if numbers.len() >= MANY {
             let (chunks, _) = map_chunks(numbers, MANY, |chunk| {
                 let mut polytope = IncrementalPolytope::with_epsilon(0.0);
-                let body = |number: &u32| placed(*number, self.body(self.operand(*number), &mut polytope));
+                let body = |number: &OperandId| placed(*number, self.body(self.operand(*number), &mut polytope));
                 chunk.iter().map(body).collect::<Vec<Placed>>()
             });
             return chunks.into_iter().flatten().collect();
         }
-        let build = |number: &u32| {
+        let build = |number: &OperandId| {
             let id = self.operand(*number).id;
             let old = before.iter().find(|(other, _)| *other == id).and_then(|(_, state)| state.as_deref());
             let body = match self.take_polytope(*number, old) {
@@ -79,7 +76,7 @@ impl LiveModel {
 
     /// The polytope by which the body of a brush is to be built: the kept one, or a new one where it is edited in a few of
     /// many planes. `old` is what the brush was, where it was edited itself.
-    fn take_polytope(&mut self, number: u32, old: Option<&State>) -> Option<KeptPolytope> {
+    fn take_polytope(&mut self, number: OperandId, old: Option<&State>) -> Option<KeptPolytope> {
         let operand = self.operand(number);
         let (id, count) = (operand.id, operand.uses.len());
         let known = self.polytopes.take(id);
@@ -143,12 +140,12 @@ impl LiveModel {
     /// that is there now.
     pub(super) fn place(&mut self, bodies: Vec<Placed>) -> Vec<Placed> {
         self.bodies_on_plane.resize(self.planes.table.len(), 0);
-        self.buffers.face_on_plane.resize(self.planes.table.len(), NOWHERE);
+        self.buffers.face_on_plane.resize(self.planes.table.len(), BodyFaceId::NONE);
         bodies.into_iter().map(|placed| self.place_one(placed)).collect()
     }
 
     fn place_one(&mut self, mut placed: Placed) -> Placed {
-        let operand = self.operands[placed.number as usize].as_mut().expect("the brush is there");
+        let operand = self.operands[placed.number.index()].as_mut().expect("the brush is there");
         if let Some(old) = &operand.body {
             self.places.remove(&old.bounds, placed.number);
             self.marks.remove(operand.mark);
@@ -178,23 +175,23 @@ impl LiveModel {
 }
 
 /// Gives edges on faces of an old body to the faces of the same plane and material of a new one; tells how the bodies differ.
-/// `face_on_plane` is a buffer that holds [`NOWHERE`] for each plane.
+/// `face_on_plane` is a buffer that holds [`Id::NONE`] for each plane.
 fn hand_over(
     [new, old]: [&Body; 2],
     [new_edges, old_edges]: [&mut [Vec<(BoundaryEdge, EdgeId)>]; 2],
-    face_on_plane: &mut [u32],
+    face_on_plane: &mut [BodyFaceId],
 ) -> Difference {
-    for (k, face) in (0..).zip(&old.faces) {
+    for (k, face) in BodyFaceId::all(old.faces.len()).zip(&old.faces) {
         face_on_plane[face.plane.index() as usize] = k;
     }
     let mut difference = Difference { faces: Vec::new(), bounds: Bounds::EMPTY };
     let mut is_gone = vec![true; old.faces.len()];
-    for (k, face) in (0..).zip(&new.faces) {
+    for (k, face) in BodyFaceId::all(new.faces.len()).zip(&new.faces) {
         let is_same = |other: &&BodyFace| (other.plane, other.material) == (face.plane, face.material);
-        let place = face_on_plane[face.plane.index() as usize] as usize;
+        let place = face_on_plane[face.plane.index() as usize].index();
         let before = old.faces.get(place).filter(is_same);
         if before.is_some() {
-            std::mem::swap(&mut new_edges[k as usize], &mut old_edges[place]);
+            std::mem::swap(&mut new_edges[k.index()], &mut old_edges[place]);
         }
         if before.is_some_and(|before| is_rotated(new.edges(face), old.edges(before))) {
             is_gone[place] = false;
@@ -204,7 +201,7 @@ fn hand_over(
         }
     }
     for (face, is_gone) in old.faces.iter().zip(is_gone) {
-        face_on_plane[face.plane.index() as usize] = NOWHERE;
+        face_on_plane[face.plane.index() as usize] = BodyFaceId::NONE;
         if is_gone {
             difference.bounds = difference.bounds.union(&face.bounds);
         }

@@ -6,9 +6,10 @@ use super::history::New;
 use super::operand::{Operand, Role, State};
 use super::planes::{PlaneUse, Settled};
 use super::reach::Reach;
-use super::{BrushId, Change, EditError, LiveModel};
+use super::{BrushId, Change, EditError, LiveModel, Member};
 use crate::boundary::BoundaryEdge;
 use crate::evaluate::EvaluateError;
+use crate::ids::{Id, OperandId};
 use crate::model::Brush;
 
 impl LiveModel {
@@ -20,7 +21,7 @@ impl LiveModel {
         let reach = self.reach(&new);
         let (before, numbers, settled) = self.set_states(new, &[]);
         let mut changed = numbers.clone();
-        changed.extend(settled.users.iter().filter(|user| self.operands[**user as usize].is_some()));
+        changed.extend(settled.users.iter().filter(|user| self.operands[user.index()].is_some()));
         changed.sort_unstable();
         changed.dedup();
         let reach = if changed.len() > numbers.len() && reach == Reach::Appended { Reach::Near } else { reach };
@@ -45,8 +46,8 @@ impl LiveModel {
         }
         self.exchange(&faces, found);
         self.buffers.faces = faces;
-        let ids = changed.iter().filter_map(|number| self.operands[*number as usize].as_ref());
-        let mut brushes: Vec<BrushId> = ids.map(|operand| BrushId(operand.id)).collect();
+        let ids = changed.iter().filter_map(|number| self.operands[number.index()].as_ref());
+        let mut brushes: Vec<BrushId> = ids.map(|operand| operand.id).collect();
         brushes.sort_unstable();
         self.forget(&numbers);
         self.welded.update(&self.planes.table).map_err(EvaluateError::from)?;
@@ -57,14 +58,14 @@ impl LiveModel {
 
     /// Sets what is said of brushes, and settles their planes; bodies stay. Gives what was said before, the numbers of the
     /// brushes, and what became of planes; `kept` are indices of planes that stay those of these planes.
-    fn set_states(&mut self, new: Vec<New>, kept: &[u32]) -> (Vec<New>, Vec<u32>, Settled) {
+    fn set_states(&mut self, new: Vec<New>, kept: &[u32]) -> (Vec<New>, Vec<OperandId>, Settled) {
         let (mut before, mut numbers) = (Vec::with_capacity(new.len()), Vec::with_capacity(new.len()));
         for (id, state) in new {
             let known = self.by_id.get(&id).copied();
             assert!(known.is_some() || state.is_some(), "a brush that is to go is there");
             let number = known.unwrap_or_else(|| self.make_room(id));
             let is_in_sequence = self.is_in_sequence(id);
-            let operand = self.operands[number as usize].as_mut().expect("the brush is there");
+            let operand = self.operands[number.index()].as_mut().expect("the brush is there");
             // planes that stay are in use all the time
             let mut old_uses: Vec<Option<PlaneUse>> = operand.uses.drain(..).map(Some).collect();
             let places = state.as_ref().map_or(Vec::new(), |state| state.places_in(&operand.state));
@@ -76,7 +77,7 @@ impl LiveModel {
                 }
             }
             operand.is_there = state.is_some();
-            self.intersecting.retain(|entry| entry.0 != id);
+            self.intersecting.retain(|entry| entry.id != id);
             let old = match state {
                 Some(state) => {
                     let faces = state.brush.faces.iter().zip(staying);
@@ -84,7 +85,7 @@ impl LiveModel {
                     let uses = faces.map(|(face, used)| used.unwrap_or_else(|| planes.take(&face.half_space, number)));
                     operand.uses.extend(uses);
                     if state.role == Role::Intersect && is_in_sequence {
-                        self.intersecting.push((id, number));
+                        self.intersecting.push(Member { id, operand: number });
                     }
                     std::mem::replace(&mut operand.state, state)
                 }
@@ -98,7 +99,7 @@ impl LiveModel {
     }
 
     /// The number of a brush that is new.
-    fn make_room(&mut self, id: u64) -> u32 {
+    fn make_room(&mut self, id: BrushId) -> OperandId {
         let empty = State { brush: Brush::default(), planes: Vec::new(), next_plane: 0, role: Role::Add };
         let operand = Operand {
             id,
@@ -109,8 +110,8 @@ impl LiveModel {
             mark: 0,
             edges: Vec::new(),
         };
-        let number = self.free.pop().unwrap_or(self.operands.len() as u32);
-        match self.operands.get_mut(number as usize) {
+        let number = self.free.pop().unwrap_or_else(|| OperandId::from_index(self.operands.len()));
+        match self.operands.get_mut(number.index()) {
             Some(place) => *place = Some(operand),
             None => self.operands.push(Some(operand)),
         }
@@ -119,9 +120,9 @@ impl LiveModel {
     }
 
     /// Frees the numbers of those of some brushes that are no longer there.
-    fn forget(&mut self, numbers: &[u32]) {
+    fn forget(&mut self, numbers: &[OperandId]) {
         for &number in numbers {
-            if let Some(gone) = self.operands[number as usize].take_if(|operand| !operand.is_there) {
+            if let Some(gone) = self.operands[number.index()].take_if(|operand| !operand.is_there) {
                 self.by_id.remove(&gone.id);
                 self.free.push(number);
             }

@@ -196,11 +196,11 @@ impl LiveModel {
         &mut self,
         brushes: impl IntoIterator<Item = (Brush, Role)>,
     ) -> Result<(Change, Vec<New>, Vec<New>), EditError> {
-        let state = |(id, (brush, role)): (u64, (Brush, Role))| {
+        let state = |(id, (brush, role)): (BrushId, (Brush, Role))| {
             self.check_materials(&brush)?;
             Ok((id, Some(Arc::new(State::new(brush, role)))))
         };
-        let new: Vec<New> = (self.next_id..).zip(brushes).map(state).collect::<Result<_, EditError>>()?;
+        let new: Vec<New> = (self.next_id..).map(BrushId).zip(brushes).map(state).collect::<Result<_, EditError>>()?;
         let end = self.next_id + new.len() as u64;
         let (change, before) = self.change(new.clone())?;
         self.next_id = end;
@@ -213,7 +213,7 @@ impl LiveModel {
     /// [`EditError::UnknownBrush`], [`EditError::Evaluate`].
     pub fn remove_brush(&mut self, id: BrushId) -> Result<Change, EditError> {
         self.state(id)?;
-        self.edit(vec![(id.0, None)])
+        self.edit(vec![(id, None)])
     }
 
     /// Puts another brush in the place of one; its planes get new handles.
@@ -246,14 +246,14 @@ impl LiveModel {
     /// [`EditError::UnknownBrush`], [`EditError::Nested`], [`EditError::Evaluate`].
     pub fn set_role(&mut self, id: BrushId, role: Role) -> Result<Change, EditError> {
         let state = State { role, ..State::clone(self.state(id)?) };
-        if !self.is_in_sequence(id.0) {
+        if !self.is_in_sequence(id) {
             return Err(EditError::Nested(id));
         }
         self.edit_brush(id, state)
     }
 
     fn edit_brush(&mut self, id: BrushId, state: State) -> Result<Change, EditError> {
-        self.edit(vec![(id.0, Some(Arc::new(state)))])
+        self.edit(vec![(id, Some(Arc::new(state)))])
     }
 
     fn edit(&mut self, new: Vec<New>) -> Result<Change, EditError> {

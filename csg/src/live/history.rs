@@ -4,10 +4,11 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 
 use super::operand::State;
-use super::{Change, EditError, LiveModel};
+use super::{BrushId, Change, EditError, LiveModel};
+use crate::ids::Id;
 
 /// A brush as it is to be; nothing where it is not to be there.
-pub(super) type New = (u64, Option<Arc<State>>);
+pub(super) type New = (BrushId, Option<Arc<State>>);
 
 /// Number of edits that can be undone unless another number is set.
 const LIMIT: usize = 1000;
@@ -98,7 +99,7 @@ impl LiveModel {
 
     fn go_to(&mut self, states: &[New]) -> Result<Change, EditError> {
         let again = |(id, state): &New| {
-            let known = self.by_id.get(id).and_then(|number| self.operands[*number as usize].as_ref());
+            let known = self.by_id.get(id).and_then(|number| self.operands[number.index()].as_ref());
             let next_plane = known.map_or(0, |operand| operand.state.next_plane);
             // no handle of a plane is given twice
             let state = state.as_ref().map(|state| match state.next_plane < next_plane {

@@ -31,10 +31,12 @@ use crate::body::{Body, BuiltBodies, OuterBox};
 use crate::boundary::BoundaryEdge;
 use crate::evaluate::{EvaluateError, UnboundedBrushes, check_materials, material_ranks};
 use crate::expression::Expression;
+pub use crate::ids::FaceId;
+use crate::ids::{BodyFaceId, BodyId, Id, OperandFace, OperandId};
 use crate::mesh::Mesh;
 use crate::model::{Brush, Material, MaterialId, Model, Operation, TransformError, Tree, TreeNode};
 use crate::plane_table::PlaneTable;
-pub use crate::weld::{FaceId, LiveFace};
+pub use crate::weld::LiveFace;
 use crate::weld::{LiveWeld, weld};
 use bodies::Marks;
 pub use edit::{Edit, Edited};
@@ -128,8 +130,8 @@ pub struct LiveModel {
     /// Indices of planes that no brush has any more, while points or lines are still known by them.
     waiting: FxHashSet<u32>,
     operands: Vec<Option<Operand>>,
-    free: Vec<u32>,
-    by_id: BTreeMap<u64, u32>,
+    free: Vec<OperandId>,
+    by_id: BTreeMap<BrushId, OperandId>,
     next_id: u64,
     /// Bodies that are built already.
     built: BuiltBodies,
@@ -144,10 +146,17 @@ pub struct LiveModel {
     /// How many bodies have a face on each plane; 255 stands for more as well, until none has one any more.
     bodies_on_plane: Vec<u8>,
     /// The brushes that intersect, in order.
-    intersecting: Vec<(u64, u32)>,
+    intersecting: Vec<Member>,
     welded: LiveWeld,
     history: History,
     buffers: Buffers,
+}
+
+/// A brush, by the order in which brushes are combined, and its place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Member {
+    id: BrushId,
+    operand: OperandId,
 }
 
 /// The tree of the first brushes.
@@ -159,12 +168,12 @@ struct Base {
 #[derive(Default)]
 struct Buffers {
     polytope: IncrementalPolytope,
-    /// The faces to be worked out again: the number of the brush and of the face of its body.
-    faces: Vec<(u32, u32)>,
-    /// The place of each brush among those near.
-    place: Vec<u32>,
+    /// The faces to be worked out again.
+    faces: Vec<OperandFace>,
+    /// The body of each brush among those near.
+    place: Vec<BodyId>,
     /// The face on each plane of a body.
-    face_on_plane: Vec<u32>,
+    face_on_plane: Vec<BodyFaceId>,
 }
 
 impl LiveModel {
@@ -230,19 +239,19 @@ impl LiveModel {
     /// sequence.
     #[must_use]
     pub fn to_model(&self) -> Model {
-        let states = || self.by_id.values().filter_map(|number| self.operands[*number as usize].as_ref());
+        let states = || self.by_id.values().filter_map(|number| self.operands[number.index()].as_ref());
         let brushes = states().map(|operand| operand.state.brush.clone()).collect();
         let leaves = self.base.as_ref().map_or(0, |base| u64::from(base.leaves));
         let base = self.base.as_ref().map(|base| {
             let nothing = TreeNode::Operation { operation: Operation::Union, operands: 0 };
             let mut leaf = 0..base.leaves;
             let node = |node: &TreeNode| match node {
-                TreeNode::Leaf if leaf.next().is_none_or(|id| !self.by_id.contains_key(&u64::from(id))) => nothing,
+                TreeNode::Leaf if leaf.next().is_none_or(|id| !self.by_id.contains_key(&BrushId(id.into()))) => nothing,
                 other => *other,
             };
             base.nodes.iter().map(node).collect::<Vec<TreeNode>>()
         });
-        let roles = states().filter(|operand| operand.id >= leaves).map(|operand| operand.state.role);
+        let roles = states().filter(|operand| operand.id.0 >= leaves).map(|operand| operand.state.role);
         let nodes = order::sequence(base.unwrap_or_default(), roles);
         Model { materials: self.materials.clone(), tree: Tree::of_parts(brushes, nodes) }
     }
@@ -267,7 +276,7 @@ impl LiveModel {
 
     /// The brushes, in their order.
     pub fn brushes(&self) -> impl ExactSizeIterator<Item = BrushId> {
-        self.by_id.keys().map(|id| BrushId(*id))
+        self.by_id.keys().copied()
     }
 
     /// A brush and its role; the role says nothing for an operand of a nested operation.
@@ -321,28 +330,28 @@ impl LiveModel {
         Ok(weld(&self.planes.table, &edges, &self.rank, &self.materials)?.mesh)
     }
 
-    fn number(&self, id: BrushId) -> Result<u32, EditError> {
-        self.by_id.get(&id.0).copied().ok_or(EditError::UnknownBrush(id))
+    fn number(&self, id: BrushId) -> Result<OperandId, EditError> {
+        self.by_id.get(&id).copied().ok_or(EditError::UnknownBrush(id))
     }
 
     fn state(&self, id: BrushId) -> Result<&Arc<State>, EditError> {
-        let operand = self.operands[self.number(id)? as usize].as_ref();
+        let operand = self.operands[self.number(id)?.index()].as_ref();
         operand.map(|operand| &operand.state).ok_or(EditError::UnknownBrush(id))
     }
 
     /// A brush that is there, or was at the beginning of the edit.
-    fn operand(&self, number: u32) -> &Operand {
-        self.operands[number as usize].as_ref().expect("the number of a brush that is there")
+    fn operand(&self, number: OperandId) -> &Operand {
+        self.operands[number.index()].as_ref().expect("the number of a brush that is there")
     }
 
     /// The body of a brush that has one.
-    fn body_at(&self, number: u32) -> &Body {
+    fn body_at(&self, number: OperandId) -> &Body {
         self.operand(number).body.as_ref().expect("what has a place or faces has a body")
     }
 
     /// Whether brushes of a number are combined one after another.
-    fn is_in_sequence(&self, id: u64) -> bool {
-        self.base.as_ref().is_none_or(|base| id >= u64::from(base.leaves))
+    fn is_in_sequence(&self, id: BrushId) -> bool {
+        self.base.as_ref().is_none_or(|base| id.0 >= u64::from(base.leaves))
     }
 
     fn check_materials(&self, brush: &Brush) -> Result<(), EvaluateError> {

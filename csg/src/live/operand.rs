@@ -6,12 +6,13 @@ use planecut_kernel::{DVec3, PlaneIdx};
 use rstar::RTree;
 use rstar::primitives::{GeomWithData, Rectangle};
 
+use super::BrushId;
 use super::planes::PlaneUse;
 use crate::base::Bounds;
 use crate::body::Body;
 use crate::boundary::BoundaryEdge;
+use crate::ids::{EdgeId, OperandId};
 use crate::model::{Brush, BrushFace};
-use crate::weld::EdgeId;
 
 /// What a brush of a live model does to what the brushes before it have made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
@@ -63,7 +64,7 @@ impl State {
 /// A brush of a live model, and what is worked out from it.
 #[derive(Debug)]
 pub(super) struct Operand {
-    pub(super) id: u64,
+    pub(super) id: BrushId,
     /// Whether it is still part of the model: what is not is forgotten at the end of the edit.
     pub(super) is_there: bool,
     pub(super) state: Arc<State>,
@@ -77,25 +78,25 @@ pub(super) struct Operand {
     pub(super) edges: Vec<Vec<(BoundaryEdge, EdgeId)>>,
 }
 
-type Entry = GeomWithData<Rectangle<[f64; 3]>, u32>;
+type Entry = GeomWithData<Rectangle<[f64; 3]>, OperandId>;
 
 /// Where the bodies are, by number.
 #[derive(Debug, Default)]
 pub(super) struct Places {
     tree: RTree<Entry>,
     /// Boxes that are not finite, beside the tree.
-    infinite: Vec<(Bounds, u32)>,
+    infinite: Vec<(Bounds, OperandId)>,
 }
 
 impl Places {
-    pub(super) fn insert(&mut self, bounds: &Bounds, number: u32) {
+    pub(super) fn insert(&mut self, bounds: &Bounds, number: OperandId) {
         match entry(bounds, number) {
             Some(entry) => self.tree.insert(entry),
             None => self.infinite.push((*bounds, number)),
         }
     }
 
-    pub(super) fn remove(&mut self, bounds: &Bounds, number: u32) {
+    pub(super) fn remove(&mut self, bounds: &Bounds, number: OperandId) {
         match entry(bounds, number) {
             Some(entry) => {
                 self.tree.remove(&entry);
@@ -105,7 +106,7 @@ impl Places {
     }
 
     /// The bodies whose boxes may share an area with a box.
-    pub(super) fn near(&self, bounds: &Bounds) -> impl Iterator<Item = u32> {
+    pub(super) fn near(&self, bounds: &Bounds) -> impl Iterator<Item = OperandId> {
         let envelope = rstar::AABB::from_corners(bounds.min.to_array(), bounds.max.to_array());
         let shares = |entry: &&Entry| {
             let box_of = entry.geom();
@@ -118,7 +119,7 @@ impl Places {
     }
 }
 
-fn entry(bounds: &Bounds, number: u32) -> Option<Entry> {
+fn entry(bounds: &Bounds, number: OperandId) -> Option<Entry> {
     let is_finite = bounds.min.is_finite() && bounds.max.is_finite();
     is_finite.then(|| GeomWithData::new(Rectangle::from_corners(bounds.min.to_array(), bounds.max.to_array()), number))
 }

@@ -8,6 +8,7 @@
 use planecut_kernel::{HalfSpace, IncrementalPolytope, PlaneIdx};
 use rustc_hash::FxHashMap;
 
+use super::BrushId;
 use crate::plane_table::PlaneId;
 
 /// Brushes of fewer planes are built from all of their planes at each edit: that takes no longer than a few changes of a kept
@@ -127,17 +128,17 @@ pub(super) struct KeptPolytopes {
 
 #[derive(Default)]
 struct Generation {
-    by_brush: FxHashMap<u64, KeptPolytope>,
+    by_brush: FxHashMap<BrushId, KeptPolytope>,
     planes: usize,
 }
 
 impl KeptPolytopes {
     /// Takes out the polytope of a brush.
-    pub(super) fn take(&mut self, brush: u64) -> Option<KeptPolytope> {
+    pub(super) fn take(&mut self, brush: BrushId) -> Option<KeptPolytope> {
         self.younger.take(brush).or_else(|| self.older.take(brush))
     }
 
-    pub(super) fn keep(&mut self, brush: u64, polytope: KeptPolytope) {
+    pub(super) fn keep(&mut self, brush: BrushId, polytope: KeptPolytope) {
         let planes = polytope.planes.len();
         if !self.younger.by_brush.is_empty() && self.younger.planes + planes > PLANES_OF_GENERATION {
             self.older = std::mem::take(&mut self.younger);
@@ -148,7 +149,7 @@ impl KeptPolytopes {
 }
 
 impl Generation {
-    fn take(&mut self, brush: u64) -> Option<KeptPolytope> {
+    fn take(&mut self, brush: BrushId) -> Option<KeptPolytope> {
         let polytope = self.by_brush.remove(&brush)?;
         self.planes -= polytope.planes.len();
         Some(polytope)

@@ -1,12 +1,13 @@
 //! How far a change of brushes reaches: the faces on which the boundary may be another.
 
-use super::LiveModel;
 use super::bodies::{MANY, Placed};
 use super::history::New;
 use super::operand::{Operand, Role};
+use super::{BrushId, LiveModel};
 use crate::base::Bounds;
 use crate::body::{Body, BodyFace};
 use crate::boundary::misses;
+use crate::ids::{BodyFaceId, Id, OperandFace, OperandId};
 
 /// How far a change of brushes reaches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -22,8 +23,8 @@ pub(super) enum Reach {
 impl LiveModel {
     /// How far a change reaches that gives brushes new states.
     pub(super) fn reach(&self, new: &[New]) -> Reach {
-        let role_now = |id: u64| {
-            let operand = self.by_id.get(&id).and_then(|number| self.operands[*number as usize].as_ref());
+        let role_now = |id: BrushId| {
+            let operand = self.by_id.get(&id).and_then(|number| self.operands[number.index()].as_ref());
             operand.map(|operand| operand.state.role)
         };
         let intersects_differently = |(id, state): &New| {
@@ -42,8 +43,8 @@ impl LiveModel {
 
     /// The brushes, ascending, among some that change, whose roles stay and whose bodies, still the old ones, have no equal.
     /// `before` are those that were edited, as they were.
-    pub(super) fn local(&self, changed: &[u32], before: &[New]) -> Vec<u32> {
-        let is_local = |number: &u32| {
+    pub(super) fn local(&self, changed: &[OperandId], before: &[New]) -> Vec<OperandId> {
+        let is_local = |number: &OperandId| {
             let operand = self.operand(*number);
             let edited = before.iter().find(|(id, _)| *id == operand.id);
             let keeps_role =
@@ -67,20 +68,20 @@ impl LiveModel {
     /// others: which of them stands for all of them may change, too.
     pub(super) fn faces_to_redo(
         &mut self,
-        changed: &[u32],
+        changed: &[OperandId],
         old: &[Placed],
         reach: Reach,
-        local: &[u32],
-    ) -> Vec<(u32, u32)> {
+        local: &[OperandId],
+    ) -> Vec<OperandFace> {
         let mut faces = std::mem::take(&mut self.buffers.faces);
         faces.clear();
-        let body_of = |number: u32| self.operands[number as usize].as_ref()?.body.as_ref();
-        let all_of = |number: u32| {
-            let body = body_of(number);
-            (0..body.map_or(0, |body| body.faces.len()) as u32).map(move |face| (number, face))
+        let body_of = |number: OperandId| self.operands[number.index()].as_ref()?.body.as_ref();
+        let all_of = |operand: OperandId| {
+            let count = body_of(operand).map_or(0, |body| body.faces.len());
+            BodyFaceId::all(count).map(move |face| OperandFace { operand, face })
         };
         if reach == Reach::Everywhere || (changed.len() >= self.by_id.len() && local.is_empty()) {
-            faces.extend((0..self.operands.len() as u32).flat_map(all_of));
+            faces.extend(OperandId::all(self.operands.len()).flat_map(all_of));
         } else {
             for placed in old {
                 let number = placed.number;
@@ -93,7 +94,7 @@ impl LiveModel {
                     Some(difference) => {
                         let others = bodies.into_iter().flatten();
                         others.for_each(|body| self.touch(body, number, &difference.bounds, false, &mut faces));
-                        faces.extend(difference.faces.iter().map(|face| (number, *face)));
+                        faces.extend(difference.faces.iter().map(|face| OperandFace { operand: number, face: *face }));
                     }
                     None => {
                         for (body, is_last) in bodies.into_iter().zip([reach == Reach::Appended, false]) {
@@ -112,19 +113,20 @@ impl LiveModel {
 
     /// Notes the faces of other bodies that may reach into a part of a body, in a box. A body that comes last and does not
     /// intersect can only take away from the boundary on them, but where it has a face on their plane.
-    fn touch(&self, by: &Body, own: u32, within: &Bounds, is_last: bool, faces: &mut Vec<(u32, u32)>) {
+    fn touch(&self, by: &Body, own: OperandId, within: &Bounds, is_last: bool, faces: &mut Vec<OperandFace>) {
         let table = &self.planes.table;
         for other in self.places.near(within).filter(|other| *other != own) {
             let (body, edges) = (self.body_at(other), &self.operand(other).edges);
-            let reaches = |(number, face): &(u32, &BodyFace)| {
+            let reaches = |(number, face): &(BodyFaceId, &BodyFace)| {
                 let half_space = table.half_space(face.plane);
-                let may_matter = || !is_last || !edges[*number as usize].is_empty() || by.face_on(face.plane).is_some();
+                let may_matter = || !is_last || !edges[number.index()].is_empty() || by.face_on(face.plane).is_some();
                 face.bounds.may_share_area(within)
                     && may_matter()
                     && !misses(within, half_space.normal(), half_space.offset())
                     && !by.is_surely_apart_from(table, body.corners(face))
             };
-            faces.extend((0..).zip(&body.faces).filter(reaches).map(|(face, _)| (other, face)));
+            let reaching = BodyFaceId::all(body.faces.len()).zip(&body.faces).filter(reaches);
+            faces.extend(reaching.map(|(face, _)| OperandFace { operand: other, face }));
         }
     }
 }

@@ -37,7 +37,8 @@ impl<'a> HalfEdges<'a> {
     /// The half-edges of triangles whose indices are below `vertices`. Linear.
     #[must_use]
     pub fn new(vertices: usize, triangles: &'a [[u32; 3]]) -> Self {
-        let (starts, leaving) = by_group(vertices, triangles.as_flattened().iter().copied());
+        let (starts, leaving) =
+            by_group(vertices, triangles.as_flattened().iter().map(|v| *v as usize), |side| side as u32);
         Self { triangles, starts, leaving }
     }
 

@@ -73,7 +73,8 @@ struct Contraction {
 
 impl Contraction {
     fn new(mesh: &Mesh) -> Self {
-        let (starts, sides) = by_group(mesh.positions.len(), mesh.triangles.iter().flatten().copied());
+        let (starts, sides) =
+            by_group(mesh.positions.len(), mesh.triangles.iter().flatten().map(|v| *v as usize), |side| side as u32);
         let triangles = sides.into_iter().map(|side| side / 3).collect();
         Self {
             became: FxHashMap::default(),

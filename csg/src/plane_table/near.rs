@@ -7,6 +7,7 @@ use rustc_hash::FxHashMap;
 
 use super::PlaneId;
 use crate::base::{WEIGHTS, sortable};
+use crate::ids::RowGroupId;
 use crate::tolerances::SNAP_TOLERANCE;
 
 /// Side of the cells in which near planes are sought; many times the tolerance, so that one cell nearly always does.
@@ -105,7 +106,7 @@ impl NearPlanes {
 /// Groups of planes by where they are, to be put in and taken out.
 #[derive(Debug, Default)]
 pub(crate) struct NearCells {
-    cells: FxHashMap<[i64; 4], Vec<([f64; 4], u32)>>,
+    cells: FxHashMap<[i64; 4], Vec<([f64; 4], RowGroupId)>>,
     /// At least the largest distance from the origin, which they are near each other as a share of.
     size: f64,
 }
@@ -119,11 +120,11 @@ impl NearCells {
         self.size
     }
 
-    pub(crate) fn insert(&mut self, unit: &[f64; 4], number: u32) {
+    pub(crate) fn insert(&mut self, unit: &[f64; 4], number: RowGroupId) {
         self.cells.entry(shares(*unit, self.size).map(cell)).or_default().push((*unit, number));
     }
 
-    pub(crate) fn remove(&mut self, unit: &[f64; 4], number: u32) {
+    pub(crate) fn remove(&mut self, unit: &[f64; 4], number: RowGroupId) {
         let key = shares(*unit, self.size).map(cell);
         let Some(members) = self.cells.get_mut(&key) else { return };
         members.retain(|member| member.1 != number);
@@ -133,7 +134,7 @@ impl NearCells {
     }
 
     /// Adds the numbers of those that are near a plane, on either side: itself, if it is there.
-    pub(crate) fn find(&self, unit: &[f64; 4], found: &mut Vec<u32>) {
+    pub(crate) fn find(&self, unit: &[f64; 4], found: &mut Vec<RowGroupId>) {
         let tolerances = tolerances(self.size);
         let mut find = |unit: &[f64; 4]| {
             let members = cells_around(unit, &tolerances, self.size).filter_map(|key| self.cells.get(&key)).flatten();

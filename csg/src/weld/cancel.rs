@@ -11,18 +11,19 @@ use super::crossings::Passed;
 use super::lines::Line;
 use super::points::Points;
 use crate::base::map_chunks;
+use crate::ids::{EdgeId, HalfEdgeId, Id, LineId, PointId, PointOfRegion, PointOnLine, RegionId};
 use crate::plane_table::{PlaneId, PlaneTable};
 
 /// A directed piece of a line along which one region ends on one side: a boundary edge, or after cancelling a maximal run.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Run {
-    pub(super) line: u32,
+    pub(super) line: LineId,
     /// The region: an oriented plane and a material.
-    pub(super) region: u32,
+    pub(super) region: RegionId,
     /// The plane of the edge, outward from the region.
     pub(super) edge: PlaneId,
-    pub(super) from: u32,
-    pub(super) to: u32,
+    pub(super) from: PointId,
+    pub(super) to: PointId,
     /// Whether it points along its line.
     pub(super) forward: bool,
 }
@@ -55,9 +56,9 @@ pub(super) struct LineWorker<'a> {
     /// The planes of the regions.
     planes: &'a [PlaneId],
     sweep: Sweep,
-    stops: Vec<u32>,
-    at_interval: Vec<(u32, u32)>,
-    around: Vec<u32>,
+    stops: Vec<PointId>,
+    at_interval: Vec<(u32, HalfEdgeId)>,
+    around: Vec<HalfEdgeId>,
 }
 
 /// Cancels the edges on each line and cuts and pairs what is left; `edges` are listed by line in `by_line`.
@@ -67,17 +68,17 @@ pub(super) fn pieces(
     lines: &[Line],
     planes: &[PlaneId],
     edges: &[Run],
-    (starts, by_line): &(Vec<u32>, Vec<u32>),
+    (starts, by_line): &(Vec<u32>, Vec<EdgeId>),
 ) -> Result<(Pieces, Counts), WeldError> {
-    let numbers: Vec<u32> = (0..lines.len() as u32).collect();
+    let numbers: Vec<LineId> = LineId::all(lines.len()).collect();
     let (parts, counts) = map_chunks(&numbers, 256, |numbers| -> Result<Pieces, WeldError> {
         let mut worker = LineWorker::new(table, points, lines, planes);
         let (mut surviving, mut group) = (Surviving::default(), Vec::new());
         let mut pieces = Vec::with_capacity(numbers.len() * 5);
         for line in numbers {
-            let members = starts[*line as usize] as usize..starts[*line as usize + 1] as usize;
+            let members = starts[line.index()] as usize..starts[line.index() + 1] as usize;
             group.clear();
-            group.extend(by_line[members].iter().map(|k| edges[*k as usize]));
+            group.extend(by_line[members].iter().map(|k| edges[k.index()]));
             surviving.runs.clear();
             worker.cancel(&mut group, &mut surviving)?;
             worker.cut(&surviving.runs, &[], &mut pieces)?;
@@ -87,8 +88,8 @@ pub(super) fn pieces(
     let mut all = Pieces { pieces: Vec::with_capacity(edges.len() + edges.len() / 8), ..Pieces::default() };
     for part in parts {
         let Pieces { pieces, slits, passed } = part?;
-        let base = all.pieces.len() as u32;
-        all.pieces.extend(pieces.into_iter().map(|piece| HalfEdge { twin: piece.twin + base, ..piece }));
+        let base = all.pieces.len();
+        all.pieces.extend(pieces.into_iter().map(|piece| HalfEdge { twin: piece.twin.plus(base), ..piece }));
         all.slits.extend(slits);
         all.passed.extend(passed);
     }
@@ -104,7 +105,7 @@ impl<'a> LineWorker<'a> {
     /// Adds what survives of the edges of one line.
     pub(super) fn cancel(&mut self, edges: &mut [Run], out: &mut Surviving) -> Result<(), WeldError> {
         let Some(first) = edges.first() else { return Ok(()) };
-        let line = &self.lines[first.line as usize];
+        let line = &self.lines[first.line.index()];
         edges.sort_unstable_by_key(|edge| (edge.region, edge.from, edge.to));
         self.sweep.cancelled.clear();
         for group in edges.chunk_by(|a, b| a.region == b.region) {
@@ -122,17 +123,17 @@ impl<'a> LineWorker<'a> {
     ///
     /// Where more than two pieces share an interval, faces are sorted around the line and those two are paired that bound
     /// one wedge of solid.
-    pub(super) fn cut(&mut self, runs: &[Run], further: &[u32], out: &mut Vec<HalfEdge>) -> Result<(), WeldError> {
+    pub(super) fn cut(&mut self, runs: &[Run], further: &[PointId], out: &mut Vec<HalfEdge>) -> Result<(), WeldError> {
         let Some(first) = runs.first() else { return Ok(()) };
-        let base = out.len() as u32;
         if let [a, b] = runs
             && (a.from, a.to) == (b.to, b.from)
             && further.is_empty()
         {
-            out.extend([HalfEdge::of(a, base + 1), HalfEdge::of(b, base)]);
+            let first = HalfEdgeId::from_index(out.len());
+            out.extend([HalfEdge::of(a, first.plus(1)), HalfEdge::of(b, first)]);
             return Ok(());
         }
-        let line = &self.lines[first.line as usize];
+        let line = &self.lines[first.line.index()];
         self.stops.clear();
         self.stops.extend(runs.iter().flat_map(|run| [run.from, run.to]).chain(further.iter().copied()));
         sort_along(self.table, self.points, line, &mut self.stops);
@@ -154,7 +155,7 @@ impl<'a> LineWorker<'a> {
 /// Buffers of the sweep along one line.
 #[derive(Default)]
 struct Sweep {
-    stops: Vec<u32>,
+    stops: Vec<PointId>,
     /// For each stop what changes there: the sum of directed edges, and how many there are.
     change: Vec<(i32, i32)>,
     /// Where edges of a region cancelled, so that it lies on both sides of the line; all forward.
@@ -191,11 +192,12 @@ impl Sweep {
             count += self.change[at].1;
             now = (now.0 + self.change[at].0, count > 0);
             if now.0.abs() > 1 {
-                return Err(WeldError::Overlap { region: group[0].region });
+                return Err(WeldError::overlap(group[0].region));
             }
             if now == before {
                 if now.0 != 0 {
-                    out.passed.push((group[0].region, self.stops[at], group[0].line));
+                    let at = PointOfRegion { region: group[0].region, point: self.stops[at] };
+                    out.passed.push(Passed { at, line: group[0].line });
                 }
                 continue;
             }
@@ -226,7 +228,7 @@ impl Sweep {
         planes: &[PlaneId],
         slits: &mut Vec<Run>,
     ) {
-        let plane = |run: &Run| planes[run.region as usize].index();
+        let plane = |run: &Run| planes[run.region.index()].index();
         let Some(first) = self.cancelled.first().map(plane) else { return };
         if self.cancelled.iter().all(|run| plane(run) == first) {
             return;
@@ -235,7 +237,7 @@ impl Sweep {
         self.stops.extend(self.cancelled.iter().flat_map(|run| [run.from, run.to]));
         sort_along(table, points, line, &mut self.stops);
         let stops = &self.stops;
-        let at = |point: u32| place(table, points, line, stops, point);
+        let at = |point: PointId| place(table, points, line, stops, point);
         let ranges: Vec<(usize, usize)> = self.cancelled.iter().map(|run| (at(run.from), at(run.to))).collect();
         for k in 1..self.stops.len() {
             let crossing = || ranges.iter().zip(&self.cancelled).filter(|((low, high), _)| *low < k && k <= *high);
@@ -248,33 +250,31 @@ impl Sweep {
 }
 
 /// Sorts points along a line and drops repeated ones.
-pub(super) fn sort_along(table: &PlaneTable, points: &Points, line: &Line, stops: &mut Vec<u32>) {
+pub(super) fn sort_along(table: &PlaneTable, points: &Points, line: &Line, stops: &mut Vec<PointId>) {
     stops.sort_unstable_by(|p, q| line.compare(table, points, *p, *q));
     stops.dedup();
 }
 
 /// Where a point stands among sorted stops, of which it is one.
-fn place(table: &PlaneTable, points: &Points, line: &Line, stops: &[u32], point: u32) -> usize {
+fn place(table: &PlaneTable, points: &Points, line: &Line, stops: &[PointId], point: PointId) -> usize {
     stops.binary_search_by(|stop| line.compare(table, points, *stop, point)).expect("the point is one of the stops")
 }
 
 /// An elementary piece of a run, and later its neighbours.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct HalfEdge {
-    pub(super) region: u32,
-    pub(super) line: u32,
+    pub(super) region: RegionId,
+    pub(super) line: LineId,
     pub(super) edge: PlaneId,
-    pub(super) from: u32,
-    pub(super) to: u32,
+    pub(super) from: PointId,
+    pub(super) to: PointId,
     pub(super) forward: bool,
-    pub(super) twin: u32,
+    /// The half-edge that bounds the same wedge of solid, [`Id::NONE`] until it is known.
+    pub(super) twin: HalfEdgeId,
 }
 
-/// No half-edge.
-pub(super) const UNPAIRED: u32 = u32::MAX;
-
 impl HalfEdge {
-    fn of(run: &Run, twin: u32) -> Self {
+    fn of(run: &Run, twin: HalfEdgeId) -> Self {
         let Run { line, region, edge, from, to, forward } = *run;
         Self { region, line, edge, from, to, forward, twin }
     }
@@ -286,47 +286,53 @@ pub(super) fn cut_further(
     table: &PlaneTable,
     points: &Points,
     lines: &[Line],
-    cuts: &[(u32, u32)],
+    cuts: &[PointOnLine],
     pieces: &mut Vec<HalfEdge>,
 ) {
-    let mut stops: Vec<u32> = Vec::new();
+    let mut stops: Vec<PointId> = Vec::new();
     let by_line = pieces.len();
-    for group in cuts.chunk_by(|a, b| a.0 == b.0) {
-        let number = group[0].0;
-        let line = &lines[number as usize];
+    for group in cuts.chunk_by(|a, b| a.line == b.line) {
+        let number = group[0].line;
+        let line = &lines[number.index()];
         stops.clear();
-        stops.extend(group.iter().map(|(_, point)| *point));
+        stops.extend(group.iter().map(|cut| cut.point));
         sort_along(table, points, line, &mut stops);
         let start = pieces[..by_line].partition_point(|piece| piece.line < number);
         let end = start + pieces[start..by_line].partition_point(|piece| piece.line == number);
-        for mut k in start..end {
-            if !pieces[k].forward {
+        for mut k in (start..end).map(HalfEdgeId::from_index) {
+            if !pieces[k.index()].forward {
                 continue;
             }
             for &stop in &stops {
-                let piece = pieces[k];
-                let is_before = |p: u32, q: u32| line.compare(table, points, p, q).is_lt();
+                let piece = pieces[k.index()];
+                let is_before = |p: PointId, q: PointId| line.compare(table, points, p, q).is_lt();
                 if !is_before(piece.from, stop) || !is_before(stop, piece.to) {
                     continue;
                 }
-                let (twin, rest) = (pieces[piece.twin as usize], pieces.len() as u32);
-                pieces[k] = HalfEdge { to: stop, twin: rest + 1, ..piece };
-                pieces[piece.twin as usize] = HalfEdge { to: stop, twin: rest, ..twin };
+                let (twin, rest) = (pieces[piece.twin.index()], HalfEdgeId::from_index(pieces.len()));
+                pieces[k.index()] = HalfEdge { to: stop, twin: rest.plus(1), ..piece };
+                pieces[piece.twin.index()] = HalfEdge { to: stop, twin: rest, ..twin };
                 pieces.push(HalfEdge { from: stop, ..piece });
-                pieces.push(HalfEdge { from: stop, twin: k as u32, ..twin });
-                k = rest as usize;
+                pieces.push(HalfEdge { from: stop, twin: k, ..twin });
+                k = rest;
             }
         }
     }
 }
 
 /// Cuts one run at the stops within it; notes the interval of each piece.
-fn cut_run(run: &Run, [a, b]: [usize; 2], stops: &[u32], out: &mut Vec<HalfEdge>, at_interval: &mut Vec<(u32, u32)>) {
+fn cut_run(
+    run: &Run,
+    [a, b]: [usize; 2],
+    stops: &[PointId],
+    out: &mut Vec<HalfEdge>,
+    at_interval: &mut Vec<(u32, HalfEdgeId)>,
+) {
     for interval in a.min(b)..a.max(b) {
         let (low, high) = (stops[interval], stops[interval + 1]);
         let (from, to) = if run.forward { (low, high) } else { (high, low) };
-        at_interval.push((interval as u32, out.len() as u32));
-        out.push(HalfEdge { from, to, ..HalfEdge::of(run, UNPAIRED) });
+        at_interval.push((interval as u32, HalfEdgeId::from_index(out.len())));
+        out.push(HalfEdge { from, to, ..HalfEdge::of(run, HalfEdgeId::NONE) });
     }
 }
 
@@ -335,13 +341,13 @@ fn pair_around(
     table: &PlaneTable,
     line: &Line,
     planes: &[PlaneId],
-    around: &mut [u32],
+    around: &mut [HalfEdgeId],
     out: &mut [HalfEdge],
 ) -> Result<(), WeldError> {
-    let forward = around.iter().filter(|k| out[**k as usize].forward).count();
+    let forward = around.iter().filter(|k| out[k.index()].forward).count();
     if 2 * forward != around.len() {
-        let piece = &out[around[0] as usize];
-        return Err(WeldError::Open { from: piece.from, to: piece.to });
+        let piece = &out[around[0].index()];
+        return Err(WeldError::open(piece));
     }
     if around.len() > 2 {
         sort_around(table, line, planes, out, around);
@@ -349,19 +355,19 @@ fn pair_around(
     // Seen along the line, solid lies counter-clockwise of a face whose edge points back, up to one that points along. Where
     // two that follow each other point the same way, a face between them lies on both sides of the line, uncut; what is on
     // its one side stays apart from what is on the other.
-    let points_along = |k: usize| out[around[k % around.len()] as usize].forward;
+    let points_along = |k: usize| out[around[k % around.len()].index()].forward;
     let gap = (1..=around.len()).find(|k| points_along(k - 1) == points_along(*k));
     let start =
         gap.or_else(|| (0..around.len()).find(|k| !points_along(*k))).expect("as many pieces point back as along");
     around.rotate_left(start % around.len());
     for pair in around.chunks(2) {
         let &[a, b] = pair else { continue };
-        if out[a as usize].forward == out[b as usize].forward {
-            let piece = &out[a as usize];
-            return Err(WeldError::Wedge { from: piece.from, to: piece.to });
+        if out[a.index()].forward == out[b.index()].forward {
+            let piece = &out[a.index()];
+            return Err(WeldError::wedge(piece));
         }
-        out[a as usize].twin = b;
-        out[b as usize].twin = a;
+        out[a.index()].twin = b;
+        out[b.index()].twin = a;
     }
     Ok(())
 }
@@ -370,10 +376,10 @@ fn pair_around(
 ///
 /// That direction is `±n × D`, so the normals so signed are sorted; both are perpendicular to the line, so the sign of one
 /// component of their cross product tells their order.
-fn sort_around(table: &PlaneTable, line: &Line, planes: &[PlaneId], out: &[HalfEdge], around: &mut [u32]) {
-    let signed = |k: u32| {
-        let piece = &out[k as usize];
-        let plane = planes[piece.region as usize];
+fn sort_around(table: &PlaneTable, line: &Line, planes: &[PlaneId], out: &[HalfEdge], around: &mut [HalfEdgeId]) {
+    let signed = |k: HalfEdgeId| {
+        let piece = &out[k.index()];
+        let plane = planes[piece.region.index()];
         if piece.forward { plane } else { plane.flipped() }
     };
     // whatever the order of the half-edges

@@ -9,15 +9,27 @@ use super::WeldError;
 use super::cancel::{HalfEdge, LineWorker, Run, Surviving, sort_along};
 use super::lines::Line;
 use super::points::Points;
+use crate::ids::{EdgeId, Id, LineId, PointId, PointOfRegion};
 use crate::plane_table::{PlaneId, PlaneTable};
 
-/// A point inside a run of a region, at which edges that make it up end: region, point, line.
-pub(super) type Passed = (u32, u32, u32);
+/// A point inside a run of a region, at which edges that make it up end, and the line of the run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Passed {
+    pub(super) at: PointOfRegion,
+    pub(super) line: LineId,
+}
+
+/// A point at which the runs of a region on a line are cut; ordered by line, then by region.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Cut {
+    line: LineId,
+    at: PointOfRegion,
+}
 
 /// Whether runs of one region cross in a point that several of them pass.
 pub(super) fn any(passed: &[Passed]) -> bool {
-    let mut at_point: FxHashMap<(u32, u32), u32> = FxHashMap::default();
-    passed.iter().any(|(region, point, line)| *at_point.entry((*region, *point)).or_insert(*line) != *line)
+    let mut at_point: FxHashMap<PointOfRegion, LineId> = FxHashMap::default();
+    passed.iter().any(|passed| *at_point.entry(passed.at).or_insert(passed.line) != passed.line)
 }
 
 /// The elementary pieces of all lines, where something crosses.
@@ -27,13 +39,13 @@ pub(super) fn pieces(
     lines: &[Line],
     planes: &[PlaneId],
     edges: &[Run],
-    (starts, by_line): &(Vec<u32>, Vec<u32>),
+    (starts, by_line): &(Vec<u32>, Vec<EdgeId>),
 ) -> Result<Vec<HalfEdge>, WeldError> {
     let mut surviving = Surviving::default();
     let mut worker = LineWorker::new(table, points, lines, planes);
     for ends in starts.windows(2) {
         let members = &by_line[ends[0] as usize..ends[1] as usize];
-        let mut group: Vec<Run> = members.iter().map(|k| edges[*k as usize]).collect();
+        let mut group: Vec<Run> = members.iter().map(|k| edges[k.index()]).collect();
         worker.cancel(&mut group, &mut surviving)?;
     }
     let Surviving { runs, slits, passed } = surviving;
@@ -44,7 +56,7 @@ pub(super) fn pieces(
         // the order of the numbers is that of the places
         let number = points.renumber(table);
         for run in &mut runs {
-            (run.from, run.to) = (number[run.from as usize], number[run.to as usize]);
+            (run.from, run.to) = (number[run.from.index()], number[run.to.index()]);
         }
     }
     let mut worker = LineWorker::new(table, points, lines, planes);
@@ -61,10 +73,9 @@ pub(super) fn pieces(
 /// after, nothing else tells of it.
 fn cut_runs(table: &PlaneTable, points: &Points, lines: &[Line], mut passed: Vec<Passed>, runs: Vec<Run>) -> Vec<Run> {
     passed.sort_unstable();
-    let at_one_point = passed.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1));
-    let crossing = at_one_point.filter(|passing| passing.first().map(|p| p.2) != passing.last().map(|p| p.2));
-    let mut cuts: Vec<(u32, u32, u32)> =
-        crossing.flatten().map(|(region, point, line)| (*line, *region, *point)).collect();
+    let at_one_point = passed.chunk_by(|a, b| a.at == b.at);
+    let crossing = at_one_point.filter(|passing| passing.first().map(|p| p.line) != passing.last().map(|p| p.line));
+    let mut cuts: Vec<Cut> = crossing.flatten().map(|Passed { at, line }| Cut { line: *line, at: *at }).collect();
     if cuts.is_empty() {
         return runs;
     }
@@ -72,13 +83,13 @@ fn cut_runs(table: &PlaneTable, points: &Points, lines: &[Line], mut passed: Vec
     let mut out = Vec::with_capacity(runs.len() + cuts.len());
     let mut stops = Vec::new();
     for run in runs {
-        let start = cuts.partition_point(|cut| (cut.0, cut.1) < (run.line, run.region));
-        let own = cuts[start..].iter().take_while(|cut| (cut.0, cut.1) == (run.line, run.region));
-        let line = &lines[run.line as usize];
+        let start = cuts.partition_point(|cut| (cut.line, cut.at.region) < (run.line, run.region));
+        let own = cuts[start..].iter().take_while(|cut| (cut.line, cut.at.region) == (run.line, run.region));
+        let line = &lines[run.line.index()];
         let (low, high) = if run.forward { (run.from, run.to) } else { (run.to, run.from) };
         stops.clear();
         stops.extend([low, high]);
-        stops.extend(own.map(|cut| cut.2).filter(|point| {
+        stops.extend(own.map(|cut| cut.at.point).filter(|point| {
             line.compare(table, points, low, *point).is_lt() && line.compare(table, points, *point, high).is_lt()
         }));
         sort_along(table, points, line, &mut stops);
@@ -104,7 +115,7 @@ fn add_slits(
     slits.sort_unstable_by_key(|slit| (slit.region, slit.line));
     for region in slits.chunk_by_mut(|a, b| a.region == b.region) {
         let mut pieces = region.to_vec();
-        let plane = planes[region[0].region as usize];
+        let plane = planes[region[0].region.index()];
         for cut in region.iter() {
             let mut k = 0;
             while k < pieces.len() {
@@ -126,7 +137,7 @@ fn add_slits(
 }
 
 /// The point inside both of two pieces in which their lines cross.
-fn crossing(table: &PlaneTable, points: &mut Points, plane: PlaneId, a: &Run, b: &Run) -> Option<u32> {
+fn crossing(table: &PlaneTable, points: &mut Points, plane: PlaneId, a: &Run, b: &Run) -> Option<PointId> {
     let lies_across = |piece: &Run, edge: PlaneId| {
         let [from, to] = [piece.from, piece.to].map(|point| points.side(table, point, edge));
         from != Sign::Zero && to == from.flip()

@@ -10,6 +10,7 @@ use rustc_hash::FxHashMap;
 use super::points::Points;
 use crate::base::{WEIGHTS, intern, map_chunks};
 use crate::boundary::BoundaryEdge;
+use crate::ids::{Id, LineId, NameId, PointId};
 use crate::plane_table::{PlaneId, PlaneTable};
 
 /// A geometric line, directed so that the component of its first axis is positive.
@@ -27,11 +28,11 @@ pub(super) struct Line {
 pub(super) type Key = (usize, [u64; 4]);
 
 /// Numbers the lines of edges; gives the lines and the number of the line of each edge, in order.
-pub(super) fn identify(table: &PlaneTable, edges: &[BoundaryEdge]) -> (Vec<Line>, Vec<u32>, Counts) {
+pub(super) fn identify(table: &PlaneTable, edges: &[BoundaryEdge]) -> (Vec<Line>, Vec<LineId>, Counts) {
     let keys: Vec<u64> = edges.par_iter().with_min_len(1024).map(pair).collect();
-    let (different, of_pair) = intern(&keys, table.len(), |key| (key >> 32) as usize);
+    let (different, of_pair) = intern(&keys, table.len(), |key| (key >> 32) as usize, NameId::from_index);
     let (lines, of_different, counts) = number(table, &different);
-    (lines, of_pair.into_par_iter().with_min_len(1024).map(|k| of_different[k as usize]).collect(), counts)
+    (lines, of_pair.into_par_iter().with_min_len(1024).map(|k| of_different[k.index()]).collect(), counts)
 }
 
 /// What names the line of an edge: the indices of its two planes.
@@ -41,20 +42,21 @@ pub(super) fn pair(edge: &BoundaryEdge) -> u64 {
 }
 
 /// Numbers the lines of different pairs, each two plane indices.
-fn number(table: &PlaneTable, pairs: &[u64]) -> (Vec<Line>, Vec<u32>, Counts) {
+fn number(table: &PlaneTable, pairs: &[u64]) -> (Vec<Line>, Vec<LineId>, Counts) {
     let line = |pair: &u64| {
         let line = Line::of(table, *pair);
         (line, mark(table, &line))
     };
     let (found, mut counts) = map_chunks(pairs, 256, |pairs| pairs.iter().map(line).collect::<Vec<_>>());
     let found: Vec<(Line, Mark)> = found.into_iter().flatten().collect();
-    let mut order: Vec<(Mark, u32)> = found.iter().zip(0..).map(|((_, mark), k)| (*mark, k)).collect();
+    let mut order: Vec<(Mark, NameId)> =
+        found.iter().zip(NameId::all(found.len())).map(|((_, mark), k)| (*mark, k)).collect();
     order.par_sort_unstable_by(|p, q| p.0.compare(&q.0).then(p.1.cmp(&q.1)));
     // of lines that may be equal, the first in the order given; most are alone
-    let mut first: Vec<u32> = (0..found.len() as u32).collect();
+    let mut first: Vec<NameId> = NameId::all(found.len()).collect();
     let axes = AxisPlanes::default();
     // runs of lines that may be equal
-    let mut runs: Vec<&[(Mark, u32)]> = Vec::new();
+    let mut runs: Vec<&[(Mark, NameId)]> = Vec::new();
     let mut start = 0;
     while start < order.len() {
         let (mut end, mut reach) = (start + 1, order[start].0.high());
@@ -78,17 +80,17 @@ fn number(table: &PlaneTable, pairs: &[u64]) -> (Vec<Line>, Vec<u32>, Counts) {
         equal
     });
     for (line, other) in parts.into_iter().flatten() {
-        first[line as usize] = other;
+        first[line.index()] = other;
     }
     counts += joining;
     let mut lines: Vec<Line> = Vec::with_capacity(found.len());
-    let mut number = vec![0; found.len()];
+    let mut number = vec![LineId::NONE; found.len()];
     for k in 0..found.len() {
-        if first[k] == k as u32 {
-            number[k] = lines.len() as u32;
+        if first[k].index() == k {
+            number[k] = LineId::from_index(lines.len());
             lines.push(found[k].0);
         } else {
-            number[k] = number[first[k] as usize];
+            number[k] = number[first[k].index()];
         }
     }
     (lines, number, counts)
@@ -99,14 +101,14 @@ fn find_equal(
     table: &PlaneTable,
     axes: &AxisPlanes,
     found: &[(Line, Mark)],
-    some: &[u32],
-    equal: &mut Vec<(u32, u32)>,
+    some: &[NameId],
+    equal: &mut Vec<(NameId, NameId)>,
 ) {
-    let mut by_key: FxHashMap<Key, Vec<u32>> = FxHashMap::default();
+    let mut by_key: FxHashMap<Key, Vec<NameId>> = FxHashMap::default();
     for k in some {
-        let line = &found[*k as usize].0;
+        let line = &found[k.index()].0;
         let bucket = by_key.entry(key(table, line)).or_default();
-        match bucket.iter().copied().find(|other| axes.is_same(table, &found[*other as usize].0, line)) {
+        match bucket.iter().copied().find(|other| axes.is_same(table, &found[other.index()].0, line)) {
             Some(other) => equal.push((*k, other)),
             None => bucket.push(*k),
         }
@@ -164,11 +166,11 @@ impl Line {
     /// The exact order of two points of the line along its direction.
     ///
     /// Coordinates are correctly rounded: where they differ, the points are in that order.
-    pub(super) fn compare(&self, table: &PlaneTable, points: &Points, p: u32, q: u32) -> Ordering {
+    pub(super) fn compare(&self, table: &PlaneTable, points: &Points, p: PointId, q: PointId) -> Ordering {
         if p == q {
             return Ordering::Equal;
         }
-        let (at_p, at_q) = (points.positions[p as usize], points.positions[q as usize]);
+        let (at_p, at_q) = (points.positions[p.index()], points.positions[q.index()]);
         for axis in 0..3 {
             if at_p[axis] != at_q[axis] && self.direction[axis] != Sign::Zero {
                 let forward = self.direction[axis] == Sign::Positive;
@@ -179,9 +181,9 @@ impl Line {
     }
 
     #[cold]
-    fn compare_exactly(&self, table: &PlaneTable, points: &Points, p: u32, q: u32) -> Ordering {
+    fn compare_exactly(&self, table: &PlaneTable, points: &Points, p: PointId, q: PointId) -> Ordering {
         let [a, b] = self.planes;
-        let across = points.planes[q as usize].into_iter().map(|c| (c, table.orient3(a, b, c)));
+        let across = points.planes[q.index()].into_iter().map(|c| (c, table.orient3(a, b, c)));
         let Some((plane, ahead)) = across.into_iter().find(|(_, sign)| *sign != Sign::Zero) else {
             return Ordering::Equal;
         };

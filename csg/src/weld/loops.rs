@@ -7,6 +7,7 @@ use planecut_kernel::sign::Sign;
 
 use super::WeldError;
 use super::cancel::HalfEdge;
+use crate::ids::{HalfEdgeId, Id, PointId};
 use crate::plane_table::{PlaneId, PlaneTable};
 
 /// The half-edge that follows each half-edge around one region, numbered from `base`; those that begin at one point follow one
@@ -15,9 +16,9 @@ pub(super) fn follow(
     table: &PlaneTable,
     plane: PlaneId,
     region: &[HalfEdge],
-    base: u32,
-    first: impl Fn(u32) -> usize,
-    following: &mut Vec<u32>,
+    base: usize,
+    first: impl Fn(PointId) -> usize,
+    following: &mut Vec<HalfEdgeId>,
 ) -> Result<(), WeldError> {
     for piece in region {
         let start = first(piece.to);
@@ -25,7 +26,8 @@ pub(super) fn follow(
         let next = candidates.reduce(|best, other| {
             if is_earlier(table, plane, piece, &region[other], &region[best]) { other } else { best }
         });
-        following.push(base + next.ok_or(WeldError::Open { from: piece.from, to: piece.to })? as u32);
+        let next = next.ok_or_else(|| WeldError::open(piece))?;
+        following.push(HalfEdgeId::from_index(base + next));
     }
     Ok(())
 }

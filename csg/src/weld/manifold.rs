@@ -6,31 +6,33 @@
 
 use rustc_hash::FxHashSet;
 
-use super::cancel::{HalfEdge, UNPAIRED};
+use super::cancel::HalfEdge;
+use crate::ids::{HalfEdgeId, Id, PointId, VertexId};
 use crate::mesh::Mesh;
 use crate::mesh::connectivity::HalfEdges;
 
 /// The vertex at the start of each half-edge; and for each vertex the point it lies on.
-pub(super) fn vertices(pieces: &[HalfEdge], following: &[u32]) -> (Vec<u32>, Vec<u32>) {
-    let mut vertex = vec![u32::MAX; pieces.len()];
+pub(super) fn vertices(pieces: &[HalfEdge], following: &[HalfEdgeId]) -> (Vec<VertexId>, Vec<PointId>) {
+    let mut vertex = vec![VertexId::NONE; pieces.len()];
     let mut point = Vec::new();
     for start in 0..pieces.len() {
         let mut piece = start;
-        if vertex[piece] != u32::MAX {
+        if vertex[piece] != VertexId::NONE {
             continue;
         }
+        let number = VertexId::from_index(point.len());
         // Around the fan: the twin ends at the corner's point, and its follower starts there.
-        while vertex[piece] == u32::MAX {
-            vertex[piece] = point.len() as u32;
-            piece = following[pieces[piece].twin as usize] as usize;
+        while vertex[piece] == VertexId::NONE {
+            vertex[piece] = number;
+            piece = following[pieces[piece].twin.index()].index();
         }
         point.push(pieces[start].from);
     }
     (vertex, point)
 }
 
-/// The half-edge behind each side of each triangle; [`UNPAIRED`] for a diagonal.
-pub(super) type Labels = Vec<[u32; 3]>;
+/// The half-edge behind each side of each triangle; [`Id::NONE`] for a diagonal.
+pub(super) type Labels = Vec<[HalfEdgeId; 3]>;
 
 /// A side of a triangle: its number among [`HalfEdges`].
 type TriangleSide = u32;
@@ -64,7 +66,7 @@ pub(super) fn split_repeated_edges(mesh: &mut Mesh, labels: &mut Labels, pieces:
 }
 
 /// A triangle to be added: its vertices, its labels, its face.
-type Addition = ([u32; 3], [u32; 3], u32);
+type Addition = ([u32; 3], [HalfEdgeId; 3], u32);
 
 /// Splits both triangles at an edge by its midpoint.
 fn split_edge(mesh: &mut Mesh, labels: &mut Labels, sides: [TriangleSide; 2], additions: &mut Vec<Addition>) {
@@ -74,12 +76,16 @@ fn split_edge(mesh: &mut Mesh, labels: &mut Labels, sides: [TriangleSide; 2], ad
     mesh.positions.push(0.5 * (ends[0] + ends[1]));
     for side in sides {
         let (t, k) = ((side / 3) as usize, (side % 3) as usize);
-        let turned = |v: [u32; 3]| [v[k], v[(k + 1) % 3], v[(k + 2) % 3]];
-        let ([from, to, tip], [cut, next, last]) = (turned(mesh.triangles[t]), turned(labels[t]));
+        let ([from, to, tip], [cut, next, last]) = (rotated(mesh.triangles[t], k), rotated(labels[t], k));
         mesh.triangles[t] = [from, middle, tip];
-        labels[t] = [cut, UNPAIRED, last];
-        additions.push(([middle, to, tip], [cut, next, UNPAIRED], mesh.triangle_faces[t]));
+        labels[t] = [cut, HalfEdgeId::NONE, last];
+        additions.push(([middle, to, tip], [cut, next, HalfEdgeId::NONE], mesh.triangle_faces[t]));
     }
+}
+
+/// Three things that follow one another in a cycle, from another one on.
+fn rotated<T: Copy>(three: [T; 3], first: usize) -> [T; 3] {
+    std::array::from_fn(|k| three[(first + k) % 3])
 }
 
 /// Adds triangles so that those of one face still follow one another.
@@ -103,13 +109,13 @@ fn match_sides(
 ) -> Vec<(TriangleSide, TriangleSide)> {
     let label = |side: TriangleSide| labels[(side / 3) as usize][(side % 3) as usize];
     let is_pair = |s: TriangleSide, t: TriangleSide| match label(s) {
-        UNPAIRED => label(t) == UNPAIRED && faces[(s / 3) as usize] == faces[(t / 3) as usize],
-        piece => label(t) == pieces[piece as usize].twin,
+        HalfEdgeId::NONE => label(t) == HalfEdgeId::NONE && faces[(s / 3) as usize] == faces[(t / 3) as usize],
+        piece => label(t) == pieces[piece.index()].twin,
     };
     let mut left = back.clone();
     let mut pairs = Vec::with_capacity(there.len());
     let mut in_order = there.clone();
-    in_order.sort_by_key(|side| label(*side) == UNPAIRED);
+    in_order.sort_by_key(|side| label(*side) == HalfEdgeId::NONE);
     for side in in_order {
         if let Some(k) = left.iter().position(|other| is_pair(side, *other)) {
             pairs.push((side, left.swap_remove(k)));

@@ -5,6 +5,7 @@ use planecut_kernel::DVec3;
 use super::cancel::HalfEdge;
 use super::nest::Faces;
 use crate::base::CompensatedSum;
+use crate::ids::Id;
 use crate::mesh::SolidMeasures;
 
 /// The part of one face in the measures of a solid.
@@ -18,7 +19,7 @@ pub(super) struct FaceMeasures {
 /// The box around some half-edges.
 pub(super) fn extent(positions: &[DVec3], pieces: &[HalfEdge]) -> (DVec3, DVec3) {
     let none = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    pieces.iter().map(|piece| positions[piece.from as usize]).fold(none, |(min, max), at| (min.min(at), max.max(at)))
+    pieces.iter().map(|piece| positions[piece.from.index()]).fold(none, |(min, max), at| (min.min(at), max.max(at)))
 }
 
 /// The parts of faces by the divergence theorem, relative to a point near the middle so that little cancels.
@@ -34,8 +35,8 @@ pub(super) fn of_faces(
         let mut twice_area = DVec3::ZERO;
         let mut six_volume = CompensatedSum::default();
         let mut moment = [CompensatedSum::default(); 3];
-        for piece in face.loops().flatten().map(|k| &pieces[*k as usize]) {
-            let (p, q) = (positions[piece.from as usize] - middle, positions[piece.to as usize] - middle);
+        for piece in face.loops().flatten().map(|k| &pieces[k.index()]) {
+            let (p, q) = (positions[piece.from.index()] - middle, positions[piece.to.index()] - middle);
             let origin = *origin.get_or_insert(p);
             let normal = (p - origin).cross(q - origin);
             let weight = origin.dot(normal);

@@ -26,6 +26,7 @@ mod pinches;
 mod points;
 mod triangulate;
 
+use std::ops::Range;
 use std::time::Duration;
 
 use planecut_kernel::DVec3;
@@ -35,13 +36,14 @@ use thiserror::Error;
 
 use crate::base::{Clock, by_group, map_chunks};
 use crate::boundary::BoundaryEdge;
+use crate::ids::{EdgeId, HalfEdgeId, Id, PointId, RegionId, VertexId};
 use crate::mesh::{Mesh, MeshFace, SolidMeasures, collapse_thin, contract_short_edges, flip_caps};
 use crate::model::{Material, MaterialId};
 use crate::plane_table::{PlaneId, PlaneTable};
 use crate::tolerances::CONTRACTION;
 use cancel::{HalfEdge, Pieces, Run};
-pub(crate) use live::{EdgeId, LiveWeld};
-pub use live::{FaceId, LiveFace};
+pub use live::LiveFace;
+pub(crate) use live::LiveWeld;
 use manifold::Labels;
 use nest::{Faces, Nester, Projection};
 use points::Points;
@@ -83,6 +85,24 @@ pub enum WeldError {
     },
 }
 
+impl WeldError {
+    fn open(piece: &HalfEdge) -> Self {
+        Self::Open { from: piece.from.number(), to: piece.to.number() }
+    }
+
+    fn overlap(region: RegionId) -> Self {
+        Self::Overlap { region: region.number() }
+    }
+
+    fn hole(region: RegionId) -> Self {
+        Self::Hole { region: region.number() }
+    }
+
+    fn wedge(piece: &HalfEdge) -> Self {
+        Self::Wedge { from: piece.from.number(), to: piece.to.number() }
+    }
+}
+
 /// What the weld gives.
 pub(crate) struct Welded {
     pub(crate) mesh: Mesh,
@@ -112,7 +132,7 @@ pub(crate) fn weld(
     let (vertex, point) = manifold::vertices(&pieces, &nested.following);
 
     let begin = Clock::start();
-    let positions = point.par_iter().with_min_len(4096).map(|p| points.positions[*p as usize]).collect();
+    let positions = point.par_iter().with_min_len(4096).map(|p| points.positions[p.index()]).collect();
     let mut mesh = Mesh { positions, materials: materials.to_vec(), ..Mesh::default() };
     let (mut labels, counted) = triangulate_faces(table, &regions, &points, &pieces, &nested.faces, &vertex, &mut mesh);
     signs += counted;
@@ -127,7 +147,7 @@ pub(crate) fn weld(
 
 impl Regions {
     /// The regions, and the number of the region of each edge.
-    fn number(edges: &[BoundaryEdge], rank: &[u32]) -> (Self, Vec<u32>) {
+    fn number(edges: &[BoundaryEdge], rank: &[u32]) -> (Self, Vec<RegionId>) {
         let key = |edge: &BoundaryEdge| (edge.face, rank[edge.material.0 as usize], edge.material);
         // the edges of a face follow one another
         let same_face = || edges.chunk_by(|a, b| (a.face, a.material) == (b.face, b.material));
@@ -136,7 +156,8 @@ impl Regions {
         keys.dedup();
         let mut numbers = Vec::with_capacity(edges.len());
         for edges in same_face() {
-            let number = keys.binary_search(&key(&edges[0])).expect("the region of each edge is among the keys") as u32;
+            let number = keys.binary_search(&key(&edges[0])).expect("the region of each edge is among the keys");
+            let number = RegionId::from_index(number);
             numbers.extend(std::iter::repeat_n(number, edges.len()));
         }
         let regions = Self {
@@ -150,22 +171,23 @@ impl Regions {
     /// Puts regions in an order that depends on the boundary alone, not on the bodies that it came from: by the first of
     /// their points, their planes and materials.
     fn sort(&mut self, table: &PlaneTable, pieces: &mut [HalfEdge]) {
-        let mut first = vec![u32::MAX; self.planes.len()];
+        let mut first = vec![PointId::NONE; self.planes.len()];
         for piece in pieces.iter() {
-            let first = &mut first[piece.region as usize];
+            let first = &mut first[piece.region.index()];
             *first = piece.from.min(*first);
         }
-        let mut order: Vec<(u32, u32)> = first.into_iter().zip(0..).collect();
-        let further = |region: u32| (table.order(self.planes[region as usize]), self.ranks[region as usize]);
+        let regions = RegionId::all(first.len());
+        let mut order: Vec<(PointId, RegionId)> = first.into_iter().zip(regions.clone()).collect();
+        let further = |region: RegionId| (table.order(self.planes[region.index()]), self.ranks[region.index()]);
         order.par_sort_unstable_by(|p, q| p.0.cmp(&q.0).then_with(|| further(p.1).cmp(&further(q.1))));
-        let mut number = vec![0; order.len()];
-        for (new, (_, old)) in (0..).zip(&order) {
-            number[*old as usize] = new;
+        let mut number = vec![RegionId::NONE; order.len()];
+        for (new, (_, old)) in regions.zip(&order) {
+            number[old.index()] = new;
         }
-        self.planes = order.iter().map(|(_, old)| self.planes[*old as usize]).collect();
-        self.materials = order.iter().map(|(_, old)| self.materials[*old as usize]).collect();
-        self.ranks = order.iter().map(|(_, old)| self.ranks[*old as usize]).collect();
-        pieces.iter_mut().for_each(|piece| piece.region = number[piece.region as usize]);
+        self.planes = order.iter().map(|(_, old)| self.planes[old.index()]).collect();
+        self.materials = order.iter().map(|(_, old)| self.materials[old.index()]).collect();
+        self.ranks = order.iter().map(|(_, old)| self.ranks[old.index()]).collect();
+        pieces.iter_mut().for_each(|piece| piece.region = number[piece.region.index()]);
     }
 }
 
@@ -188,10 +210,10 @@ fn half_edges(
         edge: edge.edge,
         from: ends[k][0],
         to: ends[k][1],
-        forward: lines[of_pair[k] as usize].is_along(table, edge.face, edge.edge),
+        forward: lines[of_pair[k].index()].is_along(table, edge.face, edge.edge),
     };
     let runs: Vec<Run> = edges.par_iter().enumerate().with_min_len(1024).map(run).collect();
-    let by_line = by_group(lines.len(), of_pair.iter().copied());
+    let by_line = by_group(lines.len(), of_pair.iter().map(|line| line.index()), EdgeId::from_index);
     let (Pieces { mut pieces, slits, passed }, counted) =
         cancel::pieces(table, &points, &lines, &regions.planes, &runs, &by_line)?;
     signs += counted;
@@ -211,21 +233,21 @@ fn half_edges(
 
 /// Sorts half-edges by region and place, keeping the pairs.
 fn order_by_region(pieces: &[HalfEdge], regions: usize) -> Vec<HalfEdge> {
-    let (_, mut order) = by_group(regions, pieces.iter().map(|piece| piece.region));
-    let region = |k: &u32| pieces[*k as usize].region;
+    let (_, mut order) = by_group(regions, pieces.iter().map(|piece| piece.region.index()), HalfEdgeId::from_index);
+    let region = |k: &HalfEdgeId| pieces[k.index()].region;
     order.par_chunk_by_mut(|a, b| region(a) == region(b)).for_each(|members| {
         members.sort_unstable_by_key(|k| {
-            let piece = &pieces[*k as usize];
+            let piece = &pieces[k.index()];
             (piece.from, piece.to)
         });
     });
-    let mut place = vec![0; pieces.len()];
-    for (new, old) in order.iter().enumerate() {
-        place[*old as usize] = new as u32;
+    let mut place = vec![HalfEdgeId::NONE; pieces.len()];
+    for (new, old) in HalfEdgeId::all(order.len()).zip(&order) {
+        place[old.index()] = new;
     }
-    let piece = |old: u32| {
-        let piece = pieces[old as usize];
-        HalfEdge { twin: place[piece.twin as usize], ..piece }
+    let piece = |old: HalfEdgeId| {
+        let piece = pieces[old.index()];
+        HalfEdge { twin: place[piece.twin.index()], ..piece }
     };
     order.into_par_iter().with_min_len(4096).map(piece).collect()
 }
@@ -233,7 +255,7 @@ fn order_by_region(pieces: &[HalfEdge], regions: usize) -> Vec<HalfEdge> {
 /// Half-edges chained to loops, these nested to faces.
 struct Nested {
     /// What follows each half-edge in its loop.
-    following: Vec<u32>,
+    following: Vec<HalfEdgeId>,
     faces: Vec<Faces>,
     solid: SolidMeasures,
 }
@@ -255,11 +277,11 @@ fn nest(
     let (parts, counts) = map_chunks(&by_region, 16, |chunk| -> Result<_, WeldError> {
         let mut nester = Nester::new(table, points);
         let (mut following, mut faces, mut measures) = (Vec::new(), Faces::default(), Vec::new());
-        for &(start, end) in chunk {
-            let region = &pieces[start as usize..end as usize];
-            let plane = regions.planes[region[0].region as usize];
+        for range in chunk {
+            let (region, start) = (&pieces[range.clone()], range.start);
+            let plane = regions.planes[region[0].region.index()];
             let done = following.len();
-            let first = |point: u32| region.partition_point(|piece| piece.from < point);
+            let first = |point: PointId| region.partition_point(|piece| piece.from < point);
             loops::follow(table, plane, region, start, first, &mut following)?;
             nester.add_faces(plane, region, start, &following[done..], &mut faces)?;
         }
@@ -278,14 +300,22 @@ fn nest(
 }
 
 /// Where the half-edges of each region begin and end.
-fn regions_of(pieces: &[HalfEdge]) -> Vec<(u32, u32)> {
+fn regions_of(pieces: &[HalfEdge]) -> Vec<Range<usize>> {
     let mut end = 0;
     let region = |members: &[HalfEdge]| {
         let start = end;
-        end += members.len() as u32;
-        (start, end)
+        end += members.len();
+        start..end
     };
     pieces.chunk_by(|a, b| a.region == b.region).map(region).collect()
+}
+
+/// The triangles of some faces.
+struct FilledFaces {
+    vertices: Vec<[u32; 3]>,
+    labels: Labels,
+    /// The region of each face, and where its triangles end.
+    ends: Vec<(RegionId, u32)>,
 }
 
 /// Fills the triangles and faces of a mesh, in parallel over faces; gives the half-edge behind each side.
@@ -295,45 +325,46 @@ fn triangulate_faces(
     points: &Points,
     pieces: &[HalfEdge],
     faces: &[Faces],
-    vertex: &[u32],
+    vertex: &[VertexId],
     mesh: &mut Mesh,
 ) -> (Labels, Counts) {
     let (parts, counts) = map_chunks(faces, 1, |chunk| {
         let mut triangulator = Triangulator::new(table, points);
-        let mut filled: Vec<(Triangles, Vec<(u32, u32)>)> = Vec::new();
+        let mut filled: Vec<FilledFaces> = Vec::new();
         for faces in chunk {
             let (mut triangles, mut ends) = (Triangles::default(), Vec::new());
             for face in faces.iter() {
-                let normal = table.half_space(regions.planes[face.region as usize]).normal();
+                let normal = table.half_space(regions.planes[face.region.index()]).normal();
                 triangulator.begin(Projection::new(normal));
                 for pieces_of_loop in face.loops() {
-                    triangulator
-                        .add_loop(pieces_of_loop.iter().map(|k| (*k, &pieces[*k as usize], vertex[*k as usize])));
+                    triangulator.add_loop(pieces_of_loop.iter().map(|k| (*k, &pieces[k.index()])));
                 }
                 triangulator.triangulate(&mut triangles);
-                ends.push((face.region, triangles.vertices.len() as u32));
+                ends.push((face.region, triangles.corners.len() as u32));
             }
-            filled.push((triangles, ends));
+            let corner = |piece: HalfEdgeId| vertex[piece.index()].number();
+            let vertices = triangles.corners.iter().map(|corners| corners.map(corner)).collect();
+            filled.push(FilledFaces { vertices, labels: triangles.labels, ends });
         }
         filled
     });
     let parts = || parts.iter().flatten();
-    let count = parts().map(|(triangles, _)| triangles.vertices.len()).sum();
+    let count = parts().map(|filled| filled.vertices.len()).sum();
     mesh.triangles.reserve_exact(count);
     mesh.triangle_faces.reserve_exact(count);
     let mut labels = Labels::with_capacity(count);
-    for (triangles, ends) in parts() {
+    for FilledFaces { vertices, labels: of_sides, ends } in parts() {
         let mut start = 0;
         for &(region, end) in ends {
             let face = mesh.faces.len();
-            let normal: DVec3 = table.half_space(regions.planes[region as usize]).normal();
+            let normal: DVec3 = table.half_space(regions.planes[region.index()]).normal();
             let scaled = normal / normal.abs().max_element();
-            mesh.faces.push(MeshFace { normal: scaled.normalize(), material: regions.materials[region as usize] });
+            mesh.faces.push(MeshFace { normal: scaled.normalize(), material: regions.materials[region.index()] });
             mesh.triangle_faces.extend(std::iter::repeat_n(face as u32, (end - start) as usize));
             start = end;
         }
-        mesh.triangles.extend_from_slice(&triangles.vertices);
-        labels.extend_from_slice(&triangles.labels);
+        mesh.triangles.extend_from_slice(vertices);
+        labels.extend_from_slice(of_sides);
     }
     (labels, counts)
 }

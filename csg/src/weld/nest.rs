@@ -8,23 +8,24 @@ use planecut_kernel::{DVec2, DVec3};
 use super::WeldError;
 use super::cancel::HalfEdge;
 use super::points::Points;
+use crate::ids::{HalfEdgeId, Id, PointId, RegionId};
 use crate::plane_table::{PlaneId, PlaneTable};
 
 /// Connected parts of regions, each an outer loop and its holes.
 #[derive(Debug, Default)]
 pub(super) struct Faces {
     /// Half-edges, loop by loop.
-    pieces: Vec<u32>,
+    pieces: Vec<HalfEdgeId>,
     /// Where each loop ends among them.
     loops: Vec<u32>,
     /// The region of each face, and where its loops end.
-    faces: Vec<(u32, u32)>,
+    faces: Vec<(RegionId, u32)>,
 }
 
 /// One of them.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Face<'a> {
-    pub(super) region: u32,
+    pub(super) region: RegionId,
     faces: &'a Faces,
     loops: (usize, usize),
 }
@@ -39,7 +40,7 @@ impl Faces {
         })
     }
 
-    fn push_loop(&mut self, pieces: &[u32]) {
+    fn push_loop(&mut self, pieces: &[HalfEdgeId]) {
         self.pieces.extend_from_slice(pieces);
         self.loops.push(self.pieces.len() as u32);
     }
@@ -47,7 +48,7 @@ impl Faces {
 
 impl<'a> Face<'a> {
     /// The outer loop first.
-    pub(super) fn loops(self) -> impl Iterator<Item = &'a [u32]> {
+    pub(super) fn loops(self) -> impl Iterator<Item = &'a [HalfEdgeId]> {
         let Faces { pieces, loops, .. } = self.faces;
         (self.loops.0..self.loops.1).map(|k| {
             let start = if k == 0 { 0 } else { loops[k - 1] as usize };
@@ -92,12 +93,12 @@ pub(super) struct Nester<'a> {
     points: &'a Points,
     /// The half-edges of the region, and the number of the first.
     region: &'a [HalfEdge],
-    base: u32,
+    base: usize,
     plane: PlaneId,
     at: Projection,
     seen: Vec<bool>,
     /// Half-edges of the region, loop by loop.
-    pieces: Vec<u32>,
+    pieces: Vec<HalfEdgeId>,
     loops: Vec<Loop>,
 }
 
@@ -121,8 +122,8 @@ impl<'a> Nester<'a> {
         &mut self,
         plane: PlaneId,
         region: &'a [HalfEdge],
-        base: u32,
-        following: &[u32],
+        base: usize,
+        following: &[HalfEdgeId],
         faces: &mut Faces,
     ) -> Result<(), WeldError> {
         (self.plane, self.region, self.base) = (plane, region, base);
@@ -139,27 +140,27 @@ impl<'a> Nester<'a> {
         self.group(region[0].region, faces)
     }
 
-    fn position(&self, point: u32) -> DVec2 {
-        self.at.of(self.points.positions[point as usize])
+    fn position(&self, point: PointId) -> DVec2 {
+        self.at.of(self.points.positions[point.index()])
     }
 
-    fn piece(&self, number: u32) -> &HalfEdge {
-        &self.region[(number - self.base) as usize]
+    fn piece(&self, number: HalfEdgeId) -> &HalfEdge {
+        &self.region[number.index() - self.base]
     }
 
-    fn pieces_of(&self, candidate: &Loop) -> &[u32] {
+    fn pieces_of(&self, candidate: &Loop) -> &[HalfEdgeId] {
         &self.pieces[candidate.start..candidate.end]
     }
 
-    fn walk(&mut self, from: usize, following: &[u32]) {
+    fn walk(&mut self, from: usize, following: &[HalfEdgeId]) {
         let start = self.pieces.len();
         let origin = self.position(self.region[from].from);
         let (mut area, mut min, mut max) = (0.0, origin, origin);
         let (mut piece, mut p) = (from, origin);
         while !self.seen[piece] {
             self.seen[piece] = true;
-            self.pieces.push(self.base + piece as u32);
-            piece = (following[piece] - self.base) as usize;
+            self.pieces.push(HalfEdgeId::from_index(self.base + piece));
+            piece = following[piece].index() - self.base;
             let q = self.position(self.region[piece].from);
             area += 0.5 * (p - origin).perp_dot(q - origin);
             min = min.min(p);
@@ -191,7 +192,7 @@ impl<'a> Nester<'a> {
     }
 
     /// Gives each hole to the smallest outer loop around it.
-    fn group(&self, region: u32, faces: &mut Faces) -> Result<(), WeldError> {
+    fn group(&self, region: RegionId, faces: &mut Faces) -> Result<(), WeldError> {
         if let [only] = self.loops[..]
             && self.is_outer(&only)
         {
@@ -202,7 +203,7 @@ impl<'a> Nester<'a> {
         let (outers, holes): (Vec<Loop>, Vec<Loop>) = self.loops.iter().partition(|candidate| self.is_outer(candidate));
         let mut owned: Vec<(usize, usize)> = Vec::with_capacity(holes.len());
         for (k, hole) in holes.iter().enumerate() {
-            owned.push((self.owner(&outers, hole).ok_or(WeldError::Hole { region })?, k));
+            owned.push((self.owner(&outers, hole).ok_or_else(|| WeldError::hole(region))?, k));
         }
         owned.sort_unstable();
         let mut owned = owned.into_iter().peekable();
@@ -226,13 +227,13 @@ impl<'a> Nester<'a> {
     /// Whether a hole lies inside an outer loop: by the parity of crossings to the right of one of its corners that is not
     /// a corner of the outer loop.
     fn contains(&self, outer: &Loop, hole: &Loop) -> bool {
-        let is_shared = |point: u32| self.pieces_of(outer).iter().any(|piece| self.piece(*piece).from == point);
+        let is_shared = |point: PointId| self.pieces_of(outer).iter().any(|piece| self.piece(*piece).from == point);
         let corner = self.pieces_of(hole).iter().map(|piece| self.piece(*piece).from).find(|point| !is_shared(*point));
         let Some(corner) = corner else { return self.contains_middle(outer, hole) };
         let mut inside = false;
         for piece in self.pieces_of(outer) {
             let piece = self.piece(*piece);
-            let above = |point: u32| self.compare_height(point, corner) == Ordering::Greater;
+            let above = |point: PointId| self.compare_height(point, corner) == Ordering::Greater;
             let (from, to) = (above(piece.from), above(piece.to));
             if from != to {
                 // inside is left of the edge: an upward edge is crossed where the corner lies to its left
@@ -245,7 +246,7 @@ impl<'a> Nester<'a> {
 
     /// The exact order of two points by height, then from left to right: by rounded heights, points would seem to lie on edges
     /// that they only come near.
-    fn compare_height(&self, p: u32, q: u32) -> Ordering {
+    fn compare_height(&self, p: PointId, q: PointId) -> Ordering {
         self.points.compare(self.table, p, q, &[self.at.v, self.at.u])
     }
 

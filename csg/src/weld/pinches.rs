@@ -7,18 +7,19 @@ use super::cancel::HalfEdge;
 use super::points::Points;
 use super::regions_of;
 use crate::base::{Bounds, map_chunks};
+use crate::ids::{Id, PointId, PointOnLine};
 use crate::plane_table::PlaneTable;
 
 /// Regions of fewer corners are searched edge by edge.
 const MANY: usize = 24;
 
-/// The (line, point) pairs at which a corner of a region lies inside one of its edges, by line; half-edges are sorted by
+/// Where a corner of a region lies inside one of its edges, by line; half-edges are sorted by
 /// region.
-pub(super) fn find(table: &PlaneTable, points: &Points, pieces: &[HalfEdge]) -> (Vec<(u32, u32)>, Counts) {
+pub(super) fn find(table: &PlaneTable, points: &Points, pieces: &[HalfEdge]) -> (Vec<PointOnLine>, Counts) {
     let (parts, counts) = map_chunks(&regions_of(pieces), 16, |chunk| {
         let mut finder = PinchFinder::new(table, points);
-        for &(start, end) in chunk {
-            finder.search(&pieces[start as usize..end as usize]);
+        for range in chunk {
+            finder.search(&pieces[range.clone()]);
         }
         finder.found
     });
@@ -32,13 +33,13 @@ pub(super) fn find(table: &PlaneTable, points: &Points, pieces: &[HalfEdge]) -> 
 pub(super) struct PinchFinder<'a> {
     table: &'a PlaneTable,
     points: &'a Points,
-    corners: Vec<u32>,
+    corners: Vec<PointId>,
     /// Where they are.
     places: Vec<DVec3>,
     /// Corners by each of their coordinates.
-    sorted: [Vec<u32>; 3],
-    /// The (line, point) pairs found.
-    pub(super) found: Vec<(u32, u32)>,
+    sorted: [Vec<PointId>; 3],
+    /// What was found.
+    pub(super) found: Vec<PointOnLine>,
 }
 
 impl<'a> PinchFinder<'a> {
@@ -58,7 +59,7 @@ impl<'a> PinchFinder<'a> {
         self.corners.dedup();
         if self.corners.len() < MANY {
             self.places.clear();
-            self.places.extend(self.corners.iter().map(|corner| self.points.positions[*corner as usize]));
+            self.places.extend(self.corners.iter().map(|corner| self.points.positions[corner.index()]));
             for piece in region {
                 let Bounds { min, max } = self.points.extent(piece);
                 let is_inside = |at: &DVec3| at.cmpge(min).all() & at.cmple(max).all();
@@ -73,7 +74,7 @@ impl<'a> PinchFinder<'a> {
         }
         let mut sorted = std::mem::take(&mut self.sorted);
         for (axis, sorted) in sorted.iter_mut().enumerate() {
-            let coordinate = |p: u32| self.points.positions[p as usize][axis];
+            let coordinate = |p: PointId| self.points.positions[p.index()][axis];
             sorted.clear();
             sorted.extend_from_slice(&self.corners);
             sorted.sort_unstable_by(|p, q| coordinate(*p).total_cmp(&coordinate(*q)));
@@ -81,7 +82,7 @@ impl<'a> PinchFinder<'a> {
         for piece in region {
             let Bounds { min, max } = self.points.extent(piece);
             let range = |axis: usize| {
-                let value = |p: &u32| self.points.positions[*p as usize][axis];
+                let value = |p: &PointId| self.points.positions[p.index()][axis];
                 let start = sorted[axis].partition_point(|p| value(p) < min[axis]);
                 let length = sorted[axis][start..].partition_point(|p| value(p) <= max[axis]);
                 &sorted[axis][start..start + length]
@@ -111,16 +112,16 @@ impl<'a> PinchFinder<'a> {
     }
 
     /// Notes those of some corners that lie strictly inside an edge. Signs decide.
-    fn touching(&mut self, piece: &HalfEdge, corners: &[u32]) {
+    fn touching(&mut self, piece: &HalfEdge, corners: &[PointId]) {
         let Bounds { min, max } = self.points.extent(piece);
         let is_inside = |at: DVec3| at.cmpge(min).all() && at.cmple(max).all();
         for &point in corners {
-            if is_inside(self.points.positions[point as usize])
+            if is_inside(self.points.positions[point.index()])
                 && point != piece.from
                 && point != piece.to
                 && self.points.side(self.table, point, piece.edge) == Sign::Zero
             {
-                self.found.push((piece.line, point));
+                self.found.push(PointOnLine { line: piece.line, point });
             }
         }
     }

@@ -11,6 +11,7 @@ use rayon::prelude::*;
 use super::cancel::HalfEdge;
 use crate::base::{Bounds, intern, map_chunks, sortable};
 use crate::boundary::BoundaryEdge;
+use crate::ids::{Id, NameId, PointId};
 use crate::plane_table::{PlaneId, PlaneTable, curve_number};
 
 /// The points of a weld.
@@ -38,18 +39,19 @@ pub(super) struct Named {
 
 impl Points {
     /// Numbers the ends of edges by position; gives the numbers of both ends of each edge, in order.
-    pub(super) fn identify(table: &PlaneTable, edges: &[BoundaryEdge]) -> (Self, Vec<[u32; 2]>, Counts) {
+    pub(super) fn identify(table: &PlaneTable, edges: &[BoundaryEdge]) -> (Self, Vec<[PointId; 2]>, Counts) {
         let ends = |edge: &BoundaryEdge| [edge.start, edge.end].map(|end| key([edge.face, edge.edge, end]));
         let keys: Vec<[Triple; 2]> = edges.par_iter().with_min_len(1024).map(ends).collect();
-        let (different, of_triple) = intern(keys.as_flattened(), table.len(), |key| (key.0 >> 32) as usize);
+        let (different, of_triple) =
+            intern(keys.as_flattened(), table.len(), |key| (key.0 >> 32) as usize, NameId::from_index);
         let (named, mut counts) = map_chunks(&different, 256, |keys| {
             keys.iter().map(|key| Named::of(table, planes(*key))).collect::<Vec<_>>()
         });
         let named: Vec<Named> = named.into_iter().flatten().collect();
-        let place = |(k, point): (usize, &Named)| (place(point.position), k as u32);
-        let mut sorted: Vec<(Place, u32)> = named.par_iter().enumerate().with_min_len(1024).map(place).collect();
+        let place = |(k, point): (usize, &Named)| (place(point.position), NameId::from_index(k));
+        let mut sorted: Vec<(Place, NameId)> = named.par_iter().enumerate().with_min_len(1024).map(place).collect();
         sorted.par_sort_unstable();
-        let alike: Vec<&[(Place, u32)]> = sorted.chunk_by(|a, b| a.0 == b.0).collect();
+        let alike: Vec<&[(Place, NameId)]> = sorted.chunk_by(|a, b| a.0 == b.0).collect();
         let (parts, joining) = map_chunks(&alike, 512, |chunk| {
             let mut joined = Vec::with_capacity(chunk.len());
             chunk.iter().for_each(|alike| join_equal(table, &named, alike, &mut joined));
@@ -57,78 +59,80 @@ impl Points {
         });
         counts += joining;
         let mut points = Self::default();
-        let mut of_named = vec![0; named.len()];
-        let mut number = 0;
+        let mut of_named = vec![PointId::NONE; named.len()];
+        let mut number = PointId::NONE;
         for (k, is_first) in parts.into_iter().flatten() {
             if is_first {
-                number = points.push(&named[k as usize]);
+                number = points.push(&named[k.index()]);
             }
-            of_named[k as usize] = number;
+            of_named[k.index()] = number;
         }
-        let number = |ends: &[u32]| [ends[0], ends[1]].map(|k| of_named[k as usize]);
+        let number = |ends: &[NameId]| [ends[0], ends[1]].map(|k| of_named[k.index()]);
         (points, of_triple.par_chunks_exact(2).with_min_len(1024).map(number).collect(), counts)
     }
 
     /// The number of the meeting point of three independent planes, a new one where it is not known yet. Looks at all points.
-    pub(super) fn add(&mut self, table: &PlaneTable, triple: [PlaneId; 3]) -> u32 {
+    pub(super) fn add(&mut self, table: &PlaneTable, triple: [PlaneId; 3]) -> PointId {
         let named = Named::of(table, triple.map(PlaneId::unsided));
-        let known = (0..self.planes.len() as u32).find(|point| {
-            let point = *point as usize;
+        let known = PointId::all(self.planes.len()).find(|point| {
+            let point = point.index();
             self.positions[point] == named.position && is_at(table, self.planes[point], named.planes)
         });
         known.unwrap_or_else(|| self.push(&named))
     }
 
-    pub(super) fn push(&mut self, named: &Named) -> u32 {
+    pub(super) fn push(&mut self, named: &Named) -> PointId {
+        let number = PointId::from_index(self.planes.len());
         self.planes.push(named.planes);
         self.positions.push(named.position);
         self.exact.push(named.exact);
-        self.planes.len() as u32 - 1
+        number
     }
 
     /// Puts a point in the place of another.
-    pub(super) fn put(&mut self, number: usize, named: &Named) {
+    pub(super) fn put(&mut self, number: PointId, named: &Named) {
+        let number = number.index();
         (self.planes[number], self.positions[number], self.exact[number]) = (named.planes, named.position, named.exact);
     }
 
     /// Numbers all points by position; gives the new number of each.
-    pub(super) fn renumber(&mut self, table: &PlaneTable) -> Vec<u32> {
-        let mut order: Vec<u32> = (0..self.planes.len() as u32).collect();
-        let place = |p: u32| place(self.positions[p as usize]);
-        let rows = |p: u32| self.planes[p as usize].map(|plane| table.row(plane));
+    pub(super) fn renumber(&mut self, table: &PlaneTable) -> Vec<PointId> {
+        let mut order: Vec<PointId> = PointId::all(self.planes.len()).collect();
+        let place = |p: PointId| place(self.positions[p.index()]);
+        let rows = |p: PointId| self.planes[p.index()].map(|plane| table.row(plane));
         order.sort_by(|p, q| place(*p).cmp(&place(*q)).then_with(|| compare_exactly(rows(*p), rows(*q), &[0, 1, 2])));
-        let mut number = vec![0; order.len()];
-        for (new, old) in order.iter().enumerate() {
-            number[*old as usize] = new as u32;
+        let mut number = vec![PointId::NONE; order.len()];
+        for (new, old) in PointId::all(order.len()).zip(&order) {
+            number[old.index()] = new;
         }
-        self.planes = order.iter().map(|p| self.planes[*p as usize]).collect();
-        self.positions = order.iter().map(|p| self.positions[*p as usize]).collect();
-        self.exact = order.iter().map(|p| self.exact[*p as usize]).collect();
+        self.planes = order.iter().map(|p| self.planes[p.index()]).collect();
+        self.positions = order.iter().map(|p| self.positions[p.index()]).collect();
+        self.exact = order.iter().map(|p| self.exact[p.index()]).collect();
         number
     }
 
     /// The box of the rounded ends of a half-edge. Rounding is monotone, so it holds the rounded points on it.
     pub(super) fn extent(&self, piece: &HalfEdge) -> Bounds {
-        let (from, to) = (self.positions[piece.from as usize], self.positions[piece.to as usize]);
+        let (from, to) = (self.positions[piece.from.index()], self.positions[piece.to.index()]);
         Bounds { min: from.min(to), max: from.max(to) }
     }
 
     /// Whether two coordinates of a point are its own, not rounded.
-    pub(super) fn are_exact(&self, point: u32, u: usize, v: usize) -> bool {
+    pub(super) fn are_exact(&self, point: PointId, u: usize, v: usize) -> bool {
         let both = 1 << u | 1 << v;
-        self.exact[point as usize] & both == both
+        self.exact[point.index()] & both == both
     }
 
     /// The exact lexicographic order of two points by some of their coordinates.
-    pub(super) fn compare(&self, table: &PlaneTable, p: u32, q: u32, axes: &[usize]) -> Ordering {
+    pub(super) fn compare(&self, table: &PlaneTable, p: PointId, q: PointId, axes: &[usize]) -> Ordering {
         if p == q {
             return Ordering::Equal;
         }
-        let (at_p, at_q) = (self.positions[p as usize], self.positions[q as usize]);
-        let rows = |point: u32| self.planes[point as usize].map(|plane| table.row(plane));
+        let (at_p, at_q) = (self.positions[p.index()], self.positions[q.index()]);
+        let rows = |point: PointId| self.planes[point.index()].map(|plane| table.row(plane));
         let by_axis = |axis: &usize| {
             let by_rounded = at_p[*axis].total_cmp(&at_q[*axis]);
-            let is_certain = self.exact[p as usize] & self.exact[q as usize] & 1 << *axis != 0;
+            let is_certain = self.exact[p.index()] & self.exact[q.index()] & 1 << *axis != 0;
             if by_rounded.is_ne() || is_certain { by_rounded } else { compare_exactly(rows(p), rows(q), &[*axis]) }
         };
         // points that agree in all of these coordinates
@@ -136,8 +140,8 @@ impl Points {
     }
 
     /// On which side of a plane a point lies; positive is outside.
-    pub(super) fn side(&self, table: &PlaneTable, point: u32, plane: PlaneId) -> Sign {
-        let planes = self.planes[point as usize];
+    pub(super) fn side(&self, table: &PlaneTable, point: PointId, plane: PlaneId) -> Sign {
+        let planes = self.planes[point.index()];
         table.side(planes, &table.homogeneous(planes), plane)
     }
 }
@@ -165,17 +169,17 @@ fn place(position: DVec3) -> Place {
 
 /// Adds points that round alike in their exact order, each with those that are equal to it; tells of each whether it is the first
 /// of these.
-fn join_equal(table: &PlaneTable, named: &[Named], alike: &[(Place, u32)], joined: &mut Vec<(u32, bool)>) {
+fn join_equal(table: &PlaneTable, named: &[Named], alike: &[(Place, NameId)], joined: &mut Vec<(NameId, bool)>) {
     if let [(_, one)] = alike {
         joined.push((*one, true));
         return;
     }
-    let rows = |k: u32| named[k as usize].planes.map(|plane| table.row(plane));
+    let rows = |k: NameId| named[k.index()].planes.map(|plane| table.row(plane));
     // mostly all are equal
-    let mut groups: Vec<Vec<u32>> = Vec::new();
+    let mut groups: Vec<Vec<NameId>> = Vec::new();
     for (_, k) in alike {
-        let planes = named[*k as usize].planes;
-        match groups.iter_mut().find(|group| is_at(table, named[group[0] as usize].planes, planes)) {
+        let planes = named[k.index()].planes;
+        match groups.iter_mut().find(|group| is_at(table, named[group[0].index()].planes, planes)) {
             Some(group) => group.push(*k),
             None => groups.push(vec![*k]),
         }

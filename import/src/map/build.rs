@@ -99,7 +99,7 @@ impl<'a> Builder<'a> {
             self.brushes_left_out.add(line);
         } else {
             self.import.textures.push(textures);
-            self.brushes.push(Brush { faces, name: name.map(str::to_owned), line, ..Brush::default() });
+            self.brushes.push(Brush { faces, name: name.map(str::to_owned), line });
         }
         Ok(())
     }

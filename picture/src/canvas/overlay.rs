@@ -242,5 +242,5 @@ fn premultiplied_over(top: [u8; 4], bottom: [u8; 4]) -> [u8; 4] {
     [mixed(0), mixed(1), mixed(2), ((whole + 127) / 255) as u8]
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "text"))]
 mod tests;

@@ -76,16 +76,17 @@ impl Buffers {
         let per_range = f64::from(NOTHING - 1) / (far - near).max(f64::MIN_POSITIVE);
         let grey = |&depth: &f64| if depth.is_finite() { ((depth - near) * per_range).round() as u16 } else { NOTHING };
         let bytes: Vec<u8> = self.depth.iter().flat_map(|depth| grey(depth).to_be_bytes()).collect();
+        let failed = |error| png_error(&error);
         let mut png = Vec::new();
         let mut encoder = Encoder::new(&mut png, self.width, self.height);
         encoder.set_color(ColorType::Grayscale);
         encoder.set_depth(BitDepth::Sixteen);
         for (key, value) in [("near", near), ("far", far)] {
-            encoder.add_text_chunk(key.to_owned(), value.to_string()).map_err(png_error)?;
+            encoder.add_text_chunk(key.to_owned(), value.to_string()).map_err(failed)?;
         }
-        let mut writer = encoder.write_header().map_err(png_error)?;
-        writer.write_image_data(&bytes).map_err(png_error)?;
-        writer.finish().map_err(png_error)?;
+        let mut writer = encoder.write_header().map_err(failed)?;
+        writer.write_image_data(&bytes).map_err(failed)?;
+        writer.finish().map_err(failed)?;
         Ok(png)
     }
 

@@ -254,6 +254,7 @@ mod tests {
     }
 
     /// Each picture in its place, its title below it, nothing elsewhere.
+    #[cfg(feature = "text")]
     #[test]
     fn sheets_hold_pictures_and_titles() {
         for colors in [SheetColors::LIGHT, SheetColors::DARK, SheetColors::TRANSPARENT] {

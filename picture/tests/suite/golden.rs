@@ -130,6 +130,7 @@ fn cut_open() {
     check("cut_technical", &cut_picture(&drawing));
 }
 
+#[cfg(feature = "text")]
 #[test]
 fn labelled() {
     let labels = PreviewOptions { dimensions: true, scale_bar: true, unit: Some("mm"), ..GOLDEN };

@@ -21,6 +21,7 @@ pub(crate) struct Seen {
     pub(crate) points: Vec<DVec3>,
     /// With perspective 1 / depth is linear across a triangle, otherwise the depth is.
     pub(crate) is_perspective: bool,
+    #[cfg_attr(not(feature = "text"), expect(dead_code, reason = "only labels are measured by it"))]
     pub(crate) pixels_per_unit: f64,
 }
 

@@ -15,6 +15,7 @@ use planecut_kernel::sign::Row;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::base::sortable;
+use crate::ids::{Id, OperandId, RowGroupId};
 use crate::plane_table::{
     Key, NearCells, PlaneId, PlaneTable, compare_coefficients, first_side, is_exact, is_nearly_same, key, unit,
 };
@@ -22,7 +23,7 @@ use crate::plane_table::{
 /// A plane that a face uses: the group of what is exactly the same plane, and whether it is the other side.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PlaneUse {
-    group: u32,
+    group: RowGroupId,
     is_reversed: bool,
 }
 
@@ -31,16 +32,16 @@ pub(super) struct PlaneUse {
 pub(super) struct LivePlanes {
     pub(super) table: PlaneTable,
     groups: Vec<EqualRows>,
-    free_groups: Vec<u32>,
-    by_key: FxHashMap<Key, Vec<u32>>,
+    free_groups: Vec<RowGroupId>,
+    by_key: FxHashMap<Key, Vec<RowGroupId>>,
     /// The distances from the origin, each with the number of groups that have it.
     distances: BTreeMap<u64, u32>,
     reach: f64,
     near: NearCells,
     /// Groups with others near them.
-    crowded: FxHashSet<u32>,
+    crowded: FxHashSet<RowGroupId>,
     /// What came, went or has another row since the last time.
-    changed: Vec<u32>,
+    changed: Vec<RowGroupId>,
     free_indices: Vec<u32>,
 }
 
@@ -52,7 +53,7 @@ struct EqualRows {
     /// Each with how often it is used; the least stands for the plane.
     rows: Vec<(Row, u32)>,
     /// The numbers of those who use it, as often as they do.
-    users: Vec<u32>,
+    users: Vec<OperandId>,
     /// The unit normal and distance under which it is hashed, and whether it is exact; nothing before that.
     hashed: Option<([f64; 4], bool)>,
     /// The plane that it is taken for.
@@ -66,7 +67,7 @@ struct EqualRows {
 #[derive(Default)]
 pub(super) struct Settled {
     /// Users of planes that are now taken for others than before, ascending.
-    pub(super) users: Vec<u32>,
+    pub(super) users: Vec<OperandId>,
     /// Indices that no group uses any more.
     pub(super) retired: Vec<u32>,
 }
@@ -89,20 +90,20 @@ impl LivePlanes {
     }
 
     /// Uses the plane of a half-space; its id is known once it is settled.
-    pub(super) fn take(&mut self, half_space: &HalfSpace, user: u32) -> PlaneUse {
+    pub(super) fn take(&mut self, half_space: &HalfSpace, user: OperandId) -> PlaneUse {
         let (row, is_reversed) = first_side(&Row::new(half_space));
         let alike = self.by_key.entry(key(&row)).or_default();
-        let known = alike.iter().copied().find(|group| self.groups[*group as usize].is_plane_of(&row));
+        let known = alike.iter().copied().find(|group| self.groups[group.index()].is_plane_of(&row));
         let number = known.unwrap_or_else(|| {
             let number = self.free_groups.pop().unwrap_or_else(|| {
                 self.groups.push(EqualRows::default());
-                self.groups.len() as u32 - 1
+                RowGroupId::from_index(self.groups.len() - 1)
             });
-            self.groups[number as usize].plane = Some(row);
+            self.groups[number.index()].plane = Some(row);
             alike.push(number);
             number
         });
-        let group = &mut self.groups[number as usize];
+        let group = &mut self.groups[number.index()];
         group.users.push(user);
         match group.rows.iter_mut().find(|known| known.0 == row) {
             Some(known) => known.1 += 1,
@@ -115,9 +116,9 @@ impl LivePlanes {
     }
 
     /// Uses a plane once less.
-    pub(super) fn release(&mut self, half_space: &HalfSpace, used: PlaneUse, user: u32) {
+    pub(super) fn release(&mut self, half_space: &HalfSpace, used: PlaneUse, user: OperandId) {
         let (row, _) = first_side(&Row::new(half_space));
-        let group = &mut self.groups[used.group as usize];
+        let group = &mut self.groups[used.group.index()];
         let place = group.users.iter().rposition(|known| *known == user).expect("a user is known");
         group.users.swap_remove(place);
         let place = group.rows.iter().position(|known| known.0 == row).expect("a row in use is known");
@@ -128,8 +129,8 @@ impl LivePlanes {
         }
     }
 
-    fn mark(&mut self, number: u32) {
-        let group = &mut self.groups[number as usize];
+    fn mark(&mut self, number: RowGroupId) {
+        let group = &mut self.groups[number.index()];
         if !group.is_changed {
             group.is_changed = true;
             self.changed.push(number);
@@ -138,7 +139,7 @@ impl LivePlanes {
 
     /// The id of a plane in use that is settled.
     pub(super) fn id(&self, used: PlaneUse) -> PlaneId {
-        let id = self.groups[used.group as usize].id.expect("planes are settled before they are asked for");
+        let id = self.groups[used.group.index()].id.expect("planes are settled before they are asked for");
         if used.is_reversed { id.flipped() } else { id }
     }
 
@@ -151,10 +152,10 @@ impl LivePlanes {
     /// get it back.
     pub(super) fn settle(&mut self, kept: &[u32]) -> Settled {
         let mut settled = Settled::default();
-        let mut doubtful: Vec<u32> = Vec::new();
-        let mut moved: Vec<u32> = Vec::new();
+        let mut doubtful: Vec<RowGroupId> = Vec::new();
+        let mut moved: Vec<RowGroupId> = Vec::new();
         for number in std::mem::take(&mut self.changed) {
-            let group = &mut self.groups[number as usize];
+            let group = &mut self.groups[number.index()];
             group.is_changed = false;
             let hashed = group.row().map(|row| (unit(row), is_exact(row)));
             let before = std::mem::replace(&mut group.hashed, hashed);
@@ -176,9 +177,9 @@ impl LivePlanes {
             }
         }
         self.rehash(&moved, &mut doubtful);
-        let mut seen: FxHashSet<u32> = FxHashSet::default();
+        let mut seen: FxHashSet<RowGroupId> = FxHashSet::default();
         for number in doubtful {
-            if self.groups[number as usize].hashed.is_none() || seen.contains(&number) {
+            if self.groups[number.index()].hashed.is_none() || seen.contains(&number) {
                 continue;
             }
             let cluster = self.cluster(number);
@@ -205,7 +206,7 @@ impl LivePlanes {
     }
 
     /// Notes who is no longer near another, as a group is no longer where it was.
-    fn leave_crowd(&mut self, number: u32, old: &[f64; 4], doubtful: &mut Vec<u32>) {
+    fn leave_crowd(&mut self, number: RowGroupId, old: &[f64; 4], doubtful: &mut Vec<RowGroupId>) {
         if !self.crowded.remove(&number) {
             return;
         }
@@ -221,22 +222,22 @@ impl LivePlanes {
     }
 
     /// Puts into the hash what is at another place, or all where the largest distance has grown or shrunk by much.
-    fn rehash(&mut self, moved: &[u32], doubtful: &mut Vec<u32>) {
+    fn rehash(&mut self, moved: &[RowGroupId], doubtful: &mut Vec<RowGroupId>) {
         let reach = self.distances.last_key_value().map_or(0.0, |(bits, _)| f64::from_bits(*bits));
         let is_other_reach = self.reach != reach;
         self.reach = reach;
         let size = reach.max(f64::MIN_POSITIVE).log2().ceil().exp2();
-        let all: Vec<u32>;
+        let all: Vec<RowGroupId>;
         let moved = if size == self.near.size() {
             moved
         } else {
             self.near = NearCells::new(size);
             doubtful.extend(self.crowded.drain());
-            all = (0..self.groups.len() as u32).collect();
+            all = RowGroupId::all(self.groups.len()).collect();
             &all
         };
         for &number in moved {
-            if let Some((unit, _)) = &self.groups[number as usize].hashed {
+            if let Some((unit, _)) = &self.groups[number.index()].hashed {
                 self.near.insert(unit, number);
             }
         }
@@ -255,9 +256,9 @@ impl LivePlanes {
     }
 
     /// The other groups that are near a group, or would be if the tolerance were a little larger.
-    fn neighbours(&self, number: u32) -> Vec<u32> {
+    fn neighbours(&self, number: RowGroupId) -> Vec<RowGroupId> {
         let mut near = Vec::new();
-        if let Some((unit, _)) = &self.groups[number as usize].hashed {
+        if let Some((unit, _)) = &self.groups[number.index()].hashed {
             self.near.find(unit, &mut near);
         }
         near.retain(|other| *other != number);
@@ -265,7 +266,7 @@ impl LivePlanes {
     }
 
     /// What hangs together with a group.
-    fn cluster(&self, number: u32) -> Vec<u32> {
+    fn cluster(&self, number: RowGroupId) -> Vec<RowGroupId> {
         if !self.crowded.contains(&number) {
             return vec![number];
         }
@@ -283,18 +284,18 @@ impl LivePlanes {
     }
 
     /// Finds for what each group of a cluster is taken: exact ones for themselves, others for the first within the tolerance.
-    fn settle_cluster(&mut self, cluster: &[u32], kept: &[u32], settled: &mut Settled) {
+    fn settle_cluster(&mut self, cluster: &[RowGroupId], kept: &[u32], settled: &mut Settled) {
         let mut order = cluster.to_vec();
         order.sort_by_cached_key(|number| {
-            let row = self.groups[*number as usize].row();
+            let row = self.groups[number.index()].row();
             row.map(|row| (!is_exact(row), row.coefficients().map(sortable)))
         });
-        let mut leaders: Vec<u32> = Vec::new();
+        let mut leaders: Vec<RowGroupId> = Vec::new();
         for number in order {
-            let (unit, is_exact) = self.groups[number as usize].hashed.expect("what is in a cluster is hashed");
+            let (unit, is_exact) = self.groups[number.index()].hashed.expect("what is in a cluster is hashed");
             let leads = |flipped: bool| {
-                let is_near = |leader: &&u32| {
-                    let (other, _) = self.groups[**leader as usize].hashed.expect("what leads a cluster is hashed");
+                let is_near = |leader: &&RowGroupId| {
+                    let (other, _) = self.groups[leader.index()].hashed.expect("what leads a cluster is hashed");
                     is_nearly_same(&unit, &other, flipped, self.reach)
                 };
                 leaders.iter().find(is_near).map(|leader| (*leader, flipped))
@@ -302,8 +303,8 @@ impl LivePlanes {
             let leader = if is_exact { None } else { leads(false).or_else(|| leads(true)) };
             let id = match leader {
                 Some((leader, flipped)) => {
-                    let id = self.groups[leader as usize].id.expect("what leads comes first");
-                    settled.retired.extend(self.groups[number as usize].own.take());
+                    let id = self.groups[leader.index()].id.expect("what leads comes first");
+                    settled.retired.extend(self.groups[number.index()].own.take());
                     if flipped { id.flipped() } else { id }
                 }
                 None => {
@@ -311,7 +312,7 @@ impl LivePlanes {
                     PlaneId::of_index(self.own_index(number, kept))
                 }
             };
-            let group = &mut self.groups[number as usize];
+            let group = &mut self.groups[number.index()];
             if group.id.replace(id) != Some(id) {
                 settled.users.extend_from_slice(&group.users);
             }
@@ -319,8 +320,8 @@ impl LivePlanes {
     }
 
     /// The index of a group that stands for itself.
-    fn own_index(&mut self, number: u32, kept: &[u32]) -> u32 {
-        let group = &mut self.groups[number as usize];
+    fn own_index(&mut self, number: RowGroupId, kept: &[u32]) -> u32 {
+        let group = &mut self.groups[number.index()];
         if let Some(own) = group.own {
             return own;
         }
@@ -334,13 +335,13 @@ impl LivePlanes {
         } else {
             self.table.push(&row).index()
         };
-        self.groups[number as usize].own = Some(index);
+        self.groups[number.index()].own = Some(index);
         index
     }
 
     /// Forgets a group that nobody uses.
-    fn drop_group(&mut self, number: u32, settled: &mut Settled) {
-        let group = &mut self.groups[number as usize];
+    fn drop_group(&mut self, number: RowGroupId, settled: &mut Settled) {
+        let group = &mut self.groups[number.index()];
         settled.retired.extend(group.own.take());
         group.id = None;
         let row = group.plane.take().expect("a group that was used has a plane");

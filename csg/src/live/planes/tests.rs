@@ -3,6 +3,7 @@
 use planecut_kernel::DVec3;
 
 use super::*;
+use crate::ids::Id;
 use crate::plane_table::is_reversed;
 
 /// A little generator of numbers below a bound.
@@ -30,18 +31,20 @@ impl Draw {
 fn planes_come_apart_as_the_farthest_one_goes() {
     let half_space = |offset: f64| HalfSpace::new(DVec3::new(0.6, 0.7, 0.0), offset).expect("a valid half-space");
     let mut planes = LivePlanes::default();
-    let [low, high] = [1.0, 1.0 + 4e-12].map(|offset| (half_space(offset), planes.take(&half_space(offset), 0)));
-    let far = (half_space(8.0), planes.take(&half_space(8.0), 0));
+    let user = OperandId::from_index(0);
+    let [low, high] = [1.0, 1.0 + 4e-12].map(|offset| (half_space(offset), planes.take(&half_space(offset), user)));
+    let far = (half_space(8.0), planes.take(&half_space(8.0), user));
     planes.settle(&[]);
     assert_eq!(planes.id(low.1), planes.id(high.1));
-    planes.release(&far.0, far.1, 0);
+    planes.release(&far.0, far.1, user);
     let settled = planes.settle(&[]);
     assert_ne!(planes.id(low.1), planes.id(high.1));
-    assert_eq!(settled.users, [0]);
+    assert_eq!(settled.users, [user]);
 }
 
 #[test]
 fn planes_are_snapped_as_in_a_table_of_all_of_them() {
+    let user = OperandId::from_index(0);
     for seed in 0..60 {
         let mut draw = Draw(seed);
         let mut planes = LivePlanes::default();
@@ -50,10 +53,10 @@ fn planes_are_snapped_as_in_a_table_of_all_of_them() {
             for _ in 0..=draw.below(3) {
                 if held.is_empty() || draw.below(5) < 3 {
                     let half_space = draw.half_space();
-                    held.push((half_space, planes.take(&half_space, 0)));
+                    held.push((half_space, planes.take(&half_space, user)));
                 } else {
                     let (half_space, used) = held.swap_remove(draw.below(held.len() as u64) as usize);
-                    planes.release(&half_space, used, 0);
+                    planes.release(&half_space, used, user);
                 }
             }
             let settled = planes.settle(&[]);

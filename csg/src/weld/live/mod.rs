@@ -14,27 +14,24 @@ mod vertices;
 use rustc_hash::FxHashMap;
 
 use super::WeldError;
-use super::cancel::{HalfEdge, LineWorker, Run, Surviving, UNPAIRED};
+use super::cancel::{HalfEdge, LineWorker, Run, Surviving};
 use super::pinches::PinchFinder;
 use crate::base::Bounds;
 use crate::boundary::BoundaryEdge;
+use crate::ids::{EdgeId, FaceId, HalfEdgeId, Id, LineId, PointId, PointOfRegion, PointOnLine, RegionId};
 use crate::plane_table::PlaneTable;
-pub use faces::{FaceId, LiveFace};
+pub use faces::LiveFace;
 use faces::{Faces, Regions};
 use names::place;
 use numbers::{NumberedEdge, Numbers};
 use vertices::Vertices;
-
-/// The number of a boundary edge.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct EdgeId(u32);
 
 /// A boundary, welded.
 #[derive(Default)]
 pub(crate) struct LiveWeld {
     numbers: Numbers,
     edges: Vec<Edge>,
-    free_edges: Vec<u32>,
+    free_edges: Vec<EdgeId>,
     /// Taken out, but for their numbers.
     removed: Vec<NumberedEdge>,
     state: State,
@@ -51,7 +48,7 @@ struct Edge {
 #[derive(Default)]
 struct State {
     lines: Vec<OnLine>,
-    dirty_lines: Vec<u32>,
+    dirty_lines: Vec<LineId>,
     pieces: Pieces,
     regions: Regions,
     faces: Faces,
@@ -62,14 +59,14 @@ struct State {
 /// What lies on a line.
 #[derive(Default)]
 struct OnLine {
-    edges: Vec<u32>,
+    edges: Vec<EdgeId>,
     /// The pieces that are left of them, cut and paired.
-    pieces: Vec<u32>,
+    pieces: Vec<HalfEdgeId>,
     /// Where pinches cut them: the region of each pinch and the point.
-    cuts: Vec<(u32, u32)>,
+    cuts: Vec<PointOfRegion>,
     is_dirty: bool,
-    /// Where edges end inside runs: region and point.
-    passed: Vec<(u32, u32)>,
+    /// Where edges end inside runs.
+    passed: Vec<PointOfRegion>,
     has_slits: bool,
 }
 
@@ -78,23 +75,23 @@ struct OnLine {
 struct Pieces {
     half_edges: Vec<HalfEdge>,
     /// What follows each in its loop.
-    following: Vec<u32>,
+    following: Vec<HalfEdgeId>,
     /// The face that each bounds.
-    face: Vec<u32>,
+    face: Vec<FaceId>,
     /// Taken out; what else is said of such a half-edge is no longer true.
     is_gone: Vec<bool>,
-    free: Vec<u32>,
+    free: Vec<HalfEdgeId>,
     /// Gone since the last update; their numbers are not used again before it ends.
-    gone: Vec<u32>,
+    gone: Vec<HalfEdgeId>,
     /// Those whose way around their first corner may have changed.
-    turned: Vec<u32>,
+    turned: Vec<HalfEdgeId>,
 }
 
 /// Where edges cross in points: there they are cut. What the weld makes of faces that cross in lines is not worked out here.
 #[derive(Default)]
 struct Crossings {
     /// For each region and point the lines that pass it.
-    passing: FxHashMap<(u32, u32), Vec<u32>>,
+    passing: FxHashMap<PointOfRegion, Vec<LineId>>,
     /// How many lines there are in which faces cross.
     lines: usize,
 }
@@ -103,23 +100,23 @@ impl LiveWeld {
     /// Adds a boundary edge.
     pub(crate) fn insert(&mut self, table: &PlaneTable, edge: &BoundaryEdge) -> EdgeId {
         let numbered = self.numbers.take(table, edge);
-        let line = numbered.run.line as usize;
+        let line = numbered.run.line;
         self.state.make_room(line);
-        let on_line = &mut self.state.lines[line];
+        let on_line = &mut self.state.lines[line.index()];
         let at = on_line.edges.len() as u32;
         let number = place(&mut self.edges, &mut self.free_edges, Edge { numbered, place: at });
         on_line.edges.push(number);
-        self.state.mark_line(line as u32);
-        EdgeId(number)
+        self.state.mark_line(line);
+        number
     }
 
     /// Takes a boundary edge out.
-    pub(crate) fn remove(&mut self, EdgeId(number): EdgeId) {
-        let Edge { numbered, place } = self.edges[number as usize];
-        let on_line = &mut self.state.lines[numbered.run.line as usize];
+    pub(crate) fn remove(&mut self, number: EdgeId) {
+        let Edge { numbered, place } = self.edges[number.index()];
+        let on_line = &mut self.state.lines[numbered.run.line.index()];
         on_line.edges.swap_remove(place as usize);
         if let Some(moved) = on_line.edges.get(place as usize) {
-            self.edges[*moved as usize].place = place;
+            self.edges[moved.index()].place = place;
         }
         self.state.mark_line(numbered.run.line);
         self.free_edges.push(number);
@@ -190,11 +187,11 @@ struct Cutter<'a> {
     worker: LineWorker<'a>,
     group: Vec<Run>,
     surviving: Surviving,
-    further: Vec<u32>,
+    further: Vec<PointId>,
     cut: Vec<HalfEdge>,
-    old: Vec<((u32, u32, u32), u32)>,
-    numbers: Vec<u32>,
-    passed: Vec<(u32, u32)>,
+    old: Vec<((RegionId, PointId, PointId), HalfEdgeId)>,
+    numbers: Vec<HalfEdgeId>,
+    passed: Vec<PointOfRegion>,
 }
 
 impl<'a> Cutter<'a> {
@@ -215,7 +212,7 @@ impl<'a> Cutter<'a> {
     /// Leaves in `surviving` what is left of the edges of a line.
     fn cancel(&mut self, line: &OnLine) -> Result<(), WeldError> {
         self.group.clear();
-        self.group.extend(line.edges.iter().map(|edge| self.edges[*edge as usize].numbered.run));
+        self.group.extend(line.edges.iter().map(|edge| self.edges[edge.index()].numbered.run));
         self.surviving.runs.clear();
         self.surviving.slits.clear();
         self.surviving.passed.clear();
@@ -230,14 +227,14 @@ impl<'a> Cutter<'a> {
 }
 
 impl State {
-    fn make_room(&mut self, line: usize) {
-        if line >= self.lines.len() {
-            self.lines.resize_with(line + 1, OnLine::default);
+    fn make_room(&mut self, line: LineId) {
+        if line.index() >= self.lines.len() {
+            self.lines.resize_with(line.index() + 1, OnLine::default);
         }
     }
 
-    fn mark_line(&mut self, line: u32) {
-        let on_line = &mut self.lines[line as usize];
+    fn mark_line(&mut self, line: LineId) {
+        let on_line = &mut self.lines[line.index()];
         if !on_line.is_dirty {
             on_line.is_dirty = true;
             self.dirty_lines.push(line);
@@ -249,14 +246,14 @@ impl State {
     fn cut_dirty_lines(&mut self, cutter: &mut Cutter<'_>, drops_pinches: bool) -> Result<(), WeldError> {
         loop {
             while let Some(line) = self.dirty_lines.pop() {
-                self.lines[line as usize].is_dirty = false;
+                self.lines[line.index()].is_dirty = false;
                 self.cut_line(cutter, line)?;
             }
             if !drops_pinches {
                 return Ok(());
             }
-            for (region, line, point) in self.regions.take_doubtful_pinches() {
-                self.lines[line as usize].cuts.retain(|cut| *cut != (region, point));
+            for (region, PointOnLine { line, point }) in self.regions.take_doubtful_pinches() {
+                self.lines[line.index()].cuts.retain(|cut| *cut != PointOfRegion { region, point });
                 self.mark_line(line);
             }
             if self.dirty_lines.is_empty() {
@@ -265,22 +262,22 @@ impl State {
         }
     }
 
-    fn cut_line(&mut self, cutter: &mut Cutter<'_>, number: u32) -> Result<(), WeldError> {
-        cutter.cancel(&self.lines[number as usize])?;
+    fn cut_line(&mut self, cutter: &mut Cutter<'_>, number: LineId) -> Result<(), WeldError> {
+        cutter.cancel(&self.lines[number.index()])?;
         self.note_crossings(number, cutter);
         let Self { lines, pieces, regions, .. } = self;
-        let line = &mut lines[number as usize];
+        let line = &mut lines[number.index()];
         cutter.cut()?;
         let Cutter { cut, old, numbers, .. } = cutter;
         let key = |piece: &HalfEdge| (piece.region, piece.from, piece.to);
         old.clear();
-        old.extend(line.pieces.iter().map(|number| (key(&pieces.half_edges[*number as usize]), *number)));
+        old.extend(line.pieces.iter().map(|number| (key(&pieces.half_edges[number.index()]), *number)));
         old.sort_unstable();
         numbers.clear();
         for piece in cut.iter() {
             let known = old.binary_search_by_key(&key(piece), |entry| entry.0);
             numbers.push(match known {
-                Ok(at) => std::mem::replace(&mut old[at].1, UNPAIRED),
+                Ok(at) => std::mem::replace(&mut old[at].1, HalfEdgeId::NONE),
                 Err(_) => {
                     let number = pieces.add(*piece);
                     regions.add_piece(number, piece);
@@ -288,13 +285,13 @@ impl State {
                 }
             });
         }
-        for (_, gone) in old.iter().filter(|(_, number)| *number != UNPAIRED) {
-            regions.change(&pieces.half_edges[*gone as usize]);
+        for (_, gone) in old.iter().filter(|(_, number)| *number != HalfEdgeId::NONE) {
+            regions.change(&pieces.half_edges[gone.index()]);
             pieces.remove(*gone);
         }
         for (piece, number) in cut.iter().zip(numbers.iter()) {
-            let known = &mut pieces.half_edges[*number as usize];
-            let twin = numbers[piece.twin as usize];
+            let known = &mut pieces.half_edges[number.index()];
+            let twin = numbers[piece.twin.index()];
             if known.twin != twin {
                 pieces.turned.push(*number);
             }
@@ -307,19 +304,19 @@ impl State {
 
     /// Notes what crosses on a line that is cut again, and where it is to be cut; marks the lines for which that makes a
     /// difference.
-    fn note_crossings(&mut self, number: u32, cutter: &mut Cutter<'_>) {
-        let line = &mut self.lines[number as usize];
+    fn note_crossings(&mut self, number: LineId, cutter: &mut Cutter<'_>) {
+        let line = &mut self.lines[number.index()];
         let crossings = &mut self.crossings;
         let has_slits = !cutter.surviving.slits.is_empty();
         crossings.lines += usize::from(has_slits);
         crossings.lines -= usize::from(std::mem::replace(&mut line.has_slits, has_slits));
         let passed = &mut cutter.passed;
         passed.clear();
-        passed.extend(cutter.surviving.passed.iter().map(|(region, point, _)| (*region, *point)));
+        passed.extend(cutter.surviving.passed.iter().map(|passed| passed.at));
         passed.sort_unstable();
         passed.dedup();
         std::mem::swap(&mut line.passed, passed);
-        let mut others: Vec<u32> = Vec::new();
+        let mut others: Vec<LineId> = Vec::new();
         for gone in passed.iter().filter(|at| line.passed.binary_search(at).is_err()) {
             let Some(passing) = crossings.passing.get_mut(gone) else { continue };
             passing.retain(|other| *other != number);
@@ -337,9 +334,9 @@ impl State {
             }
         }
         cutter.further.clear();
-        cutter.further.extend(line.cuts.iter().map(|(_, point)| *point));
-        let is_crossed = |at: &&(u32, u32)| crossings.passing.get(at).is_some_and(|passing| passing.len() > 1);
-        cutter.further.extend(line.passed.iter().filter(is_crossed).map(|(_, point)| *point));
+        cutter.further.extend(line.cuts.iter().map(|cut| cut.point));
+        let is_crossed = |at: &&PointOfRegion| crossings.passing.get(at).is_some_and(|passing| passing.len() > 1);
+        cutter.further.extend(line.passed.iter().filter(is_crossed).map(|at| at.point));
         others.into_iter().for_each(|other| self.mark_line(other));
     }
 
@@ -350,8 +347,8 @@ impl State {
         let mut any = false;
         for k in 0..self.regions.changed().len() {
             let region = self.regions.changed()[k];
-            let alive = |number: &&u32| !self.pieces.is_gone[**number as usize];
-            let half_edge = |number: &u32| self.pieces.half_edges[*number as usize];
+            let alive = |number: &&HalfEdgeId| !self.pieces.is_gone[number.index()];
+            let half_edge = |number: &HalfEdgeId| self.pieces.half_edges[number.index()];
             let (settled, added) = self.regions.pieces(region);
             new.clear();
             new.extend(added.iter().filter(alive).map(half_edge));
@@ -361,11 +358,11 @@ impl State {
             old.clear();
             old.extend(settled.iter().filter(alive).map(half_edge).filter(may_touch));
             finder.search_new(&old, &new);
-            for (line, point) in finder.found.drain(..) {
+            for pinch in finder.found.drain(..) {
                 any = true;
-                self.lines[line as usize].cuts.push((region, point));
-                self.regions.add_pinch(region, (line, point));
-                self.mark_line(line);
+                self.lines[pinch.line.index()].cuts.push(PointOfRegion { region, point: pinch.point });
+                self.regions.add_pinch(region, pinch);
+                self.mark_line(pinch.line);
             }
         }
         any
@@ -373,20 +370,21 @@ impl State {
 }
 
 impl Pieces {
-    fn add(&mut self, piece: HalfEdge) -> u32 {
-        let number = place(&mut self.half_edges, &mut self.free, HalfEdge { twin: UNPAIRED, ..piece });
-        if number as usize == self.is_gone.len() {
-            self.following.push(UNPAIRED);
-            self.face.push(UNPAIRED);
+    fn add(&mut self, piece: HalfEdge) -> HalfEdgeId {
+        let piece = HalfEdge { twin: HalfEdgeId::NONE, ..piece };
+        let number: HalfEdgeId = place(&mut self.half_edges, &mut self.free, piece);
+        let at = number.index();
+        if at == self.is_gone.len() {
+            self.following.push(HalfEdgeId::NONE);
+            self.face.push(FaceId::NONE);
             self.is_gone.push(false);
         }
-        let at = number as usize;
-        (self.following[at], self.face[at], self.is_gone[at]) = (UNPAIRED, UNPAIRED, false);
+        (self.following[at], self.face[at], self.is_gone[at]) = (HalfEdgeId::NONE, FaceId::NONE, false);
         number
     }
 
-    fn remove(&mut self, number: u32) {
-        self.is_gone[number as usize] = true;
+    fn remove(&mut self, number: HalfEdgeId) {
+        self.is_gone[number.index()] = true;
         self.gone.push(number);
     }
 }

@@ -4,41 +4,36 @@ use std::hash::Hash;
 
 use rustc_hash::FxHashMap;
 
-/// No other.
-const NONE: u32 = u32::MAX;
+use crate::ids::{Id, NameId};
 
 /// The numbers of things by name. Equal things have equal marks; different ones hardly ever do.
 #[derive(Debug)]
-pub(super) struct Names<N, M> {
-    by_name: FxHashMap<N, u32>,
-    names: Vec<Name<N>>,
-    free_names: Vec<u32>,
+pub(super) struct Names<N, M, T> {
+    by_name: FxHashMap<N, NameId>,
+    names: Vec<Name<N, T>>,
+    free_names: Vec<NameId>,
     /// The last thing of each mark.
-    by_mark: FxHashMap<M, u32>,
-    things: Vec<Thing<M>>,
-    free_things: Vec<u32>,
+    by_mark: FxHashMap<M, T>,
+    things: Vec<Thing<M, T>>,
+    free_things: Vec<T>,
 }
 
 #[derive(Debug)]
-struct Name<N> {
+struct Name<N, T> {
     name: N,
-    thing: u32,
+    thing: T,
     uses: u32,
 }
 
 #[derive(Debug)]
-struct Thing<M> {
+struct Thing<M, T> {
     mark: M,
-    /// The one before of the same mark.
-    before: u32,
+    /// The one before of the same mark, [`Id::NONE`] where there is none.
+    before: T,
     names: u32,
 }
 
-/// A name in use.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct NameId(u32);
-
-impl<N, M> Default for Names<N, M> {
+impl<N, M, T> Default for Names<N, M, T> {
     fn default() -> Self {
         Self {
             by_name: FxHashMap::default(),
@@ -51,40 +46,40 @@ impl<N, M> Default for Names<N, M> {
     }
 }
 
-impl<N: Copy + Eq + Hash, M: Copy + Eq + Hash> Names<N, M> {
+impl<N: Copy + Eq + Hash, M: Copy + Eq + Hash, T: Id> Names<N, M, T> {
     /// Uses a name, where it is known.
     pub(super) fn find(&mut self, name: &N) -> Option<NameId> {
         let number = *self.by_name.get(name)?;
-        self.names[number as usize].uses += 1;
-        Some(NameId(number))
+        self.names[number.index()].uses += 1;
+        Some(number)
     }
 
     /// Uses a name that is not known, for the thing of a mark that `is_same`, or for a new one; whether it is new.
-    pub(super) fn add(&mut self, name: N, mark: M, is_same: impl Fn(u32) -> bool) -> (NameId, bool) {
-        let last = self.by_mark.get(&mark).copied().unwrap_or(NONE);
+    pub(super) fn add(&mut self, name: N, mark: M, is_same: impl Fn(T) -> bool) -> (NameId, bool) {
+        let last = self.by_mark.get(&mark).copied().unwrap_or(T::NONE);
         let mut alike = last;
-        while alike != NONE && !is_same(alike) {
-            alike = self.things[alike as usize].before;
+        while alike != T::NONE && !is_same(alike) {
+            alike = self.things[alike.index()].before;
         }
-        let is_new = alike == NONE;
+        let is_new = alike == T::NONE;
         if is_new {
             alike = place(&mut self.things, &mut self.free_things, Thing { mark, before: last, names: 0 });
             self.by_mark.insert(mark, alike);
         }
-        self.things[alike as usize].names += 1;
+        self.things[alike.index()].names += 1;
         let number = place(&mut self.names, &mut self.free_names, Name { name, thing: alike, uses: 1 });
         self.by_name.insert(name, number);
-        (NameId(number), is_new)
+        (number, is_new)
     }
 
     /// The number of the thing that a name stands for.
-    pub(super) fn thing(&self, name: NameId) -> u32 {
-        self.names[name.0 as usize].thing
+    pub(super) fn thing(&self, name: NameId) -> T {
+        self.names[name.index()].thing
     }
 
     /// Uses a name once less; gives the number of its thing where that has no name left, and is free for another.
-    pub(super) fn release(&mut self, NameId(number): NameId) -> Option<u32> {
-        let name = &mut self.names[number as usize];
+    pub(super) fn release(&mut self, number: NameId) -> Option<T> {
+        let name = &mut self.names[number.index()];
         name.uses -= 1;
         if name.uses > 0 {
             return None;
@@ -92,7 +87,7 @@ impl<N: Copy + Eq + Hash, M: Copy + Eq + Hash> Names<N, M> {
         let thing = name.thing;
         self.by_name.remove(&name.name);
         self.free_names.push(number);
-        let Thing { mark, before, names } = &mut self.things[thing as usize];
+        let Thing { mark, before, names } = &mut self.things[thing.index()];
         *names -= 1;
         if *names > 0 {
             return None;
@@ -101,11 +96,11 @@ impl<N: Copy + Eq + Hash, M: Copy + Eq + Hash> Names<N, M> {
         let last = self.by_mark.get_mut(&mark).expect("the mark of a thing is known");
         if *last != thing {
             let mut later = *last;
-            while self.things[later as usize].before != thing {
-                later = self.things[later as usize].before;
+            while self.things[later.index()].before != thing {
+                later = self.things[later.index()].before;
             }
-            self.things[later as usize].before = before;
-        } else if before != NONE {
+            self.things[later.index()].before = before;
+        } else if before != T::NONE {
             *last = before;
         } else {
             self.by_mark.remove(&mark);
@@ -116,15 +111,16 @@ impl<N: Copy + Eq + Hash, M: Copy + Eq + Hash> Names<N, M> {
 }
 
 /// Puts an entry into a free place, or at the end; gives the place.
-pub(super) fn place<T>(entries: &mut Vec<T>, free: &mut Vec<u32>, entry: T) -> u32 {
+pub(super) fn place<I: Id, T>(entries: &mut Vec<T>, free: &mut Vec<I>, entry: T) -> I {
     match free.pop() {
         Some(place) => {
-            entries[place as usize] = entry;
+            entries[place.index()] = entry;
             place
         }
         None => {
+            let place = I::from_index(entries.len());
             entries.push(entry);
-            entries.len() as u32 - 1
+            place
         }
     }
 }
@@ -132,20 +128,21 @@ pub(super) fn place<T>(entries: &mut Vec<T>, free: &mut Vec<u32>, entry: T) -> u
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ids::PointId;
 
     #[test]
     fn things_live_as_long_as_a_name_is_in_use() {
-        let mut names: Names<u32, u32> = Names::default();
+        let mut names: Names<u32, u32, PointId> = Names::default();
         // names below 10 stand for 1, others for 2; all have one mark
         let meaning = |name: u32| if name < 10 { 1 } else { 2 };
         let mut meanings = [0; 4];
-        let mut take = |names: &mut Names<u32, u32>, name: u32| {
+        let mut take = |names: &mut Names<u32, u32, PointId>, name: u32| {
             let (id, is_new) = match names.find(&name) {
                 Some(id) => (id, false),
-                None => names.add(name, 7, |thing| meanings[thing as usize] == meaning(name)),
+                None => names.add(name, 7, |thing| meanings[thing.index()] == meaning(name)),
             };
             if is_new {
-                meanings[names.thing(id) as usize] = meaning(name);
+                meanings[names.thing(id).index()] = meaning(name);
             }
             id
         };

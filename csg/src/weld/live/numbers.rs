@@ -5,9 +5,10 @@ use std::cmp::Ordering;
 use planecut_kernel::{DVec3, compare_exactly};
 use rustc_hash::FxHashMap;
 
-use super::names::{NameId, Names, place};
+use super::names::{Names, place};
 use crate::base::sortable;
 use crate::boundary::BoundaryEdge;
+use crate::ids::{Id, LineId, NameId, PointId, RegionId};
 use crate::model::MaterialId;
 use crate::plane_table::{PlaneId, PlaneTable, curve_number};
 use crate::weld::cancel::Run;
@@ -25,18 +26,18 @@ pub(super) struct NumberedEdge {
 /// All numbers in use. Those of entries that are free stay until they are used again.
 #[derive(Default)]
 pub(super) struct Numbers {
-    point_names: Names<points::Triple, [u64; 3]>,
-    line_names: Names<u64, lines::Key>,
+    point_names: Names<points::Triple, [u64; 3], PointId>,
+    line_names: Names<u64, lines::Key, LineId>,
     pub(super) points: Points,
     /// For each point its place on the curve by which points are ordered.
     places: Vec<u64>,
     pub(super) lines: Vec<Line>,
-    region_numbers: FxHashMap<(PlaneId, MaterialId), u32>,
+    region_numbers: FxHashMap<(PlaneId, MaterialId), RegionId>,
     /// The planes, the materials of regions, and by how many edges each is used.
     pub(super) planes: Vec<PlaneId>,
     materials: Vec<MaterialId>,
     region_uses: Vec<u32>,
-    free_regions: Vec<u32>,
+    free_regions: Vec<RegionId>,
     /// By how many points and lines each plane is known, and those by which none is known any more.
     known_by: Vec<u32>,
     unnamed: Vec<u32>,
@@ -55,7 +56,7 @@ impl Numbers {
             edge: edge.edge,
             from: self.point_names.thing(from),
             to: self.point_names.thing(to),
-            forward: self.lines[line_number as usize].is_along(table, edge.face, edge.edge),
+            forward: self.lines[line_number.index()].is_along(table, edge.face, edge.edge),
         };
         NumberedEdge { run, ends: [from, to], line }
     }
@@ -64,17 +65,17 @@ impl Numbers {
     pub(super) fn release(&mut self, edge: &NumberedEdge) {
         for end in edge.ends {
             if let Some(gone) = self.point_names.release(end) {
-                self.points.planes[gone as usize].into_iter().for_each(|plane| self.lose(plane));
+                self.points.planes[gone.index()].into_iter().for_each(|plane| self.lose(plane));
             }
         }
         if let Some(gone) = self.line_names.release(edge.line) {
-            self.lines[gone as usize].planes.into_iter().for_each(|plane| self.lose(plane));
+            self.lines[gone.index()].planes.into_iter().for_each(|plane| self.lose(plane));
         }
-        let region = edge.run.region as usize;
+        let (number, region) = (edge.run.region, edge.run.region.index());
         self.region_uses[region] -= 1;
         if self.region_uses[region] == 0 {
             self.region_numbers.remove(&(self.planes[region], self.materials[region]));
-            self.free_regions.push(region as u32);
+            self.free_regions.push(number);
         }
     }
 
@@ -107,21 +108,21 @@ impl Numbers {
     }
 
     /// The order of points in space, whatever their numbers.
-    pub(super) fn compare(&self, table: &PlaneTable, p: u32, q: u32) -> Ordering {
+    pub(super) fn compare(&self, table: &PlaneTable, p: PointId, q: PointId) -> Ordering {
         if p == q {
             return Ordering::Equal;
         }
-        let by_curve = self.places[p as usize].cmp(&self.places[q as usize]);
+        let by_curve = self.places[p.index()].cmp(&self.places[q.index()]);
         if by_curve.is_ne() {
             return by_curve;
         }
-        let coordinates = |point: u32| self.points.positions[point as usize].to_array().map(sortable);
-        let rows = |point: u32| self.points.planes[point as usize].map(|plane| table.row(plane));
+        let coordinates = |point: PointId| self.points.positions[point.index()].to_array().map(sortable);
+        let rows = |point: PointId| self.points.planes[point.index()].map(|plane| table.row(plane));
         coordinates(p).cmp(&coordinates(q)).then_with(|| compare_exactly(rows(p), rows(q), &[0, 1, 2]))
     }
 
-    pub(super) fn material(&self, region: u32) -> MaterialId {
-        self.materials[region as usize]
+    pub(super) fn material(&self, region: RegionId) -> MaterialId {
+        self.materials[region.index()]
     }
 
     fn take_point(&mut self, table: &PlaneTable, triple: [PlaneId; 3]) -> NameId {
@@ -131,17 +132,17 @@ impl Numbers {
         }
         let named = Named::of(table, points::planes(name));
         let mark = named.position.to_array().map(sortable);
-        let is_same = |point: u32| points::is_at(table, self.points.planes[point as usize], named.planes);
+        let is_same = |point: PointId| points::is_at(table, self.points.planes[point.index()], named.planes);
         let (id, is_new) = self.point_names.add(name, mark, is_same);
         if is_new {
-            let number = self.point_names.thing(id) as usize;
-            if number == self.places.len() {
+            let number = self.point_names.thing(id);
+            if number.index() == self.places.len() {
                 self.points.push(&named);
                 self.places.push(0);
             } else {
                 self.points.put(number, &named);
             }
-            self.places[number] = curve_number(named.position);
+            self.places[number.index()] = curve_number(named.position);
             named.planes.into_iter().for_each(|plane| self.gain(plane));
         }
         id
@@ -153,10 +154,10 @@ impl Numbers {
             return known;
         }
         let line = Line::of(table, name);
-        let is_same = |other: u32| self.axes.is_same(table, &self.lines[other as usize], &line);
+        let is_same = |other: LineId| self.axes.is_same(table, &self.lines[other.index()], &line);
         let (id, is_new) = self.line_names.add(name, lines::key(table, &line), is_same);
         if is_new {
-            let number = self.line_names.thing(id) as usize;
+            let number = self.line_names.thing(id).index();
             if number == self.lines.len() {
                 self.lines.push(line);
             } else {
@@ -167,21 +168,21 @@ impl Numbers {
         id
     }
 
-    fn take_region(&mut self, plane: PlaneId, material: MaterialId) -> u32 {
+    fn take_region(&mut self, plane: PlaneId, material: MaterialId) -> RegionId {
         let number = *self.region_numbers.entry((plane, material)).or_insert_with(|| {
-            let number = place(&mut self.planes, &mut self.free_regions, plane);
-            if number as usize == self.materials.len() {
+            let number: RegionId = place(&mut self.planes, &mut self.free_regions, plane);
+            if number.index() == self.materials.len() {
                 self.materials.push(material);
                 self.region_uses.push(0);
             }
-            self.materials[number as usize] = material;
+            self.materials[number.index()] = material;
             number
         });
-        self.region_uses[number as usize] += 1;
+        self.region_uses[number.index()] += 1;
         number
     }
 
-    pub(super) fn position(&self, point: u32) -> DVec3 {
-        self.points.positions[point as usize]
+    pub(super) fn position(&self, point: PointId) -> DVec3 {
+        self.points.positions[point.index()]
     }
 }

@@ -3,12 +3,13 @@
 use planecut_kernel::sign::Sign;
 
 use super::{Boundary, NO_LINE, Node};
+use crate::ids::{Id, NodeId};
 
 impl Boundary<'_> {
     /// Joins rings of holes to the ring of `outer`, from left to right, so that each finds the ones before it joined.
-    pub(super) fn join_holes(&mut self, outer: u32, holes: &mut [u32]) {
+    pub(super) fn join_holes(&mut self, outer: NodeId, holes: &mut [NodeId]) {
         let order =
-            |a: &u32, b: &u32| self.turns.order(&self.nodes[*a as usize].corner, &self.nodes[*b as usize].corner);
+            |a: &NodeId, b: &NodeId| self.turns.order(&self.nodes[a.index()].corner, &self.nodes[b.index()].corner);
         for hole in holes.iter_mut() {
             *hole = self.ring(*hole).min_by(order).expect("a ring has nodes");
         }
@@ -23,9 +24,9 @@ impl Boundary<'_> {
     ///
     /// The ray to the left meets an edge; its left end is seen unless some corner lies in the triangle between, and then
     /// the one at the smallest angle to the ray is. Sides are those of the exact points.
-    fn visible_from(&self, hole: u32, outer: u32) -> u32 {
+    fn visible_from(&self, hole: NodeId, outer: NodeId) -> NodeId {
         let from = self.at(hole);
-        let mut nearest: Option<(f64, u32)> = None;
+        let mut nearest: Option<(f64, NodeId)> = None;
         for node in self.ring(outer) {
             let next = self.next(node);
             let (p, q) = (self.at(node), self.at(next));
@@ -43,7 +44,7 @@ impl Boundary<'_> {
 
     /// The corner at the smallest angle to the ray from `hole` to the left, in the triangle between the ray, the edge it
     /// meets and that edge's left end.
-    fn first_in_sight(&self, hole: u32, edge: u32) -> u32 {
+    fn first_in_sight(&self, hole: NodeId, edge: NodeId) -> NodeId {
         let (from, edge_end) = (self.at(hole), self.next(edge));
         let target = if self.at(edge).x < self.at(edge_end).x { edge } else { edge_end };
         let (left, height) = (self.at(target).x, self.at(target).y - from.y);
@@ -56,7 +57,7 @@ impl Boundary<'_> {
                 continue;
             }
             let turn = self.turn(hole, best, node);
-            let is_twin = self.nodes[node as usize].corner.point == self.nodes[best as usize].corner.point;
+            let is_twin = self.nodes[node.index()].corner.point == self.nodes[best.index()].corner.point;
             let is_nearer = is_twin && !is_open
                 || height != 0.0 && turn == closer_to_ray
                 || turn == Sign::Zero && p.x > self.at(best).x;
@@ -68,7 +69,7 @@ impl Boundary<'_> {
     }
 
     /// Whether the inside at `node` lies towards `other`.
-    fn opens_towards(&self, node: u32, other: u32) -> bool {
+    fn opens_towards(&self, node: NodeId, other: NodeId) -> bool {
         let (before, after) = (self.previous(node), self.next(node));
         if self.turn(before, node, after) == Sign::Positive {
             self.turn(node, after, other) != Sign::Negative && self.turn(before, node, other) != Sign::Negative
@@ -78,19 +79,19 @@ impl Boundary<'_> {
     }
 
     /// Doubles both ends of a bridge and splices the ring of `hole` into that of `bridge`.
-    fn connect(&mut self, bridge: u32, hole: u32) {
+    fn connect(&mut self, bridge: NodeId, hole: NodeId) {
         let (after_bridge, before_hole) = (self.next(bridge), self.previous(hole));
-        let hole_copy = self.nodes.len() as u32;
-        let bridge_copy = hole_copy + 1;
-        let mut end = self.nodes[hole as usize];
+        let hole_copy = NodeId::from_index(self.nodes.len());
+        let bridge_copy = hole_copy.plus(1);
+        let mut end = self.nodes[hole.index()];
         end.corner.line = NO_LINE;
         self.nodes.push(Node { previous: before_hole, next: bridge_copy, ..end });
-        let start = self.nodes[bridge as usize];
+        let start = self.nodes[bridge.index()];
         self.nodes.push(Node { previous: hole_copy, next: after_bridge, ..start });
-        self.nodes[before_hole as usize].next = hole_copy;
-        self.nodes[after_bridge as usize].previous = bridge_copy;
-        self.nodes[bridge as usize].next = hole;
-        self.nodes[bridge as usize].corner.line = NO_LINE;
-        self.nodes[hole as usize].previous = bridge;
+        self.nodes[before_hole.index()].next = hole_copy;
+        self.nodes[after_bridge.index()].previous = bridge_copy;
+        self.nodes[bridge.index()].next = hole;
+        self.nodes[bridge.index()].corner.line = NO_LINE;
+        self.nodes[hole.index()].previous = bridge;
     }
 }

@@ -5,6 +5,7 @@ use planecut_kernel::sign::Sign;
 
 use super::grid::Grid;
 use super::{Boundary, orient};
+use crate::ids::{Id, LineId, NodeId};
 use crate::tolerances::EAR_NOISE;
 
 /// How strict the test of an ear is. The exact points leave a strict one unless a bridge was placed badly within noise; then
@@ -35,14 +36,14 @@ impl Care {
 /// Cuts boundaries into triangles, reusing its buffers.
 #[derive(Debug, Default)]
 pub(super) struct Ears {
-    ring: Vec<u32>,
+    ring: Vec<NodeId>,
     grid: Grid,
-    triangles: Vec<[u32; 3]>,
+    triangles: Vec<[NodeId; 3]>,
 }
 
 impl Ears {
     /// Cuts the ring of `start` into triangles of nodes.
-    pub(super) fn cut(&mut self, boundary: &mut Boundary<'_>, start: u32) -> &mut [[u32; 3]] {
+    pub(super) fn cut(&mut self, boundary: &mut Boundary<'_>, start: NodeId) -> &mut [[NodeId; 3]] {
         let Self { ring, grid, triangles } = self;
         ring.clear();
         ring.extend(boundary.ring(start));
@@ -81,42 +82,42 @@ impl Ears {
 }
 
 impl Boundary<'_> {
-    fn remove(&mut self, node: u32) {
+    fn remove(&mut self, node: NodeId) {
         let (before, after) = (self.previous(node), self.next(node));
-        self.nodes[node as usize].removed = true;
-        self.nodes[before as usize].next = after;
-        self.nodes[after as usize].previous = before;
+        self.nodes[node.index()].removed = true;
+        self.nodes[before.index()].next = after;
+        self.nodes[after.index()].previous = before;
         self.classify(before);
         self.classify(after);
     }
 
-    fn classify(&mut self, node: u32) {
+    fn classify(&mut self, node: NodeId) {
         let reflex = self.turn(self.previous(node), node, self.next(node)) != Sign::Positive;
-        self.nodes[node as usize].reflex = reflex;
+        self.nodes[node.index()].reflex = reflex;
     }
 
     /// A line of the boundary through both nodes.
-    fn shared_line(&self, a: u32, c: u32) -> Option<u32> {
-        let at_c = self.nodes[c as usize].lines;
-        self.nodes[a as usize].lines.into_iter().find(|line| at_c.contains(line))
+    fn shared_line(&self, a: NodeId, c: NodeId) -> Option<LineId> {
+        let at_c = self.nodes[c.index()].lines;
+        self.nodes[a.index()].lines.into_iter().find(|line| at_c.contains(line))
     }
 
     /// Whether another corner of what is left lies between two on the same line, which rounding may hide.
-    fn has_corner_between(&self, a: u32, c: u32, line: u32) -> bool {
+    fn has_corner_between(&self, a: NodeId, c: NodeId, line: LineId) -> bool {
         let (from, along) = (self.at(a), self.at(c) - self.at(a));
         let length = along.length_squared();
         self.ring(c).any(|node| {
             let place = (self.at(node) - from).dot(along);
-            node != a && node != c && self.nodes[node as usize].lines.contains(&line) && place > 0.0 && place < length
+            node != a && node != c && self.nodes[node.index()].lines.contains(&line) && place > 0.0 && place < length
         })
     }
 
-    fn is_ear(&self, [a, b, c]: [u32; 3], care: Care, noise: f64, grid: &Grid) -> bool {
+    fn is_ear(&self, [a, b, c]: [NodeId; 3], care: Care, noise: f64, grid: &Grid) -> bool {
         if care == Care::Any {
             return true;
         }
         if let Some(line) = self.shared_line(a, c) {
-            let flat = self.nodes[b as usize].lines.contains(&line);
+            let flat = self.nodes[b.index()].lines.contains(&line);
             if flat || care != Care::Convex && self.has_corner_between(a, c, line) {
                 return false;
             }
@@ -126,7 +127,7 @@ impl Boundary<'_> {
             let turn = orient(self.at(a), self.at(b), self.at(c));
             return turn >= -noise * longest && !self.holds_a_corner([a, b, c], noise, grid);
         }
-        if self.nodes[b as usize].reflex {
+        if self.nodes[b.index()].reflex {
             return false;
         }
         care == Care::Convex || !self.holds_a_corner([a, b, c], 0.0, grid)
@@ -134,17 +135,17 @@ impl Boundary<'_> {
 
     /// Whether another corner of what is left lies in a triangle, deeper than `noise` where that is not zero; one at the
     /// same place as a corner of it does not count.
-    fn holds_a_corner(&self, corners: [u32; 3], noise: f64, grid: &Grid) -> bool {
+    fn holds_a_corner(&self, corners: [NodeId; 3], noise: f64, grid: &Grid) -> bool {
         let [p, q, r] = corners.map(|corner| self.at(corner));
         let (min, max) = (p.min(q).min(r), p.max(q).max(r));
         grid.any_in(min, max, |node| {
-            let entry = &self.nodes[node as usize];
+            let entry = &self.nodes[node.index()];
             let at = entry.corner.at;
             entry.reflex
                 && !entry.removed
                 && at.cmpge(min).all()
                 && at.cmple(max).all()
-                && corners.iter().all(|corner| self.nodes[*corner as usize].corner.point != entry.corner.point)
+                && corners.iter().all(|corner| self.nodes[corner.index()].corner.point != entry.corner.point)
                 && if noise > 0.0 { is_deep_in(p, q, r, at, noise) } else { self.is_in_triangle(corners, node) }
         })
     }

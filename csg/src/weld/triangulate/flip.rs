@@ -1,6 +1,7 @@
 //! Flips diagonals towards the Delaunay criterion (Lawson 1977): fewer slivers, nicer meshes, the same boundary.
 
 use super::{Node, orient};
+use crate::ids::{Id, NodeId, TriangleId};
 use crate::tolerances::{DELAUNAY_MARGIN, FLAT_TRIANGLE};
 use planecut_kernel::DVec2;
 use rustc_hash::FxHashMap;
@@ -8,19 +9,22 @@ use rustc_hash::FxHashMap;
 /// Boundaries of at most this many nodes have a table of all pairs.
 const FEW: usize = 48;
 
+/// A directed side of a triangle: where it begins and where it ends.
+type Side = (NodeId, NodeId);
+
 /// Improves triangulations, reusing its buffers.
 #[derive(Debug, Default)]
 pub(super) struct Flips {
     small: PairTable,
-    large: FxHashMap<(u32, u32), u32>,
-    queue: Vec<(u32, u32)>,
+    large: FxHashMap<Side, TriangleId>,
+    queue: Vec<Side>,
 }
 
 /// The triangle at each directed edge.
 trait Across {
-    fn get(&self, edge: (u32, u32)) -> Option<u32>;
-    fn set(&mut self, edge: (u32, u32), triangle: u32);
-    fn remove(&mut self, edge: (u32, u32));
+    fn get(&self, edge: Side) -> Option<TriangleId>;
+    fn set(&mut self, edge: Side, triangle: TriangleId);
+    fn remove(&mut self, edge: Side);
 }
 
 /// One for few nodes: an entry for every pair of them, the triangle plus 1.
@@ -31,44 +35,45 @@ struct PairTable {
 }
 
 impl PairTable {
-    fn at(&self, (a, b): (u32, u32)) -> usize {
-        a as usize * self.nodes + b as usize
+    fn at(&self, (a, b): Side) -> usize {
+        a.index() * self.nodes + b.index()
     }
 }
 
 impl Across for PairTable {
-    fn get(&self, edge: (u32, u32)) -> Option<u32> {
-        u32::from(self.triangles[self.at(edge)]).checked_sub(1)
+    fn get(&self, edge: Side) -> Option<TriangleId> {
+        let next = usize::from(self.triangles[self.at(edge)]);
+        next.checked_sub(1).map(TriangleId::from_index)
     }
 
-    fn set(&mut self, edge: (u32, u32), triangle: u32) {
+    fn set(&mut self, edge: Side, triangle: TriangleId) {
         let at = self.at(edge);
-        self.triangles[at] = triangle as u16 + 1;
+        self.triangles[at] = triangle.number() as u16 + 1;
     }
 
-    fn remove(&mut self, edge: (u32, u32)) {
+    fn remove(&mut self, edge: Side) {
         let at = self.at(edge);
         self.triangles[at] = 0;
     }
 }
 
-impl Across for FxHashMap<(u32, u32), u32> {
-    fn get(&self, edge: (u32, u32)) -> Option<u32> {
+impl Across for FxHashMap<Side, TriangleId> {
+    fn get(&self, edge: Side) -> Option<TriangleId> {
         self.get(&edge).copied()
     }
 
-    fn set(&mut self, edge: (u32, u32), triangle: u32) {
+    fn set(&mut self, edge: Side, triangle: TriangleId) {
         self.insert(edge, triangle);
     }
 
-    fn remove(&mut self, edge: (u32, u32)) {
+    fn remove(&mut self, edge: Side) {
         self.remove(&edge);
     }
 }
 
 impl Flips {
     /// Improves triangles of nodes, counter-clockwise, in place. Boundary edges and bridges between copies of one node stay.
-    pub(super) fn improve(&mut self, nodes: &[Node], triangles: &mut [[u32; 3]]) {
+    pub(super) fn improve(&mut self, nodes: &[Node], triangles: &mut [[NodeId; 3]]) {
         if triangles.len() < 2 {
             return;
         }
@@ -85,9 +90,9 @@ impl Flips {
 }
 
 /// Improves triangles; `across` is empty.
-fn improve(nodes: &[Node], triangles: &mut [[u32; 3]], across: &mut impl Across, queue: &mut Vec<(u32, u32)>) {
+fn improve(nodes: &[Node], triangles: &mut [[NodeId; 3]], across: &mut impl Across, queue: &mut Vec<Side>) {
     queue.clear();
-    for (t, triangle) in (0..).zip(triangles.iter()) {
+    for (t, triangle) in TriangleId::all(triangles.len()).zip(triangles.iter()) {
         for k in 0..3 {
             let (a, b) = (triangle[k], triangle[(k + 1) % 3]);
             across.set((a, b), t);
@@ -102,10 +107,10 @@ fn improve(nodes: &[Node], triangles: &mut [[u32; 3]], across: &mut impl Across,
     let mut budget = 20 * triangles.len();
     while let Some((a, b)) = queue.pop() {
         let (Some(left), Some(right)) = (across.get((a, b)), across.get((b, a))) else { continue };
-        let (Some(c), Some(d)) = (apex(&triangles[left as usize], a, b), apex(&triangles[right as usize], b, a)) else {
+        let (Some(c), Some(d)) = (apex(&triangles[left.index()], a, b), apex(&triangles[right.index()], b, a)) else {
             continue;
         };
-        let at = |node: u32| nodes[node as usize].corner.at;
+        let at = |node: NodeId| nodes[node.index()].corner.at;
         if budget == 0 || c == d || across.get((c, d)).is_some() || across.get((d, c)).is_some() {
             continue;
         }
@@ -113,8 +118,8 @@ fn improve(nodes: &[Node], triangles: &mut [[u32; 3]], across: &mut impl Across,
             continue;
         }
         budget -= 1;
-        triangles[left as usize] = [a, d, c];
-        triangles[right as usize] = [d, b, c];
+        triangles[left.index()] = [a, d, c];
+        triangles[right.index()] = [d, b, c];
         across.remove((a, b));
         across.remove((b, a));
         for (edge, t) in
@@ -130,7 +135,7 @@ fn improve(nodes: &[Node], triangles: &mut [[u32; 3]], across: &mut impl Across,
     }
 }
 
-fn apex(triangle: &[u32; 3], a: u32, b: u32) -> Option<u32> {
+fn apex(triangle: &[NodeId; 3], a: NodeId, b: NodeId) -> Option<NodeId> {
     (0..3).find(|k| triangle[*k] == a && triangle[(k + 1) % 3] == b).map(|k| triangle[(k + 2) % 3])
 }
 

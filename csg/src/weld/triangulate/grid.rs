@@ -3,6 +3,7 @@
 use planecut_kernel::DVec2;
 
 use super::Boundary;
+use crate::ids::{Id, NodeId};
 
 /// Below this many reflex corners a list does.
 const SMALL: usize = 32;
@@ -16,15 +17,15 @@ pub(super) struct Grid {
     rows: usize,
     /// Where the corners of each cell begin in `nodes`.
     starts: Vec<u32>,
-    nodes: Vec<u32>,
+    nodes: Vec<NodeId>,
 }
 
 impl Grid {
     /// Replaces what is there by the reflex corners of a ring.
-    pub(super) fn fill(&mut self, boundary: &Boundary<'_>, ring: &[u32]) {
+    pub(super) fn fill(&mut self, boundary: &Boundary<'_>, ring: &[NodeId]) {
         self.starts.clear();
         self.nodes.clear();
-        self.nodes.extend(ring.iter().copied().filter(|node| boundary.nodes[*node as usize].reflex));
+        self.nodes.extend(ring.iter().copied().filter(|node| boundary.nodes[node.index()].reflex));
         let count = self.nodes.len();
         let side = if count <= SMALL { 1 } else { (count as f64).sqrt() as usize };
         (self.columns, self.rows) = (side, side);
@@ -39,7 +40,7 @@ impl Grid {
         }
         let extent = (max - min).max(DVec2::splat(f64::MIN_POSITIVE));
         (self.min, self.scale) = (min, DVec2::splat(side as f64) / extent);
-        let mut keyed: Vec<(usize, u32)> =
+        let mut keyed: Vec<(usize, NodeId)> =
             self.nodes.iter().map(|node| (self.cell(boundary.at(*node)), *node)).collect();
         keyed.sort_unstable();
         self.starts.extend((0..=side * side).map(|cell| keyed.partition_point(|(k, _)| *k < cell) as u32));
@@ -59,7 +60,7 @@ impl Grid {
     }
 
     /// Whether `wanted` holds for some corner in the cells of a box.
-    pub(super) fn any_in(&self, min: DVec2, max: DVec2, mut wanted: impl FnMut(u32) -> bool) -> bool {
+    pub(super) fn any_in(&self, min: DVec2, max: DVec2, mut wanted: impl FnMut(NodeId) -> bool) -> bool {
         if self.nodes.is_empty() {
             return false;
         }

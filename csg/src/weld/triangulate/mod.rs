@@ -13,10 +13,11 @@ mod turn;
 use planecut_kernel::DVec2;
 use planecut_kernel::sign::Sign;
 
-use super::cancel::{HalfEdge, UNPAIRED};
+use super::cancel::HalfEdge;
 use super::manifold::Labels;
 use super::nest::Projection;
 use super::points::Points;
+use crate::ids::{HalfEdgeId, Id, LineId, NodeId, PointId};
 use crate::plane_table::PlaneTable;
 use ears::Ears;
 use flip::Flips;
@@ -27,33 +28,31 @@ use turn::Turns;
 struct Corner {
     at: DVec2,
     /// The exact point.
-    point: u32,
-    /// The mesh vertex.
-    vertex: u32,
+    point: PointId,
     /// The line on which the edge to the next corner lies.
-    line: u32,
+    line: LineId,
     /// The half-edge to the next corner.
-    piece: u32,
+    piece: HalfEdgeId,
 }
 
-/// The triangles of a face: mesh vertices, and for each side the half-edge it lies on.
+/// Triangles of faces: for each corner the half-edge of a loop that begins there, and for each side the half-edge it lies on.
 #[derive(Debug, Default)]
 pub(super) struct Triangles {
-    pub(super) vertices: Vec<[u32; 3]>,
+    pub(super) corners: Vec<[HalfEdgeId; 3]>,
     pub(super) labels: Labels,
 }
 
 /// The line of a bridge or a diagonal.
-const NO_LINE: u32 = u32::MAX;
+const NO_LINE: LineId = LineId::NONE;
 
 /// A corner in the doubly linked boundary of what is left to triangulate.
 #[derive(Debug, Clone, Copy)]
 struct Node {
     corner: Corner,
     /// The lines of the two boundary edges that met here.
-    lines: [u32; 2],
-    previous: u32,
-    next: u32,
+    lines: [LineId; 2],
+    previous: NodeId,
+    next: NodeId,
     /// Not strictly convex: only such corners can lie inside an ear.
     reflex: bool,
     removed: bool,
@@ -69,9 +68,9 @@ struct Boundary<'a> {
 pub(super) struct Triangulator<'a> {
     boundary: Boundary<'a>,
     /// The first node of each loop, the outer one first.
-    rings: Vec<u32>,
+    rings: Vec<NodeId>,
     ears: Ears,
-    ahead: Vec<u32>,
+    ahead: Vec<NodeId>,
     flips: Flips,
 }
 
@@ -94,34 +93,35 @@ impl<'a> Triangulator<'a> {
         self.rings.clear();
     }
 
-    /// Adds a loop, the outer one first, the inside to the left: half-edges with their numbers and the vertices they begin at.
-    pub(super) fn add_loop<'b>(&mut self, pieces: impl ExactSizeIterator<Item = (u32, &'b HalfEdge, u32)>) {
+    /// Adds a loop, the outer one first, the inside to the left: half-edges with their numbers.
+    pub(super) fn add_loop<'b>(&mut self, pieces: impl ExactSizeIterator<Item = (HalfEdgeId, &'b HalfEdge)>) {
         let Turns { points, projection, .. } = self.boundary.turns;
         let nodes = &mut self.boundary.nodes;
-        let (first, count) = (nodes.len() as u32, pieces.len() as u32);
+        let (first, count) = (NodeId::from_index(nodes.len()), pieces.len());
         self.rings.push(first);
-        for (k, (piece, half_edge, vertex)) in (0..).zip(pieces) {
+        for (k, (piece, half_edge)) in pieces.enumerate() {
             let HalfEdge { from: point, line, .. } = *half_edge;
-            let at = projection.of(points.positions[point as usize]);
+            let at = projection.of(points.positions[point.index()]);
             let before = nodes.last().filter(|_| k > 0).map_or(NO_LINE, |node| node.corner.line);
             nodes.push(Node {
-                corner: Corner { at, point, vertex, line, piece },
+                corner: Corner { at, point, line, piece },
                 lines: [before, line],
-                previous: first + (k + count - 1) % count,
-                next: first + (k + 1) % count,
+                previous: first.plus((k + count - 1) % count),
+                next: first.plus((k + 1) % count),
                 reflex: false,
                 removed: false,
             });
         }
-        nodes[first as usize].lines[0] = nodes[nodes.len() - 1].corner.line;
+        nodes[first.index()].lines[0] = nodes[nodes.len() - 1].corner.line;
     }
 
     /// Adds the triangles of the face that was begun.
     pub(super) fn triangulate(&mut self, out: &mut Triangles) {
         let Self { boundary, rings, ears, ahead, flips } = self;
         if let [a, b, c] = boundary.nodes[..] {
-            out.vertices.push([a, b, c].map(|node| node.corner.vertex));
-            out.labels.push([a, b, c].map(|node| node.corner.piece));
+            let pieces = [a, b, c].map(|node| node.corner.piece);
+            out.corners.push(pieces);
+            out.labels.push(pieces);
             return;
         }
         let start = rings[0];
@@ -130,34 +130,35 @@ impl<'a> Triangulator<'a> {
         ahead.extend(boundary.boundary_edges());
         let triangles = ears.cut(boundary, start);
         flips.improve(&boundary.nodes, triangles);
-        let corner = |node: u32| &boundary.nodes[node as usize].corner;
-        out.vertices.extend(triangles.iter().map(|t| t.map(|node| corner(node).vertex)));
-        let label = |from: u32, to: u32| if ahead[from as usize] == to { corner(from).piece } else { UNPAIRED };
+        let corner = |node: NodeId| &boundary.nodes[node.index()].corner;
+        out.corners.extend(triangles.iter().map(|t| t.map(|node| corner(node).piece)));
+        let label =
+            |from: NodeId, to: NodeId| if ahead[from.index()] == to { corner(from).piece } else { HalfEdgeId::NONE };
         out.labels.extend(triangles.iter().map(|[a, b, c]| [label(*a, *b), label(*b, *c), label(*c, *a)]));
     }
 }
 
 impl Boundary<'_> {
     /// For each node the one that ends the boundary edge beginning there; none for a bridge.
-    fn boundary_edges(&self) -> impl Iterator<Item = u32> {
-        self.nodes.iter().map(|node| if node.corner.line == NO_LINE { u32::MAX } else { node.next })
+    fn boundary_edges(&self) -> impl Iterator<Item = NodeId> {
+        self.nodes.iter().map(|node| if node.corner.line == NO_LINE { NodeId::NONE } else { node.next })
     }
 
-    fn at(&self, node: u32) -> DVec2 {
-        self.nodes[node as usize].corner.at
+    fn at(&self, node: NodeId) -> DVec2 {
+        self.nodes[node.index()].corner.at
     }
 
-    fn next(&self, node: u32) -> u32 {
-        self.nodes[node as usize].next
+    fn next(&self, node: NodeId) -> NodeId {
+        self.nodes[node.index()].next
     }
 
-    fn previous(&self, node: u32) -> u32 {
-        self.nodes[node as usize].previous
+    fn previous(&self, node: NodeId) -> NodeId {
+        self.nodes[node.index()].previous
     }
 
     /// Which way three nodes turn, exactly; positive is left.
-    fn turn(&self, a: u32, b: u32, c: u32) -> Sign {
-        let [a, b, c] = [a, b, c].map(|node| &self.nodes[node as usize]);
+    fn turn(&self, a: NodeId, b: NodeId, c: NodeId) -> Sign {
+        let [a, b, c] = [a, b, c].map(|node| &self.nodes[node.index()]);
         if a.lines.iter().any(|line| b.lines.contains(line) && c.lines.contains(line)) {
             return Sign::Zero;
         }
@@ -165,16 +166,16 @@ impl Boundary<'_> {
     }
 
     /// Whether a node lies in the closed triangle of three others, counter-clockwise.
-    fn is_in_triangle(&self, [a, b, c]: [u32; 3], node: u32) -> bool {
+    fn is_in_triangle(&self, [a, b, c]: [NodeId; 3], node: NodeId) -> bool {
         let sides = [(a, b), (b, c), (c, a)];
-        let corner = |node: u32| &self.nodes[node as usize].corner;
+        let corner = |node: NodeId| &self.nodes[node.index()].corner;
         // mostly one side tells, and the others need not be asked exactly
         !sides.iter().any(|(from, to)| Turns::is_surely_right(corner(*from), corner(*to), corner(node)))
             && sides.into_iter().all(|(from, to)| self.turn(from, to, node) != Sign::Negative)
     }
 
     /// The nodes of a ring from `start` on.
-    fn ring(&self, start: u32) -> impl Iterator<Item = u32> + '_ {
+    fn ring(&self, start: NodeId) -> impl Iterator<Item = NodeId> + '_ {
         let mut node = Some(start);
         std::iter::from_fn(move || {
             let this = node?;

@@ -6,6 +6,7 @@ use planecut_kernel::sign::Sign;
 use planecut_kernel::{DVec2, planar_turn};
 
 use super::{Corner, orient};
+use crate::ids::Id;
 use crate::plane_table::PlaneTable;
 use crate::weld::nest::Projection;
 use crate::weld::points::Points;
@@ -35,7 +36,7 @@ impl Turns<'_> {
         if [a, b, c].iter().all(|corner| self.points.are_exact(corner.point, u, v)) {
             return sign(orient(a.at, b.at, c.at));
         }
-        let rows = [a, b, c].map(|corner| self.points.planes[corner.point as usize].map(|plane| self.table.row(plane)));
+        let rows = [a, b, c].map(|corner| self.points.planes[corner.point.index()].map(|plane| self.table.row(plane)));
         planar_turn(rows, u, v)
     }
 

@@ -1,0 +1,167 @@
+//! Typed numbers: a number of one kind of thing cannot be taken for that of another, nor for a count or a place in a list.
+//!
+//! Each is the place of a thing in the list of its kind, kept in 32 bits. They sort and hash as these bare numbers do.
+
+use std::fmt::Debug;
+use std::hash::Hash;
+
+/// The number of a thing of one kind.
+pub(crate) trait Id: Copy + Ord + Hash + Debug + Send + Sync {
+    /// The number of no thing. It is greater than all others.
+    const NONE: Self;
+
+    /// The number of what has a place in the list of its kind.
+    ///
+    /// # Panics
+    /// Where the place does not fit into 32 bits, or is [`NONE`](Self::NONE).
+    fn from_index(index: usize) -> Self;
+
+    /// The place in the list of its kind.
+    fn index(self) -> usize;
+
+    /// The bare number, for messages and public results.
+    fn number(self) -> u32;
+
+    /// The number this many further on.
+    fn plus(self, count: usize) -> Self {
+        Self::from_index(self.index() + count)
+    }
+
+    /// The numbers of all things of a list, in order.
+    fn all(count: usize) -> impl DoubleEndedIterator<Item = Self> + ExactSizeIterator + Clone {
+        (0..count).map(Self::from_index)
+    }
+}
+
+macro_rules! ids {
+    ($($(#[$attribute:meta])* $visibility:vis $name:ident;)*) => {
+        $(
+            $(#[$attribute])*
+            #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+            #[repr(transparent)]
+            $visibility struct $name(u32);
+
+            impl Id for $name {
+                const NONE: Self = Self(u32::MAX);
+
+                fn from_index(index: usize) -> Self {
+                    assert!(index < u32::MAX as usize, "too many things of one kind for numbers of 32 bits");
+                    Self(index as u32)
+                }
+
+                fn index(self) -> usize {
+                    self.0 as usize
+                }
+
+                fn number(self) -> u32 {
+                    self.0
+                }
+            }
+        )*
+    };
+}
+
+ids! {
+    /// A leaf of a tree, in the order of its brushes.
+    pub(crate) LeafId;
+
+    /// A node of a tree, in postfix order.
+    pub(crate) TreeNodeId;
+
+    /// A node of a restricted expression.
+    pub(crate) BranchId;
+
+    /// A leaf that a restricted expression keeps, in the order of these.
+    pub(crate) KeptLeafId;
+
+    /// A body of those of which the boundary is taken.
+    pub(crate) BodyId;
+
+    /// A corner of a body, whichever of its faces it is seen in.
+    pub(crate) CornerId;
+
+    /// A face of a body, in the order of its faces.
+    pub(crate) BodyFaceId;
+
+    /// A brush of a live model by its place, which another brush may have once it is gone.
+    pub(crate) OperandId;
+
+    /// Rows of exactly one plane in a live model.
+    pub(crate) RowGroupId;
+
+    /// A body among those near another one.
+    pub(crate) NearId;
+
+    /// A part of a face that another body covers.
+    pub(crate) SectionId;
+
+    /// A point of a weld: equal points have one number, whichever planes meet there.
+    pub(crate) PointId;
+
+    /// A line of a weld: equal lines have one number, whichever planes meet there.
+    pub(crate) LineId;
+
+    /// A region of a weld: an oriented plane with a material.
+    pub(crate) RegionId;
+
+    /// A half-edge of the boundary: an elementary piece of a line along which a region ends on one side.
+    pub(crate) HalfEdgeId;
+
+    /// A corner in the boundary of a face that is triangulated, bridges included.
+    pub(crate) NodeId;
+
+    /// A triangle of a face that is triangulated.
+    pub(crate) TriangleId;
+
+    /// A vertex of the mesh.
+    pub(crate) VertexId;
+
+    /// A boundary edge, before opposite ones cancel.
+    pub(crate) EdgeId;
+
+    /// The number of a face, as long as it stays as it is.
+    pub FaceId;
+
+    /// A name of a point, three planes, or of a line, two planes: several names may stand for one thing.
+    pub(crate) NameId;
+}
+
+/// A face of the body of a brush of a live model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(crate) struct OperandFace {
+    pub(crate) operand: OperandId,
+    pub(crate) face: BodyFaceId,
+}
+
+/// A point on a line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(crate) struct PointOnLine {
+    pub(crate) line: LineId,
+    pub(crate) point: PointId,
+}
+
+/// A point at the border of a region.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(crate) struct PointOfRegion {
+    pub(crate) region: RegionId,
+    pub(crate) point: PointId,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_take_32_bits_and_sort_by_place() {
+        assert_eq!(size_of::<PointId>(), size_of::<u32>());
+        let sorted: Vec<PointId> = PointId::all(3).chain([PointId::NONE]).collect();
+        assert!(sorted.is_sorted_by(|a, b| a < b));
+        assert_eq!(sorted.iter().take(3).map(|id| id.index()).collect::<Vec<_>>(), [0, 1, 2]);
+    }
+
+    #[test]
+    #[should_panic(expected = "too many")]
+    fn no_thing_has_the_number_of_none() {
+        let _ = PointId::from_index(PointId::NONE.index());
+    }
+}
