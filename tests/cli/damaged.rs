@@ -8,7 +8,7 @@ use crate::support::{ROOT, Run, everything_in, folder, planecut};
 const READABLE: [&str; 3] = ["whole.map", "zero_area_face.map", "all_faces_without_area.map"];
 
 fn damaged_maps() -> Vec<PathBuf> {
-    let folder = Path::new(ROOT).join("import/tests/damaged");
+    let folder = Path::new(ROOT).join("import/tests/suite/map/damaged");
     let entries = std::fs::read_dir(folder).expect("the folder of the readers' tests");
     entries.map(|entry| entry.expect("an entry").path()).collect()
 }
@@ -62,7 +62,7 @@ fn older_outputs_stay_when_the_input_is_damaged() {
 
 #[test]
 fn maps_damaged_at_random_are_built_or_refused() {
-    damage_at_random("import/tests/damaged/whole.map", "m.map", b"{}()\"0-9.e \n");
+    damage_at_random("import/tests/suite/map/damaged/whole.map", "m.map", b"{}()\"0-9.e \n");
 }
 
 #[test]
