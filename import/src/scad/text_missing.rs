@@ -7,7 +7,7 @@ use super::syntax::Node;
 
 /// The fonts of the system: none are read.
 #[derive(Default)]
-pub(super) struct Fonts;
+pub(super) struct Fonts {}
 
 /// What a node draws: nothing that this build knows.
 pub(super) fn text(_: &Node<'_>, _: &mut Fonts) -> Result<(Outline, Vec<String>), Problem> {

@@ -115,7 +115,9 @@ pub(super) struct PackedView {
     pub(super) byte_length: usize,
     pub(super) byte_stride: usize,
     pub(super) count: usize,
+    #[cfg_attr(not(feature = "meshopt"), expect(dead_code, reason = "only the decoder asks"))]
     pub(super) mode: String,
+    #[cfg_attr(not(feature = "meshopt"), expect(dead_code, reason = "only the decoder asks"))]
     pub(super) filter: Option<String>,
 }
 
