@@ -86,8 +86,8 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
-/// Trees of set operations and all that is made of them: everything of [`planecut_csg`], [`cells`](crate::cells) and
-/// [`shapes`](crate::shapes) under one name.
+/// Trees of set operations and all that is made of them: everything of [`planecut_csg`], [`cells`] and [`shapes`]
+/// under one name.
 pub mod csg {
     pub use planecut_cells::*;
     pub use planecut_check as check;
