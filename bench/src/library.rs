@@ -81,7 +81,7 @@ impl Library for Planecut {
     type HalfSpace = planecut_kernel::HalfSpace;
 
     fn half_space(plane: &Plane) -> Self::HalfSpace {
-        planecut_kernel::HalfSpace::new(plane.normal.into(), plane.offset).expect("the inputs are of moderate size")
+        planecut_kernel::HalfSpace::new(plane.normal, plane.offset).expect("the inputs are of moderate size")
     }
 
     fn new() -> Self {
