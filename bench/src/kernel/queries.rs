@@ -36,13 +36,13 @@ type Triple = [f64; 3];
 type Query<P> = fn(&P, Triple) -> f64;
 
 const OURS: [Query<IncrementalPolytope>; 4] = [
-    |polytope, direction| match polytope.support(direction.into()) {
+    |polytope, direction| match polytope.support(direction) {
         Some(Support::Vertex { position, .. }) => position.dot(direction.into()),
         _ => f64::NAN,
     },
-    |polytope, point| f64::from(u8::from(polytope.contains(point.into()))),
-    |polytope, origin| polytope.clip_ray(origin.into(), -DVec3::from(origin)).map_or(f64::NAN, |clipped| clipped.from),
-    |polytope, point| polytope.distance(point.into()),
+    |polytope, point| f64::from(u8::from(polytope.contains(point))),
+    |polytope, origin| polytope.clip_ray(origin, -DVec3::from(origin)).map_or(f64::NAN, |clipped| clipped.from),
+    |polytope, point| polytope.distance(point),
 ];
 
 const THEIRS: [Query<ConvexPolyhedron>; 4] = [
