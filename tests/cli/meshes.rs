@@ -55,7 +55,7 @@ fn every_example_comes_back_from_every_format() {
 }
 
 #[test]
-#[ignore = "2026-11-21: takes a minute, as tests are hardly optimised; the other examples are read back always"]
+#[ignore = "2026-11-21: takes a minute, as tests are not fully optimised; the other examples are read back always"]
 fn the_largest_examples_come_back_from_every_format() {
     comes_back(examples().into_iter().filter(|model| LARGE.iter().any(|name| model.ends_with(format!("{name}.json")))));
 }
