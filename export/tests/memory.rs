@@ -2,8 +2,6 @@
 //! the whole process.
 #![cfg(target_os = "linux")]
 
-mod common;
-
 use std::io::{self, Write};
 
 use planecut_export::{ExportOptions, Format, Part, write_parts};
@@ -31,7 +29,7 @@ fn peak() -> Option<u64> {
 
 #[test]
 fn a_million_triangles_take_less_than_three_times_their_file() {
-    let mesh = common::random_boxes(83_334, 1);
+    let mesh = planecut_testkit::meshes::random_boxes(83_334, 1);
     assert!(mesh.triangles.len() >= 1_000_000);
     let Some(before) = peak() else {
         println!("skipped: this system does not tell");

@@ -3,7 +3,7 @@
 //! - [`random`]: the one seeded generator; a printed seed repeats a test on every machine.
 //! - [`data`]: files that others made, and tests that are ignored where these are absent;
 //! - with the feature `csg`: [`scene`] builds, draws, shrinks and prints models, [`generate`] draws them at random,
-//!   [`soundness`] has what must hold of every mesh;
+//!   [`soundness`] has what must hold of every mesh, [`meshes`] has some that are made by hand;
 //! - with the feature `cells`: [`shape`] has trees whose value at a point is known from their half-spaces alone.
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
@@ -11,6 +11,8 @@
 pub mod data;
 #[cfg(feature = "csg")]
 pub mod generate;
+#[cfg(feature = "csg")]
+pub mod meshes;
 pub mod random;
 #[cfg(feature = "csg")]
 pub mod scene;

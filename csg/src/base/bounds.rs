@@ -1,4 +1,5 @@
-//! Axis-aligned boxes that are sure to hold what they bound.
+//! Axis-aligned boxes that are sure to hold what they bound. The kernel's `BoundingBox` is another promise: correctly rounded, so that it
+//! may lie half a unit in the last place inside the set.
 
 use glam::DVec3;
 use planecut_kernel::HalfSpace;

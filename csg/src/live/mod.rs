@@ -90,7 +90,7 @@ pub enum EditError {
     #[error("found nothing to take back, expected an edit before")]
     NothingToUndo,
     /// There is no edit to do again.
-    #[error("found nothing to do again, expected an edit that was taken back just before")]
+    #[error("found nothing to do again, expected an edit that was undone just before")]
     NothingToRedo,
     /// As for a model that is evaluated: the solid is unbounded, a face names an unknown material, or the boundary does not
     /// close.

@@ -7,6 +7,7 @@ use gltf::Gltf;
 use gltf::mesh::util::ReadIndices;
 use planecut_csg::Mesh;
 use planecut_export::{ExportOptions, Format, Part, encode, encode_parts};
+use planecut_testkit::meshes;
 
 /// What a reader sees of one mesh node, in the coordinates of the scene.
 struct Seen {
@@ -68,8 +69,8 @@ fn check_round_trip(mesh: &Mesh, scale: f64) {
 
     assert_eq!(seen.triangles.len(), mesh.triangles.len());
     let base = seen.triangles[0][0];
-    let found = crate::common::volume(seen.triangles.iter().map(|t| t.map(|p| p - base)));
-    let expected = crate::common::mesh_volume(mesh) * scale.powi(3);
+    let found = meshes::volume(seen.triangles.iter().map(|t| t.map(|p| p - base)));
+    let expected = meshes::mesh_volume(mesh) * scale.powi(3);
     assert!((found / expected - 1.0).abs() < 1e-6, "volume {found}, expected {expected}");
 
     for (triangle, normals) in seen.triangles.iter().zip(&seen.normals) {
@@ -94,12 +95,8 @@ fn check_round_trip(mesh: &Mesh, scale: f64) {
 
 #[test]
 fn triangles_volumes_normals_and_materials_survive() {
-    let boxes = crate::common::random_boxes(300, 11);
-    for mesh in [
-        crate::common::box_mesh(DVec3::ZERO, DVec3::new(1.0, 2.0, 3.0), "stone"),
-        crate::common::cube_with_hole(),
-        boxes,
-    ] {
+    let boxes = meshes::random_boxes(300, 11);
+    for mesh in [meshes::box_mesh(DVec3::ZERO, DVec3::new(1.0, 2.0, 3.0), "stone"), meshes::cube_with_hole(), boxes] {
         check_round_trip(&mesh, 1.0);
         check_round_trip(&mesh, 0.0254);
     }
@@ -107,8 +104,8 @@ fn triangles_volumes_normals_and_materials_survive() {
 
 #[test]
 fn more_than_65535_vertices_need_wide_indices() {
-    let narrow = crate::common::random_boxes(65_535 / 24, 5);
-    let wide = crate::common::random_boxes(65_535 / 24 + 1, 5);
+    let narrow = meshes::random_boxes(65_535 / 24, 5);
+    let wide = meshes::random_boxes(65_535 / 24 + 1, 5);
     for (mesh, is_wide) in [(narrow, false), (wide, true)] {
         check_round_trip(&mesh, 1.0);
         let glb = encode(&mesh, Format::Glb, &ExportOptions::default()).expect("encoded");
@@ -123,7 +120,7 @@ fn more_than_65535_vertices_need_wide_indices() {
 #[test]
 fn positions_on_a_grid_are_exact_far_away() {
     let corner = DVec3::new(1_000_003.0, -2_000_001.0, 524_287.0);
-    let mesh = crate::common::box_mesh(corner, corner + DVec3::new(7.0, 31.0, 1.0), "stone");
+    let mesh = meshes::box_mesh(corner, corner + DVec3::new(7.0, 31.0, 1.0), "stone");
     let glb = encode(&mesh, Format::Glb, &ExportOptions::default()).expect("encoded");
     let Gltf { document, blob } = Gltf::from_slice(&glb).expect("valid");
     let node = document.nodes().nth(1).expect("the mesh node");
@@ -141,7 +138,7 @@ fn positions_on_a_grid_are_exact_far_away() {
 
 #[test]
 fn up_is_y() {
-    let mesh = crate::common::box_mesh(DVec3::ZERO, DVec3::new(1.0, 2.0, 30.0), "stone");
+    let mesh = meshes::box_mesh(DVec3::ZERO, DVec3::new(1.0, 2.0, 30.0), "stone");
     let seen = read(&encode(&mesh, Format::Glb, &ExportOptions::default()).expect("encoded"));
     let points = || seen[0].triangles.iter().flatten().copied();
     let max = points().fold(DVec3::NEG_INFINITY, DVec3::max);
@@ -223,9 +220,7 @@ fn turned(mut corners: [u32; 3], position: impl Fn(u32) -> [f64; 3]) -> ([[u64; 
 
 #[test]
 fn the_manifold_extension_restores_the_meshes_own_indices() {
-    for mesh in
-        [crate::common::cube_with_hole(), crate::common::random_boxes(40, 3), crate::common::random_boxes(3_000, 4)]
-    {
+    for mesh in [meshes::cube_with_hole(), meshes::random_boxes(40, 3), meshes::random_boxes(3_000, 4)] {
         let glb = encode(&mesh, Format::Glb, &ExportOptions::default()).expect("encoded");
         let found = manifold_indices(&glb, 0).expect("a manifold");
         // Triangles come in another order; no two of a solid have the same corners in the same turn.
@@ -259,7 +254,7 @@ fn the_manifold_extension_restores_the_meshes_own_indices() {
 
 #[test]
 fn an_open_mesh_does_not_claim_to_be_a_manifold() {
-    let mut mesh = crate::common::cube_with_hole();
+    let mut mesh = meshes::cube_with_hole();
     mesh.triangles.pop();
     mesh.triangle_faces.pop();
     let glb = encode(&mesh, Format::Glb, &ExportOptions::default()).expect("encoded");
@@ -278,10 +273,8 @@ fn an_empty_mesh_is_a_valid_file_without_meshes() {
 #[test]
 fn parts_become_named_nodes_and_share_materials() {
     let meshes: Vec<Mesh> = (0..5)
-        .map(|i| {
-            crate::common::box_mesh(DVec3::splat(f64::from(i) * 3.0), DVec3::splat(f64::from(i) * 3.0 + 2.0), "stone")
-        })
-        .chain([Mesh::default(), crate::common::cube_with_hole()])
+        .map(|i| meshes::box_mesh(DVec3::splat(f64::from(i) * 3.0), DVec3::splat(f64::from(i) * 3.0 + 2.0), "stone"))
+        .chain([Mesh::default(), meshes::cube_with_hole()])
         .collect();
     let names: Vec<String> = (0..meshes.len()).map(|i| format!("cell {i}")).collect();
     let parts: Vec<_> = meshes.iter().zip(&names).map(|(mesh, name)| Part::new(name, mesh)).collect();
@@ -292,8 +285,8 @@ fn parts_become_named_nodes_and_share_materials() {
         if mesh.triangles.is_empty() {
             continue;
         }
-        let found = crate::common::volume(seen.triangles.iter().copied());
-        assert!((found - crate::common::mesh_volume(mesh)).abs() < 1e-9);
+        let found = meshes::volume(seen.triangles.iter().copied());
+        assert!((found - meshes::mesh_volume(mesh)).abs() < 1e-9);
     }
     let document = Gltf::from_slice(&glb).expect("valid").document;
     let nodes: Vec<_> = document.nodes().skip(1).map(|node| node.name().expect("named").to_owned()).collect();
@@ -304,7 +297,7 @@ fn parts_become_named_nodes_and_share_materials() {
 /// The JSON form holds the same document and the same buffer.
 #[test]
 fn gltf_embeds_the_buffer_of_the_glb() {
-    let mesh = crate::common::random_boxes(20, 8);
+    let mesh = meshes::random_boxes(20, 8);
     let glb = encode(&mesh, Format::Glb, &ExportOptions::default()).expect("encoded");
     let text = encode(&mesh, Format::Gltf, &ExportOptions::default()).expect("encoded");
     let raw = gltf::Glb::from_slice(&glb).expect("a GLB");
@@ -332,7 +325,7 @@ fn decode_base64(code: &str) -> Vec<u8> {
 
 #[test]
 fn coordinates_beyond_single_precision_are_refused() {
-    let mesh = crate::common::box_mesh(DVec3::splat(-1e300), DVec3::splat(1e300), "stone");
+    let mesh = meshes::box_mesh(DVec3::splat(-1e300), DVec3::splat(1e300), "stone");
     let message = encode(&mesh, Format::Glb, &ExportOptions::default()).expect_err("refused").to_string();
     assert!(message.contains("single precision"), "{message}");
 }

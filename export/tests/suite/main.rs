@@ -3,7 +3,5 @@
 
 mod assets;
 mod brushes;
-#[path = "../common/mod.rs"]
-mod common;
 mod gltf;
 mod obj_stl;

@@ -3,6 +3,7 @@
 use glam::{DVec3, Vec3};
 use planecut_csg::Mesh;
 use planecut_export::{ExportOptions, Format, Part, encode, encode_parts};
+use planecut_testkit::meshes;
 
 struct Obj {
     positions: Vec<DVec3>,
@@ -40,7 +41,7 @@ fn material_of(mesh: &Mesh, triangle: usize) -> usize {
 
 #[test]
 fn obj_keeps_every_bit_and_every_index() {
-    for mesh in [crate::common::cube_with_hole(), crate::common::random_boxes(200, 21)] {
+    for mesh in [meshes::cube_with_hole(), meshes::random_boxes(200, 21)] {
         let obj = read_obj(&encode(&mesh, Format::Obj, &ExportOptions::default()).expect("encoded"));
         assert_eq!(obj.positions, mesh.positions);
         let mut expected: Vec<_> = (0..mesh.triangles.len())
@@ -54,7 +55,7 @@ fn obj_keeps_every_bit_and_every_index() {
 
 #[test]
 fn obj_scales_and_numbers_parts_on() {
-    let meshes = [crate::common::cube_with_hole(), crate::common::random_boxes(3, 2)];
+    let meshes = [meshes::cube_with_hole(), meshes::random_boxes(3, 2)];
     let parts = [Part::new("a b", &meshes[0]), Part::new("", &meshes[1])];
     let obj = read_obj(
         &encode_parts(&parts, Format::Obj, &ExportOptions { scale: 0.5, ..ExportOptions::default() }).expect("encoded"),
@@ -62,15 +63,14 @@ fn obj_scales_and_numbers_parts_on() {
     assert_eq!(obj.objects, ["a_b", "solid"]);
     let expected: Vec<_> = meshes.iter().flat_map(|mesh| &mesh.positions).map(|&p| p * 0.5).collect();
     assert_eq!(obj.positions, expected);
-    let found =
-        crate::common::volume(obj.triangles.iter().map(|(t, _)| t.map(|corner| obj.positions[corner as usize])));
-    let expected: f64 = meshes.iter().map(crate::common::mesh_volume).sum::<f64>() / 8.0;
+    let found = meshes::volume(obj.triangles.iter().map(|(t, _)| t.map(|corner| obj.positions[corner as usize])));
+    let expected: f64 = meshes.iter().map(meshes::mesh_volume).sum::<f64>() / 8.0;
     assert!((found / expected - 1.0).abs() < 1e-12);
 }
 
 #[test]
 fn stl_has_the_triangles_in_single_precision() {
-    let mesh = crate::common::random_boxes(100, 9);
+    let mesh = meshes::random_boxes(100, 9);
     let scale = 25.4;
     let bytes = encode(&mesh, Format::Stl, &ExportOptions { scale, ..ExportOptions::default() }).expect("encoded");
     assert!(!bytes.starts_with(b"solid"), "would be taken for a text file");
@@ -89,9 +89,9 @@ fn stl_has_the_triangles_in_single_precision() {
 /// The oracle of these tests is right where the answer is known: a cube of side 4 less a square prism of side 2.
 #[test]
 fn the_test_meshes_have_the_volumes_they_should() {
-    assert!((crate::common::mesh_volume(&crate::common::cube_with_hole()) - (64.0 - 16.0)).abs() < 1e-12);
-    let slab = crate::common::box_mesh(DVec3::splat(-1.0), DVec3::new(1.0, 2.0, 3.0), "stone");
-    assert!((crate::common::mesh_volume(&slab) - 24.0).abs() < 1e-12);
+    assert!((meshes::mesh_volume(&meshes::cube_with_hole()) - (64.0 - 16.0)).abs() < 1e-12);
+    let slab = meshes::box_mesh(DVec3::splat(-1.0), DVec3::new(1.0, 2.0, 3.0), "stone");
+    assert!((meshes::mesh_volume(&slab) - 24.0).abs() < 1e-12);
 }
 
 #[test]
@@ -103,7 +103,7 @@ fn empty_meshes_are_valid_files() {
 
 #[test]
 fn broken_indices_are_an_error_in_every_format() {
-    let mut mesh = crate::common::cube_with_hole();
+    let mut mesh = meshes::cube_with_hole();
     mesh.triangles[3][1] = 99;
     for format in Format::ALL {
         let message = encode(&mesh, format, &ExportOptions::default()).expect_err("refused").to_string();

@@ -5,6 +5,8 @@ use std::ops::Range;
 
 use glam::DVec3;
 
+use crate::polytope::BoundingBox;
+
 /// Of a point with more neighbours than this, this number at a time is kept in a box: the apex of a cone over n points is asked
 /// about by each of its n facets.
 const CHUNK: usize = 256;
@@ -16,26 +18,21 @@ pub(super) struct Neighbours {
     ranges: Vec<Range<u32>>,
     ends: Vec<u32>,
     /// The boxes around the chunks of points that have more than one.
-    boxes: HashMap<u32, Vec<Bounds>>,
+    boxes: HashMap<u32, Vec<BoundingBox>>,
 }
 
-/// The lower and the upper corner of a box.
-#[derive(Debug)]
-struct Bounds(DVec3, DVec3);
+/// The box around points.
+fn box_around(points: impl Iterator<Item = DVec3>) -> BoundingBox {
+    let nothing = BoundingBox { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY };
+    points.fold(nothing, |all, p| BoundingBox { min: all.min.min(p), max: all.max.max(p) })
+}
 
-impl Bounds {
-    fn of(points: impl Iterator<Item = DVec3>) -> Self {
-        let nothing = Self(DVec3::INFINITY, DVec3::NEG_INFINITY);
-        points.fold(nothing, |Self(low, high), p| Self(low.min(p), high.max(p)))
-    }
-
-    /// Whether a point of the box may lie farther along a direction than another point.
-    fn may_reach_beyond(&self, direction: DVec3, point: DVec3) -> bool {
-        let (low, high) = (direction * (self.0 - point), direction * (self.1 - point));
-        let terms = low.max(high);
-        // difference, product and two sums: 4 roundings a term
-        terms.element_sum() > -4.0 * f64::EPSILON * terms.abs().element_sum()
-    }
+/// Whether a point of the box may lie farther along a direction than another point.
+fn may_reach_beyond(bounds: &BoundingBox, direction: DVec3, point: DVec3) -> bool {
+    let (low, high) = (direction * (bounds.min - point), direction * (bounds.max - point));
+    let terms = low.max(high);
+    // difference, product and two sums: 4 roundings a term
+    terms.element_sum() > -4.0 * f64::EPSILON * terms.abs().element_sum()
 }
 
 impl Neighbours {
@@ -57,7 +54,7 @@ impl Neighbours {
         let ring = &self.ends[start..];
         if ring.len() > CHUNK {
             let at = |p: &u32| points[*p as usize];
-            self.boxes.insert(point, ring.chunks(CHUNK).map(|chunk| Bounds::of(chunk.iter().map(at))).collect());
+            self.boxes.insert(point, ring.chunks(CHUNK).map(|chunk| box_around(chunk.iter().map(at))).collect());
         }
     }
 
@@ -72,7 +69,7 @@ impl Neighbours {
         let all = &self.ends[start as usize..end as usize];
         let boxes = if all.len() > CHUNK { self.boxes.get(&point) } else { None };
         let from = points[point as usize];
-        let may_be = move |chunk: usize| boxes.is_none_or(|boxes| boxes[chunk].may_reach_beyond(direction, from));
+        let may_be = move |chunk: usize| boxes.is_none_or(|boxes| may_reach_beyond(&boxes[chunk], direction, from));
         all.chunks(CHUNK).enumerate().filter(move |(chunk, _)| may_be(*chunk)).flat_map(|(_, chunk)| chunk).copied()
     }
 }

@@ -3,8 +3,8 @@
 use planecut_csg::Mesh;
 use planecut_picture::{Background, CameraKind, Picture, PreviewOptions, PreviewStyle, render_buffers};
 
-use crate::meshes;
 use crate::support::{CAMERAS, SMALL, STYLES, draw, linear, painted, pixel, places, unit_box};
+use planecut_testkit::meshes;
 
 fn clear(style: PreviewStyle, camera: CameraKind) -> PreviewOptions {
     PreviewOptions { style, camera, background: Background::Transparent, ..SMALL }

@@ -6,9 +6,9 @@ use planecut_picture::{Background, Buffers, CameraKind, PreviewOptions, PreviewS
 
 use planecut_testkit::random::Rng;
 
-use crate::meshes;
 use crate::oracle::{Seen, eye_of, hits, orthographic, perspective};
 use crate::support::{CAMERAS, SMALL, draw, painted, pixel, places, tetrahedron};
+use planecut_testkit::meshes;
 
 /// Directions to look from; straight down and level ones are among them.
 const VIEWS: [[f64; 2]; 7] =

@@ -8,8 +8,8 @@ use planecut_picture::{CameraKind, PictureError, PreviewOptions, PreviewStyle, T
 
 use planecut_testkit::random::Rng;
 
-use crate::meshes;
 use crate::support::{BACKGROUNDS, CAMERAS, SMALL, STYLES, brightness, draw, painted, pixel, unit_box};
+use planecut_testkit::meshes;
 
 #[test]
 fn the_model_is_in_the_middle_and_the_background_in_the_corners() {

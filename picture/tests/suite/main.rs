@@ -6,7 +6,6 @@ mod facts;
 mod golden;
 #[cfg(feature = "text")]
 mod labels;
-mod meshes;
 mod numbers;
 mod oracle;
 mod styles;

@@ -7,8 +7,8 @@ use image::DynamicImage;
 use planecut_csg::Mesh;
 use planecut_picture::{Buffers, PictureError, PreviewOptions, render_buffers};
 
-use crate::meshes;
 use crate::support::{CAMERAS, SMALL, painted};
+use planecut_testkit::meshes;
 
 fn buffers(mesh: &Mesh, options: &PreviewOptions) -> Buffers {
     render_buffers(&painted(mesh), options).expect("drawn")

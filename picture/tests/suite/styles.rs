@@ -6,12 +6,12 @@ use planecut_picture::{CameraKind, Picture, PreviewOptions, PreviewStyle, render
 
 use planecut_testkit::random::Rng;
 
-use crate::meshes;
 use crate::oracle::orthographic;
 use crate::support::{
     BACKGROUNDS, CAMERAS, SMALL, STYLES, block, brightness, differences, draw, hatched, linear, own_cuts, painted,
     pixel, unit_box,
 };
+use planecut_testkit::meshes;
 
 #[test]
 fn bytes_do_not_depend_on_the_number_of_threads() {

@@ -7,7 +7,7 @@ use planecut_picture::{
     Background, CameraKind, Face, Paint, PaintedMesh, Picture, PreviewOptions, PreviewStyle, Tint, render,
 };
 
-use crate::meshes;
+use planecut_testkit::meshes;
 
 pub(crate) const STYLES: [PreviewStyle; 4] =
     [PreviewStyle::Shaded, PreviewStyle::Technical, PreviewStyle::XRay, PreviewStyle::Wireframe];

@@ -4,8 +4,8 @@ use glam::{DMat3, DVec3};
 use planecut_csg::Mesh;
 use planecut_picture::{Background, CameraKind, Picture, PreviewOptions, PreviewStyle, Turntable};
 
-use crate::meshes;
 use crate::support::{BACKGROUNDS, CAMERAS, SMALL, STYLES, around, draw, largest_difference, painted, pixel, places};
+use planecut_testkit::meshes;
 
 fn frames(mesh: &Mesh, options: &PreviewOptions, count: u32) -> Vec<Picture> {
     let subject = painted(mesh);

@@ -6,7 +6,7 @@ use planecut_export::{ExportError, ExportOptions, Format, Part, Projection, Shad
 use planecut_shapes::primitives;
 
 use super::support::written;
-use crate::common::{box_mesh, cube_with_hole, random_boxes};
+use planecut_testkit::meshes::{box_mesh, cube_with_hole, random_boxes};
 
 fn sphere() -> Mesh {
     let ball = primitives::sphere(2.0, 48, MaterialId(0)).expect("a sphere");

@@ -5,7 +5,7 @@ use planecut_csg::Mesh;
 use planecut_export::{ExportOptions, Format, Part, encode_parts, written};
 
 use super::support::written as read_glb;
-use crate::common::{cube_with_hole, random_boxes};
+use planecut_testkit::meshes::{cube_with_hole, random_boxes};
 
 /// The volume between triangles and a point.
 fn volume(triangles: impl Iterator<Item = [DVec3; 3]>, origin: DVec3) -> f64 {

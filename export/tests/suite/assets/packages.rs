@@ -8,7 +8,7 @@ use planecut_export::{
 };
 use planecut_import::mesh::{IndexedMesh, MeshFormat, read_mesh};
 
-use crate::common::{cube_with_hole, mesh_volume, random_boxes, volume};
+use planecut_testkit::meshes::{cube_with_hole, mesh_volume, random_boxes, volume};
 
 fn volume_of(mesh: &IndexedMesh) -> f64 {
     volume(mesh.triangles.iter().map(|t| t.map(|corner| mesh.positions[corner as usize])))

@@ -6,7 +6,7 @@ use planecut_import::mesh::{IndexedMesh, MeshFormat, read_mesh};
 use serde_json::Value;
 
 use super::support::written;
-use crate::common::{box_mesh, cube_with_hole, random_boxes};
+use planecut_testkit::meshes::{box_mesh, cube_with_hole, random_boxes};
 
 fn quantized() -> ExportOptions {
     ExportOptions { quantize: true, ..ExportOptions::default() }

@@ -5,7 +5,7 @@ use planecut_csg::Mesh;
 use planecut_export::{ExportOptions, Part};
 
 use super::support::written;
-use crate::common::{box_mesh, cube_with_hole};
+use planecut_testkit::meshes::{box_mesh, cube_with_hole};
 
 fn moved(mesh: &Mesh, by: DVec3) -> Mesh {
     Mesh { positions: mesh.positions.iter().map(|position| *position + by).collect(), ..mesh.clone() }

@@ -1,30 +1,36 @@
-//! Meshes to test with, made by hand so that these tests need no other crate to be right.
-#![allow(dead_code, reason = "each test program uses its own part")]
+//! Meshes made by hand, so that tests of what takes meshes need no other part of the product to be right.
 
 use glam::{DMat3, DVec3};
 use planecut_csg::{Material, MaterialId, Mesh, MeshFace};
-use planecut_testkit::random::Rng;
 
-/// Volume inside closed triangles that are counter-clockwise seen from outside.
-pub(crate) fn volume(triangles: impl Iterator<Item = [DVec3; 3]>) -> f64 {
+use crate::random::Rng;
+
+/// The volume inside closed triangles that are counter-clockwise seen from outside.
+pub fn volume(triangles: impl Iterator<Item = [DVec3; 3]>) -> f64 {
     triangles.map(|[a, b, c]| a.dot(b.cross(c)) / 6.0).sum()
 }
 
-/// Volume of a mesh, measured from its first vertex.
-pub(crate) fn mesh_volume(mesh: &Mesh) -> f64 {
+/// The volume of a mesh, measured from its first vertex.
+///
+/// # Panics
+///
+/// Panics if the mesh has no vertex.
+#[must_use]
+pub fn mesh_volume(mesh: &Mesh) -> f64 {
     let base = mesh.positions[0];
     volume(mesh.triangles.iter().map(|t| t.map(|corner| mesh.positions[corner as usize] - base)))
 }
 
 /// An axis-aligned box of one material.
-pub(crate) fn box_mesh(min: DVec3, max: DVec3, material: &str) -> Mesh {
+#[must_use]
+pub fn box_mesh(min: DVec3, max: DVec3, material: &str) -> Mesh {
     let mut mesh = Mesh::default();
     push_box(&mut mesh, (min + max) / 2.0, (max - min) / 2.0, DMat3::IDENTITY, material);
     mesh
 }
 
 /// Adds a closed box as a component of its own.
-pub(crate) fn push_box(mesh: &mut Mesh, center: DVec3, half: DVec3, rotation: DMat3, material: &str) {
+pub fn push_box(mesh: &mut Mesh, center: DVec3, half: DVec3, rotation: DMat3, material: &str) {
     let base = mesh.positions.len() as u32;
     // Bit i of the corner number is its side along axis i.
     for corner in 0..8_u32 {
@@ -44,7 +50,8 @@ pub(crate) fn push_box(mesh: &mut Mesh, center: DVec3, half: DVec3, rotation: DM
 }
 
 /// A cube of side 4 around the origin with a square hole of side 2 through it along z: genus 1.
-pub(crate) fn cube_with_hole() -> Mesh {
+#[must_use]
+pub fn cube_with_hole() -> Mesh {
     let mut mesh = Mesh::default();
     for half in [2.0, 1.0] {
         for z in [-2.0, 2.0] {
@@ -73,7 +80,8 @@ pub(crate) fn cube_with_hole() -> Mesh {
 }
 
 /// `count` closed boxes of random place, size, rotation and material over a square, reproducible from `seed`.
-pub(crate) fn random_boxes(count: usize, seed: u64) -> Mesh {
+#[must_use]
+pub fn random_boxes(count: usize, seed: u64) -> Mesh {
     let mut random = Rng::new(seed);
     let mut mesh = Mesh::default();
     let side = (count as f64).sqrt() * 1.5;
