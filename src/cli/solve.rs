@@ -1,5 +1,6 @@
 //! From an input to its solid and the report on it: what `build`, `info` and `render` share.
 
+use std::num::NonZeroU32;
 use std::time::{Duration, Instant};
 
 use planecut::check::check_topology;
@@ -166,7 +167,7 @@ fn brush_warnings(kind: InputKind, model: &Model, summary: &ModelSummary) -> imp
     let unbounded: &[usize] = if kind == InputKind::Map { &summary.unbounded } else { &[] };
     let kinds = [(&summary.empty[..], "without interior"), (unbounded, "that is not bounded")];
     kinds.into_iter().filter_map(|(numbers, kind)| {
-        let line = model.tree.brushes()[*numbers.first()?].line;
+        let line = model.tree.source_line(*numbers.first()?).map_or(0, NonZeroU32::get);
         let message = match numbers.len() {
             1 => format!("left out a brush {kind}"),
             count => {

@@ -128,7 +128,7 @@ pub fn evaluate_in_blocks<E>(
             block.add_walls(&mut brush, &bounds[member as usize], wall);
             brush
         };
-        let tree = prune::tree_of_some(model.tree.nodes(), &block.members, brush);
+        let tree = prune::tree_of_some(&model.tree, &block.members, brush);
         let evaluation = evaluate(&Model { materials: materials.clone(), tree })?;
         let mut mesh = evaluation.mesh;
         seams.part(&mut mesh, wall);

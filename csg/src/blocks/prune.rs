@@ -1,28 +1,36 @@
 //! What a tree is where only some of its brushes are.
 
+use std::num::NonZeroU32;
+
 use crate::model::{Brush, Operation, Tree, TreeNode};
 
-/// The tree of the brushes numbered by `members`, ascending, all others being nothing; `brush` makes the brush of a number.
-pub(super) fn tree_of_some(nodes: &[TreeNode], members: &[u32], brush: impl Fn(u32) -> Brush) -> Tree {
+/// What a tree is where only the brushes numbered by `members`, ascending, are something; `brush` makes the brush of a number. The
+/// brushes keep their source lines.
+pub(super) fn tree_of_some(tree: &Tree, members: &[u32], brush: impl Fn(u32) -> Brush) -> Tree {
     let mut pruned = Pruned::default();
     let (mut leaf, mut members) = (0, members.iter().copied().peekable());
-    for node in nodes {
+    for node in tree.nodes() {
         match *node {
             TreeNode::Leaf => {
                 let member = members.next_if_eq(&leaf);
-                pruned.leaf(member.map(&brush));
+                pruned.leaf(member.map(|member| (brush(member), tree.source_line(member as usize))));
                 leaf += 1;
             }
             TreeNode::Operation { operation, operands } => pruned.operation(operation, operands as usize),
         }
     }
-    if pruned.results.pop().flatten().is_none() { Tree::empty() } else { Tree::of_parts(pruned.brushes, pruned.nodes) }
+    match pruned.results.pop().flatten() {
+        Some(_) => Tree::of_parts(pruned.brushes, pruned.nodes).with_source_lines(pruned.lines),
+        None => Tree::empty(),
+    }
 }
 
 /// A tree on its way.
 #[derive(Default)]
 struct Pruned {
     brushes: Vec<Brush>,
+    /// The source lines of the brushes.
+    lines: Vec<Option<NonZeroU32>>,
     nodes: Vec<TreeNode>,
     /// The results that no operation has taken yet: where the brushes and the nodes of each begin; nothing for one that is
     /// nothing.
@@ -30,10 +38,11 @@ struct Pruned {
 }
 
 impl Pruned {
-    fn leaf(&mut self, brush: Option<Brush>) {
+    fn leaf(&mut self, brush: Option<(Brush, Option<NonZeroU32>)>) {
         let begin = (self.brushes.len(), self.nodes.len());
-        self.results.push(brush.map(|brush| {
+        self.results.push(brush.map(|(brush, line)| {
             self.brushes.push(brush);
+            self.lines.push(line);
             self.nodes.push(TreeNode::Leaf);
             begin
         }));
@@ -52,6 +61,7 @@ impl Pruned {
         };
         if is_nothing {
             self.brushes.truncate(begin.0);
+            self.lines.truncate(begin.0);
             self.nodes.truncate(begin.1);
             self.results.push(None);
             return;
@@ -68,7 +78,6 @@ impl Pruned {
 mod tests {
     use super::*;
     use crate::expression::Expression;
-    use crate::model::MaterialId;
 
     /// The value of a tree for leaves that are given, by definition.
     fn value(nodes: &[TreeNode], mut leaves: impl Iterator<Item = bool>) -> bool {
@@ -119,14 +128,16 @@ mod tests {
             }
             let leaves = nodes.iter().filter(|node| **node == TreeNode::Leaf).count() as u32;
             let members: Vec<u32> = (0..leaves).filter(|_| below(2) == 0).collect();
-            let named = |member: u32| Brush { line: member, ..Brush::from_half_spaces([], MaterialId(0)) };
-            let tree = tree_of_some(&nodes, &members, named);
+            // a brush tells by its source line which one it was
+            let all = Tree::of_parts(vec![Brush::default(); leaves as usize], nodes.clone());
+            let all = all.with_source_lines((1..=leaves).map(NonZeroU32::new).collect());
+            let tree = tree_of_some(&all, &members, |_| Brush::default());
             // a base of 1 is kept as well
             let base = Expression::new(tree.nodes()).base();
             assert_eq!(base, value(&nodes, std::iter::repeat(false)));
             for _ in 0..20 {
                 let values: Vec<bool> = (0..leaves).map(|leaf| members.contains(&leaf) && below(2) == 0).collect();
-                let of_pruned = tree.brushes().iter().map(|brush| values[brush.line as usize]);
+                let of_pruned = tree.source_lines().map(|line| values[line.unwrap().get() as usize - 1]);
                 assert_eq!(
                     value(tree.nodes(), of_pruned),
                     value(&nodes, values.iter().copied()),

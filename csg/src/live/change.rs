@@ -100,7 +100,7 @@ impl LiveModel {
 
     /// The number of a brush that is new.
     fn make_room(&mut self, id: BrushId) -> OperandId {
-        let empty = State { brush: Brush::default(), planes: Vec::new(), next_plane: 0, role: Role::Add };
+        let empty = State::new(Brush::default(), Role::Add);
         let operand = Operand {
             id,
             is_there: true,

@@ -186,7 +186,7 @@ impl LiveModel {
     /// [`EditError::Evaluate`]; then none is added.
     pub fn add_brushes(&mut self, brushes: Vec<(Brush, Role)>) -> Result<(Vec<BrushId>, Change), EditError> {
         let first = self.next_id;
-        let (change, before, after) = self.append(brushes)?;
+        let (change, before, after) = self.append(brushes.into_iter().map(|(brush, role)| State::new(brush, role)))?;
         self.history.note(before, after);
         Ok(((first..self.next_id).map(BrushId).collect(), change))
     }
@@ -194,11 +194,11 @@ impl LiveModel {
     /// Adds brushes; also what they were before, and are now.
     pub(super) fn append(
         &mut self,
-        brushes: impl IntoIterator<Item = (Brush, Role)>,
+        brushes: impl IntoIterator<Item = State>,
     ) -> Result<(Change, Vec<New>, Vec<New>), EditError> {
-        let state = |(id, (brush, role)): (BrushId, (Brush, Role))| {
-            self.check_materials(&brush)?;
-            Ok((id, Some(Arc::new(State::new(brush, role)))))
+        let state = |(id, state): (BrushId, State)| {
+            self.check_materials(&state.brush)?;
+            Ok((id, Some(Arc::new(state))))
         };
         let new: Vec<New> = (self.next_id..).map(BrushId).zip(brushes).map(state).collect::<Result<_, EditError>>()?;
         let end = self.next_id + new.len() as u64;
@@ -225,7 +225,7 @@ impl LiveModel {
         let State { next_plane, role, .. } = **self.state(id)?;
         let count = brush.faces.len();
         let planes = (next_plane..next_plane + count).map(PlaneIdx).collect();
-        self.edit_brush(id, State { brush, planes, next_plane: next_plane + count, role })
+        self.edit_brush(id, State { brush, planes, next_plane: next_plane + count, role, line: None })
     }
 
     /// Moves a brush by an affine map; its planes keep their handles.

@@ -21,6 +21,7 @@ mod polytopes;
 mod reach;
 
 use std::collections::BTreeMap;
+use std::num::NonZeroU32;
 use std::sync::Arc;
 
 use planecut_kernel::{IncrementalPolytope, PlaneIdx};
@@ -231,7 +232,9 @@ impl LiveModel {
             live.base = Some(Base { nodes: tree.nodes().to_vec(), leaves: tree.brushes().len() as u32 });
         }
         let roles = roles.unwrap_or_else(|| vec![Role::Add; tree.brushes().len()]);
-        live.append(tree.into_brushes().into_iter().zip(roles))?;
+        let lines: Vec<Option<NonZeroU32>> = tree.source_lines().collect();
+        let brushes = tree.into_brushes().into_iter().zip(roles).zip(lines);
+        live.append(brushes.map(|((brush, role), line)| State { line, ..State::new(brush, role) }))?;
         Ok(live)
     }
 
@@ -253,7 +256,8 @@ impl LiveModel {
         });
         let roles = states().filter(|operand| operand.id.0 >= leaves).map(|operand| operand.state.role);
         let nodes = order::sequence(base.unwrap_or_default(), roles);
-        Model { materials: self.materials.clone(), tree: Tree::of_parts(brushes, nodes) }
+        let lines = states().map(|operand| operand.state.line).collect();
+        Model { materials: self.materials.clone(), tree: Tree::of_parts(brushes, nodes).with_source_lines(lines) }
     }
 
     /// The materials; faces name them by their places.

@@ -1,5 +1,6 @@
 //! The brushes of a live model: their bodies, where these are, and which edges of the boundary their faces make.
 
+use std::num::NonZeroU32;
 use std::sync::Arc;
 
 use planecut_kernel::{DVec3, PlaneIdx};
@@ -35,13 +36,15 @@ pub(super) struct State {
     /// The number in the handle of the next plane.
     pub(super) next_plane: usize,
     pub(super) role: Role,
+    /// Where the input has it, until another brush takes its place.
+    pub(super) line: Option<NonZeroU32>,
 }
 
 impl State {
     /// A brush whose planes are numbered from 0.
     pub(super) fn new(brush: Brush, role: Role) -> Self {
         let next_plane = brush.faces.len();
-        Self { brush, planes: (0..next_plane).map(PlaneIdx).collect(), next_plane, role }
+        Self { brush, planes: (0..next_plane).map(PlaneIdx).collect(), next_plane, role, line: None }
     }
 
     /// The place of a plane among the faces of the brush.

@@ -21,8 +21,6 @@ pub struct Brush {
     pub faces: Vec<BrushFace>,
     /// A name, where the input gives one.
     pub name: Option<String>,
-    /// Line of the input on which the brush begins, counted from 1; 0 where there is none.
-    pub line: u32,
 }
 
 impl Brush {

@@ -1,5 +1,6 @@
 //! Trees of set operations over brushes.
 
+use std::num::NonZeroU32;
 use std::ops::{BitAnd, BitOr, BitXor, Not, Sub};
 
 use super::{Brush, MaterialId, Transform, TransformError};
@@ -55,6 +56,9 @@ pub enum TreeNode {
 pub struct Tree {
     brushes: Vec<Brush>,
     nodes: Vec<TreeNode>,
+    /// The source line of each brush; empty where no brush has one, so that trees without a source pay nothing for them, and equal
+    /// ones compare as equal.
+    lines: Vec<Option<NonZeroU32>>,
 }
 
 impl Default for Tree {
@@ -66,7 +70,7 @@ impl Default for Tree {
 
 impl From<Brush> for Tree {
     fn from(brush: Brush) -> Self {
-        Self { brushes: vec![brush], nodes: vec![TreeNode::Leaf] }
+        Self::of_parts(vec![brush], vec![TreeNode::Leaf])
     }
 }
 
@@ -80,7 +84,7 @@ impl Tree {
     /// All of space: the intersection of no operands.
     #[must_use]
     pub fn everything() -> Self {
-        Self { brushes: Vec::new(), nodes: vec![operation(Operation::Intersection, 0)] }
+        Self::of_parts(Vec::new(), vec![operation(Operation::Intersection, 0)])
     }
 
     /// The union of brushes.
@@ -88,12 +92,12 @@ impl Tree {
     pub fn union_of(brushes: Vec<Brush>) -> Self {
         let mut nodes = vec![TreeNode::Leaf; brushes.len()];
         nodes.push(operation(Operation::Union, brushes.len()));
-        Self { brushes, nodes }
+        Self::of_parts(brushes, nodes)
     }
 
-    /// A tree of brushes and well-formed nodes over as many leaves.
+    /// A tree of brushes and well-formed nodes over as many leaves, without source lines.
     pub(crate) fn of_parts(brushes: Vec<Brush>, nodes: Vec<TreeNode>) -> Self {
-        Self { brushes, nodes }
+        Self { brushes, nodes, lines: Vec::new() }
     }
 
     /// What lies in any operand.
@@ -133,7 +137,7 @@ impl Tree {
     pub fn combine(kind: Operation, operands: impl IntoIterator<Item = Self>) -> Self {
         let mut operands = operands.into_iter();
         let Some(mut tree) = operands.next() else {
-            return Self { brushes: Vec::new(), nodes: vec![operation(kind, 0)] };
+            return Self::of_parts(Vec::new(), vec![operation(kind, 0)]);
         };
         let mut count = match tree.nodes.last() {
             Some(TreeNode::Operation { operation, operands }) if *operation == kind && joins(kind) && *operands > 0 => {
@@ -144,6 +148,7 @@ impl Tree {
             _ => 1,
         };
         for operand in operands {
+            tree.append_lines(operand.lines, operand.brushes.len());
             tree.brushes.extend(operand.brushes);
             tree.nodes.extend(operand.nodes);
             count += 1;
@@ -161,6 +166,68 @@ impl Tree {
     /// The brushes, to be changed one by one.
     pub fn brushes_mut(&mut self) -> &mut [Brush] {
         &mut self.brushes
+    }
+
+    /// The line of the input on which a brush begins, counted from 1; `None` where it comes from no line of an input. Lines are
+    /// those of the file that was read: messages name them, geometry knows nothing of them. Brushes keep theirs wherever trees
+    /// are combined or moved.
+    ///
+    /// ```
+    /// use std::num::NonZeroU32;
+    ///
+    /// use planecut_csg::{Brush, MaterialId, Tree};
+    /// use planecut_kernel::DVec3;
+    ///
+    /// let block = |at: f64| Tree::from(Brush::cuboid(DVec3::splat(at), DVec3::splat(at + 2.0), MaterialId(0)));
+    /// let tree = block(0.0) | block(1.0).with_source_line(NonZeroU32::new(7));
+    /// assert_eq!((tree.source_line(0), tree.source_line(1)), (None, NonZeroU32::new(7)));
+    /// ```
+    #[must_use]
+    pub fn source_line(&self, brush: usize) -> Option<NonZeroU32> {
+        self.lines.get(brush).copied().flatten()
+    }
+
+    /// The [`source_line`](Self::source_line) of each brush.
+    pub fn source_lines(&self) -> impl ExactSizeIterator<Item = Option<NonZeroU32>> {
+        (0..self.brushes.len()).map(|brush| self.source_line(brush))
+    }
+
+    /// The tree with a source line for each brush that has none.
+    #[must_use]
+    pub fn with_source_line(mut self, line: Option<NonZeroU32>) -> Self {
+        if line.is_some() {
+            self.lines.resize(self.brushes.len(), None);
+            self.lines.iter_mut().filter(|own| own.is_none()).for_each(|own| *own = line);
+        }
+        self
+    }
+
+    /// The tree with source lines in place of those that it has.
+    ///
+    /// # Panics
+    /// Where there are not as many as brushes.
+    #[must_use]
+    pub fn with_source_lines(mut self, lines: Vec<Option<NonZeroU32>>) -> Self {
+        assert_eq!(lines.len(), self.brushes.len(), "a line for each brush");
+        self.lines = known_lines(lines);
+        self
+    }
+
+    /// The tree without source lines, for one that becomes part of what is made of another input.
+    #[must_use]
+    pub fn without_source_lines(mut self) -> Self {
+        self.lines.clear();
+        self
+    }
+
+    /// Appends the source lines of brushes that follow those that are there.
+    fn append_lines(&mut self, lines: Vec<Option<NonZeroU32>>, brushes: usize) {
+        if self.lines.is_empty() && lines.is_empty() {
+            return;
+        }
+        self.lines.resize(self.brushes.len(), None);
+        self.lines.extend(lines);
+        self.lines.resize(self.brushes.len() + brushes, None);
     }
 
     /// The brushes alone.
@@ -264,7 +331,9 @@ impl Tree {
             }
             let nodes = self.nodes.split_off(start);
             let leaves = nodes.iter().filter(|node| **node == TreeNode::Leaf).count();
-            parts.push(Self { brushes: self.brushes.split_off(self.brushes.len() - leaves), nodes });
+            let first = self.brushes.len() - leaves;
+            let lines = if self.lines.is_empty() { Vec::new() } else { known_lines(self.lines.split_off(first)) };
+            parts.push(Self { brushes: self.brushes.split_off(first), nodes, lines });
         }
         parts.reverse();
         parts
@@ -328,6 +397,11 @@ pub(crate) fn holds_outside(nodes: &[TreeNode]) -> bool {
         });
     }
     values.pop().expect("a root")
+}
+
+/// Lines of brushes as a tree keeps them.
+fn known_lines(lines: Vec<Option<NonZeroU32>>) -> Vec<Option<NonZeroU32>> {
+    if lines.iter().any(Option::is_some) { lines } else { Vec::new() }
 }
 
 fn operation(operation: Operation, operands: usize) -> TreeNode {

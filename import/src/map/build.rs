@@ -1,6 +1,7 @@
 //! From entities to a model: names, options, and what is left out.
 
 use std::borrow::Cow;
+use std::num::NonZeroU32;
 
 use planecut_csg::{Brush, BrushFace, Material, MaterialId, Tree};
 use rustc_hash::FxHashMap;
@@ -25,6 +26,8 @@ pub(super) struct Builder<'a> {
     primitives_left_out: Tally,
     is_empty: bool,
     brushes: Vec<Brush>,
+    /// The lines on which the brushes begin.
+    brush_lines: Vec<Option<NonZeroU32>>,
     import: MapImport,
 }
 
@@ -42,6 +45,7 @@ impl<'a> Builder<'a> {
             primitives_left_out: Tally::default(),
             is_empty: true,
             brushes: Vec::new(),
+            brush_lines: Vec::new(),
             import: MapImport::default(),
         }
     }
@@ -99,7 +103,8 @@ impl<'a> Builder<'a> {
             self.brushes_left_out.add(line);
         } else {
             self.import.textures.push(textures);
-            self.brushes.push(Brush { faces, name: name.map(str::to_owned), line });
+            self.brushes.push(Brush { faces, name: name.map(str::to_owned) });
+            self.brush_lines.push(NonZeroU32::new(line));
         }
         Ok(())
     }
@@ -133,7 +138,8 @@ impl<'a> Builder<'a> {
         if self.is_empty {
             return Err(MapError::Empty { name: self.name.to_owned() });
         }
-        self.import.model.tree = Tree::union_of(std::mem::take(&mut self.brushes));
+        let lines = std::mem::take(&mut self.brush_lines);
+        self.import.model.tree = Tree::union_of(std::mem::take(&mut self.brushes)).with_source_lines(lines);
         self.import.warnings = self.warnings();
         self.import.faces_left_out = self.faces_left_out.count;
         self.import.brushes_left_out = self.brushes_left_out.count;

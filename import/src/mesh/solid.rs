@@ -1,5 +1,7 @@
 //! Closed meshes as models of convex cells.
 
+use std::num::NonZeroU32;
+
 use glam::DVec3;
 use planecut_csg::{Brush, Material, MaterialId, Model, Tree};
 use planecut_kernel::hull;
@@ -134,7 +136,7 @@ fn solid_of(mesh: &IndexedMesh, convex: ConvexObjects) -> Result<MeshImport, Fau
 fn united(mesh: &IndexedMesh, objects: &[MeshObject], convex: ConvexObjects) -> Result<MeshImport, Fault> {
     let (materials, material_of) = materials(mesh);
     let mut import = MeshImport { model: Model { materials, tree: Tree::empty() }, warnings: Vec::new() };
-    let mut brushes = Vec::new();
+    let (mut brushes, mut lines) = (Vec::new(), Vec::new());
     for object in objects {
         let (points, triangles) = own_points(mesh, object);
         let options = PolyhedronOptions { precision: mesh.precision };
@@ -144,20 +146,21 @@ fn united(mesh: &IndexedMesh, objects: &[MeshObject], convex: ConvexObjects) -> 
             *cell = hull_of(&points, cell);
         }
         let line = match mesh.places.get(object.triangles.start) {
-            Some(Place::Line(line)) => u32::try_from(*line).unwrap_or(0),
-            _ => 0,
+            Some(Place::Line(line)) => u32::try_from(*line).ok().and_then(NonZeroU32::new),
+            _ => None,
         };
         if solid.is_turned {
             let message = "found facets that are clockwise seen from outside, turned them over";
             let message = format!("{}{message}", of_object(object.name.as_deref()));
-            import.warnings.push(Warning { line, message });
+            import.warnings.push(Warning { line: line.map_or(0, NonZeroU32::get), message });
         }
         brushes.extend(solid.cells.into_iter().map(|mut brush| {
-            (brush.name, brush.line) = (object.name.clone(), line);
+            brush.name = object.name.clone();
             brush
         }));
+        lines.resize(brushes.len(), line);
     }
-    import.model.tree = Tree::union_of(brushes);
+    import.model.tree = Tree::union_of(brushes).with_source_lines(lines);
     Ok(import)
 }
 

@@ -3,7 +3,9 @@
 //! Nodes are listed before those within them. So what they inherit is handed down in the order of the list, and what they make
 //! is handed up in the reverse order: when a node's turn comes, its children have had theirs.
 
-use planecut_csg::{Brush, Model, Tree};
+use std::num::NonZeroU32;
+
+use planecut_csg::{Model, Tree};
 use planecut_shapes::Outline;
 
 use super::error::Fault;
@@ -136,7 +138,9 @@ impl<'s, 'a> Evaluator<'s, 'a> {
         if let Some(Geometry::Solid(body)) = &mut made
             && MAKERS.contains(&turn.node.name)
         {
-            self.mark_line(turn, &mut body.tree);
+            // each new brush is told on which line it was made
+            let line = self.lines.line_of(turn.node.offset);
+            body.tree = std::mem::take(&mut body.tree).with_source_line(NonZeroU32::new(line));
             self.planes += body.tree.brushes().iter().map(|brush| brush.faces.len()).sum::<usize>();
             if self.planes > MAX_PLANES {
                 let (found, expected) = (format!("more than {MAX_PLANES} planes"), "a smaller tree");
@@ -159,13 +163,6 @@ impl<'s, 'a> Evaluator<'s, 'a> {
             "offset" => flat::offset(turn.node, &self.flat_union(turn, children)?),
             _ => solid::projection(turn.node, &self.solid_union(turn, children)?),
         }
-    }
-
-    /// Tells each new brush on which line it was made.
-    fn mark_line(&self, turn: Turn<'_, '_>, tree: &mut Tree) {
-        let is_new = |brush: &&mut Brush| brush.line == 0;
-        let line = self.lines.line_of(turn.node.offset);
-        tree.brushes_mut().iter_mut().filter(is_new).for_each(|brush| brush.line = line);
     }
 
     fn leaf(&mut self, turn: Turn<'s, 'a>) -> Made {

@@ -33,11 +33,8 @@ pub(super) fn mesh(node: &Node<'_>, folder: &Path, material: MaterialId) -> Resu
     match read_solid(&bytes, format, file) {
         Ok(import) => {
             let message = import.warnings.first().map(|warning| format!("`{}`: {warning}", file.escape_debug()));
-            let mut tree = import.model.tree.with_material(material);
-            for brush in tree.brushes_mut() {
-                brush.line = 0;
-            }
-            Ok((tree, message))
+            // a line of the mesh file is none of this one
+            Ok((import.model.tree.with_material(material).without_source_lines(), message))
         }
         Err(error) => Ok(left_out(&error.to_string())),
     }

@@ -6,6 +6,7 @@
 //! - [`cutaway`]: models cut open, against counts of unit cubes.
 //! - [`ownership`]: which of coplanar faces emits, against unit faces of a grid and the truth table of `docs/weld.md`.
 //! - [`edge_cases`]: empty and unbounded results, deep and wide trees, materials.
+//! - [`source_lines`]: lines of the input stay with their brushes.
 
 mod algebra;
 mod cutaway;
@@ -13,5 +14,6 @@ mod edge_cases;
 mod ownership;
 mod random;
 mod regressions;
+mod source_lines;
 mod touching;
 mod volume;

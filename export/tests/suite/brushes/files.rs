@@ -105,12 +105,13 @@ fn planes_of_whole_points_in_maps_stay() {
     let mut compared = 0;
     for (name, model) in &maps {
         let after = read(&written(model.tree.brushes(), &model.materials, BrushFormat::Map, 1.0), BrushFormat::Map);
-        let is_world = |brush: &&Brush| brush.name.is_none();
-        let (world, others): (Vec<&Brush>, Vec<&Brush>) = model.tree.brushes().iter().partition(is_world);
-        let before: Vec<&Brush> = world.into_iter().chain(others).collect();
+        // by their numbers, which tell their lines
+        let before = model.tree.brushes();
+        let (world, others): (Vec<usize>, Vec<usize>) = (0..before.len()).partition(|k| before[*k].name.is_none());
         assert_eq!(before.len(), after.tree.brushes().len(), "{name}");
-        for (before, after_brush) in before.into_iter().zip(after.tree.brushes()) {
-            let context = format!("{name}:{}", before.line);
+        for (number, after_brush) in world.into_iter().chain(others).zip(after.tree.brushes()) {
+            let before = &before[number];
+            let context = format!("{name}:{:?}", model.tree.source_line(number));
             let class =
                 |brush: &Brush| brush.name.as_deref().and_then(|n| n.rsplit_once(" #")).map(|(c, _)| c.to_owned());
             assert_eq!(class(before), class(after_brush), "{context}");

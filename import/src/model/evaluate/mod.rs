@@ -6,6 +6,8 @@
 
 mod outline;
 
+use std::num::NonZeroU32;
+
 use planecut_csg::{MaterialId, Operation, Transform, Tree};
 use planecut_shapes::outline::Outline;
 use planecut_shapes::shaping;
@@ -348,10 +350,7 @@ impl<'v, 'a> Evaluator<'v, 'a> {
         make: impl FnOnce(Maker<'_, '_>) -> Checked<Tree>,
     ) -> Checked<()> {
         let line = self.line(context.node);
-        let mut tree = make(self.maker(context, value))?;
-        for brush in tree.brushes_mut().iter_mut().filter(|brush| brush.line == 0) {
-            brush.line = line;
-        }
+        let tree = make(self.maker(context, value))?.with_source_line(NonZeroU32::new(line));
         self.budget.add(context.node, &tree)?;
         let placed = self.put(context, tree)?;
         self.trees.push(placed);

@@ -73,9 +73,10 @@ fn lines_are_those_of_opening_braces() {
         let Ok(import) = read_map(&text, &name, &MapOptions::default()) else { continue };
         let text = String::from_utf8_lossy(&text);
         let lines: Vec<&str> = text.lines().collect();
-        for brush in import.model.tree.brushes() {
-            assert_eq!(lines[brush.line as usize - 1].trim(), "{", "{name}:{}", brush.line);
-            assert!(lines[brush.line as usize].trim_start().starts_with('('), "{name}:{}", brush.line);
+        for line in import.model.tree.source_lines() {
+            let line = line.expect("a brush of a file").get() as usize;
+            assert_eq!(lines[line - 1].trim(), "{", "{name}:{line}");
+            assert!(lines[line].trim_start().starts_with('('), "{name}:{line}");
         }
     }
 }

@@ -1,7 +1,9 @@
 //! Each variant of the syntax of a map.
 
+use std::num::NonZeroU32;
+
 use glam::{DVec2, DVec3};
-use planecut_csg::{Model, TextureUnit};
+use planecut_csg::{Model, TextureUnit, Tree};
 use planecut_import::map::{MapImport, MapOptions, read_map};
 
 const POINTS: &str = "( 0 0 0 ) ( 0 1 0 ) ( 0 0 1 )";
@@ -136,7 +138,7 @@ fn comments_and_line_ends() {
     for end in ["\n", "\r\n", "\r"] {
         let import = read(text.replace('\n', end));
         assert_eq!((import.entities, import.model.tree.brushes().len()), (1, 1));
-        assert_eq!(import.model.tree.brushes()[0].line, 6, "line ends {end:?}");
+        assert_eq!(import.model.tree.source_line(0), NonZeroU32::new(6), "line ends {end:?}");
     }
 }
 
@@ -164,6 +166,12 @@ fn keys_and_values() {
     }
 }
 
+/// The names of the brushes and the lines on which they begin; 0 for none.
+fn names_and_lines(tree: &Tree) -> Vec<(Option<&str>, u32)> {
+    let lines = tree.source_lines().map(|line| line.map_or(0, NonZeroU32::get));
+    tree.brushes().iter().map(|brush| brush.name.as_deref()).zip(lines).collect()
+}
+
 #[test]
 fn names_and_lines_of_brushes() {
     let brush = format!("{{\n{POINTS} a 0 0 0 1 1\n}}\n");
@@ -171,8 +179,7 @@ fn names_and_lines_of_brushes() {
         "{{\n\"classname\" \"worldspawn\"\n{brush}{brush}}}\n{{\n\"classname\" \"light\"\n}}\n{{\n{brush}\"classname\" \"func_door\"\n{brush}}}\n{{\n{brush}}}\n"
     );
     let import = read(&text);
-    let found: Vec<(Option<&str>, u32)> =
-        import.model.tree.brushes().iter().map(|brush| (brush.name.as_deref(), brush.line)).collect();
+    let found = names_and_lines(&import.model.tree);
     let door = Some("func_door #2");
     assert_eq!(found, [(None, 3), (None, 6), (door, 14), (door, 18), (Some("entity #3"), 23)]);
     assert_eq!((import.entities, import.brushes_read), (4, 5));
@@ -187,9 +194,7 @@ fn brushes_outside_any_entity_belong_to_the_world() {
     let options = MapOptions { world_only: true, ..MapOptions::default() };
     let import = read_with(format!("{brush}{brush}{{ \"classname\" \"func_wall\" {brush} }} {brush}"), &options);
     assert_eq!((import.entities, import.brushes_read, import.brushes_skipped), (1, 4, 1));
-    let found: Vec<(Option<&str>, u32)> =
-        import.model.tree.brushes().iter().map(|b| (b.name.as_deref(), b.line)).collect();
-    assert_eq!(found, [(None, 1), (None, 2), (None, 4)]);
+    assert_eq!(names_and_lines(&import.model.tree), [(None, 1), (None, 2), (None, 4)]);
 }
 
 #[test]
@@ -198,7 +203,7 @@ fn brush_primitives_with_points_are_brushes() {
     let faces = format!("{POINTS} {matrix} common/caulk 0 0 0\n{POINTS} {matrix} (x)");
     let import = read(format!("{{\n\"classname\" \"worldspawn\"\n{{\nbrushDef\n{{\n{faces}\n}}\n}}\n}}"));
     assert_eq!(textures(&import.model), [["common/caulk", "(x)"]]);
-    assert_eq!((import.model.tree.brushes()[0].line, import.primitives_left_out), (3, 0));
+    assert_eq!((import.model.tree.source_line(0), import.primitives_left_out), (NonZeroU32::new(3), 0));
     assert!(import.warnings.is_empty());
     let plain = read(world(&[format!("{POINTS} a 0 0 0 1 1")])).model.tree.brushes()[0].faces[0].half_space;
     assert!(import.model.tree.brushes()[0].faces.iter().all(|face| face.half_space == plain));

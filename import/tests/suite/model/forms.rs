@@ -1,6 +1,7 @@
 //! What each key of a model file makes: volumes from formulas, attributes from the rules of the page.
 
 use std::f64::consts::PI;
+use std::num::NonZeroU32;
 
 use planecut_csg::MaterialId;
 
@@ -242,7 +243,7 @@ fn the_innermost_material_and_name_win() {
 fn brushes_know_their_lines() {
     let import =
         model("{\"union\": [\n{\"sphere\": {\"radius\": 1}},\n{\"hull\": [\n{\"sphere\": {\"radius\": 1}}]}]}");
-    let lines: Vec<u32> = import.model.tree.brushes().iter().map(|brush| brush.line).collect();
+    let lines: Vec<u32> = import.model.tree.source_lines().map(|line| line.map_or(0, NonZeroU32::get)).collect();
     assert_eq!(lines[0], 2);
     assert!(lines[1] == 3 || lines[1] == 4, "{lines:?}");
 }

@@ -1,5 +1,7 @@
 //! What the grammar accepts, and what it says where it does not.
 
+use std::num::NonZeroU32;
+
 use super::{assert_volume, read, refused};
 
 #[test]
@@ -56,7 +58,7 @@ fn errors_name_line_and_what_was_expected() {
 fn brushes_know_their_lines() {
     let import =
         read("group() {\n cube(1);\n\n multmatrix([[1,0,0,4],[0,1,0,0],[0,0,1,0],[0,0,0,1]])\n  sphere(1);\n}");
-    assert_eq!(import.model.tree.brushes().iter().map(|brush| brush.line).collect::<Vec<_>>(), [2, 5]);
+    assert!(import.model.tree.source_lines().eq([2, 5].map(NonZeroU32::new)));
 }
 
 #[test]
