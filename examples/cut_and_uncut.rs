@@ -26,7 +26,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let normal = DVec3::new(1.0, 2.0, 2.0);
     for step in 0..=8 {
         let offset = -30.0 + 60.0 * f64::from(step) / 8.0;
-        let cut = solid.add_plane(&HalfSpace::new(normal, offset)?);
+        let cut = solid.add_plane(HalfSpace::new(normal, offset)?);
         println!("  below {offset:6.1}: volume {:.6}", solid.volume().ok_or("the solid is bounded")?);
         solid.remove_plane(cut);
     }
@@ -39,7 +39,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let angle = f64::from(step) * std::f64::consts::TAU / f64::from(STEPS);
         HalfSpace::new(DVec3::new(angle.cos(), angle.sin(), 0.3), 9.5)
     });
-    let cuts: Vec<_> = planes.map(|plane| plane.map(|plane| solid.add_plane(&plane))).collect::<Result<_, _>>()?;
+    let cuts: Vec<_> = planes.map(|plane| plane.map(|plane| solid.add_plane(plane))).collect::<Result<_, _>>()?;
     let lathed = solid.volume().ok_or("the solid is bounded")?;
     for cut in cuts.iter().step_by(2).chain(cuts.iter().skip(1).step_by(2)) {
         solid.remove_plane(*cut);

@@ -51,7 +51,7 @@
 //! // Its cells: convex and disjoint. Planes cut them in place and can be removed again.
 //! let mut solid = Solid::from_tree(&model.tree);
 //! let whole = solid.volume();
-//! let cut = solid.add_plane(&HalfSpace::new(DVec3::X, 20.0)?);
+//! let cut = solid.add_plane(HalfSpace::new(DVec3::X, 20.0)?);
 //! assert!(solid.volume() < whole);
 //! solid.remove_plane(cut);
 //! assert_eq!(solid.volume(), whole);

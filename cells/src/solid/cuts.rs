@@ -47,15 +47,15 @@ impl Solid {
     ///
     /// # fn main() -> Result<(), planecut_kernel::HalfSpaceError> {
     /// let mut solid = Solid::from(Brush::cuboid(DVec3::ZERO, DVec3::splat(2.0), MaterialId(0)));
-    /// let cut = solid.add_plane(&HalfSpace::new(DVec3::X, 0.5)?);
+    /// let cut = solid.add_plane(HalfSpace::new(DVec3::X, 0.5)?);
     /// assert_eq!(solid.volume(), Some(2.0));
     /// solid.remove_plane(cut);
     /// assert_eq!(solid.volume(), Some(8.0));
     /// # Ok(())
     /// # }
     /// ```
-    pub fn add_plane(&mut self, half_space: &HalfSpace) -> CutId {
-        let (id, cell_plane) = self.next_cut(half_space);
+    pub fn add_plane(&mut self, half_space: HalfSpace) -> CutId {
+        let (id, cell_plane) = self.next_cut(&half_space);
         let mut handles = Vec::new();
         // Boxes stay those of the uncut cells, so that what a cut passes by now it passes by whatever is removed.
         for (place, cell) in (0..).zip(&mut self.cells) {

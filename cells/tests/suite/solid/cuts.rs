@@ -62,7 +62,7 @@ fn cuts_that_are_taken_back_leave_nothing_behind() {
             for _ in 0..30 {
                 if cuts.is_empty() || rng.chance(0.55) {
                     let half_space = random_cut(&mut rng);
-                    cuts.push((solid.add_plane(&half_space), half_space));
+                    cuts.push((solid.add_plane(half_space), half_space));
                 } else {
                     let (cut, half_space) = cuts.swap_remove(rng.below(cuts.len()));
                     let back = solid.remove_plane(cut).ok_or("no such cut")?;
@@ -93,7 +93,7 @@ fn cuts_that_are_taken_back_leave_nothing_behind() {
 type Operation = (bool, HalfSpace);
 
 fn apply(solid: &mut Solid, (divides, half_space): &Operation) -> CutId {
-    if *divides { solid.divide(half_space) } else { solid.add_plane(half_space) }
+    if *divides { solid.divide(half_space) } else { solid.add_plane(*half_space) }
 }
 
 /// The cell that holds a point, where it is strictly inside of one.
@@ -189,9 +189,9 @@ fn halves_add_up() {
 #[test]
 fn a_solid_that_is_cut_away_comes_back() {
     let mut solid = Solid::from(planecut_testkit::scene::cuboid(glam::DVec3::ZERO, glam::DVec3::ONE));
-    let away = solid.add_plane(&half_space(glam::DVec3::X, -1.0));
+    let away = solid.add_plane(half_space(glam::DVec3::X, -1.0));
     assert!(solid.is_empty() && solid.cells().next().is_none());
-    let half = solid.add_plane(&half_space(glam::DVec3::Y, 0.5));
+    let half = solid.add_plane(half_space(glam::DVec3::Y, 0.5));
     assert_eq!(solid.volume(), Some(0.0));
     solid.remove_plane(away);
     assert_eq!(solid.volume(), Some(0.5));

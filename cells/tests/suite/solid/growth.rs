@@ -156,7 +156,7 @@ fn figures() {
     let cuts: Vec<_> = (0..100).map(|_| half_space(rng.unit(), rng.float(5.0, 30.0))).collect();
     let begin = Instant::now();
     for cut in &cuts {
-        let id = sponge.add_plane(cut);
+        let id = sponge.add_plane(*cut);
         sponge.remove_plane(id);
     }
     eprintln!("cut and un-cut of the sponge: {:.1?}", begin.elapsed() / 100);
