@@ -13,7 +13,7 @@ use planecut_kernel::{DVec3, HalfSpace};
 
 use super::Corner;
 use super::shape::Corners;
-use crate::ids::{BodyFaceId, Id};
+use crate::ids::{BodyFaceId, Id, holds};
 
 /// Bodies of fewer faces are asked plane by plane.
 const MANY: usize = 14;
@@ -205,9 +205,4 @@ impl PolarDual {
             next += 1;
         }
     }
-}
-
-/// Whether a face is in a list, eight at a time without a branch between them: the list is searched for each face that is near.
-fn holds(faces: &[BodyFaceId], face: BodyFaceId) -> bool {
-    faces.chunks(8).any(|chunk| chunk.iter().fold(false, |is_found, other| is_found | (*other == face)))
 }

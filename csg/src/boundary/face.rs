@@ -10,7 +10,7 @@ use super::{BoundaryEdge, Scene};
 use crate::base::Bounds;
 use crate::body::BodyFace;
 use crate::expression::{OneLevel, Restriction};
-use crate::ids::{BodyFaceId, BodyId, Id, KeptLeafId, LeafId, NearId};
+use crate::ids::{BodyFaceId, BodyId, Id, KeptLeafId, LeafId, NearId, holds};
 use crate::plane_table::PlaneTable;
 
 /// A body that reaches the plane of the face.
@@ -331,7 +331,7 @@ impl<'a> FaceWorker<'a> {
         let sections = &self.sections[..self.live];
         for (k, section) in sections.iter().enumerate() {
             for (i, &edge) in section.polygon.edges.iter().enumerate() {
-                if self.region.edges.contains(&edge) {
+                if holds(&self.region.edges, edge) {
                     continue;
                 }
                 let line = Line { plane: face.plane, edge };

@@ -15,7 +15,7 @@ use super::section::{Cover, Line, Piece, Polygon};
 use super::{BoundaryEdge, Scene};
 use crate::body::BodyFace;
 use crate::expression::{Expression, Restriction};
-use crate::ids::{Id, SectionId};
+use crate::ids::{Id, SectionId, holds};
 use crate::plane_table::{PlaneId, PlaneTable};
 
 /// Where along a line a section begins or ends to cover one or both sides.
@@ -67,7 +67,7 @@ impl Sweep {
         }
         for (k, section) in context.sections.iter().enumerate() {
             let polygon = &section.polygon;
-            for (i, &edge) in polygon.edges.iter().enumerate().filter(|(_, edge)| !region.edges.contains(edge)) {
+            for (i, &edge) in polygon.edges.iter().enumerate().filter(|(_, edge)| !holds(&region.edges, **edge)) {
                 self.pieces.clear();
                 self.pieces.push(Piece::of_edge(polygon, i));
                 let k = SectionId::from_index(k);

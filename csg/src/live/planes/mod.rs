@@ -15,7 +15,7 @@ use planecut_kernel::sign::Row;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::base::sortable;
-use crate::ids::{Id, OperandId, RowGroupId};
+use crate::ids::{Id, OperandId, RowGroupId, holds};
 use crate::plane_table::{
     Key, NearCells, PlaneId, PlaneTable, compare_coefficients, first_side, is_exact, is_nearly_same, key, unit,
 };
@@ -274,7 +274,7 @@ impl LivePlanes {
         let mut next = 0;
         while next < cluster.len() {
             for other in self.neighbours(cluster[next]) {
-                if !cluster.contains(&other) {
+                if !holds(&cluster, other) {
                     cluster.push(other);
                 }
             }
