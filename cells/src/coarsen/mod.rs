@@ -114,7 +114,7 @@ pub struct Coarsener {
 /// use planecut_kernel::DVec3;
 ///
 /// # fn main() -> Result<(), planecut_cells::coarsen::CoarsenError> {
-/// let block = |min: [f64; 3], max: [f64; 3]| Tree::from(Brush::cuboid(min.into(), max.into(), MaterialId(0)));
+/// let block = |min: [f64; 3], max: [f64; 3]| Tree::from(Brush::cuboid(min, max, MaterialId(0)));
 /// let stairs = Tree::union((0..4).map(|k| f64::from(k)).map(|k| block([k, 0.0, 0.0], [k + 1.0, 1.0, k + 1.0])));
 /// let ramp = coarsen(&stairs, &[], &CoarsenOptions { max_cells: Some(1), ..CoarsenOptions::default() })?;
 /// assert_eq!(ramp.cells.len(), 1);

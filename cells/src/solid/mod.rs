@@ -56,7 +56,7 @@ use sources::Sources;
 /// use planecut_csg::{Brush, MaterialId};
 /// use planecut_kernel::DVec3;
 ///
-/// let block = |min: [f64; 3], max: [f64; 3]| Solid::from(Brush::cuboid(min.into(), max.into(), MaterialId(0)));
+/// let block = |min: [f64; 3], max: [f64; 3]| Solid::from(Brush::cuboid(min, max, MaterialId(0)));
 /// let mut wall = block([0.0, 0.0, 0.0], [4.0, 1.0, 3.0]);
 /// wall -= &block([1.0, -1.0, 1.0], [2.0, 2.0, 2.0]);
 /// wall |= &block([4.0, 0.0, 0.0], [5.0, 1.0, 1.0]);

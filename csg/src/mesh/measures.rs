@@ -4,6 +4,8 @@ use glam::DVec3;
 
 /// Measures of a solid, taken from its boundary before triangulation; lengths in the input's units.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct SolidMeasures {
     /// Volume.
     pub volume: f64,

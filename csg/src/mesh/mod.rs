@@ -16,6 +16,8 @@ pub use measures::SolidMeasures;
 
 /// One planar, connected region of a [`Mesh`] with one material.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct MeshFace {
     /// Unit outward normal.
     pub normal: DVec3,
@@ -29,6 +31,8 @@ pub struct MeshFace {
 /// When made by the weld: every directed index edge occurs once and has its opposite (an oriented 2-manifold).
 /// Positions may repeat: where the solid touches itself, vertices are split and must not be merged by coordinates.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Mesh {
     /// Vertex positions in the input's units.
     pub positions: Vec<DVec3>,

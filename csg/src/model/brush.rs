@@ -7,6 +7,8 @@ use super::MaterialId;
 
 /// One bounding plane of a [`Brush`] and what its face is made of.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct BrushFace {
     /// The body lies inside this half-space.
     pub half_space: HalfSpace,
@@ -16,6 +18,8 @@ pub struct BrushFace {
 
 /// A convex body: the intersection of the half-spaces of its faces.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Brush {
     /// The bounding planes, in the input's order.
     pub faces: Vec<BrushFace>,
@@ -36,7 +40,8 @@ impl Brush {
     /// # Panics
     /// Where a coordinate is not finite or beyond `±2^200`.
     #[must_use]
-    pub fn cuboid(min: DVec3, max: DVec3, material: MaterialId) -> Self {
+    pub fn cuboid(min: impl Into<DVec3>, max: impl Into<DVec3>, material: MaterialId) -> Self {
+        let (min, max) = (min.into(), max.into());
         let sides = DVec3::AXES.into_iter().flat_map(|axis| [(axis, axis.dot(max)), (-axis, -axis.dot(min))]);
         let half_spaces =
             sides.map(|(normal, offset)| HalfSpace::new(normal, offset).expect("finite corners, not too far away"));

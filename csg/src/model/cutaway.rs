@@ -7,6 +7,8 @@ use super::{Brush, BrushFace, Material, MaterialId, Model, Tree};
 
 /// The part of a model inside a half-space.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Cutaway {
     /// What is left. Brushes and their faces keep their numbers; each brush has one face more, the cut.
     pub model: Model,
@@ -16,6 +18,8 @@ pub struct Cutaway {
 
 /// The material of cut faces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct CutMaterial {
     /// Its number among the materials of the model that was cut open.
     pub id: MaterialId,

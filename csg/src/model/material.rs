@@ -2,10 +2,13 @@
 
 /// Index into [`Model::materials`](crate::Model::materials).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MaterialId(pub u32);
 
 /// A named material; faces refer to it by [`MaterialId`].
 #[derive(Debug, Clone, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Material {
     /// The name, in a Quake map that of the texture.
     pub name: String,

@@ -3,6 +3,9 @@
 mod brush;
 mod cutaway;
 mod material;
+mod parts;
+#[cfg(feature = "serde")]
+mod saved;
 mod source;
 mod transform;
 mod tree;
@@ -18,6 +21,8 @@ pub use tree::{Operation, Tree, TreeNode};
 
 /// A tree of brushes, and the materials that their faces name.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Model {
     /// The materials, each name once.
     pub materials: Vec<Material>,

@@ -7,6 +7,7 @@ use super::{MaterialId, Model};
 
 /// What texture coordinates count.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum TextureUnit {
     /// Texels, of which a picture has as many as it is wide or high; lengths where there is no picture.
     #[default]
@@ -17,6 +18,8 @@ pub enum TextureUnit {
 
 /// How a texture lies on a plane: its coordinates are linear in space.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct TextureAxes {
     /// By how much `u`, which runs to the right of a picture, grows along each axis of space.
     pub u: DVec3,
@@ -46,6 +49,8 @@ impl TextureAxes {
 
 /// A face of a brush that faces of a mesh come from.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct FaceSource {
     /// The brush, by its place among the leaves.
     pub brush: u32,

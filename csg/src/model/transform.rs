@@ -25,6 +25,8 @@ pub enum TransformError {
 /// # Guarantees
 /// All entries are finite and `A` has full rank.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "super::saved::SavedTransform", into = "super::saved::SavedTransform"))]
 pub struct Transform {
     linear: DMat3,
     translation: DVec3,
@@ -40,7 +42,8 @@ impl Transform {
     ///
     /// # Errors
     /// [`TransformError::NotFinite`] and [`TransformError::Singular`].
-    pub fn new(linear: DMat3, translation: DVec3) -> Result<Self, TransformError> {
+    pub fn new(linear: DMat3, translation: impl Into<DVec3>) -> Result<Self, TransformError> {
+        let translation = translation.into();
         if !linear.is_finite() || !translation.is_finite() {
             return Err(TransformError::NotFinite);
         }
@@ -54,6 +57,21 @@ impl Transform {
         Ok(Self { linear, translation, cofactors, determinant: determinant.abs() })
     }
 
+    /// The map `x ↦ A x + t` by the columns of `A`, and then `t`: what each axis goes to, and the origin.
+    ///
+    /// ```
+    /// use planecut_csg::Transform;
+    ///
+    /// let turn = Transform::from_columns([[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [5.0, 0.0, 0.0]]);
+    /// assert_eq!(turn.map(|turn| turn.point([2.0, 0.0, 0.0]).to_array()), Ok([5.0, 2.0, 0.0]));
+    /// ```
+    ///
+    /// # Errors
+    /// As for [`Transform::new`].
+    pub fn from_columns([x, y, z, translation]: [[f64; 3]; 4]) -> Result<Self, TransformError> {
+        Self::new(DMat3::from_cols_array_2d(&[x, y, z]), translation)
+    }
+
     /// Nothing moves.
     #[must_use]
     pub fn identity() -> Self {
@@ -64,7 +82,7 @@ impl Transform {
     ///
     /// # Errors
     /// [`TransformError::NotFinite`].
-    pub fn translation(by: DVec3) -> Result<Self, TransformError> {
+    pub fn translation(by: impl Into<DVec3>) -> Result<Self, TransformError> {
         Self::new(DMat3::IDENTITY, by)
     }
 
@@ -72,8 +90,8 @@ impl Transform {
     ///
     /// # Errors
     /// [`TransformError::NotFinite`], and [`TransformError::Singular`] for a factor of zero.
-    pub fn scale(factors: DVec3) -> Result<Self, TransformError> {
-        Self::new(DMat3::from_diagonal(factors), DVec3::ZERO)
+    pub fn scale(factors: impl Into<DVec3>) -> Result<Self, TransformError> {
+        Self::new(DMat3::from_diagonal(factors.into()), DVec3::ZERO)
     }
 
     /// A turn about an axis through the origin by an angle in degrees, counter-clockwise seen against the axis. Multiples of
@@ -81,8 +99,8 @@ impl Transform {
     ///
     /// # Errors
     /// [`TransformError::NotFinite`], and [`TransformError::Singular`] for an axis of length zero.
-    pub fn rotation(axis: DVec3, degrees: f64) -> Result<Self, TransformError> {
-        let Some(axis) = axis.try_normalize() else { return Err(TransformError::Singular) };
+    pub fn rotation(axis: impl Into<DVec3>, degrees: f64) -> Result<Self, TransformError> {
+        let Some(axis) = axis.into().try_normalize() else { return Err(TransformError::Singular) };
         let (sine, cosine) = sine_and_cosine(degrees);
         let outer = DMat3::from_cols(axis * axis.x, axis * axis.y, axis * axis.z);
         let cross = DMat3::from_cols(
@@ -97,8 +115,8 @@ impl Transform {
     ///
     /// # Errors
     /// [`TransformError::NotFinite`], and [`TransformError::Singular`] for a normal of length zero.
-    pub fn mirror(normal: DVec3) -> Result<Self, TransformError> {
-        let Some(n) = normal.try_normalize() else { return Err(TransformError::Singular) };
+    pub fn mirror(normal: impl Into<DVec3>) -> Result<Self, TransformError> {
+        let Some(n) = normal.into().try_normalize() else { return Err(TransformError::Singular) };
         let outer = DMat3::from_cols(n * n.x, n * n.y, n * n.z);
         Self::new(DMat3::IDENTITY - outer * 2.0, DVec3::ZERO)
     }
@@ -125,7 +143,8 @@ impl Transform {
 
     /// Where a point goes.
     #[must_use]
-    pub fn point(&self, point: DVec3) -> DVec3 {
+    pub fn point(&self, point: impl Into<DVec3>) -> DVec3 {
+        let point = point.into();
         self.linear * point + self.translation
     }
 

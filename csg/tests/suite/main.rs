@@ -2,5 +2,7 @@
 
 mod blocks;
 mod live;
+#[cfg(feature = "serde")]
+mod saved;
 mod tree;
 mod union;

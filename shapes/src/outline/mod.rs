@@ -53,7 +53,8 @@ impl Outline {
     ///
     /// # Errors
     /// [`ShapeError::Parameter`] where a minimum is not below its maximum or a coordinate is not accepted.
-    pub fn rectangle(min: DVec2, max: DVec2) -> Result<Self, ShapeError> {
+    pub fn rectangle(min: impl Into<DVec2>, max: impl Into<DVec2>) -> Result<Self, ShapeError> {
+        let (min, max) = (min.into(), max.into());
         let (min, max) = (planar_point("min", min)?, planar_point("max", max)?);
         for (name, low, high) in [("x", min.x, max.x), ("y", min.y, max.y)] {
             if low >= high {

@@ -10,7 +10,8 @@ use crate::tolerances::NEGLIGIBLE_COMPONENT;
 ///
 /// # Errors
 /// [`ShapeError::Parameter`] where a minimum is not below its maximum, or a coordinate is not accepted.
-pub fn cuboid(min: DVec3, max: DVec3, material: MaterialId) -> Result<Brush, ShapeError> {
+pub fn cuboid(min: impl Into<DVec3>, max: impl Into<DVec3>, material: MaterialId) -> Result<Brush, ShapeError> {
+    let (min, max) = (min.into(), max.into());
     let (min, max) = (point("min", min)?, point("max", max)?);
     for axis in 0..3 {
         if min[axis] >= max[axis] {
@@ -30,7 +31,8 @@ pub fn cuboid(min: DVec3, max: DVec3, material: MaterialId) -> Result<Brush, Sha
 ///
 /// # Errors
 /// [`ShapeError::Parameter`] where a size is not above 0.
-pub fn wedge(size: DVec3, material: MaterialId) -> Result<Brush, ShapeError> {
+pub fn wedge(size: impl Into<DVec3>, material: MaterialId) -> Result<Brush, ShapeError> {
+    let size = size.into();
     let [x, y, z] = size.to_array();
     let (x, y, z) = (positive("size", x)?, positive("size", y)?, positive("size", z)?);
     let slope = exact_or_scaled_slope(x, z);
@@ -46,7 +48,8 @@ fn exact_or_scaled_slope(x: f64, z: f64) -> (DVec3, f64) {
 ///
 /// # Errors
 /// [`ShapeError::HalfSpace`] where the numbers are not accepted.
-pub fn half_space(normal: DVec3, offset: f64, material: MaterialId) -> Result<Brush, ShapeError> {
+pub fn half_space(normal: impl Into<DVec3>, offset: f64, material: MaterialId) -> Result<Brush, ShapeError> {
+    let normal = normal.into();
     body_of_half_spaces(&[(normal, offset)], material)
 }
 
@@ -67,7 +70,7 @@ pub fn body_of_half_spaces(half_spaces: &[(DVec3, f64)], material: MaterialId) -
 ///
 /// # Errors
 /// [`ShapeError::Hull`] where a point is not accepted or the hull has no interior.
-pub fn hull_of_points(points: &[DVec3], material: MaterialId) -> Result<Brush, ShapeError> {
+pub fn hull_of_points<P: Into<DVec3> + Copy>(points: &[P], material: MaterialId) -> Result<Brush, ShapeError> {
     let polytope = planecut_kernel::hull(points)?;
     let faces = polytope.facets().into_iter().filter_map(|(plane, _)| polytope.plane(plane).copied());
     Ok(Brush::from_half_spaces(faces, material))

@@ -9,7 +9,7 @@ use planecut_shapes::primitives;
 use super::judge::{assert_holds_points, assert_sound, volume};
 
 pub(crate) fn block(min: [f64; 3], max: [f64; 3]) -> Tree {
-    Brush::cuboid(min.into(), max.into(), MaterialId(0)).into()
+    Brush::cuboid(min, max, MaterialId(0)).into()
 }
 
 pub(crate) fn at_most(cells: usize) -> CoarsenOptions {

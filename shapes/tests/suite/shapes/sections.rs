@@ -12,7 +12,7 @@ use super::polygon::{self, regular_area};
 const M: MaterialId = MaterialId(0);
 
 fn block(low: [f64; 3], high: [f64; 3]) -> Tree {
-    cuboid(low.into(), high.into(), M).expect("a box").into()
+    cuboid(low, high, M).expect("a box").into()
 }
 
 fn loops(outline: &Outline) -> Vec<Vec<DVec2>> {

@@ -1,0 +1,92 @@
+//! Trees and transforms as data: what is read is checked, so that their guarantees hold.
+
+use std::num::NonZeroU32;
+
+use glam::DMat3;
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use super::tree::known_lines;
+use super::{Brush, Transform, TransformError, Tree, TreeNode};
+
+/// What is written of a [`Tree`].
+#[derive(Serialize, Deserialize)]
+#[serde(rename = "Tree", deny_unknown_fields)]
+pub(super) struct SavedTree {
+    brushes: Vec<Brush>,
+    nodes: Vec<TreeNode>,
+    /// The source line of each brush; left out where no brush has one.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    lines: Vec<Option<NonZeroU32>>,
+}
+
+/// Why data is no tree.
+#[derive(Debug, Error)]
+pub(super) enum TreeDataError {
+    #[error("node {node} of the tree takes {operands} operands, found {found} before it")]
+    MissingOperands { node: usize, operands: u32, found: usize },
+    #[error("the nodes of the tree leave {0} results, expected one")]
+    Results(usize),
+    #[error("the tree has {leaves} leaves, but {brushes} brushes")]
+    Leaves { leaves: usize, brushes: usize },
+    #[error("the tree has {lines} source lines, but {brushes} brushes")]
+    Lines { lines: usize, brushes: usize },
+}
+
+impl From<Tree> for SavedTree {
+    fn from(tree: Tree) -> Self {
+        Self { brushes: tree.brushes, nodes: tree.nodes, lines: tree.lines }
+    }
+}
+
+impl TryFrom<SavedTree> for Tree {
+    type Error = TreeDataError;
+
+    fn try_from(saved: SavedTree) -> Result<Self, TreeDataError> {
+        let SavedTree { brushes, nodes, lines } = saved;
+        let (mut results, mut leaves) = (0_usize, 0);
+        for (place, node) in nodes.iter().enumerate() {
+            match *node {
+                TreeNode::Leaf => leaves += 1,
+                TreeNode::Operation { operands, .. } => {
+                    let missing = TreeDataError::MissingOperands { node: place, operands, found: results };
+                    results = results.checked_sub(operands as usize).ok_or(missing)?;
+                }
+            }
+            results += 1;
+        }
+        if results != 1 {
+            return Err(TreeDataError::Results(results));
+        }
+        if leaves != brushes.len() {
+            return Err(TreeDataError::Leaves { leaves, brushes: brushes.len() });
+        }
+        if !lines.is_empty() && lines.len() != brushes.len() {
+            return Err(TreeDataError::Lines { lines: lines.len(), brushes: brushes.len() });
+        }
+        Ok(Self { brushes, nodes, lines: known_lines(lines) })
+    }
+}
+
+/// What is written of a [`Transform`]: the rest follows from it.
+#[derive(Serialize, Deserialize)]
+#[serde(rename = "Transform", deny_unknown_fields)]
+pub(super) struct SavedTransform {
+    /// By columns.
+    linear: [[f64; 3]; 3],
+    translation: [f64; 3],
+}
+
+impl From<Transform> for SavedTransform {
+    fn from(transform: Transform) -> Self {
+        Self { linear: transform.linear().to_cols_array_2d(), translation: transform.offset().to_array() }
+    }
+}
+
+impl TryFrom<SavedTransform> for Transform {
+    type Error = TransformError;
+
+    fn try_from(saved: SavedTransform) -> Result<Self, TransformError> {
+        Self::new(DMat3::from_cols_array_2d(&saved.linear), saved.translation)
+    }
+}

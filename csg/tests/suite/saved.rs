@@ -1,0 +1,74 @@
+//! What is written comes back as it was, and what cannot have been written is refused (feature `serde`).
+
+use std::num::NonZeroU32;
+
+use planecut_csg::{Brush, Material, MaterialId, Model, Transform, Tree, evaluate};
+use serde_json::{Value, from_value, json, to_value};
+
+/// A copy by way of data; numbers are kept bit for bit.
+fn through_data<T: serde::Serialize + serde::de::DeserializeOwned>(value: &T) -> T {
+    from_value(to_value(value).expect("it can be written")).expect("it can be read")
+}
+
+fn refusal<T: serde::de::DeserializeOwned>(data: Value) -> String {
+    match from_value::<T>(data) {
+        Ok(_) => panic!("it is accepted"),
+        Err(error) => error.to_string(),
+    }
+}
+
+/// A notched block, its offsets without short decimals, with a name and source lines.
+fn model() -> Model {
+    let block = |min: f64, max: f64, material| Brush::cuboid([min / 3.0; 3], [max / 3.0; 3], MaterialId(material));
+    let turn = Transform::rotation([1.0, 2.0, 3.0], 40.0).expect("an axis");
+    let notch = Tree::from(block(0.5, 2.0, 1)).transformed(&turn).expect("near the origin").with_name("notch");
+    let tree =
+        (Tree::from(block(-1.0, 1.0, 0)) - notch).with_source_line(NonZeroU32::new(3)) | block(4.0, 5.0, 0).into();
+    Model {
+        materials: vec![Material::named("steel"), Material { metallic: Some(0.1), ..Material::named("cut") }],
+        tree,
+    }
+}
+
+#[test]
+fn models_and_meshes_come_back() {
+    let model = model();
+    let copy = through_data(&model);
+    assert_eq!(copy, model);
+    assert_eq!((copy.tree.source_line(0), copy.tree.source_line(2)), (NonZeroU32::new(3), None));
+    let evaluation = evaluate(&model).expect("it is bounded");
+    assert_eq!(through_data(&evaluation.mesh), evaluation.mesh);
+    assert_eq!(through_data(&evaluation.solid), evaluation.solid);
+    assert_eq!(evaluate(&copy).expect("it is bounded").mesh, evaluation.mesh);
+}
+
+#[test]
+fn transforms_come_back_and_are_checked() {
+    let turn =
+        Transform::rotation([1.0, 2.0, 3.0], 40.0).and_then(|turn| turn.then(&Transform::translation([0.1; 3])?));
+    let turn = turn.expect("an axis");
+    assert_eq!(through_data(&turn), turn);
+    let mut flat = to_value(turn).expect("it can be written");
+    flat["linear"][1] = flat["linear"][0].clone();
+    assert_eq!(refusal::<Transform>(flat), "the matrix is singular: it flattens what it is applied to");
+}
+
+#[test]
+fn trees_that_are_not_well_formed_are_refused() {
+    let data = to_value(model().tree).expect("it can be written");
+    let changed = |path: &str, value: Value| {
+        let mut data = data.clone();
+        *data.pointer_mut(path).expect("it is there") = value;
+        refusal::<Tree>(data)
+    };
+    let union = |operands: u32| json!({"Operation": {"operation": "Union", "operands": operands}});
+    let last = data["nodes"].as_array().expect("nodes").len() - 1;
+    let root = format!("/nodes/{last}");
+    assert_eq!(changed(&root, union(3)), format!("node {last} of the tree takes 3 operands, found 2 before it"));
+    assert_eq!(changed(&root, union(1)), "the nodes of the tree leave 2 results, expected one");
+    assert_eq!(changed("/nodes", json!([])), "the nodes of the tree leave 0 results, expected one");
+    assert_eq!(changed("/nodes", json!(["Leaf"])), "the tree has 1 leaves, but 3 brushes");
+    assert_eq!(changed("/lines", json!([1])), "the tree has 1 source lines, but 3 brushes");
+    assert!(changed("/lines", json!([0, 0, 0])).contains("nonzero"));
+    assert!(changed("/brushes/0/faces/0/half_space", json!([0.0, 0.0, 0.0, 1.0])).contains("normal"));
+}
