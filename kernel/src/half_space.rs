@@ -106,24 +106,28 @@ impl HalfSpace {
     }
 
     /// The outward normal, as given (not normalised).
+    #[inline]
     #[must_use]
     pub fn normal(&self) -> DVec3 {
         self.normal
     }
 
     /// The offset `d` of `n·x ≤ d`, as given.
+    #[inline]
     #[must_use]
     pub fn offset(&self) -> f64 {
         self.offset
     }
 
     /// The four numbers `[nx, ny, nz, d]`, as given.
+    #[inline]
     #[must_use]
     pub fn to_array(&self) -> [f64; 4] {
         [self.normal.x, self.normal.y, self.normal.z, self.offset]
     }
 
     /// The complement's closure, `-n·x ≤ -d`.
+    #[inline]
     #[must_use]
     pub fn flipped(&self) -> Self {
         Self { normal: -self.normal, offset: -self.offset }

@@ -18,24 +18,28 @@ impl Bounds {
     pub const EMPTY: Self = Self { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY };
 
     /// The least box around both.
+    #[inline]
     #[must_use]
     pub fn union(self, other: &Self) -> Self {
         Self { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
     /// What both have in common.
+    #[inline]
     #[must_use]
     pub fn intersection(self, other: &Self) -> Self {
         Self { min: self.min.max(other.min), max: self.max.min(other.max) }
     }
 
     /// Whether the closed boxes have a point in common.
+    #[inline]
     #[must_use]
     pub fn touches(&self, other: &Self) -> bool {
         self.min.cmple(other.max).all() && other.min.cmple(self.max).all()
     }
 
     /// Whether what lies in both boxes may have an area: boxes that touch in an edge or a corner alone have none in common.
+    #[inline]
     #[must_use]
     pub fn may_share_area(&self, other: &Self) -> bool {
         let (low, high) = (self.min.max(other.min), self.max.min(other.max));
@@ -65,6 +69,7 @@ impl Bounds {
     }
 
     /// Bounds of `normal·x − offset` over the box, with room for rounding.
+    #[inline]
     #[must_use]
     pub fn extent_along(&self, normal: DVec3, offset: f64) -> (f64, f64) {
         let (a, b) = (self.min * normal, self.max * normal);
@@ -74,6 +79,7 @@ impl Bounds {
     }
 
     /// The middle.
+    #[inline]
     #[must_use]
     pub fn center(&self) -> DVec3 {
         0.5 * (self.min + self.max)

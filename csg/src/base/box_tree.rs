@@ -71,6 +71,7 @@ impl Boxes {
     }
 
     /// The box of a number.
+    #[inline]
     #[must_use]
     pub fn get(&self, number: u32) -> &Bounds {
         &self.boxes[number as usize]

@@ -9,6 +9,7 @@ pub struct CompensatedSum {
 
 impl CompensatedSum {
     /// Adds a term.
+    #[inline]
     pub fn add(&mut self, term: f64) {
         let total = self.sum + term;
         self.lost += if self.sum.abs() >= term.abs() { (self.sum - total) + term } else { (term - total) + self.sum };
@@ -16,6 +17,7 @@ impl CompensatedSum {
     }
 
     /// The sum.
+    #[inline]
     #[must_use]
     pub fn value(self) -> f64 {
         self.sum + self.lost

@@ -11,6 +11,7 @@ impl DisjointSets {
     }
 
     /// The least element of an element's set.
+    #[inline]
     pub fn root(&mut self, mut i: u32) -> u32 {
         while self.0[i as usize] != i {
             let grandparent = self.0[self.0[i as usize] as usize];
@@ -21,6 +22,7 @@ impl DisjointSets {
     }
 
     /// Joins the sets of two elements. The smaller root stays, so that the result does not depend on the order of joins.
+    #[inline]
     pub fn join(&mut self, a: u32, b: u32) {
         let (a, b) = (self.root(a), self.root(b));
         self.0[a.max(b) as usize] = a.min(b);

@@ -77,6 +77,7 @@ impl Corner {
     }
 
     /// Whether its coordinates are right to ten digits; the bound for their error is far larger than the error.
+    #[inline]
     pub(crate) fn is_well_known(&self) -> bool {
         const WELL: f64 = 1e-10;
         self.error <= WELL * self.at.abs().max_element()
@@ -85,12 +86,14 @@ impl Corner {
 
 impl Bounds {
     /// The box grown so that it surely holds a meeting point.
+    #[inline]
     #[must_use]
     pub fn with_point(self, point: &Homogeneous) -> Self {
         self.with_corner(&Corner::new(*point))
     }
 
     /// The box grown so that it surely holds a corner.
+    #[inline]
     pub(crate) fn with_corner(self, corner: &Corner) -> Self {
         if corner.error.is_infinite() {
             return Self { min: DVec3::NEG_INFINITY, max: DVec3::INFINITY };

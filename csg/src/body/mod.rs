@@ -102,6 +102,7 @@ impl Body {
     }
 
     /// The planes of the edges of a face, counter-clockwise seen from outside.
+    #[inline]
     pub(crate) fn edges(&self, face: &BodyFace) -> &[PlaneId] {
         &self.edges[face.start as usize..face.end as usize]
     }
@@ -113,6 +114,7 @@ impl Body {
     }
 
     /// How many different corners there are: their numbers are below this.
+    #[inline]
     pub(crate) fn corner_count(&self) -> usize {
         self.corners.different.len()
     }

@@ -42,11 +42,13 @@ impl OuterBox {
     }
 
     /// Its planes.
+    #[inline]
     pub(crate) fn planes(&self) -> [PlaneId; 6] {
         self.planes
     }
 
     /// Whether a plane is one of the box.
+    #[inline]
     pub(crate) fn holds(&self, plane: PlaneId) -> bool {
         self.planes.iter().any(|own| own.index() == plane.index())
     }

@@ -13,12 +13,14 @@ pub const NO_TWIN: u32 = u32::MAX;
 const FEW: usize = 16;
 
 /// The half-edge that follows in its triangle.
+#[inline]
 #[must_use]
 pub fn next(half_edge: u32) -> u32 {
     if half_edge % 3 == 2 { half_edge - 2 } else { half_edge + 1 }
 }
 
 /// The half-edge before it in its triangle.
+#[inline]
 #[must_use]
 pub fn previous(half_edge: u32) -> u32 {
     if half_edge.is_multiple_of(3) { half_edge + 2 } else { half_edge - 1 }
@@ -43,18 +45,21 @@ impl<'a> HalfEdges<'a> {
     }
 
     /// The vertex at which a half-edge starts.
+    #[inline]
     #[must_use]
     pub fn from(&self, half_edge: u32) -> u32 {
         self.triangles[(half_edge / 3) as usize][(half_edge % 3) as usize]
     }
 
     /// The vertex at which a half-edge ends.
+    #[inline]
     #[must_use]
     pub fn to(&self, half_edge: u32) -> u32 {
         self.from(next(half_edge))
     }
 
     /// The half-edges that start at a vertex, in ascending order.
+    #[inline]
     #[must_use]
     pub fn leaving(&self, vertex: u32) -> &[u32] {
         let vertex = vertex as usize;

@@ -28,34 +28,40 @@ pub(crate) use snapped::Snapped;
 pub struct PlaneId(u32);
 
 impl PlaneId {
+    #[inline]
     fn new(index: usize, flipped: bool) -> Self {
         Self((index as u32) << 1 | u32::from(flipped))
     }
 
     /// The unsided plane of an index.
+    #[inline]
     #[must_use]
     pub fn of_index(index: u32) -> Self {
         Self::new(index as usize, false)
     }
 
     /// The same side of a plane of another index.
+    #[inline]
     pub(crate) fn with_index(self, index: u32) -> Self {
         Self(index << 1 | self.0 & 1)
     }
 
     /// The same plane, its normal reversed.
+    #[inline]
     #[must_use]
     pub fn flipped(self) -> Self {
         Self(self.0 ^ 1)
     }
 
     /// Index of the plane without its side.
+    #[inline]
     #[must_use]
     pub fn index(self) -> u32 {
         self.0 >> 1
     }
 
     /// The side of the plane on which the first coefficient of the normal that is not zero is positive.
+    #[inline]
     #[must_use]
     pub fn unsided(self) -> Self {
         Self(self.0 & !1)
@@ -157,12 +163,14 @@ impl PlaneTable {
     }
 
     /// How many planes there are, both sides counting once.
+    #[inline]
     #[must_use]
     pub fn len(&self) -> usize {
         self.rows.len() / 2
     }
 
     /// Whether there are no planes.
+    #[inline]
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.rows.is_empty()
@@ -175,11 +183,13 @@ impl PlaneTable {
     }
 
     /// The largest distance of a plane from the origin, those aside that were added exactly.
+    #[inline]
     pub(crate) fn reach(&self) -> f64 {
         self.reach
     }
 
     /// The exact coefficients of a plane.
+    #[inline]
     #[must_use]
     pub fn row(&self, plane: PlaneId) -> &Row {
         &self.rows[plane.0 as usize]
@@ -193,12 +203,14 @@ impl PlaneTable {
     }
 
     /// The half-space of a plane.
+    #[inline]
     #[must_use]
     pub fn half_space(&self, plane: PlaneId) -> &HalfSpace {
         &self.half_spaces[plane.0 as usize]
     }
 
     /// The meeting point of three planes, for asking sides.
+    #[inline]
     #[must_use]
     pub fn homogeneous(&self, planes: [PlaneId; 3]) -> Homogeneous {
         let [a, b, c] = planes.map(|p| self.row(p));
@@ -206,6 +218,7 @@ impl PlaneTable {
     }
 
     /// On which side of `plane` the meeting point of a right-handed triple lies: positive is outside.
+    #[inline]
     #[must_use]
     pub fn side(&self, planes: [PlaneId; 3], point: &Homogeneous, plane: PlaneId) -> Sign {
         if planes.iter().any(|p| p.index() == plane.index()) {
@@ -215,6 +228,7 @@ impl PlaneTable {
     }
 
     /// The sign of the determinant of three normals.
+    #[inline]
     pub(crate) fn orient3(&self, a: PlaneId, b: PlaneId, c: PlaneId) -> Sign {
         orient3(self.row(a), self.row(b), self.row(c))
     }

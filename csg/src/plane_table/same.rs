@@ -21,11 +21,13 @@ pub(crate) fn key(row: &Row) -> Key {
 }
 
 /// Whether a plane is surely meant as it is.
+#[inline]
 pub(crate) fn is_exact(row: &Row) -> bool {
     row.integer_bits().is_some_and(|bits| bits <= EXACT_BITS)
 }
 
 /// Whether the first coefficient of the normal that is not zero is negative.
+#[inline]
 pub(crate) fn is_reversed(row: &Row) -> bool {
     row.coefficients().iter().find(|v| **v != 0.0).is_some_and(|v| *v < 0.0)
 }

@@ -96,6 +96,7 @@ pub enum AddPlaneResult<'a> {
 
 impl AddPlaneResult<'_> {
     /// The handle of the plane that was added.
+    #[inline]
     #[must_use]
     pub fn plane(&self) -> PlaneIdx {
         match *self {
@@ -289,6 +290,7 @@ impl IncrementalPolytope {
     }
 
     /// Whether the set has no interior.
+    #[inline]
     #[must_use]
     pub fn is_empty(&self) -> bool {
         !self.pending.is_empty()
@@ -297,12 +299,14 @@ impl IncrementalPolytope {
     /// Whether the set is bounded, in constant time; an empty set is.
     ///
     /// The paper's §4 asks a hull of the normals; here no infinity plane may have a face.
+    #[inline]
     #[must_use]
     pub fn is_bounded(&self) -> bool {
         self.is_empty() || !(0..infinity::COUNT).any(|plane| self.planes.has_face(plane))
     }
 
     /// The half-space of a plane, `None` where there is no such plane.
+    #[inline]
     #[must_use]
     pub fn plane(&self, idx: PlaneIdx) -> Option<&HalfSpace> {
         self.live(idx).map(|plane| self.planes.half_space(plane))
@@ -314,12 +318,14 @@ impl IncrementalPolytope {
     }
 
     /// When a plane was added: larger is younger, and no stamp is given twice.
+    #[inline]
     #[must_use]
     pub fn stamp(&self, idx: PlaneIdx) -> Option<u64> {
         self.live(idx).map(|plane| self.planes.stamp(plane))
     }
 
     /// Whether a plane is present without a face in the structure; where the set is empty, no plane has one.
+    #[inline]
     #[must_use]
     pub fn is_redundant(&self, idx: PlaneIdx) -> bool {
         self.live(idx).is_some_and(|plane| self.is_empty() || !self.planes.has_face(plane))

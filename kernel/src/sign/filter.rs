@@ -172,6 +172,7 @@ pub struct Homogeneous {
 
 impl Homogeneous {
     /// The meeting point of three planes.
+    #[inline]
     #[must_use]
     pub fn meet(a: &Row, b: &Row, c: &Row) -> Self {
         Self::of(a, b, c, OffsetColumn::Finite)

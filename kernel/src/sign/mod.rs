@@ -48,6 +48,7 @@ pub enum Sign {
 
 impl Sign {
     /// The sign of a number; NaN counts as zero.
+    #[inline]
     #[must_use]
     pub(crate) fn of<T: PartialOrd + Default + Copy>(value: T) -> Self {
         let zero = T::default();
@@ -70,6 +71,7 @@ impl Sign {
     }
 
     /// The sign of the negated quantity.
+    #[inline]
     #[must_use]
     pub fn flip(self) -> Self {
         match self {
@@ -80,6 +82,7 @@ impl Sign {
     }
 
     /// The sign of the product of two quantities.
+    #[inline]
     #[must_use]
     pub fn times(self, other: Self) -> Self {
         match self {

@@ -61,12 +61,14 @@ impl Row {
     }
 
     /// The scaled coefficients `[nx, ny, nz, d]`.
+    #[inline]
     #[must_use]
     pub fn coefficients(&self) -> &[f64; 4] {
         &self.coefficients
     }
 
     /// The row of the opposite half-space.
+    #[inline]
     #[must_use]
     pub fn flipped(&self) -> Self {
         Self { coefficients: self.coefficients.map(|v| 0.0 - v), ..*self }
@@ -96,26 +98,31 @@ impl Row {
     }
 
     /// Whether all coefficients are integers (below 2⁴⁸), coprime.
+    #[inline]
     pub(crate) fn is_integer(&self) -> bool {
         self.bits[0] != NOT_INTEGER
     }
 
     /// The bit length of the largest normal component where all coefficients are (coprime) integers below 2⁴⁸.
+    #[inline]
     #[must_use]
     pub fn integer_bits(&self) -> Option<u32> {
         self.is_integer().then(|| self.bits()[0])
     }
 
     /// Bit lengths of the largest normal component and of the offset; only for integer rows.
+    #[inline]
     pub(super) fn bits(&self) -> [u32; 2] {
         [u32::from(self.bits[0]), u32::from(self.bits[1])]
     }
 
     /// The coefficients as integers; only for integer rows.
+    #[inline]
     pub(super) fn integers(&self) -> [i128; 4] {
         self.coefficients.map(|v| v as i128)
     }
 
+    #[inline]
     pub(crate) fn is_at_infinity(&self) -> bool {
         self.at_infinity
     }

@@ -46,6 +46,7 @@ pub struct Edge {
 
 impl Edge {
     /// The end that is not `vertex`; `None` where `vertex` is no end, under the name that `vertices` has.
+    #[inline]
     #[must_use]
     pub fn other_vertex(&self, vertex: VertexIdx) -> Option<VertexIdx> {
         match self.vertices {
@@ -56,24 +57,28 @@ impl Edge {
     }
 
     /// Whether it lies between the face of a plane and another.
+    #[inline]
     #[must_use]
     pub fn is_on_plane(&self, plane: PlaneIdx) -> bool {
         self.planes.0 == plane || self.planes.1 == plane
     }
 
     /// Whether it is a segment.
+    #[inline]
     #[must_use]
     pub fn is_bounded(&self) -> bool {
         self.kind == EdgeKind::Segment
     }
 
     /// Whether it is a ray.
+    #[inline]
     #[must_use]
     pub fn is_ray(&self) -> bool {
         self.kind == EdgeKind::Ray
     }
 
     /// Whether it is a whole line.
+    #[inline]
     #[must_use]
     pub fn is_line(&self) -> bool {
         self.kind == EdgeKind::Line

@@ -22,18 +22,21 @@ pub struct Vertex {
 
 impl Vertex {
     /// Whether it is a point; else it is ideal, the end of a ray or line.
+    #[inline]
     #[must_use]
     pub fn is_finite(&self) -> bool {
         self.position.w != 0.0
     }
 
     /// Its coordinates, correctly rounded; `None` for an ideal vertex.
+    #[inline]
     #[must_use]
     pub fn to_euclidean(&self) -> Option<DVec3> {
         self.is_finite().then(|| self.position.truncate())
     }
 
     /// The unit direction in which an ideal vertex lies; `None` for a finite one.
+    #[inline]
     #[must_use]
     pub fn direction(&self) -> Option<DVec3> {
         (!self.is_finite()).then(|| self.position.truncate())
