@@ -19,6 +19,8 @@
 //! | [`export`] | [`encode`](export::encode) a mesh as GLB, glTF, OBJ, STL, 3MF or PLY |
 //! | `picture` | pictures of meshes and cells (feature `picture`, on unless turned off) |
 //!
+//! Features off unless turned on: `serde` (planes, polytopes, models and meshes as data), `mint` (its vectors as arguments).
+//!
 //! Everything of `cells`, `shapes` and `check` can also be reached through [`csg`]. The feature `cli` (default) is for the program alone: with `default-features = false` a library
 //! gets none of its dependencies.
 //!
