@@ -4,7 +4,8 @@
 //! - [`data`]: files that others made, and tests that are ignored where these are absent;
 //! - with the feature `csg`: [`scene`] builds, draws, shrinks and prints models, [`generate`] draws them at random,
 //!   [`soundness`] has what must hold of every mesh, [`meshes`] has some that are made by hand;
-//! - with the feature `cells`: [`shape`] has trees whose value at a point is known from their half-spaces alone.
+//! - with the feature `cells`: [`shape`] has trees whose value at a point is known from their half-spaces alone;
+//! - with the feature `serde`: [`saved`] writes data types and reads them again.
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
@@ -14,6 +15,8 @@ pub mod generate;
 #[cfg(feature = "csg")]
 pub mod meshes;
 pub mod random;
+#[cfg(feature = "serde")]
+pub mod saved;
 #[cfg(feature = "csg")]
 pub mod scene;
 #[cfg(feature = "cells")]

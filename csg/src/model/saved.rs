@@ -2,21 +2,20 @@
 
 use std::num::NonZeroU32;
 
-use glam::DMat3;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::tree::known_lines;
 use super::{Brush, Transform, TransformError, Tree, TreeNode};
 
-/// What is written of a [`Tree`].
-#[derive(Serialize, Deserialize)]
+/// What is read of a [`Tree`], which is written as it is.
+#[derive(Deserialize)]
 #[serde(rename = "Tree", deny_unknown_fields)]
 pub(super) struct SavedTree {
     brushes: Vec<Brush>,
     nodes: Vec<TreeNode>,
     /// The source line of each brush; left out where no brush has one.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(default)]
     lines: Vec<Option<NonZeroU32>>,
 }
 
@@ -31,12 +30,6 @@ pub(super) enum TreeDataError {
     Leaves { leaves: usize, brushes: usize },
     #[error("the tree has {lines} source lines, but {brushes} brushes")]
     Lines { lines: usize, brushes: usize },
-}
-
-impl From<Tree> for SavedTree {
-    fn from(tree: Tree) -> Self {
-        Self { brushes: tree.brushes, nodes: tree.nodes, lines: tree.lines }
-    }
 }
 
 impl TryFrom<SavedTree> for Tree {
@@ -87,6 +80,7 @@ impl TryFrom<SavedTransform> for Transform {
     type Error = TransformError;
 
     fn try_from(saved: SavedTransform) -> Result<Self, TransformError> {
-        Self::new(DMat3::from_cols_array_2d(&saved.linear), saved.translation)
+        let [x, y, z] = saved.linear;
+        Self::from_columns([x, y, z, saved.translation])
     }
 }

@@ -57,12 +57,13 @@ pub enum TreeNode {
 /// brushes.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "super::saved::SavedTree", into = "super::saved::SavedTree"))]
+#[cfg_attr(feature = "serde", serde(try_from = "super::saved::SavedTree"))]
 pub struct Tree {
     pub(super) brushes: Vec<Brush>,
     pub(super) nodes: Vec<TreeNode>,
     /// The source line of each brush; empty where no brush has one, so that trees without a source pay nothing for them, and equal
     /// ones compare as equal.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Vec::is_empty"))]
     pub(super) lines: Vec<Option<NonZeroU32>>,
 }
 

@@ -3,19 +3,8 @@
 use std::num::NonZeroU32;
 
 use planecut_csg::{Brush, Material, MaterialId, Model, Transform, Tree, evaluate};
-use serde_json::{Value, from_value, json, to_value};
-
-/// A copy by way of data; numbers are kept bit for bit.
-fn through_data<T: serde::Serialize + serde::de::DeserializeOwned>(value: &T) -> T {
-    from_value(to_value(value).expect("it can be written")).expect("it can be read")
-}
-
-fn refusal<T: serde::de::DeserializeOwned>(data: Value) -> String {
-    match from_value::<T>(data) {
-        Ok(_) => panic!("it is accepted"),
-        Err(error) => error.to_string(),
-    }
-}
+use planecut_testkit::saved::{refusal, through_data};
+use serde_json::{Value, json, to_value};
 
 /// A notched block, its offsets without short decimals, with a name and source lines.
 fn model() -> Model {

@@ -6,19 +6,8 @@ use planecut_oracle::random::Rng;
 use planecut_oracle::replay::Replay;
 use planecut_oracle::settings::first_seed;
 use planecut_oracle::structure::Structure;
+use planecut_testkit::saved::{refusal, through_data};
 use serde_json::{Value, from_value, json, to_value};
-
-/// A copy by way of data; numbers are kept bit for bit.
-fn through_data<T: serde::Serialize + serde::de::DeserializeOwned>(value: &T) -> T {
-    from_value(to_value(value).expect("it can be written")).expect("it can be read")
-}
-
-fn refusal<T: serde::de::DeserializeOwned>(data: Value) -> String {
-    match from_value::<T>(data) {
-        Ok(_) => panic!("it is accepted"),
-        Err(error) => error.to_string(),
-    }
-}
 
 /// The structure, the handles and stamps, and the handle that comes next.
 #[test]
