@@ -1,5 +1,6 @@
 //! From a model to its solid's mesh, stage by stage, with what each stage counted.
 
+use crate::ids::number32;
 use std::time::Duration;
 
 use planecut_kernel::sign::Counts;
@@ -102,8 +103,8 @@ pub fn summarize(model: &Model) -> ModelSummary {
 /// The solid of a model's tree as a watertight mesh. Empty brushes are counted; they take part as nothing. Unbounded brushes
 /// are operands like others; the solid itself must be bounded.
 ///
-/// Runs on rayon's current thread pool; the outcome does not depend on the number of threads, nor, where materials of
-/// overlapping coplanar faces agree, on the order of the brushes in a union.
+/// With feature `parallel` it runs on rayon's current thread pool; the outcome does not depend on the number of threads, nor,
+/// where materials of overlapping coplanar faces agree, on the order of the brushes in a union.
 ///
 /// # Errors
 /// [`EvaluateError::Unbounded`], [`EvaluateError::UnknownMaterial`], and [`EvaluateError::Weld`] where the boundary does not
@@ -280,7 +281,7 @@ pub fn material_ranks(materials: &[Material]) -> Vec<u32> {
     order.sort_by(|a, b| materials[*a].name.cmp(&materials[*b].name));
     let mut rank = vec![0; order.len()];
     for (place, material) in order.into_iter().enumerate() {
-        rank[material] = place as u32;
+        rank[material] = number32(place);
     }
     rank
 }

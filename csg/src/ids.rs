@@ -40,6 +40,17 @@ pub(crate) fn holds<T: Copy + Eq>(list: &[T], number: T) -> bool {
     list.chunks(8).any(|chunk| chunk.iter().fold(false, |is_found, other| is_found | (*other == number)))
 }
 
+/// A count, or the place of a thing in a list, in 32 bits.
+///
+/// # Panics
+/// Where it does not fit.
+#[inline]
+#[expect(clippy::cast_possible_truncation, reason = "asserted")]
+pub(crate) fn number32(count: usize) -> u32 {
+    assert!(count <= u32::MAX as usize, "too many things of one kind for numbers of 32 bits");
+    count as u32
+}
+
 macro_rules! ids {
     ($($(#[$attribute:meta])* $visibility:vis $name:ident;)*) => {
         $(
@@ -55,7 +66,7 @@ macro_rules! ids {
                 fn from_index(index: usize) -> Self {
                     // without arguments, so that nothing but a call of a cold function is inlined beside the comparison
                     assert!(index < u32::MAX as usize, "too many things of one kind for numbers of 32 bits");
-                    Self(index as u32)
+                    Self(number32(index))
                 }
 
                 #[inline]

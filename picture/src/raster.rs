@@ -6,7 +6,7 @@
 
 use std::ops::Range;
 
-use rayon::prelude::*;
+use planecut_parallel::prelude::*;
 
 use crate::view::lens::ScreenPoint;
 

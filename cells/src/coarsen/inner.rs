@@ -2,7 +2,7 @@
 
 use planecut_csg::stages::Boxes;
 use planecut_kernel::{HalfSpace, IncrementalPolytope};
-use rayon::prelude::*;
+use planecut_parallel::prelude::*;
 
 use super::part::{Part, built};
 use super::subtract::subtract;

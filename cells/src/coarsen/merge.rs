@@ -2,7 +2,7 @@
 
 use planecut_csg::stages::Bounds;
 use planecut_kernel::HalfSpace;
-use rayon::prelude::*;
+use planecut_parallel::prelude::*;
 
 use super::hull::Hull;
 use super::pairs::{Pair, Pairs};

@@ -4,7 +4,7 @@ use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
 use planecut_kernel::HalfSpace;
-use rayon::prelude::*;
+use planecut_parallel::prelude::*;
 
 use super::hull::Hull;
 

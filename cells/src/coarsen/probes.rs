@@ -4,7 +4,7 @@
 
 use planecut_csg::stages::{Bounds, curve_number};
 use planecut_kernel::{DVec3, HalfSpace};
-use rayon::prelude::*;
+use planecut_parallel::prelude::*;
 
 use super::hull::Hull;
 use super::part::{Part, bounds_of, boxes_of};

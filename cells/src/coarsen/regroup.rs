@@ -3,7 +3,7 @@
 //! Greedy merging knows nothing of what comes later; parts of two groups that are merged again while all others stay
 //! often find better company ("ruin and recreate": Schrimpf, Schneider, Stamm-Wilbrandt, Dueck 2000).
 
-use rayon::prelude::*;
+use planecut_parallel::prelude::*;
 
 use super::merge::Merger;
 use super::probes::{add, count_fresh};

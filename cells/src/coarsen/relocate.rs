@@ -1,6 +1,6 @@
 //! Better groups, one part at a time: a part goes where it costs less.
 
-use rayon::prelude::*;
+use planecut_parallel::prelude::*;
 
 use super::hull::Hull;
 use super::probes::{add, count_fresh, once_and_twice};

@@ -1,7 +1,7 @@
 //! What the search works on: the parts, how they may be grouped, and what a group costs.
 
 use planecut_kernel::{DVec3, HalfSpace};
-use rayon::prelude::*;
+use planecut_parallel::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::CoarsenOptions;

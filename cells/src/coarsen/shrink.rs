@@ -5,7 +5,7 @@
 
 use planecut_csg::stages::Boxes;
 use planecut_kernel::DVec3;
-use rayon::prelude::*;
+use planecut_parallel::prelude::*;
 
 use super::CoarsenError;
 use super::clear::Clear;

@@ -3,7 +3,7 @@
 use planecut_csg::stages::{Body, check_materials, material_ranks, mesh_of_union};
 use planecut_csg::{EvaluateError, Material, MaterialId, Mesh, SolidMeasures};
 use planecut_kernel::PlaneIdx;
-use rayon::prelude::*;
+use planecut_parallel::prelude::*;
 
 use super::Solid;
 use super::cell::Cell;

@@ -7,7 +7,7 @@
 //! - bodies that must not hold the point are carved out, in the order that [`order`](super::order) chooses.
 
 use planecut_csg::{PlaneId, PlaneTable};
-use rayon::prelude::*;
+use planecut_parallel::prelude::*;
 use rustc_hash::FxHashSet;
 
 use super::cell::{Cell, CellPlane};

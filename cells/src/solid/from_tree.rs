@@ -6,7 +6,7 @@ use std::sync::Arc;
 use planecut_csg::stages::Boxes;
 use planecut_csg::{Brush, PlaneId, PlaneTable, Tree};
 use planecut_kernel::HalfSpace;
-use rayon::prelude::*;
+use planecut_parallel::prelude::*;
 
 use super::carve::Carver;
 use super::cell::{Cell, CellPlane, Cut};
@@ -32,8 +32,8 @@ impl Solid {
     /// unbounded or empty.
     ///
     /// Planes that are nearly the same count as one ([`SNAP_TOLERANCE`](planecut_csg::SNAP_TOLERANCE)), as in
-    /// [`evaluate`](planecut_csg::evaluate). Runs on rayon's current thread pool; the outcome does not depend on the number of
-    /// threads.
+    /// [`evaluate`](planecut_csg::evaluate). With feature `parallel` it runs on rayon's current thread pool; the outcome does
+    /// not depend on the number of threads.
     ///
     /// ```
     /// use planecut_cells::Solid;
@@ -109,7 +109,7 @@ fn body_of(table: &PlaneTable, number: u32, brush: &Brush, ids: &[PlaneId]) -> O
 fn cells_of(form: &NormalForm, carver: &Carver) -> Vec<Cell> {
     let boxes = Boxes::new(carver.bodies.iter().map(|body| *body.bounds()).collect());
     let owners = form.owners();
-    let chunk = (owners.len() / (8 * rayon::current_num_threads()).max(1)).clamp(1, 64);
+    let chunk = (owners.len() / (8 * planecut_parallel::current_num_threads()).max(1)).clamp(1, 64);
     let parts: Vec<Vec<Cell>> = owners
         .par_chunks(chunk)
         .map(|owners| {

@@ -2,7 +2,7 @@
 
 use planecut_csg::stages::CompensatedSum;
 use planecut_kernel::{BoundingBox, DMat3, DVec3, Measures};
-use rayon::prelude::*;
+use planecut_parallel::prelude::*;
 
 use super::{Cell, Solid};
 

@@ -8,7 +8,7 @@
 use planecut_csg::{PlaneId, PlaneTable};
 use planecut_kernel::DVec3;
 use planecut_kernel::sign::Sign;
-use rayon::prelude::*;
+use planecut_parallel::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::cell::{Cell, CellPlane, Corner};

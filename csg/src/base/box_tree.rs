@@ -1,6 +1,7 @@
 //! Which of many boxes touch a box.
 
 use super::Bounds;
+use crate::ids::number32;
 
 /// Leaves hold at most this many boxes.
 const LEAF: usize = 4;
@@ -50,11 +51,11 @@ impl Boxes {
             let node = self.nodes.len();
             if let Some(parent) = second_of {
                 let parent: &mut BoxNode = &mut self.nodes[parent];
-                parent.second = node as u32;
+                parent.second = number32(node);
             }
             let (boxes, range) = (&self.boxes, &mut self.order[start..end]);
             let bounds = range.iter().fold(Bounds::EMPTY, |bounds, k| bounds.union(&boxes[*k as usize]));
-            self.nodes.push(BoxNode { bounds, start: start as u32, end: end as u32, second: 0 });
+            self.nodes.push(BoxNode { bounds, start: number32(start), end: number32(end), second: 0 });
             if end - start > LEAF {
                 let axis = (bounds.max - bounds.min).max_position();
                 let half = range.len() / 2;

@@ -1,9 +1,10 @@
 //! Numbers for keys: equal keys get one number, and keys sort as integers.
 
+use crate::ids::number32;
 use std::hash::Hash;
 use std::sync::atomic::{AtomicU32, Ordering};
 
-use rayon::prelude::*;
+use planecut_parallel::prelude::*;
 use rustc_hash::FxHashMap;
 
 /// Number of keys, about, that are numbered in a row: their map stays in the cache.
@@ -30,9 +31,9 @@ pub(crate) fn intern<K: Copy + Eq + Hash + Send + Sync, N: Send>(
         return (bucket.keys, numbers);
     }
     let width = bound.div_ceil(count).max(1);
-    let bucket_of = |key: &K| (near(key) / width).min(count - 1) as u32;
+    let bucket_of = |key: &K| number32((near(key) / width).min(count - 1));
     let of_key: Vec<u32> = keys.par_iter().with_min_len(BUCKET).map(bucket_of).collect();
-    let (starts, members) = by_group(count, of_key.iter().map(|bucket| *bucket as usize), |place| place as u32);
+    let (starts, members) = by_group(count, of_key.iter().map(|bucket| *bucket as usize), number32);
     let numbers: Vec<AtomicU32> = keys.par_iter().with_min_len(BUCKET).map(|_| AtomicU32::new(0)).collect();
     let buckets: Vec<Vec<K>> = starts
         .par_windows(2)
@@ -46,7 +47,7 @@ pub(crate) fn intern<K: Copy + Eq + Hash + Send + Sync, N: Send>(
         .collect();
     let mut first = vec![0; count];
     for k in 1..count {
-        first[k] = first[k - 1] + buckets[k - 1].len() as u32;
+        first[k] = first[k - 1] + number32(buckets[k - 1].len());
     }
     let number =
         |(number, bucket): (AtomicU32, u32)| number_of((number.into_inner() + first[bucket as usize]) as usize);
@@ -77,7 +78,7 @@ impl<K: Copy + Eq + Hash> Bucket<K> {
         }
         let number = *self.number.entry(key).or_insert_with(|| {
             self.keys.push(key);
-            self.keys.len() as u32 - 1
+            number32(self.keys.len()) - 1
         });
         self.last = Some((key, number));
         number

@@ -1,7 +1,7 @@
 //! Work shared out among threads in chunks, with a count of the signs that it asked for.
 
 use planecut_kernel::sign::Counts;
-use rayon::prelude::*;
+use planecut_parallel::prelude::*;
 
 /// Chunks for each thread, so that none waits long for the last one.
 const PER_THREAD: usize = 8;
@@ -13,7 +13,7 @@ pub(crate) fn map_chunks<T: Sync, R: Send>(
     least: usize,
     work: impl Fn(&[T]) -> R + Sync,
 ) -> (Vec<R>, Counts) {
-    let chunk = (items.len() / (PER_THREAD * rayon::current_num_threads())).max(least);
+    let chunk = (items.len() / (PER_THREAD * planecut_parallel::current_num_threads())).max(least);
     let counted: Vec<(R, Counts)> = items.par_chunks(chunk.max(1)).map(|chunk| counted(|| work(chunk))).collect();
     let mut counts = Counts::default();
     let outcomes = counted.into_iter().map(|(outcome, part)| {

@@ -1,5 +1,7 @@
 //! Disjoint sets of numbered elements.
 
+use crate::ids::number32;
+
 /// A forest of parents (union-find with path halving).
 pub struct DisjointSets(Vec<u32>);
 
@@ -7,7 +9,7 @@ impl DisjointSets {
     /// Each element in a set of its own.
     #[must_use]
     pub fn new(count: usize) -> Self {
-        Self((0..count as u32).collect())
+        Self((0..number32(count)).collect())
     }
 
     /// The least element of an element's set.
@@ -35,7 +37,7 @@ impl DisjointSets {
         let mut count = 0;
         for i in 0..number.len() {
             // roots are the least of their sets
-            let root = self.root(i as u32) as usize;
+            let root = self.root(number32(i)) as usize;
             number[i] = number[root];
             if root == i {
                 number[i] = count;

@@ -10,6 +10,7 @@ mod grid;
 mod prune;
 mod seams;
 
+use crate::ids::number32;
 use glam::DVec3;
 use thiserror::Error;
 
@@ -114,7 +115,7 @@ pub fn evaluate_in_blocks<E>(
     let bounds = bounds_of(brushes).map_err(|brush| BlocksError::Unbounded { brush })?;
     // once for all blocks, or what is one plane in one of them would be two in another
     let snapped = Snapped::of(brushes.iter().flat_map(|brush| &brush.faces).map(|face| &face.half_space));
-    let wall = MaterialId(model.materials.len() as u32);
+    let wall = MaterialId(number32(model.materials.len()));
     let mut materials = model.materials.clone();
     materials.push(Material::default());
     let mut seams = Seams::default();

@@ -1,5 +1,6 @@
 //! What a tree is where only some of its brushes are.
 
+use crate::ids::number32;
 use std::num::NonZeroU32;
 
 use crate::model::{Brush, Operation, Tree, TreeNode};
@@ -68,7 +69,7 @@ impl Pruned {
         }
         // an operation on one operand is that operand
         if left != 1 || operation == Operation::Complement {
-            self.nodes.push(TreeNode::Operation { operation, operands: left as u32 });
+            self.nodes.push(TreeNode::Operation { operation, operands: number32(left) });
         }
         self.results.push(Some(begin));
     }

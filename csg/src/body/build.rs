@@ -4,7 +4,7 @@ use std::borrow::{Borrow, Cow};
 
 use planecut_kernel::sign::{Counts, Row};
 use planecut_kernel::{HalfSpace, IncrementalPolytope, PlaneIdx};
-use rayon::prelude::*;
+use planecut_parallel::prelude::*;
 
 use super::built::{self, BrushShape, BuiltBodies};
 use super::{Body, BrushBody, Shape};

@@ -7,6 +7,7 @@
 //! looking at a few faces near the last one, however many there are, and the planes that it may lie on or beyond are found
 //! as those connected to the largest. Numbers here are rounded, with a bound for the error; what they leave open signs decide.
 
+use crate::ids::number32;
 use std::ops::Range;
 
 use planecut_kernel::{DVec3, HalfSpace};
@@ -91,7 +92,7 @@ impl PolarDual {
                 "an edge without a face on its other side"
             );
             dual.neighbours.extend(edges.iter().filter_map(|plane| face_of[plane.0]));
-            dual.starts.push(dual.neighbours.len() as u32);
+            dual.starts.push(number32(dual.neighbours.len()));
         }
         for octant in 0..8_usize {
             let sign = |axis: usize| if octant >> axis & 1 == 1 { -1.0 } else { 1.0 };

@@ -1,5 +1,6 @@
 //! A bounded convex body in numbers of its own: faces, edges and corners, whatever ids its planes have elsewhere.
 
+use crate::ids::number32;
 use std::sync::{Arc, OnceLock};
 
 use glam::DVec3;
@@ -93,7 +94,7 @@ impl Shape {
                 corners.numbers.push(number);
             }
             corners.planes.push(own);
-            faces.push(Face { bounds, start: start as u32, end: corners.edges.len() as u32 });
+            faces.push(Face { bounds, start: number32(start), end: number32(corners.edges.len()) });
         });
         if !is_bounded {
             return None;

@@ -9,6 +9,7 @@ mod random_trees;
 mod repeats;
 mod restriction;
 
+use crate::ids::number32;
 use crate::ids::{Id, LeafId, TreeNodeId};
 use crate::model::{Operation, TreeNode};
 pub(crate) use restriction::Restriction;
@@ -113,7 +114,7 @@ impl Expression {
     /// The union of as many leaves.
     pub(crate) fn union_of(leaves: usize) -> Self {
         let mut entries = vec![TreeNode::Leaf; leaves];
-        entries.push(TreeNode::Operation { operation: Operation::Union, operands: leaves as u32 });
+        entries.push(TreeNode::Operation { operation: Operation::Union, operands: number32(leaves) });
         Self::new(&entries)
     }
 
@@ -173,12 +174,12 @@ impl Node {
         let first_operand = operands.first().map_or((end_leaf, false), |first| (first.end_leaf, first.base));
         // of a difference without operands nothing is taken away either
         let counted = if operation == Operation::Difference { operands.get(1..).unwrap_or_default() } else { operands };
-        let true_operands = counted.iter().filter(|operand| operand.base).count() as u32;
+        let true_operands = number32(counted.iter().filter(|operand| operand.base).count());
         let mut node = Self {
             operation: Some(operation),
             first_leaf,
             end_leaf,
-            operands: operands.len() as u32,
+            operands: number32(operands.len()),
             true_operands,
             first_operand,
             ..Self::leaf(first_leaf)

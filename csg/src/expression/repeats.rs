@@ -9,6 +9,7 @@
 //! made 0 was 0 there; and of the operands that hold of the union itself, one of the fewest leaves has nothing within it that
 //! equals another one that holds. So it still holds.
 
+use crate::ids::number32;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::Expression;
@@ -89,7 +90,7 @@ impl Expression {
                 Some(Operation::Difference) => key[1.min(node.operands as usize)..].sort_unstable(),
                 Some(_) => key.sort_unstable(),
             }
-            let next = known.len() as u32;
+            let next = number32(known.len());
             let number = *known.entry((node.operation, key)).or_insert(next);
             numbers.push(number);
             if let Some(above) = operands.get_mut(self.parents[k].index()) {

@@ -20,6 +20,7 @@ mod planes;
 mod polytopes;
 mod reach;
 
+use crate::ids::number32;
 use std::collections::BTreeMap;
 use std::num::NonZeroU32;
 use std::sync::Arc;
@@ -229,7 +230,7 @@ impl LiveModel {
         }
         let roles = order::roles_of(&tree);
         if roles.is_none() {
-            live.base = Some(Base { nodes: tree.nodes().to_vec(), leaves: tree.brushes().len() as u32 });
+            live.base = Some(Base { nodes: tree.nodes().to_vec(), leaves: number32(tree.brushes().len()) });
         }
         let roles = roles.unwrap_or_else(|| vec![Role::Add; tree.brushes().len()]);
         let lines: Vec<Option<NonZeroU32>> = tree.source_lines().collect();
@@ -270,7 +271,7 @@ impl LiveModel {
     pub fn add_material(&mut self, material: Material) -> MaterialId {
         self.materials.push(material);
         self.rank = material_ranks(&self.materials);
-        MaterialId(self.materials.len() as u32 - 1)
+        MaterialId(number32(self.materials.len()) - 1)
     }
 
     /// Gives bodies that are built already: brushes to come that have one of them are not built.

@@ -1,6 +1,7 @@
 //! How the brushes of a live model are combined: one after another, or first as in a tree.
 
 use super::operand::Role;
+use crate::ids::number32;
 use crate::model::{Operation, Tree, TreeNode};
 
 /// The roles of a tree's brushes where it does no more than to add, subtract and intersect one brush after another; nothing
@@ -98,7 +99,7 @@ pub(super) fn restricted(nodes: &[TreeNode], stays: impl Fn(u32) -> bool) -> Vec
             TreeNode::Operation { operation, operands } => {
                 let operands = open.split_off(open.len() - operands as usize);
                 let mut value = combine(operation, &operands, &mut rest);
-                let kept = operands.iter().filter(|value| value.is_none()).count() as u32;
+                let kept = number32(operands.iter().filter(|value| value.is_none()).count());
                 if let Some(constant_value) = value.filter(|_| kept > 0) {
                     // the leaves that stay are there, whatever they come to
                     let operation = if constant_value { Operation::Union } else { Operation::Intersection };
@@ -121,7 +122,7 @@ fn constant(value: bool) -> TreeNode {
 
 /// Adds an operation on operands, some of them constant; its value, where it is constant itself.
 fn combine(operation: Operation, operands: &[Option<bool>], rest: &mut Vec<TreeNode>) -> Option<bool> {
-    let count = operands.iter().filter(|value| value.is_none()).count() as u32;
+    let count = number32(operands.iter().filter(|value| value.is_none()).count());
     let any = |value: bool| operands.contains(&Some(value));
     let mut push = |operation, operands| rest.push(TreeNode::Operation { operation, operands });
     match operation {

@@ -5,6 +5,7 @@
 //! contraction may close. Here all corners that short edges join become one place; triangles that lose their area go, the
 //! sides of what is left are joined through what went, and each fan of triangles gets a vertex of its own.
 
+use crate::ids::number32;
 use rustc_hash::FxHashMap;
 
 use super::Mesh;
@@ -31,18 +32,18 @@ pub(crate) fn collapse_thin(mesh: &mut Mesh, length: f64) {
         let side = [next(h), next(next(h))].into_iter().find(|side| at(*side) != at(next(*side)));
         twins[side.expect("two sides of three join two places") as usize]
     };
-    let count = mesh.triangles.len() as u32;
+    let count = number32(mesh.triangles.len());
     let kept: Vec<u32> = (0..count).filter(|t| is_kept(*t)).collect();
     let mut number = vec![NONE; count as usize];
     for (new, old) in kept.iter().enumerate() {
-        number[*old as usize] = new as u32;
+        number[*old as usize] = number32(new);
     }
     let mut joined = Joined {
         places: kept.iter().map(|t| corners(*t)).collect(),
         faces: kept.iter().map(|t| mesh.triangle_faces[*t as usize]).collect(),
         twins: Vec::with_capacity(3 * kept.len()),
         midpoints: Vec::new(),
-        first_midpoint: mesh.positions.len() as u32,
+        first_midpoint: number32(mesh.positions.len()),
     };
     for h in kept.iter().flat_map(|t| [3 * t, 3 * t + 1, 3 * t + 2]) {
         let mut twin = twins[h as usize];
@@ -68,7 +69,7 @@ fn places(mesh: &Mesh, length: f64) -> Option<Vec<u32>> {
             }
         }
     }
-    any.then(|| (0..mesh.positions.len() as u32).map(|v| sets.root(v)).collect())
+    any.then(|| (0..number32(mesh.positions.len())).map(|v| sets.root(v)).collect())
 }
 
 /// Triangles between places, joined by their sides.
@@ -91,13 +92,13 @@ impl Joined {
     fn fans(&self) -> (Vec<u32>, Vec<u32>) {
         let mut vertex = vec![NONE; self.twins.len()];
         let mut places = Vec::new();
-        for start in 0..vertex.len() as u32 {
+        for start in 0..number32(vertex.len()) {
             let mut h = start;
             if vertex[h as usize] == NONE {
                 places.push(self.ends(h).0);
             }
             while vertex[h as usize] == NONE {
-                vertex[h as usize] = places.len() as u32 - 1;
+                vertex[h as usize] = number32(places.len()) - 1;
                 h = next(self.twins[h as usize]);
             }
         }
@@ -110,7 +111,7 @@ impl Joined {
             let (vertex, _) = self.fans();
             let mut seen: FxHashMap<(u32, u32), u32> = FxHashMap::default();
             let mut repeated = Vec::new();
-            for h in 0..self.twins.len() as u32 {
+            for h in 0..number32(self.twins.len()) {
                 let (a, b) = (vertex[h as usize], vertex[next(h) as usize]);
                 if a < b && seen.insert((a, b), h).is_some() {
                     repeated.push(h);
@@ -130,7 +131,7 @@ impl Joined {
     fn split(&mut self, h: u32) {
         let back = self.twins[h as usize];
         let (a, b) = self.ends(h);
-        let middle = self.first_midpoint + self.midpoints.len() as u32;
+        let middle = self.first_midpoint + number32(self.midpoints.len());
         self.midpoints.push([a, b]);
         let halves = [h, back].map(|h| self.split_triangle(h, middle));
         // the near half of each side lies against the far half of the other
@@ -147,7 +148,7 @@ impl Joined {
         let (t, k) = ((h / 3) as usize, (h % 3) as usize);
         let (far, side) = (self.places[t][(k + 1) % 3], next(h));
         let tip = self.places[t][(k + 2) % 3];
-        let added = 3 * self.places.len() as u32;
+        let added = 3 * number32(self.places.len());
         self.places[t][(k + 1) % 3] = middle;
         self.places.push([middle, far, tip]);
         self.faces.push(self.faces[t]);

@@ -2,7 +2,8 @@
 //!
 //! Half-edge `3 t + k` runs from corner `k` of triangle `t` to the next corner. Only indices are looked at, never positions.
 
-use rayon::prelude::*;
+use crate::ids::number32;
+use planecut_parallel::prelude::*;
 
 use crate::base::by_group;
 
@@ -39,8 +40,7 @@ impl<'a> HalfEdges<'a> {
     /// The half-edges of triangles whose indices are below `vertices`. Linear.
     #[must_use]
     pub fn new(vertices: usize, triangles: &'a [[u32; 3]]) -> Self {
-        let (starts, leaving) =
-            by_group(vertices, triangles.as_flattened().iter().map(|v| *v as usize), |side| side as u32);
+        let (starts, leaving) = by_group(vertices, triangles.as_flattened().iter().map(|v| *v as usize), number32);
         Self { triangles, starts, leaving }
     }
 
@@ -120,7 +120,7 @@ impl<'a> HalfEdges<'a> {
     }
 
     fn vertices(&self) -> u32 {
-        self.starts.len() as u32 - 1
+        number32(self.starts.len()) - 1
     }
 }
 

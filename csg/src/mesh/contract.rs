@@ -5,6 +5,7 @@
 //! keep the mesh a manifold, so edges are contracted one by one, each only where the surface stays the surface it was
 //! (the link condition: Dey, Edelsbrunner, Guha, Nekhayev 1999).
 
+use crate::ids::number32;
 use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -74,7 +75,7 @@ struct Contraction {
 impl Contraction {
     fn new(mesh: &Mesh) -> Self {
         let (starts, sides) =
-            by_group(mesh.positions.len(), mesh.triangles.iter().flatten().map(|v| *v as usize), |side| side as u32);
+            by_group(mesh.positions.len(), mesh.triangles.iter().flatten().map(|v| *v as usize), number32);
         let triangles = sides.into_iter().map(|side| side / 3).collect();
         Self {
             became: FxHashMap::default(),
@@ -145,7 +146,7 @@ impl Contraction {
 
     /// Drops what is no longer used and renumbers the rest.
     fn compact(&self, mesh: &mut Mesh) {
-        let live = |t: &usize| !self.removed.contains(&(*t as u32));
+        let live = |t: &usize| !self.removed.contains(&number32(*t));
         let kept: Vec<usize> = (0..mesh.triangles.len()).filter(live).collect();
         mesh.triangles = kept.iter().map(|t| mesh.triangles[*t]).collect();
         mesh.triangle_faces = kept.iter().map(|t| mesh.triangle_faces[*t]).collect();
@@ -155,7 +156,7 @@ impl Contraction {
         }
         let used: Vec<usize> = (0..number.len()).filter(|v| number[*v] == 0).collect();
         for (new, old) in used.iter().enumerate() {
-            number[*old] = new as u32;
+            number[*old] = number32(new);
         }
         mesh.positions = used.iter().map(|v| mesh.positions[*v]).collect();
         mesh.triangles.iter_mut().flatten().for_each(|v| *v = number[*v as usize]);

@@ -4,7 +4,8 @@
 //! contracted. Programs that take such a triangle away one by one may tear the surface. Its long side is flipped instead:
 //! the neighbour across it takes the corner in between, and no point moves.
 
-use rayon::prelude::*;
+use crate::ids::number32;
+use planecut_parallel::prelude::*;
 
 use super::Mesh;
 use super::connectivity::{HalfEdges, NO_TWIN, next, previous};
@@ -12,7 +13,7 @@ use super::connectivity::{HalfEdges, NO_TWIN, next, previous};
 /// Flips away triangles of at most this height, in the mesh's units, where that makes no edge that is there already. Faces
 /// that lose all their triangles are dropped.
 pub(crate) fn flip_caps(mesh: &mut Mesh, height: f64) {
-    let all = (0..mesh.triangles.len() as u32).into_par_iter().with_min_len(2048);
+    let all = (0..number32(mesh.triangles.len())).into_par_iter().with_min_len(2048);
     let mut caps: Vec<u32> = all.filter(|t| is_flat(mesh, *t, height)).collect();
     if caps.is_empty() {
         return;
@@ -47,7 +48,7 @@ fn long_side(mesh: &Mesh, triangle: u32, height: f64) -> Option<u32> {
     let at = mesh.triangles[triangle as usize].map(|v| mesh.positions[v as usize]);
     let length = |k: usize| at[k].distance(at[(k + 1) % 3]);
     let side = (0..3).max_by(|a, b| length(*a).total_cmp(&length(*b)))?;
-    is_flat(mesh, triangle, height).then_some(side as u32)
+    is_flat(mesh, triangle, height).then_some(number32(side))
 }
 
 /// Flips a side of a cap, whose two new triangles belong to the face of its neighbour. Gives whether it could.

@@ -6,6 +6,7 @@ mod contract;
 mod flip_caps;
 mod measures;
 
+use crate::ids::number32;
 use glam::DVec3;
 
 use crate::model::{Material, MaterialId};
@@ -56,7 +57,7 @@ impl Mesh {
                 last = Some(*face);
                 faces.push(self.faces[*face as usize]);
             }
-            *face = faces.len() as u32 - 1;
+            *face = number32(faces.len()) - 1;
         }
         self.faces = faces;
     }

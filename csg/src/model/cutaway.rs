@@ -1,5 +1,6 @@
 //! Models cut open, so that a picture shows what is inside.
 
+use crate::ids::number32;
 use planecut_kernel::HalfSpace;
 use rustc_hash::FxHashMap;
 
@@ -54,7 +55,7 @@ impl Model {
         let (mut cuts, mut known) = (Vec::new(), FxHashMap::default());
         let mut cut_of = |inside: Option<MaterialId>| {
             *known.entry(inside).or_insert_with(|| {
-                let id = MaterialId(materials.len() as u32);
+                let id = MaterialId(number32(materials.len()));
                 let of = inside.filter(|id| (id.0 as usize) < self.materials.len());
                 materials.push(cut_through(of.map(|id| &self.materials[id.0 as usize])));
                 cuts.push(CutMaterial { id, of });

@@ -1,5 +1,6 @@
 //! Where the faces of a mesh come from.
 
+use crate::ids::number32;
 use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
 
@@ -78,8 +79,8 @@ impl Model {
                 let mut new = || {
                     // a number that is not in the list stays out of it
                     split.materials.push(self.materials.get(old.0 as usize)?.clone());
-                    sources.push(FaceSource { brush: number as u32, plane: plane as u32, texture });
-                    Some(MaterialId(sources.len() as u32 - 1))
+                    sources.push(FaceSource { brush: number32(number), plane: number32(plane), texture });
+                    Some(MaterialId(number32(sources.len()) - 1))
                 };
                 let key = (old, texture.map(|texture| texture.bits()));
                 let id = match known.get(&key) {

@@ -178,10 +178,10 @@ pub fn sine_and_cosine(degrees: f64) -> (f64, f64) {
         60.0 => (0.75_f64.sqrt(), 0.5),
         _ => rest.to_radians().sin_cos(),
     };
-    match quadrant as i64 % 4 {
-        0 => (sine, cosine),
-        1 => (cosine, -sine),
-        2 => (-sine, -cosine),
+    match quadrant {
+        0.0 | 4.0 => (sine, cosine),
+        1.0 => (cosine, -sine),
+        2.0 => (-sine, -cosine),
         _ => (-cosine, sine),
     }
 }

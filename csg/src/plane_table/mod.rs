@@ -8,9 +8,10 @@ mod snapped;
 #[cfg(test)]
 mod tests;
 
+use crate::ids::number32;
 use planecut_kernel::sign::{Homogeneous, Row, Sign, cross_component, orient3};
 use planecut_kernel::{DVec3, HalfSpace, meet};
-use rayon::prelude::*;
+use planecut_parallel::prelude::*;
 use rustc_hash::FxHashMap;
 
 use crate::base::sortable;
@@ -30,7 +31,7 @@ pub struct PlaneId(u32);
 impl PlaneId {
     #[inline]
     fn new(index: usize, flipped: bool) -> Self {
-        Self((index as u32) << 1 | u32::from(flipped))
+        Self(number32(index) << 1 | u32::from(flipped))
     }
 
     /// The unsided plane of an index.
@@ -253,7 +254,7 @@ impl PlaneTable {
     fn snap(&mut self, planes: &[Row]) -> Vec<PlaneId> {
         let units: Vec<[f64; 4]> = planes.par_iter().with_min_len(1024).map(unit).collect();
         self.reach = units.iter().map(|unit| unit[3].abs()).fold(self.reach, f64::max);
-        let place = |(k, row): (usize, &Row)| (!is_exact(row), row.coefficients().map(sortable), k as u32);
+        let place = |(k, row): (usize, &Row)| (!is_exact(row), row.coefficients().map(sortable), number32(k));
         let mut order: Vec<(bool, [u64; 4], u32)> =
             planes.par_iter().enumerate().with_min_len(1024).map(place).collect();
         order.par_sort_unstable();

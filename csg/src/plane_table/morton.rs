@@ -4,7 +4,7 @@
 //! order in which they were given.
 
 use glam::DVec3;
-use rayon::prelude::*;
+use planecut_parallel::prelude::*;
 
 use super::{PlaneId, PlaneTable};
 use crate::base::{Bounds, sortable};

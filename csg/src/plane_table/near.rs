@@ -1,8 +1,9 @@
 //! Planes that are nearly the same.
 
+use crate::ids::number32;
 use planecut_kernel::DVec3;
 use planecut_kernel::sign::Row;
-use rayon::prelude::*;
+use planecut_parallel::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::PlaneId;
@@ -58,7 +59,7 @@ impl NearPlanes {
             .par_iter()
             .enumerate()
             .with_min_len(1024)
-            .map(|(k, unit)| (sortable(number(unit)), k as u32))
+            .map(|(k, unit)| (sortable(number(unit)), number32(k)))
             .collect();
         sorted.par_sort_unstable();
         // the side of a plane whose first coefficient is noise is noise, too
@@ -73,7 +74,7 @@ impl NearPlanes {
     }
 
     pub(super) fn insert(&mut self, unit: [f64; 4], id: PlaneId) {
-        let before = self.cells.insert(self.shares(unit).map(cell), self.planes.len() as u32);
+        let before = self.cells.insert(self.shares(unit).map(cell), number32(self.planes.len()));
         self.planes.push((unit, id, before));
     }
 
@@ -180,6 +181,10 @@ fn shares([x, y, z, d]: [f64; 4], size: f64) -> [f64; 4] {
     [x, y, z, d / size]
 }
 
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "`as` saturates: what lies beyond shares the last cell, and is compared there"
+)]
 fn cell(v: f64) -> i64 {
     (v / SNAP_CELL).floor() as i64
 }

@@ -1,9 +1,10 @@
 //! Planes that are exactly the same, whatever their scale and side.
 
+use crate::ids::number32;
 use std::cmp::Ordering;
 
 use planecut_kernel::sign::Row;
-use rayon::prelude::*;
+use planecut_parallel::prelude::*;
 use rustc_hash::FxHashMap;
 
 use crate::base::intern;
@@ -50,8 +51,8 @@ pub(super) fn group_exactly(rows: &[Row]) -> (Vec<Row>, Vec<u32>) {
     let rows: Vec<Row> = rows.par_iter().with_min_len(1024).map(|row| first_side(row).0).collect();
     let keys: Vec<Key> = rows.par_iter().with_min_len(1024).map(key).collect();
     // spread by the low bits of a ratio
-    let spread = |key: &Key| (key.1[0] ^ key.1[1] >> 7 ^ key.1[2] >> 13) as usize & 0xFFFF;
-    let (different, mut class) = intern(&keys, 1 << 16, spread, |place| place as u32);
+    let spread = |key: &Key| ((key.1[0] ^ key.1[1] >> 7 ^ key.1[2] >> 13) & 0xFFFF) as usize;
+    let (different, mut class) = intern(&keys, 1 << 16, spread, number32);
     let mut groups: Vec<Option<Row>> = vec![None; different.len()];
     // groups that share all numbers with one that was there before
     let mut further: FxHashMap<u32, Vec<u32>> = FxHashMap::default();
@@ -60,9 +61,9 @@ pub(super) fn group_exactly(rows: &[Row]) -> (Vec<Row>, Vec<u32>) {
         if !same(class) {
             let others = further.entry(*class).or_default();
             *class = others.iter().copied().find(same).unwrap_or_else(|| {
-                others.push(groups.len() as u32);
+                others.push(number32(groups.len()));
                 groups.push(None);
-                groups.len() as u32 - 1
+                number32(groups.len()) - 1
             });
         }
         let least = groups[*class as usize].get_or_insert(*row);

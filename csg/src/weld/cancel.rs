@@ -4,6 +4,7 @@
 //! end points: coplanar pieces merge, however they were cut. The maximal runs that survive are then cut at the ends of
 //! all runs on the line, so that faces meet without T-junctions.
 
+use crate::ids::number32;
 use planecut_kernel::sign::{Counts, Sign};
 
 use super::WeldError;
@@ -331,7 +332,7 @@ fn cut_run(
     for interval in a.min(b)..a.max(b) {
         let (low, high) = (stops[interval], stops[interval + 1]);
         let (from, to) = if run.forward { (low, high) } else { (high, low) };
-        at_interval.push((interval as u32, HalfEdgeId::from_index(out.len())));
+        at_interval.push((number32(interval), HalfEdgeId::from_index(out.len())));
         out.push(HalfEdge { from, to, ..HalfEdge::of(run, HalfEdgeId::NONE) });
     }
 }

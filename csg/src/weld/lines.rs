@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use planecut_kernel::sign::{Counts, Row, Sign, orient3};
 use planecut_kernel::{DVec3, HalfSpace, line_coordinates};
-use rayon::prelude::*;
+use planecut_parallel::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::points::Points;
@@ -139,6 +139,7 @@ impl Mark {
 
 impl Line {
     /// That of a [`pair`] of planes.
+    #[expect(clippy::cast_possible_truncation, reason = "two numbers of 32 bits are taken apart")]
     pub(super) fn of(table: &PlaneTable, pair: u64) -> Self {
         let [a, b] = [pair >> 32, pair & 0xFFFF_FFFF].map(|p| PlaneId::of_index(p as u32));
         let direction: [Sign; 3] = std::array::from_fn(|axis| table.cross_component(a, b, axis));

@@ -4,6 +4,7 @@
 //! with four faces by itself. Two different edges can still join the same two vertices, and a diagonal can coincide with
 //! an edge: the second copy then gets a midpoint.
 
+use crate::ids::number32;
 use rustc_hash::FxHashSet;
 
 use super::cancel::HalfEdge;
@@ -70,7 +71,7 @@ type Addition = ([u32; 3], [HalfEdgeId; 3], u32);
 
 /// Splits both triangles at an edge by its midpoint.
 fn split_edge(mesh: &mut Mesh, labels: &mut Labels, sides: [TriangleSide; 2], additions: &mut Vec<Addition>) {
-    let middle = mesh.positions.len() as u32;
+    let middle = number32(mesh.positions.len());
     let (t, k) = ((sides[0] / 3) as usize, (sides[0] % 3) as usize);
     let ends = [mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]].map(|v| mesh.positions[v as usize]);
     mesh.positions.push(0.5 * (ends[0] + ends[1]));
@@ -93,7 +94,7 @@ fn insert_triangles(mesh: &mut Mesh, labels: &mut Labels, additions: &[Addition]
     mesh.triangles.extend(additions.iter().map(|(triangle, _, _)| *triangle));
     labels.extend(additions.iter().map(|(_, labels, _)| *labels));
     mesh.triangle_faces.extend(additions.iter().map(|(_, _, face)| *face));
-    let mut order: Vec<u32> = (0..mesh.triangles.len() as u32).collect();
+    let mut order: Vec<u32> = (0..number32(mesh.triangles.len())).collect();
     order.sort_by_key(|k| mesh.triangle_faces[*k as usize]);
     mesh.triangles = order.iter().map(|k| mesh.triangles[*k as usize]).collect();
     *labels = order.iter().map(|k| labels[*k as usize]).collect();

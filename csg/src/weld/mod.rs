@@ -26,12 +26,13 @@ mod pinches;
 mod points;
 mod triangulate;
 
+use crate::ids::number32;
 use std::ops::Range;
 use std::time::Duration;
 
 use planecut_kernel::DVec3;
 use planecut_kernel::sign::Counts;
-use rayon::prelude::*;
+use planecut_parallel::prelude::*;
 use thiserror::Error;
 
 use crate::base::{Clock, by_group, map_chunks};
@@ -199,9 +200,9 @@ fn half_edges(
     rank: &[u32],
 ) -> Result<(Regions, Points, Vec<HalfEdge>, Counts), WeldError> {
     // each has parts for one thread, during which the others go on
-    let ((mut points, ends, mut signs), ((mut regions, of_edge), (lines, of_pair, counted))) = rayon::join(
+    let ((mut points, ends, mut signs), ((mut regions, of_edge), (lines, of_pair, counted))) = planecut_parallel::join(
         || Points::identify(table, edges),
-        || rayon::join(|| Regions::number(edges, rank), || lines::identify(table, edges)),
+        || planecut_parallel::join(|| Regions::number(edges, rank), || lines::identify(table, edges)),
     );
     signs += counted;
     let run = |(k, edge): (usize, &BoundaryEdge)| Run {
@@ -340,7 +341,7 @@ fn triangulate_faces(
                     triangulator.add_loop(pieces_of_loop.iter().map(|k| (*k, &pieces[k.index()])));
                 }
                 triangulator.triangulate(&mut triangles);
-                ends.push((face.region, triangles.corners.len() as u32));
+                ends.push((face.region, number32(triangles.corners.len())));
             }
             let corner = |piece: HalfEdgeId| vertex[piece.index()].number();
             let vertices = triangles.corners.iter().map(|corners| corners.map(corner)).collect();
@@ -360,7 +361,7 @@ fn triangulate_faces(
             let normal: DVec3 = table.half_space(regions.planes[region.index()]).normal();
             let scaled = normal / normal.abs().max_element();
             mesh.faces.push(MeshFace { normal: scaled.normalize(), material: regions.materials[region.index()] });
-            mesh.triangle_faces.extend(std::iter::repeat_n(face as u32, (end - start) as usize));
+            mesh.triangle_faces.extend(std::iter::repeat_n(number32(face), (end - start) as usize));
             start = end;
         }
         mesh.triangles.extend_from_slice(vertices);

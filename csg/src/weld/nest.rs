@@ -1,5 +1,6 @@
 //! Which hole belongs to which outer loop.
 
+use crate::ids::number32;
 use std::cmp::Ordering;
 
 use planecut_kernel::sign::Sign;
@@ -42,7 +43,7 @@ impl Faces {
 
     fn push_loop(&mut self, pieces: &[HalfEdgeId]) {
         self.pieces.extend_from_slice(pieces);
-        self.loops.push(self.pieces.len() as u32);
+        self.loops.push(number32(self.pieces.len()));
     }
 }
 
@@ -197,7 +198,7 @@ impl<'a> Nester<'a> {
             && self.is_outer(&only)
         {
             faces.push_loop(self.pieces_of(&only));
-            faces.faces.push((region, faces.loops.len() as u32));
+            faces.faces.push((region, number32(faces.loops.len())));
             return Ok(());
         }
         let (outers, holes): (Vec<Loop>, Vec<Loop>) = self.loops.iter().partition(|candidate| self.is_outer(candidate));
@@ -212,7 +213,7 @@ impl<'a> Nester<'a> {
             while let Some((_, hole)) = owned.next_if(|(owner, _)| *owner == number) {
                 faces.push_loop(self.pieces_of(&holes[hole]));
             }
-            faces.faces.push((region, faces.loops.len() as u32));
+            faces.faces.push((region, number32(faces.loops.len())));
         }
         Ok(())
     }

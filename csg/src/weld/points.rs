@@ -6,7 +6,7 @@ use std::cmp::Ordering;
 
 use planecut_kernel::sign::{Counts, Sign};
 use planecut_kernel::{DVec3, compare_exactly};
-use rayon::prelude::*;
+use planecut_parallel::prelude::*;
 
 use super::cancel::HalfEdge;
 use crate::base::{Bounds, intern, map_chunks, sortable};
@@ -199,6 +199,7 @@ pub(super) fn key(triple: [PlaneId; 3]) -> Triple {
 }
 
 /// The planes of a key, unsided.
+#[expect(clippy::cast_possible_truncation, reason = "two numbers of 32 bits are taken apart")]
 pub(super) fn planes((ab, c): Triple) -> [PlaneId; 3] {
     [(ab >> 32) as u32, ab as u32, c].map(PlaneId::of_index)
 }

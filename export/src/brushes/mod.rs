@@ -14,7 +14,7 @@ use std::io::Write;
 use std::path::Path;
 
 use planecut_csg::{Brush, Material};
-use rayon::prelude::*;
+use planecut_parallel::prelude::*;
 
 use crate::ExportError;
 use body::Body;

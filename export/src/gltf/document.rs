@@ -13,7 +13,7 @@ use gltf_json::mesh::{Mode, Primitive, Semantic};
 use gltf_json::validation::{Checked, USize64};
 use gltf_json::{Accessor, Asset, Buffer, Index, Material, Mesh, Node, Root, Scene};
 use planecut_csg::Material as InputMaterial;
-use rayon::prelude::*;
+use planecut_parallel::prelude::*;
 use rustc_hash::FxHashMap;
 use serde::Serialize;
 use serde_json::{Value, json};

@@ -6,7 +6,7 @@ use std::ops::Range;
 use glam::DVec3;
 use planecut_csg::Mesh;
 use planecut_csg::stages::HalfEdges;
-use rayon::prelude::*;
+use planecut_parallel::prelude::*;
 
 use super::rounding::Rounding;
 use super::tangents::tangents;

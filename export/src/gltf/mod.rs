@@ -24,7 +24,7 @@ use std::io::Write;
 
 use self::base64::Base64Writer;
 use planecut_csg::Mesh;
-use rayon::prelude::*;
+use planecut_parallel::prelude::*;
 
 use self::document::Document;
 use self::geometry::has_three_corners;

@@ -3,7 +3,7 @@
 use std::hash::{Hash, Hasher};
 
 use glam::DVec3;
-use rayon::prelude::*;
+use planecut_parallel::prelude::*;
 use rustc_hash::{FxHashMap, FxHasher};
 
 use crate::material::Looks;

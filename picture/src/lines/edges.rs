@@ -1,7 +1,7 @@
 //! Edges worth drawing.
 
 use glam::DVec3;
-use rayon::prelude::*;
+use planecut_parallel::prelude::*;
 
 use super::dashes::{DashRun, dash_runs};
 use crate::input::mesh::PaintedMesh;

@@ -1,7 +1,7 @@
 //! The last step: samples, light and lines become pixels.
 
 use glam::{Vec3, Vec4};
-use rayon::prelude::*;
+use planecut_parallel::prelude::*;
 
 use super::display::{DisplayTable, row_rounding};
 use super::hatch::Hatching;

@@ -1,7 +1,7 @@
 //! The light that reaches each cell: shadow and occlusion, taken with few taps and then smoothed.
 
 use glam::Vec3;
-use rayon::prelude::*;
+use planecut_parallel::prelude::*;
 
 use super::occlusion::openness;
 use super::shadow::ShadowMap;

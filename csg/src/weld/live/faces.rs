@@ -1,5 +1,6 @@
 //! The faces of regions that change, and their triangles.
 
+use crate::ids::number32;
 use planecut_kernel::DVec3;
 
 use super::names::place;
@@ -255,7 +256,7 @@ impl Faces {
         let numbers = face.loops().flatten().map(|place| order[place.index()]);
         let mut end = 0;
         let ends = face.loops().map(|members| {
-            end += members.len() as u32;
+            end += number32(members.len());
             end
         });
         known.is_met = known.pieces.iter().copied().eq(numbers) && known.loops.iter().copied().eq(ends);
@@ -272,7 +273,7 @@ impl Faces {
         let mut entry = Face { region: face.region, triangles, ..Face::default() };
         for members in face.loops() {
             entry.pieces.extend(members.iter().map(|place| order[place.index()]));
-            entry.loops.push(entry.pieces.len() as u32);
+            entry.loops.push(number32(entry.pieces.len()));
         }
         self.triangles += entry.triangles.len();
         let number = place(&mut self.faces, &mut self.free, Face::default());

@@ -11,6 +11,7 @@ mod names;
 mod numbers;
 mod vertices;
 
+use crate::ids::number32;
 use rustc_hash::FxHashMap;
 
 use super::WeldError;
@@ -103,7 +104,7 @@ impl LiveWeld {
         let line = numbered.run.line;
         self.state.make_room(line);
         let on_line = &mut self.state.lines[line.index()];
-        let at = on_line.edges.len() as u32;
+        let at = number32(on_line.edges.len());
         let number = place(&mut self.edges, &mut self.free_edges, Edge { numbered, place: at });
         on_line.edges.push(number);
         self.state.mark_line(line);

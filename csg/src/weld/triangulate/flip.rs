@@ -48,7 +48,7 @@ impl Across for PairTable {
 
     fn set(&mut self, edge: Side, triangle: TriangleId) {
         let at = self.at(edge);
-        self.triangles[at] = triangle.number() as u16 + 1;
+        self.triangles[at] = u16::try_from(triangle.number() + 1).expect("a table of pairs is for few nodes");
     }
 
     fn remove(&mut self, edge: Side) {

@@ -1,5 +1,6 @@
 //! A grid of the reflex corners of a boundary, so that an ear asks only those near it.
 
+use crate::ids::number32;
 use planecut_kernel::DVec2;
 
 use super::Boundary;
@@ -27,10 +28,10 @@ impl Grid {
         self.nodes.clear();
         self.nodes.extend(ring.iter().copied().filter(|node| boundary.nodes[node.index()].reflex));
         let count = self.nodes.len();
-        let side = if count <= SMALL { 1 } else { (count as f64).sqrt() as usize };
+        let side = if count <= SMALL { 1 } else { count.isqrt() };
         (self.columns, self.rows) = (side, side);
         if side == 1 {
-            self.starts.extend([0, count as u32]);
+            self.starts.extend([0, number32(count)]);
             return;
         }
         let (mut min, mut max) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
@@ -43,11 +44,12 @@ impl Grid {
         let mut keyed: Vec<(usize, NodeId)> =
             self.nodes.iter().map(|node| (self.cell(boundary.at(*node)), *node)).collect();
         keyed.sort_unstable();
-        self.starts.extend((0..=side * side).map(|cell| keyed.partition_point(|(k, _)| *k < cell) as u32));
+        self.starts.extend((0..=side * side).map(|cell| number32(keyed.partition_point(|(k, _)| *k < cell))));
         self.nodes.clear();
         self.nodes.extend(keyed.into_iter().map(|(_, node)| node));
     }
 
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "`as` saturates")]
     fn place(&self, at: DVec2) -> (usize, usize) {
         let cell = (at - self.min) * self.scale;
         // `as` saturates, so that what lies outside falls into the nearest cell

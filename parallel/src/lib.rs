@@ -1,0 +1,26 @@
+//! Loops over many elements: on all processor cores by `rayon` with feature `threads`, on the calling thread without it.
+//!
+//! The names are rayon's, and what is given back is the same: results in the order of the elements. Of rayon's methods those are here that
+//! planecut's crates call; where one is missing, the build without `threads` says so.
+//!
+//! ```
+//! use planecut_parallel::prelude::*;
+//!
+//! let squares: Vec<u32> = [1, 2, 3].par_iter().with_min_len(64).map(|n| n * n).collect();
+//! assert_eq!(squares, [1, 4, 9]);
+//! ```
+
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+
+#[cfg(not(feature = "threads"))]
+mod one_thread;
+
+#[cfg(feature = "threads")]
+pub use rayon::{current_num_threads, join, prelude};
+
+#[cfg(not(feature = "threads"))]
+pub use one_thread::{current_num_threads, join, prelude};
+
+#[cfg(test)]
+mod tests;

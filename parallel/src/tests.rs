@@ -1,0 +1,54 @@
+//! The same lines compile, and give the same, with threads and without: `./check` runs them both ways.
+
+use crate::prelude::*;
+
+#[test]
+fn iterators_keep_the_order_of_elements() {
+    let numbers: Vec<u32> = (0..1000).collect();
+    let doubled: Vec<u32> = numbers.par_iter().with_min_len(16).with_max_len(64).map(|n| 2 * n).collect();
+    assert!(doubled.iter().zip(&numbers).all(|(double, n)| *double == 2 * n));
+    let pairs: Vec<u32> = (0..1000_u32).into_par_iter().flat_map_iter(|n| [n, n]).collect();
+    assert_eq!(pairs.len(), 2 * numbers.len());
+    assert!(pairs.chunks_exact(2).zip(&numbers).all(|(pair, n)| pair == [*n; 2]));
+    let flat: Vec<u32> = vec![vec![1, 2], vec![], vec![3]].into_par_iter().flatten_iter().collect();
+    assert_eq!(flat, [1, 2, 3]);
+    let sums: Vec<u32> = numbers.par_chunks(300).map(|chunk| chunk.iter().sum()).collect();
+    assert_eq!(sums.len(), 4);
+    assert_eq!(sums.iter().sum::<u32>(), 999 * 500);
+    assert_eq!(numbers.par_chunks_exact(300).map(<[u32]>::len).collect::<Vec<_>>(), [300; 3]);
+    assert!(numbers.par_windows(2).all(|pair| pair[0] + 1 == pair[1]));
+}
+
+#[test]
+fn states_are_scratch_memory() {
+    let lengths: Vec<usize> = (0..100_usize)
+        .into_par_iter()
+        .map_init(Vec::new, |scratch, n| {
+            scratch.clear();
+            scratch.extend(0..n);
+            scratch.len()
+        })
+        .collect();
+    assert_eq!(lengths, (0..100).collect::<Vec<_>>());
+    let mut written = vec![0; 100];
+    written.par_iter_mut().enumerate().for_each_init(Vec::new, |scratch, (n, place)| {
+        scratch.clear();
+        scratch.extend(0..n);
+        *place = scratch.len();
+    });
+    assert_eq!(written, lengths);
+}
+
+#[test]
+fn slices_are_sorted_and_split() {
+    let mut numbers: Vec<u32> = (0..1000).map(|n| n * 7 % 1000).collect();
+    numbers.par_sort_unstable();
+    assert!(numbers.iter().copied().eq(0..1000));
+    numbers.par_sort_unstable_by(|a, b| b.cmp(a));
+    assert!(numbers.iter().copied().eq((0..1000).rev()));
+    numbers.par_chunk_by_mut(|a, b| a / 100 == b / 100).for_each(|run| run.reverse());
+    numbers.par_chunks_mut(100).for_each(|chunk| chunk.reverse());
+    assert!(numbers.iter().copied().eq((0..1000).rev()));
+    assert_eq!(crate::join(|| 1, || "two"), (1, "two"));
+    assert!(crate::current_num_threads() >= 1);
+}
