@@ -192,7 +192,7 @@ fn random_leaf(rng: &mut Rng, kind: Kind) -> Brush {
     }
 }
 
-/// A tree of about so many leaves.
+/// A tree of about `leaves` leaves.
 pub fn random_shape(rng: &mut Rng, kind: Kind, leaves: usize) -> Shape {
     use Operation::{Complement, Difference, Intersection, Union, Xor};
     if leaves <= 1 {

@@ -35,7 +35,8 @@ impl Brush {
         Self { faces, ..Self::default() }
     }
 
-    /// The box between two corners; empty where a minimum is not below its maximum.
+    /// The box between two corners; empty where a minimum is not below its maximum, as any brush is empty whose half-spaces have no
+    /// common volume. The primitive `planecut_shapes::primitives::cuboid` is for sizes that a user gives: it refuses such corners.
     ///
     /// # Panics
     /// Where a coordinate is not finite or beyond `±2^200`.

@@ -6,7 +6,7 @@ use planecut_kernel::{DVec3, HalfSpace};
 use crate::parameter::{ShapeError, point, positive, refuse};
 use crate::tolerances::NEGLIGIBLE_COMPONENT;
 
-/// The box between two corners.
+/// The box between two corners, for corners that a user gives: what [`Brush::cuboid`] takes as empty or panics at is an error here.
 ///
 /// # Errors
 /// [`ShapeError::Parameter`] where a minimum is not below its maximum, or a coordinate is not accepted.

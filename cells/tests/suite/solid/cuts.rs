@@ -80,16 +80,16 @@ fn cuts_that_are_taken_back_leave_nothing_behind() {
             }
             for (cut, _) in cuts {
                 solid.remove_plane(cut);
-                ensure_eq!(solid.remove_plane(cut), None, "a cut that was taken back");
+                ensure_eq!(solid.remove_plane(cut), None, "a cut that was removed");
             }
-            ensure_eq!(solid.volume(), volume, "volume after all is taken back");
-            ensure!(seen(&solid) == before, "cells differ after all is taken back");
+            ensure_eq!(solid.volume(), volume, "volume after all is undone");
+            ensure!(seen(&solid) == before, "cells differ after all is undone");
             ensure_membership(shape, &solid, 100)
         });
     }
 }
 
-/// What is done to a solid, to be taken back one by one.
+/// What is done to a solid, to be undone one by one.
 type Operation = (bool, HalfSpace);
 
 fn apply(solid: &mut Solid, (divides, half_space): &Operation) -> CutId {
@@ -158,8 +158,8 @@ fn divided_cells_grow_back_together() {
             for (cut, _) in done {
                 solid.remove_plane(cut).ok_or("no such cut")?;
             }
-            ensure!(seen(&solid) == seen(&base), "cells differ after all is taken back");
-            ensure_eq!(solid.volume(), base.volume(), "volume after all is taken back");
+            ensure!(seen(&solid) == seen(&base), "cells differ after all is undone");
+            ensure_eq!(solid.volume(), base.volume(), "volume after all is undone");
             ensure_membership(shape, &solid, 50)
         });
     }
@@ -195,7 +195,7 @@ fn a_solid_that_is_cut_away_comes_back() {
     assert_eq!(solid.volume(), Some(0.0));
     solid.remove_plane(away);
     assert_eq!(solid.volume(), Some(0.5));
-    // what a Boolean operation makes of it cannot be taken back there
+    // what a Boolean operation makes of it cannot be undone there
     let mut joined = &solid | &Solid::empty();
     assert_eq!((joined.volume(), joined.remove_plane(half)), (Some(0.5), None));
     solid.remove_plane(half);

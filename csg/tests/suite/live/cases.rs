@@ -60,10 +60,11 @@ fn an_intersection_that_goes_brings_back_what_is_far_from_it() {
     assert_eq!(live.triangle_count(), 12);
     live.remove_brush(window).unwrap();
     let both = live.mesh().unwrap();
-    let mut anew = model();
-    anew.add_brushes(vec![(cuboid([10.0; 3], [12.0; 3]), Role::Add), (cuboid([11.0; 3], [13.0; 3]), Role::Add)])
+    let mut fresh = model();
+    fresh
+        .add_brushes(vec![(cuboid([10.0; 3], [12.0; 3]), Role::Add), (cuboid([11.0; 3], [13.0; 3]), Role::Add)])
         .unwrap();
-    assert_eq!(anew.mesh().unwrap(), both);
+    assert_eq!(fresh.mesh().unwrap(), both);
 }
 
 #[test]

@@ -78,7 +78,7 @@ impl Held {
     }
 }
 
-fn built_anew(held: &[Held]) -> Result<Mesh, EvaluateError> {
+fn built_fresh(held: &[Held]) -> Result<Mesh, EvaluateError> {
     let tree = held.iter().fold(Tree::empty(), |tree, held| {
         let operation = match held.role {
             Role::Add => Operation::Union,
@@ -90,7 +90,7 @@ fn built_anew(held: &[Held]) -> Result<Mesh, EvaluateError> {
     Ok(evaluate(&Model { materials: materials(), tree })?.mesh)
 }
 
-/// The brushes now, and as they were before each edit that can be taken back or done again.
+/// The brushes now, and as they were before each edit that can be undone or redone.
 #[derive(Default)]
 struct Brushes {
     now: Vec<Held>,
@@ -135,7 +135,7 @@ impl Brushes {
             Edit::Add(planes, material, role) => {
                 let body = Held::new(BrushId(0), planes, *material, *role, 0);
                 let added = model.add_brush(body.brush(), *role);
-                // what is refused is there for the model that is built anew
+                // what is refused is there for the freshly built model
                 let id = added.as_ref().map_or(BrushId(u64::MAX), |added| added.0);
                 new.push(Held { id, ..body });
                 added.map(|added| added.1)
@@ -243,7 +243,7 @@ pub(crate) fn run(edits: &[Edit], faces: Faces) -> Result<Tally, String> {
     for (step, edit) in edits.iter().enumerate() {
         let fault = |text: &str| format!("edit {step}: {text}");
         let Some((new, change)) = held.edited(&mut model, edit) else { continue };
-        let fresh = built_anew(&new);
+        let fresh = built_fresh(&new);
         let fresh = match (change, fresh) {
             (Ok(change), Ok(fresh)) => {
                 viewer.follow(&model, &change).map_err(|text| fault(&text))?;
@@ -252,14 +252,14 @@ pub(crate) fn run(edits: &[Edit], faces: Faces) -> Result<Tally, String> {
             }
             (Err(EditError::Evaluate(found)), Err(expected)) if found == expected => {
                 tally.refused += 1;
-                built_anew(&held.now).map_err(|error| fault(&error.to_string()))?
+                built_fresh(&held.now).map_err(|error| fault(&error.to_string()))?
             }
-            (Ok(_), Err(error)) => return Err(fault(&format!("it was done, but anew: {error}"))),
+            (Ok(_), Err(error)) => return Err(fault(&format!("it was done, but not in a fresh build: {error}"))),
             (Err(error), _) => return Err(fault(&error.to_string())),
         };
         let mesh = model.mesh().map_err(|error| fault(&error.to_string()))?;
         if mesh != fresh {
-            return Err(fault("the mesh is not that of a model built anew"));
+            return Err(fault("the mesh is not that of a freshly built model"));
         }
         if step % 8 == 0 && evaluate(&model.to_model()).map(|evaluation| evaluation.mesh) != Ok(fresh.clone()) {
             return Err(fault("as a tree the model has another mesh"));

@@ -1,4 +1,4 @@
-//! Live models against models built anew, edit by edit.
+//! Live models against freshly built models, edit by edit.
 //!
 //! - [`edits`]: sequences of edits, what they must come to, shrinking and printing them as Rust.
 //! - [`random`]: random sequences, [`large`]: such on brushes of many planes; [`cases`]: edits that once went wrong or easily could.

@@ -1,4 +1,4 @@
-//! Random edits: after each the model equals one built anew, and a copy that follows the changes has its faces.
+//! Random edits: after each the model equals a freshly built one, and a copy that follows the changes has its faces.
 
 use planecut_csg::Role;
 use planecut_kernel::DVec3;

@@ -163,7 +163,7 @@ pub(crate) fn random_leaf(rng: &mut Rng, kind: Kind) -> Brush {
     }
 }
 
-/// A tree of about so many leaves.
+/// A tree of about `leaves` leaves.
 pub(crate) fn random_shape(rng: &mut Rng, kind: Kind, leaves: usize) -> Shape {
     if leaves <= 1 {
         return Shape::Leaf(random_leaf(rng, kind));

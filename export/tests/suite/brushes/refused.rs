@@ -56,7 +56,7 @@ fn scales_and_coordinates_out_of_range_are_refused() {
     }
 }
 
-/// Takes so many bytes, then no more.
+/// Takes that number of bytes, then no more.
 struct Full(usize);
 
 impl Write for Full {

@@ -16,7 +16,7 @@ fn on_a_small_stack(work: impl FnOnce() + Send + 'static) {
     thread.join().expect("no panic");
 }
 
-/// A node within so many others.
+/// A node within that number of others.
 fn nested(levels: usize, open: &str, close: &str) -> String {
     format!("{}{CUBE}{}", open.repeat(levels), close.repeat(levels))
 }
