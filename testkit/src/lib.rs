@@ -3,7 +3,8 @@
 //! - [`random`]: the one seeded generator; a printed seed repeats a test on every machine.
 //! - [`data`]: files that others made, and tests that are ignored where these are absent;
 //! - with the feature `csg`: [`scene`] builds, draws, shrinks and prints models, [`generate`] draws them at random,
-//!   [`soundness`] has what must hold of every mesh, [`meshes`] has some that are made by hand;
+//!   [`soundness`] has what must hold of every mesh, [`sheets`] finds lines along which a surface passes through itself,
+//!   [`meshes`] has some that are made by hand;
 //! - with the feature `cells`: [`shape`] has trees whose value at a point is known from their half-spaces alone;
 //! - with the feature `serde`: [`saved`] writes data types and reads them again.
 #![forbid(unsafe_code)]
@@ -21,5 +22,7 @@ pub mod saved;
 pub mod scene;
 #[cfg(feature = "cells")]
 pub mod shape;
+#[cfg(feature = "csg")]
+pub mod sheets;
 #[cfg(feature = "csg")]
 pub mod soundness;

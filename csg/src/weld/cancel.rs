@@ -5,12 +5,14 @@
 //! all runs on the line, so that faces meet without T-junctions.
 
 use crate::ids::number32;
-use planecut_kernel::sign::{Counts, Sign};
+use planecut_kernel::sign::Counts;
 
 use super::WeldError;
+use super::around::{self, AroundLine};
 use super::crossings::Passed;
 use super::lines::Line;
 use super::points::Points;
+use super::slits::SlitFinder;
 use crate::base::map_chunks;
 use crate::ids::{EdgeId, HalfEdgeId, Id, LineId, PointId, PointOfRegion, PointOnLine, RegionId};
 use crate::plane_table::{PlaneId, PlaneTable};
@@ -49,6 +51,15 @@ pub(super) struct Pieces {
     pub(super) passed: Vec<Passed>,
 }
 
+/// Whether faces cross in a line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Crossed {
+    /// They do not, or they are slit there.
+    No,
+    /// They do, and what is made of the line is not used for a mesh.
+    Unslit,
+}
+
 /// What is asked along lines, and buffers for it.
 pub(super) struct LineWorker<'a> {
     table: &'a PlaneTable,
@@ -57,12 +68,14 @@ pub(super) struct LineWorker<'a> {
     /// The planes of the regions.
     planes: &'a [PlaneId],
     sweep: Sweep,
+    slits: SlitFinder,
     stops: Vec<PointId>,
     at_interval: Vec<(u32, HalfEdgeId)>,
     around: Vec<HalfEdgeId>,
 }
 
-/// Cancels the edges on each line and cuts and pairs what is left; `edges` are listed by line in `by_line`.
+/// Cancels the edges on each line and cuts and pairs what is left; `edges` are listed by line in `by_line`. Lines with slits are left
+/// out: where there are any, [`crossings`](super::crossings) begins again.
 pub(super) fn pieces(
     table: &PlaneTable,
     points: &Points,
@@ -81,8 +94,11 @@ pub(super) fn pieces(
             group.clear();
             group.extend(by_line[members].iter().map(|k| edges[k.index()]));
             surviving.runs.clear();
+            let slits = surviving.slits.len();
             worker.cancel(&mut group, &mut surviving)?;
-            worker.cut(&surviving.runs, &[], &mut pieces)?;
+            if surviving.slits.len() == slits {
+                worker.cut(&surviving.runs, &[], &mut pieces, Crossed::No)?;
+            }
         }
         Ok(Pieces { pieces, slits: surviving.slits, passed: surviving.passed })
     });
@@ -100,13 +116,15 @@ pub(super) fn pieces(
 impl<'a> LineWorker<'a> {
     pub(super) fn new(table: &'a PlaneTable, points: &'a Points, lines: &'a [Line], planes: &'a [PlaneId]) -> Self {
         let (stops, at_interval, around) = (Vec::new(), Vec::new(), Vec::new());
-        Self { table, points, lines, planes, sweep: Sweep::default(), stops, at_interval, around }
+        let (sweep, slits) = (Sweep::default(), SlitFinder::default());
+        Self { table, points, lines, planes, sweep, slits, stops, at_interval, around }
     }
 
     /// Adds what survives of the edges of one line.
     pub(super) fn cancel(&mut self, edges: &mut [Run], out: &mut Surviving) -> Result<(), WeldError> {
         let Some(first) = edges.first() else { return Ok(()) };
         let line = &self.lines[first.line.index()];
+        let known = out.runs.len();
         edges.sort_unstable_by_key(|edge| (edge.region, edge.from, edge.to));
         self.sweep.cancelled.clear();
         for group in edges.chunk_by(|a, b| a.region == b.region) {
@@ -116,7 +134,9 @@ impl<'a> LineWorker<'a> {
                 self.sweep.run_group(self.table, self.points, line, group, out)?;
             }
         }
-        self.sweep.find_slits(self.table, self.points, line, self.planes, &mut out.slits);
+        let Self { table, points, planes, .. } = *self;
+        let line = AroundLine { table, line, planes };
+        self.slits.find(&line, points, &self.sweep.cancelled, &out.runs[known..], &mut out.slits);
         Ok(())
     }
 
@@ -124,7 +144,13 @@ impl<'a> LineWorker<'a> {
     ///
     /// Where more than two pieces share an interval, faces are sorted around the line and those two are paired that bound
     /// one wedge of solid.
-    pub(super) fn cut(&mut self, runs: &[Run], further: &[PointId], out: &mut Vec<HalfEdge>) -> Result<(), WeldError> {
+    pub(super) fn cut(
+        &mut self,
+        runs: &[Run],
+        further: &[PointId],
+        out: &mut Vec<HalfEdge>,
+        crossed: Crossed,
+    ) -> Result<(), WeldError> {
         let Some(first) = runs.first() else { return Ok(()) };
         if let [a, b] = runs
             && (a.from, a.to) == (b.to, b.from)
@@ -147,7 +173,12 @@ impl<'a> LineWorker<'a> {
         for interval in self.at_interval.chunk_by(|a, b| a.0 == b.0) {
             self.around.clear();
             self.around.extend(interval.iter().map(|(_, k)| *k));
-            pair_around(self.table, line, self.planes, &mut self.around, out)?;
+            match crossed {
+                Crossed::No => {
+                    AroundLine { table: self.table, line, planes: self.planes }.pair(&mut self.around, out)?;
+                }
+                Crossed::Unslit => around::pair_anyhow(&mut self.around, out)?,
+            }
         }
         Ok(())
     }
@@ -218,36 +249,6 @@ impl Sweep {
         }
         Ok(())
     }
-
-    /// Finds where regions of different planes cross in the line, each lying on both sides of it: there each of them must be
-    /// slit. It takes three planes in one line for that, and solids that alternate around it. Slits are forward.
-    fn find_slits(
-        &mut self,
-        table: &PlaneTable,
-        points: &Points,
-        line: &Line,
-        planes: &[PlaneId],
-        slits: &mut Vec<Run>,
-    ) {
-        let plane = |run: &Run| planes[run.region.index()].index();
-        let Some(first) = self.cancelled.first().map(plane) else { return };
-        if self.cancelled.iter().all(|run| plane(run) == first) {
-            return;
-        }
-        self.stops.clear();
-        self.stops.extend(self.cancelled.iter().flat_map(|run| [run.from, run.to]));
-        sort_along(table, points, line, &mut self.stops);
-        let stops = &self.stops;
-        let at = |point: PointId| place(table, points, line, stops, point);
-        let ranges: Vec<(usize, usize)> = self.cancelled.iter().map(|run| (at(run.from), at(run.to))).collect();
-        for k in 1..self.stops.len() {
-            let crossing = || ranges.iter().zip(&self.cancelled).filter(|((low, high), _)| *low < k && k <= *high);
-            if crossing().any(|(_, run)| Some(plane(run)) != crossing().next().map(|(_, run)| plane(run))) {
-                let (from, to) = (self.stops[k - 1], self.stops[k]);
-                slits.extend(crossing().map(|(_, run)| Run { from, to, ..*run }));
-            }
-        }
-    }
 }
 
 /// Sorts points along a line and drops repeated ones.
@@ -257,7 +258,7 @@ pub(super) fn sort_along(table: &PlaneTable, points: &Points, line: &Line, stops
 }
 
 /// Where a point stands among sorted stops, of which it is one.
-fn place(table: &PlaneTable, points: &Points, line: &Line, stops: &[PointId], point: PointId) -> usize {
+pub(super) fn place(table: &PlaneTable, points: &Points, line: &Line, stops: &[PointId], point: PointId) -> usize {
     stops.binary_search_by(|stop| line.compare(table, points, *stop, point)).expect("the point is one of the stops")
 }
 
@@ -335,73 +336,4 @@ fn cut_run(
         at_interval.push((number32(interval), HalfEdgeId::from_index(out.len())));
         out.push(HalfEdge { from, to, ..HalfEdge::of(run, HalfEdgeId::NONE) });
     }
-}
-
-/// Pairs the half-edges of one elementary interval.
-fn pair_around(
-    table: &PlaneTable,
-    line: &Line,
-    planes: &[PlaneId],
-    around: &mut [HalfEdgeId],
-    out: &mut [HalfEdge],
-) -> Result<(), WeldError> {
-    let forward = around.iter().filter(|k| out[k.index()].forward).count();
-    if 2 * forward != around.len() {
-        let piece = &out[around[0].index()];
-        return Err(WeldError::open(piece));
-    }
-    if around.len() > 2 {
-        sort_around(table, line, planes, out, around);
-    }
-    // Seen along the line, solid lies counter-clockwise of a face whose edge points back, up to one that points along. Where
-    // two that follow each other point the same way, a face between them lies on both sides of the line, uncut; what is on
-    // its one side stays apart from what is on the other.
-    let points_along = |k: usize| out[around[k % around.len()].index()].forward;
-    let gap = (1..=around.len()).find(|k| points_along(k - 1) == points_along(*k));
-    let start =
-        gap.or_else(|| (0..around.len()).find(|k| !points_along(*k))).expect("as many pieces point back as along");
-    around.rotate_left(start % around.len());
-    for pair in around.chunks(2) {
-        let &[a, b] = pair else { continue };
-        if out[a.index()].forward == out[b.index()].forward {
-            let piece = &out[a.index()];
-            return Err(WeldError::wedge(piece));
-        }
-        out[a.index()].twin = b;
-        out[b.index()].twin = a;
-    }
-    Ok(())
-}
-
-/// Sorts half-edges counter-clockwise around their line by the direction into their faces.
-///
-/// That direction is `±n × D`, so the normals so signed are sorted; both are perpendicular to the line, so the sign of one
-/// component of their cross product tells their order.
-fn sort_around(table: &PlaneTable, line: &Line, planes: &[PlaneId], out: &[HalfEdge], around: &mut [HalfEdgeId]) {
-    let signed = |k: HalfEdgeId| {
-        let piece = &out[k.index()];
-        let plane = planes[piece.region.index()];
-        if piece.forward { plane } else { plane.flipped() }
-    };
-    // whatever the order of the half-edges
-    around.sort_by_key(|k| table.order(signed(*k)));
-    let first = signed(around[0]);
-    let half = |plane: PlaneId| {
-        if plane.index() == first.index() {
-            return if plane == first { 0 } else { 2 };
-        }
-        match table.cross_component(first, plane, line.axis) {
-            Sign::Positive => 1,
-            Sign::Zero => 2,
-            Sign::Negative => 3,
-        }
-    };
-    around.sort_by(|i, j| {
-        let (p, q) = (signed(*i), signed(*j));
-        half(p).cmp(&half(q)).then_with(|| match table.cross_component(p, q, line.axis) {
-            Sign::Positive => std::cmp::Ordering::Less,
-            Sign::Zero => std::cmp::Ordering::Equal,
-            Sign::Negative => std::cmp::Ordering::Greater,
-        })
-    });
 }

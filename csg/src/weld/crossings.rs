@@ -6,7 +6,7 @@ use planecut_kernel::sign::Sign;
 use rustc_hash::FxHashMap;
 
 use super::WeldError;
-use super::cancel::{HalfEdge, LineWorker, Run, Surviving, sort_along};
+use super::cancel::{Crossed, HalfEdge, LineWorker, Run, Surviving, sort_along};
 use super::lines::Line;
 use super::points::Points;
 use crate::ids::{EdgeId, Id, LineId, PointId, PointOfRegion};
@@ -62,7 +62,7 @@ pub(super) fn pieces(
     let mut worker = LineWorker::new(table, points, lines, planes);
     let mut pieces = Vec::new();
     for group in runs.chunk_by(|a, b| a.line == b.line) {
-        worker.cut(group, &[], &mut pieces)?;
+        worker.cut(group, &[], &mut pieces, Crossed::No)?;
     }
     Ok(pieces)
 }

@@ -14,6 +14,7 @@
 //! Nothing here is hoped for: an interval whose directed edges do not sum to zero, or a half-edge without a twin, is a
 //! [`WeldError`].
 
+mod around;
 mod cancel;
 mod crossings;
 mod lines;
@@ -24,6 +25,7 @@ mod measure;
 mod nest;
 mod pinches;
 mod points;
+mod slits;
 mod triangulate;
 
 use crate::ids::number32;

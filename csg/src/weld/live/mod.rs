@@ -15,7 +15,7 @@ use crate::ids::number32;
 use rustc_hash::FxHashMap;
 
 use super::WeldError;
-use super::cancel::{HalfEdge, LineWorker, Run, Surviving};
+use super::cancel::{Crossed, HalfEdge, LineWorker, Run, Surviving};
 use super::pinches::PinchFinder;
 use crate::base::Bounds;
 use crate::boundary::BoundaryEdge;
@@ -223,7 +223,8 @@ impl<'a> Cutter<'a> {
     /// Leaves in `cut` the paired pieces of that, cut at `further` points as well.
     fn cut(&mut self) -> Result<(), WeldError> {
         self.cut.clear();
-        self.worker.cut(&self.surviving.runs, &self.further, &mut self.cut)
+        let crossed = if self.surviving.slits.is_empty() { Crossed::No } else { Crossed::Unslit };
+        self.worker.cut(&self.surviving.runs, &self.further, &mut self.cut, crossed)
     }
 }
 

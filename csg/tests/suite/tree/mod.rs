@@ -14,6 +14,7 @@ mod edge_cases;
 mod ownership;
 mod random;
 mod regressions;
+mod sheets;
 mod source_lines;
 mod touching;
 mod volume;
