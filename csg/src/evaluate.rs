@@ -13,9 +13,9 @@ use crate::body::{
 use crate::boundary::{BoundaryEdge, Scene, boundary_edges, boundary_of_union};
 use crate::expression::Expression;
 use crate::ids::{Id, LeafId};
-use crate::mesh::{Mesh, SolidMeasures};
-use crate::model::{Material, MaterialId, Model, Operation, Tree, TreeNode};
-use crate::plane_table::PlaneTable;
+use crate::mesh::{Mesh, Noise, SolidMeasures};
+use crate::model::{Brush, Material, MaterialId, Model, Operation, Tree, TreeNode};
+use crate::plane_table::{PlaneTable, smallest_size};
 use crate::weld::{WeldError, Welded, weld};
 
 /// What a model holds.
@@ -55,6 +55,8 @@ pub struct Evaluation {
     pub mesh: Mesh,
     /// Its measures.
     pub solid: SolidMeasures,
+    /// What was removed from the mesh as rounding noise.
+    pub noise: Noise,
     /// What the model held.
     pub model: ModelSummary,
     /// The signs that were asked for.
@@ -138,10 +140,21 @@ pub fn evaluate_built(
     unbounded: UnboundedBrushes,
     built: &BuiltBodies,
 ) -> Result<Evaluation, EvaluateError> {
+    let size = smallest_size(model.tree.brushes().iter().map(Brush::half_spaces));
+    evaluate_among(model, unbounded, built, size)
+}
+
+/// The same among other brushes, of which the smallest has this size: planes are nearly the same here where they are there.
+pub(crate) fn evaluate_among(
+    model: &Model,
+    unbounded: UnboundedBrushes,
+    built: &BuiltBodies,
+    size: f64,
+) -> Result<Evaluation, EvaluateError> {
     let begin = Clock::start();
     let used = model.tree.brushes().iter().flat_map(|brush| &brush.faces).map(|face| face.material);
     check_materials(used, model.materials.len())?;
-    let BrushBodies { mut table, planes, bodies, mut signs } = build_other_bodies(model.tree.brushes(), built);
+    let BrushBodies { mut table, planes, bodies, mut signs } = build_other_bodies(model.tree.brushes(), built, size);
     let summary = summary_of(&table, &bodies);
     let expression = Expression::new(model.tree.nodes());
     let keeps = unbounded == UnboundedBrushes::Keep && !summary.unbounded.is_empty();
@@ -178,14 +191,14 @@ pub fn evaluate_built(
     };
     signs += counted;
     let (evaluated, welding) = (begin.elapsed(), Clock::start());
-    let Welded { mesh, solid, signs: counted, triangulation } = weld(&table, &edges, &rank, &model.materials)?;
+    let Welded { mesh, solid, noise, signs: counted, triangulation } = weld(&table, &edges, &rank, &model.materials)?;
     signs += counted;
     let times = StageTimes {
         evaluate: evaluated,
         weld: welding.elapsed().saturating_sub(triangulation),
         triangulate: triangulation,
     };
-    Ok(Evaluation { mesh, solid, model: summary, signs, times })
+    Ok(Evaluation { mesh, solid, noise, model: summary, signs, times })
 }
 
 /// The boundary of the union of bodies as a watertight mesh, and the measures taken from it; `ranks` are the [`material_ranks`].

@@ -43,7 +43,7 @@ pub use evaluate::{
     summarize,
 };
 pub use live::{BrushId, Change, Edit, EditError, Edited, FaceId, LiveFace, LiveModel, Role};
-pub use mesh::{Mesh, MeshFace, SolidMeasures, contract_edges, contract_short_edges};
+pub use mesh::{Mesh, MeshFace, Noise, SolidMeasures, contract_edges, contract_short_edges};
 pub use model::{
     Brush, BrushFace, CutMaterial, Cutaway, FaceSource, Material, MaterialId, Model, Operation, TextureAxes,
     TextureUnit, Transform, TransformError, Tree, TreeNode, sine_and_cosine,

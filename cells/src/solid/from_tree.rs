@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use planecut_csg::stages::Boxes;
+use planecut_csg::stages::{Boxes, smallest_size};
 use planecut_csg::{Brush, PlaneId, PlaneTable, Tree};
 use planecut_kernel::HalfSpace;
 use planecut_parallel::prelude::*;
@@ -51,9 +51,8 @@ impl Solid {
 
     pub(super) fn from_tree_by(tree: &Tree, rule: Rule) -> Self {
         let brushes = tree.brushes();
-        let half_spaces: Vec<HalfSpace> =
-            brushes.iter().flat_map(|brush| brush.faces.iter().map(|face| face.half_space)).collect();
-        let (table, ids) = PlaneTable::intern(&half_spaces);
+        let half_spaces: Vec<HalfSpace> = brushes.iter().flat_map(Brush::half_spaces).copied().collect();
+        let (table, ids) = PlaneTable::intern(&half_spaces, smallest_size(brushes.iter().map(Brush::half_spaces)));
         let (of_leaf, bodies) = bodies_of(&table, brushes, &ids);
         let sizes: Vec<f64> = bodies.iter().map(|body| body.size).collect();
         let form = NormalForm::new(tree, &of_leaf, &sizes, rule);

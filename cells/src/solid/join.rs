@@ -1,5 +1,6 @@
 //! Joining bodies that touch each other, as far as they stay convex.
 
+use planecut_csg::stages::smallest_size;
 use planecut_csg::{Brush, BrushFace, PlaneTable};
 use planecut_kernel::HalfSpace;
 
@@ -11,9 +12,8 @@ use super::merge::merge_neighbours;
 /// they have coplanar faces of different materials.
 #[must_use]
 pub fn joined(brushes: &[Brush]) -> Vec<Brush> {
-    let half_spaces: Vec<HalfSpace> =
-        brushes.iter().flat_map(|brush| brush.faces.iter().map(|face| face.half_space)).collect();
-    let (table, ids) = PlaneTable::intern(&half_spaces);
+    let half_spaces: Vec<HalfSpace> = brushes.iter().flat_map(Brush::half_spaces).copied().collect();
+    let (table, ids) = PlaneTable::intern(&half_spaces, smallest_size(brushes.iter().map(Brush::half_spaces)));
     let (_, bodies) = bodies_of(&table, brushes, &ids);
     let mut cells: Vec<Cell> = bodies.into_iter().map(|body| body.cell).collect();
     merge_neighbours(&table, &mut cells);

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use planecut_csg::stages::smallest_size;
 use planecut_csg::{PlaneId, PlaneTable, Transform, TransformError};
 use planecut_kernel::{DVec3, HalfSpace};
 
@@ -35,7 +36,10 @@ impl Solid {
         let planes = (0..this.table.len() as u32).map(PlaneId::of_index);
         let moved: Vec<HalfSpace> =
             planes.map(|plane| transform.half_space(this.table.half_space(plane))).collect::<Result<_, _>>()?;
-        let (table, ids) = PlaneTable::intern(&moved);
+        let planes_of = |cell: &'_ Cell| cell.planes().map(|(_, plane)| plane.plane.index() as usize).collect::<Vec<_>>();
+        let cells: Vec<Vec<usize>> = this.cells.iter().map(|cell| planes_of(cell)).collect();
+        let size = smallest_size(cells.iter().map(|planes| planes.iter().map(|plane| &moved[*plane])));
+        let (table, ids) = PlaneTable::intern(&moved, size);
         let id = |plane: PlaneId| {
             let unsided = ids[plane.index() as usize];
             if plane == plane.unsided() { unsided } else { unsided.flipped() }

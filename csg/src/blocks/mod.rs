@@ -15,10 +15,11 @@ use glam::DVec3;
 use thiserror::Error;
 
 use crate::base::Bounds;
-use crate::evaluate::{EvaluateError, check_materials, evaluate};
+use crate::body::BuiltBodies;
+use crate::evaluate::{EvaluateError, UnboundedBrushes, check_materials, evaluate_among};
 use crate::mesh::Mesh;
 use crate::model::{Brush, Material, MaterialId, Model};
-use crate::plane_table::Snapped;
+use crate::plane_table::{Snapped, smallest_size};
 use grid::{Grid, bounds_of};
 use seams::Seams;
 
@@ -114,7 +115,8 @@ pub fn evaluate_in_blocks<E>(
     }
     let bounds = bounds_of(brushes).map_err(|brush| BlocksError::Unbounded { brush })?;
     // once for all blocks, or what is one plane in one of them would be two in another
-    let snapped = Snapped::of(brushes.iter().flat_map(|brush| &brush.faces).map(|face| &face.half_space));
+    let size = smallest_size(brushes.iter().map(Brush::half_spaces));
+    let snapped = Snapped::of(brushes.iter().flat_map(Brush::half_spaces), size);
     let wall = MaterialId(number32(model.materials.len()));
     let mut materials = model.materials.clone();
     materials.push(Material::default());
@@ -130,7 +132,8 @@ pub fn evaluate_in_blocks<E>(
             brush
         };
         let tree = prune::tree_of_some(&model.tree, &block.members, brush);
-        let evaluation = evaluate(&Model { materials: materials.clone(), tree })?;
+        let model = Model { materials: materials.clone(), tree };
+        let evaluation = evaluate_among(&model, UnboundedBrushes::Keep, &BuiltBodies::default(), size)?;
         let mut mesh = evaluation.mesh;
         seams.part(&mut mesh, wall);
         mesh.materials.clone_from(&model.materials);

@@ -10,7 +10,7 @@ use super::built::{self, BrushShape, BuiltBodies};
 use super::{Body, BrushBody, Shape};
 use crate::base::{Bounds, map_chunks};
 use crate::model::{Brush, BrushFace, MaterialId};
-use crate::plane_table::{PlaneId, PlaneTable, renumber_planes};
+use crate::plane_table::{PlaneId, PlaneTable, renumber_planes, smallest_size};
 
 /// Least number of planes, about, of bodies that are built in a row.
 const PLANES_OF_CHUNK: usize = 100;
@@ -26,14 +26,14 @@ pub(crate) struct BrushBodies {
 
 /// Interns the planes of brushes and builds the body of each, in parallel.
 pub(crate) fn build_bodies(brushes: &[Brush]) -> BrushBodies {
-    build_other_bodies(brushes, &BuiltBodies::default())
+    build_other_bodies(brushes, &BuiltBodies::default(), smallest_size(brushes.iter().map(Brush::half_spaces)))
 }
 
-/// The same, where some may be built already.
-pub(crate) fn build_other_bodies(brushes: &[Brush], built: &BuiltBodies) -> BrushBodies {
-    let half_spaces: Vec<HalfSpace> =
-        brushes.iter().flat_map(|brush| brush.faces.iter().map(|face| face.half_space)).collect();
-    let (mut table, ids) = PlaneTable::intern(&half_spaces);
+/// The same, where some may be built already; `size` is the size of the smallest of these brushes and of all others that their planes are
+/// to be the same with.
+pub(crate) fn build_other_bodies(brushes: &[Brush], built: &BuiltBodies, size: f64) -> BrushBodies {
+    let half_spaces: Vec<HalfSpace> = brushes.iter().flat_map(Brush::half_spaces).copied().collect();
+    let (mut table, ids) = PlaneTable::intern(&half_spaces, size);
     let mut rest = ids.as_slice();
     let mut planes: Vec<Vec<PlaneId>> = brushes
         .iter()

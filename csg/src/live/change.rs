@@ -11,6 +11,7 @@ use crate::boundary::BoundaryEdge;
 use crate::evaluate::EvaluateError;
 use crate::ids::{Id, OperandId};
 use crate::model::Brush;
+use crate::plane_table::size_of;
 
 impl LiveModel {
     /// Gives brushes other states; gives the ones before.
@@ -77,6 +78,9 @@ impl LiveModel {
                 }
             }
             operand.is_there = state.is_some();
+            self.planes.count_size(operand.size.take(), false);
+            operand.size = state.as_ref().and_then(|state| size_of(state.brush.half_spaces()));
+            self.planes.count_size(operand.size, true);
             self.intersecting.retain(|entry| entry.id != id);
             let old = match state {
                 Some(state) => {
@@ -105,6 +109,7 @@ impl LiveModel {
             id,
             is_there: true,
             state: Arc::new(empty),
+            size: None,
             uses: Vec::new(),
             body: None,
             mark: 0,

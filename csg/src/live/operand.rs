@@ -71,6 +71,8 @@ pub(super) struct Operand {
     /// Whether it is still part of the model: what is not is forgotten at the end of the edit.
     pub(super) is_there: bool,
     pub(super) state: Arc<State>,
+    /// The size of the body that its planes bound, where it counts.
+    pub(super) size: Option<f64>,
     /// Its planes, in their order.
     pub(super) uses: Vec<PlaneUse>,
     /// Nothing where the brush is empty.

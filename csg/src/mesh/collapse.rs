@@ -10,15 +10,20 @@ use rustc_hash::FxHashMap;
 
 use super::Mesh;
 use super::connectivity::{HalfEdges, NO_TWIN, next};
+use super::noise::{Noise, noise_edges};
 use crate::base::DisjointSets;
 
 /// No half-edge or vertex yet.
 const NONE: u32 = u32::MAX;
 
-/// Collapses what is joined by edges of at most `length`, in the mesh's units, changing the topology where it must: tunnels,
-/// gaps, bridges and bubbles that thin go. The mesh must be a closed, oriented 2-manifold, and stays one.
-pub(crate) fn collapse_thin(mesh: &mut Mesh, length: f64) {
-    let Some(place) = places(mesh, length) else { return };
+/// Collapses what is joined by edges that are rounding noise, changing the topology where it must: tunnels, gaps, bridges and bubbles
+/// that thin go. The mesh must be a closed, oriented 2-manifold, and stays one.
+pub(super) fn collapse_thin(mesh: &mut Mesh, noise: &mut Noise) {
+    let Some(place) = places(mesh) else { return };
+    for (at, place) in mesh.positions.iter().zip(&place) {
+        let moved = at.distance(mesh.positions[*place as usize]);
+        noise.add(usize::from(moved > 0.0), moved);
+    }
     let twins = HalfEdges::new(mesh.positions.len(), &mesh.triangles).twins();
     assert!(!twins.contains(&NO_TWIN), "a welded mesh is closed");
     let at = |h: u32| place[mesh.triangles[(h / 3) as usize][(h % 3) as usize] as usize];
@@ -56,20 +61,12 @@ pub(crate) fn collapse_thin(mesh: &mut Mesh, length: f64) {
     joined.write(mesh);
 }
 
-/// For each vertex the least one that short edges join it with; nothing where there are no short edges.
-fn places(mesh: &Mesh, length: f64) -> Option<Vec<u32>> {
+/// For each vertex the least one that edges of noise join it with; nothing where there are no such edges.
+fn places(mesh: &Mesh) -> Option<Vec<u32>> {
+    let edges = noise_edges(mesh);
     let mut sets = DisjointSets::new(mesh.positions.len());
-    let mut any = false;
-    for triangle in &mesh.triangles {
-        for k in 0..3 {
-            let (a, b) = (triangle[k], triangle[(k + 1) % 3]);
-            if mesh.positions[a as usize].distance(mesh.positions[b as usize]) <= length {
-                any = true;
-                sets.join(a, b);
-            }
-        }
-    }
-    any.then(|| (0..number32(mesh.positions.len())).map(|v| sets.root(v)).collect())
+    edges.iter().for_each(|edge| sets.join(edge.ends[0], edge.ends[1]));
+    (!edges.is_empty()).then(|| (0..number32(mesh.positions.len())).map(|v| sets.root(v)).collect())
 }
 
 /// Triangles between places, joined by their sides.

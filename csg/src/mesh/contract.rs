@@ -10,6 +10,7 @@ use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::Mesh;
+use super::noise::{Noise, noise_edges};
 use crate::base::by_group;
 
 /// Contracts edges of at most `length` (in the mesh's units) and gives how many went. Edges whose contraction would change
@@ -22,27 +23,46 @@ pub fn contract_short_edges(mesh: &mut Mesh, length: f64) -> usize {
 ///
 /// A format with coarser coordinates asks for the edges whose ends it would round to one place.
 pub fn contract_edges(mesh: &mut Mesh, is_short: impl Fn(DVec3, DVec3) -> bool) -> usize {
-    let mut short = short_edges(mesh, &is_short);
-    if short.is_empty() {
-        return 0;
+    let short = short_edges(mesh, &is_short);
+    if short.is_empty() { 0 } else { contract_listed(mesh, short, |_| &is_short).became.len() }
+}
+
+/// Contracts the edges that are rounding noise, shortest first; otherwise as [`contract_short_edges`].
+pub(super) fn contract_noise(mesh: &mut Mesh, noise: &mut Noise) {
+    let edges = noise_edges(mesh);
+    if edges.is_empty() {
+        return;
     }
+    let before = mesh.positions.clone();
+    let bounds: FxHashMap<[u32; 2], f64> = edges.iter().map(|edge| (edge.ends, edge.bound)).collect();
+    let is_noise = |ends: [u32; 2]| {
+        let bound = bounds[&ends];
+        move |a: DVec3, b: DVec3| a.distance(b) <= bound
+    };
+    let contraction = contract_listed(mesh, edges.iter().map(|edge| edge.ends).collect(), is_noise);
+    for gone in contraction.became.keys() {
+        noise.add(1, before[*gone as usize].distance(before[contraction.current(*gone) as usize]));
+    }
+}
+
+/// Contracts edges as often as one goes, each where what is asked of it holds of the places of its ends.
+fn contract_listed<F: Fn(DVec3, DVec3) -> bool>(
+    mesh: &mut Mesh,
+    mut edges: Vec<[u32; 2]>,
+    is_short: impl Fn([u32; 2]) -> F,
+) -> Contraction {
     let mut contraction = Contraction::new(mesh);
-    let mut contracted = 0;
     loop {
-        let before = contracted;
-        short.retain(|&[a, b]| {
-            let done = contraction.contract(mesh, a, b, &is_short);
-            contracted += usize::from(done);
-            !done
-        });
-        if contracted == before {
+        let before = edges.len();
+        edges.retain(|&[a, b]| !contraction.contract(mesh, a, b, is_short([a, b])));
+        if edges.len() == before {
             break;
         }
     }
-    if contracted > 0 {
+    if !contraction.became.is_empty() {
         contraction.compact(mesh);
     }
-    contracted
+    contraction
 }
 
 /// The short edges, shortest first.
@@ -61,6 +81,7 @@ fn short_edges(mesh: &Mesh, is_short: impl Fn(DVec3, DVec3) -> bool) -> Vec<[u32
     short.into_iter().map(|(_, edge)| edge).collect()
 }
 
+/// Edges contracted so far.
 struct Contraction {
     /// What a contracted vertex became.
     became: FxHashMap<u32, u32>,

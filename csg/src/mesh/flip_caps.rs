@@ -9,12 +9,13 @@ use planecut_parallel::prelude::*;
 
 use super::Mesh;
 use super::connectivity::{HalfEdges, NO_TWIN, next, previous};
+use super::noise::noise_height;
 
-/// Flips away triangles of at most this height, in the mesh's units, where that makes no edge that is there already. Faces
-/// that lose all their triangles are dropped.
-pub(crate) fn flip_caps(mesh: &mut Mesh, height: f64) {
+/// Flips away triangles whose height is rounding noise, where that makes no edge that is there already. Faces that lose all their
+/// triangles are dropped.
+pub(super) fn flip_caps(mesh: &mut Mesh) {
     let all = (0..number32(mesh.triangles.len())).into_par_iter().with_min_len(2048);
-    let mut caps: Vec<u32> = all.filter(|t| is_flat(mesh, *t, height)).collect();
+    let mut caps: Vec<u32> = all.filter(|t| is_flat(mesh, *t)).collect();
     if caps.is_empty() {
         return;
     }
@@ -23,7 +24,7 @@ pub(crate) fn flip_caps(mesh: &mut Mesh, height: f64) {
     // a flip can make a cap of the neighbour only where that was one; so few rounds do
     for _ in 0..8 {
         let before = caps.len();
-        caps.retain(|cap| long_side(mesh, *cap, height).is_some_and(|side| !flip(mesh, &mut twins, 3 * *cap + side)));
+        caps.retain(|cap| long_side(mesh, *cap).is_some_and(|side| !flip(mesh, &mut twins, 3 * *cap + side)));
         if caps.len() == before || caps.is_empty() {
             break;
         }
@@ -35,20 +36,21 @@ pub(crate) fn flip_caps(mesh: &mut Mesh, height: f64) {
     mesh.drop_empty_faces();
 }
 
-/// Whether a triangle has at most this height.
-fn is_flat(mesh: &Mesh, triangle: u32, height: f64) -> bool {
-    let [a, b, c] = mesh.triangles[triangle as usize].map(|v| mesh.positions[v as usize]);
+/// Whether the height of a triangle is noise.
+fn is_flat(mesh: &Mesh, triangle: u32) -> bool {
+    let corners = mesh.triangles[triangle as usize].map(|v| mesh.positions[v as usize]);
+    let (height, [a, b, c]) = (noise_height(corners), corners);
     let (p, q) = (b - a, c - a);
     let longest = p.length_squared().max(q.length_squared()).max((c - b).length_squared());
     p.cross(q).length_squared() <= height * height * longest
 }
 
 /// The side that holds the third corner between its ends, where a triangle is a cap.
-fn long_side(mesh: &Mesh, triangle: u32, height: f64) -> Option<u32> {
+fn long_side(mesh: &Mesh, triangle: u32) -> Option<u32> {
     let at = mesh.triangles[triangle as usize].map(|v| mesh.positions[v as usize]);
     let length = |k: usize| at[k].distance(at[(k + 1) % 3]);
     let side = (0..3).max_by(|a, b| length(*a).total_cmp(&length(*b)))?;
-    is_flat(mesh, triangle, height).then_some(number32(side))
+    is_flat(mesh, triangle).then_some(number32(side))
 }
 
 /// Flips a side of a cap, whose two new triangles belong to the face of its neighbour. Gives whether it could.

@@ -5,15 +5,16 @@ pub(crate) mod connectivity;
 mod contract;
 mod flip_caps;
 mod measures;
+mod noise;
 
 use crate::ids::number32;
 use glam::DVec3;
 
 use crate::model::{Material, MaterialId};
-pub(crate) use collapse::collapse_thin;
 pub use contract::{contract_edges, contract_short_edges};
-pub(crate) use flip_caps::flip_caps;
 pub use measures::SolidMeasures;
+pub use noise::Noise;
+pub(crate) use noise::remove_noise;
 
 /// One planar, connected region of a [`Mesh`] with one material.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -35,6 +35,11 @@ impl Brush {
         Self { faces, ..Self::default() }
     }
 
+    /// The half-spaces whose intersection the brush is, in the order of its faces.
+    pub fn half_spaces(&self) -> impl Iterator<Item = &HalfSpace> + Clone {
+        self.faces.iter().map(|face| &face.half_space)
+    }
+
     /// The box between two corners; empty where a minimum is not below its maximum, as any brush is empty whose half-spaces have no
     /// common volume. The primitive `planecut_shapes::primitives::cuboid` is for sizes that a user gives: it refuses such corners.
     ///

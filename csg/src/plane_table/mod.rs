@@ -18,8 +18,9 @@ use crate::base::sortable;
 pub use known_planes::{KnownPlanes, compare};
 pub use morton::curve_number;
 pub(crate) use morton::renumber_planes;
-use near::NearPlanes;
+use near::{NearPlanes, may_be_near};
 pub(crate) use near::{NearCells, is_nearly_same, unit};
+pub use near::{size_of, smallest_size};
 use same::group_exactly;
 pub(crate) use same::{Key, compare_coefficients, first_side, is_exact, is_reversed, key};
 pub(crate) use snapped::Snapped;
@@ -82,24 +83,22 @@ pub struct PlaneTable {
     replaced: Vec<(Row, PlaneId)>,
     /// The largest distance of a plane from the origin, exactly inserted planes left out.
     reach: f64,
+    /// The size of the smallest body, as far as it was known when the table was made.
+    size: f64,
     /// Where to find what is there, made when a plane is first inserted.
     index: Option<Index>,
 }
 
 impl PlaneTable {
-    /// Interns half-spaces; gives the table and the id of each half-space in the order given.
+    /// Interns half-spaces; gives the table and the id of each half-space in the order given. `size` is the [`smallest_size`] of the
+    /// bodies that they bound.
     ///
     /// The numbering depends on the planes alone, not on the order in which they were given.
     #[must_use]
-    pub fn intern(half_spaces: &[HalfSpace]) -> (Self, Vec<PlaneId>) {
-        Self::intern_within(half_spaces, 0.0)
-    }
-
-    /// The same among others, of which the largest distance from the origin is known.
-    fn intern_within(half_spaces: &[HalfSpace], reach: f64) -> (Self, Vec<PlaneId>) {
+    pub fn intern(half_spaces: &[HalfSpace], size: f64) -> (Self, Vec<PlaneId>) {
         let rows: Vec<Row> = half_spaces.par_iter().with_min_len(1024).map(Row::new).collect();
         let (exact, class) = group_exactly(&rows);
-        let mut table = Self { reach, ..Self::default() };
+        let mut table = Self { size, ..Self::default() };
         let ids = table.snap(&exact);
         let of_input = class.into_iter().zip(&rows).map(|(class, row)| {
             let id: PlaneId = ids[class as usize];
@@ -110,8 +109,8 @@ impl PlaneTable {
     }
 
     /// The id of a half-space, whose plane is added where it is not there yet. A plane that is nearly the same as one that
-    /// is there ([`SNAP_TOLERANCE`](crate::SNAP_TOLERANCE), relative to the largest distance from the origin so far) is taken to be that one,
-    /// unless its normal is made of short integers.
+    /// is there ([`SNAP_TOLERANCE`](crate::SNAP_TOLERANCE), relative to its distance from the origin or the size of the smallest body) is
+    /// taken to be that one, unless its normal is made of short integers.
     ///
     /// ```
     /// use planecut_csg::PlaneTable;
@@ -181,6 +180,12 @@ impl PlaneTable {
     #[must_use]
     pub fn snapped(&self) -> usize {
         self.replaced.len()
+    }
+
+    /// The size of the smallest body, as far as it was known when the table was made.
+    #[must_use]
+    pub fn size(&self) -> f64 {
+        self.size
     }
 
     /// The largest distance of a plane from the origin, those aside that were added exactly.
@@ -259,15 +264,15 @@ impl PlaneTable {
             planes.par_iter().enumerate().with_min_len(1024).map(place).collect();
         order.par_sort_unstable();
         let any_noise = order.last().is_some_and(|last| last.0);
-        let mut near = NearPlanes::new(self.reach);
-        let may_be_near = if any_noise { near.may_be_near(&units) } else { vec![false; planes.len()] };
+        let mut near = NearPlanes::new(self.size);
+        let may_be_near = if any_noise { may_be_near(&units, self.size) } else { vec![false; planes.len()] };
         self.rows.reserve_exact(2 * planes.len());
         self.half_spaces.reserve_exact(2 * planes.len());
         let mut ids = vec![PlaneId(0); planes.len()];
         for (is_noisy, _, plane) in order {
             let plane = plane as usize;
             let row = &planes[plane];
-            let found = if is_noisy && may_be_near[plane] { near.find(&units[plane], self.reach) } else { None };
+            let found = if is_noisy && may_be_near[plane] { near.find(&units[plane]) } else { None };
             ids[plane] = found.unwrap_or_else(|| {
                 let id = self.push(row);
                 if may_be_near[plane] {
@@ -306,12 +311,9 @@ impl PlaneTable {
     }
 
     fn find_near(&mut self, place: &[f64; 4]) -> Option<PlaneId> {
-        let (reach, rows) = (self.reach, &self.rows);
+        let (size, rows) = (self.size, &self.rows);
         let index = self.index.get_or_insert_default();
-        let near = index.near.take().filter(|near| near.holds(reach));
-        // twice the reach, so that tables that grow are hashed again only now and then
-        let near = near.unwrap_or_else(|| NearPlanes::of(rows, 2.0 * reach));
-        index.near.insert(near).find(place, reach)
+        index.near.get_or_insert_with(|| NearPlanes::of(rows, size)).find(place)
     }
 
     /// Adds a plane that is not there; `row` is the side with a positive first coefficient.

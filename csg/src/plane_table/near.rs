@@ -1,7 +1,11 @@
 //! Planes that are nearly the same.
+//!
+//! Two planes are taken for one where their unit normals differ by at most [`SNAP_TOLERANCE`] and their distances from the origin by that
+//! share of the larger one. Where planes pass near the origin, what is rounded is the coordinates of the bodies: then it is that share
+//! of the size of the smallest body. So neither a body far away nor a tool without end takes two planes of another body for one.
 
 use crate::ids::number32;
-use planecut_kernel::DVec3;
+use planecut_kernel::{DVec3, HalfSpace};
 use planecut_kernel::sign::Row;
 use planecut_parallel::prelude::*;
 use rustc_hash::FxHashMap;
@@ -21,20 +25,38 @@ pub(crate) fn unit(row: &Row) -> [f64; 4] {
     [x / length, y / length, z / length, d / length]
 }
 
-/// A hash of planes by their unit normal and relative offset.
+/// The size of a body: how far from the origin the farthest of its planes is. None where it has too few planes to be bounded, or all
+/// of them pass through the origin.
+pub fn size_of<'a>(half_spaces: impl Iterator<Item = &'a HalfSpace>) -> Option<f64> {
+    let (mut count, mut size) = (0, 0.0_f64);
+    for half_space in half_spaces {
+        // no component leaves the range of numbers
+        let scale = half_space.normal().abs().max_element();
+        size = size.max((half_space.offset() / scale).abs() / (half_space.normal() / scale).length());
+        count += 1;
+    }
+    (count > 3 && size > 0.0).then_some(size)
+}
+
+/// The size of the smallest of some bodies, for [`PlaneTable::intern`](super::PlaneTable::intern); 0 where there is none.
+pub fn smallest_size<'a, B: Iterator<Item = &'a HalfSpace>>(bodies: impl Iterator<Item = B>) -> f64 {
+    bodies.filter_map(size_of).reduce(f64::min).unwrap_or(0.0)
+}
+
+/// A hash of planes by their unit normal and offset.
 #[derive(Debug, Clone)]
 pub(crate) struct NearPlanes {
     /// The last plane of each cell.
     cells: FxHashMap<[i64; 4], u32>,
     /// Each with the one before in its cell.
     planes: Vec<([f64; 4], PlaneId, Option<u32>)>,
-    /// Distances from the origin are hashed as shares of this.
+    /// The size of the smallest body.
     size: f64,
 }
 
 impl NearPlanes {
     pub(super) fn new(size: f64) -> Self {
-        Self { cells: FxHashMap::default(), planes: Vec::new(), size: size.max(f64::MIN_POSITIVE) }
+        Self { cells: FxHashMap::default(), planes: Vec::new(), size }
     }
 
     pub(super) fn of(rows: &[Row], size: f64) -> Self {
@@ -45,70 +67,61 @@ impl NearPlanes {
         near
     }
 
-    /// Whether planes at this distance can be found.
-    pub(super) fn holds(&self, reach: f64) -> bool {
-        reach <= self.size
-    }
-
-    /// Which of some planes may be within the tolerance of another: most are told apart by one number each.
-    pub(super) fn may_be_near(&self, units: &[[f64; 4]]) -> Vec<bool> {
-        // the sum of the weights times the tolerance, and room for rounding
-        const APART: f64 = 3.0 * SNAP_TOLERANCE;
-        let number = |unit: &[f64; 4]| self.shares(*unit).iter().zip(WEIGHTS).map(|(share, w)| share * w).sum::<f64>();
-        let mut sorted: Vec<(u64, u32)> = units
-            .par_iter()
-            .enumerate()
-            .with_min_len(1024)
-            .map(|(k, unit)| (sortable(number(unit)), number32(k)))
-            .collect();
-        sorted.par_sort_unstable();
-        // the side of a plane whose first coefficient is noise is noise, too
-        let mut may_be_near: Vec<bool> = units.iter().map(|unit| unit[0] <= SNAP_TOLERANCE).collect();
-        for pair in sorted.windows(2) {
-            let [p, q] = [0, 1].map(|k| pair[k].1 as usize);
-            if number(&units[q]) - number(&units[p]) <= APART {
-                (may_be_near[p], may_be_near[q]) = (true, true);
-            }
-        }
-        may_be_near
-    }
-
     pub(super) fn insert(&mut self, unit: [f64; 4], id: PlaneId) {
-        let before = self.cells.insert(self.shares(unit).map(cell), number32(self.planes.len()));
+        let before = self.cells.insert(cell(&unit, self.size), number32(self.planes.len()));
         self.planes.push((unit, id, before));
     }
 
-    /// The side of a plane that is within the tolerance; `reach` is the largest distance from the origin.
-    pub(super) fn find(&self, unit: &[f64; 4], reach: f64) -> Option<PlaneId> {
+    /// The side of a plane that is within the tolerance.
+    pub(super) fn find(&self, unit: &[f64; 4]) -> Option<PlaneId> {
         let opposite = || {
             // both have a first coefficient that is not negative
             let may_be_near = unit[0] <= SNAP_TOLERANCE;
-            may_be_near.then(|| self.find_side(&unit.map(|v| -v), reach)).flatten().map(PlaneId::flipped)
+            may_be_near.then(|| self.find_side(&unit.map(|v| -v))).flatten().map(PlaneId::flipped)
         };
-        self.find_side(unit, reach).or_else(opposite)
+        self.find_side(unit).or_else(opposite)
     }
 
-    fn find_side(&self, unit: &[f64; 4], reach: f64) -> Option<PlaneId> {
-        let around = cells_around(unit, &tolerances(reach), self.size);
-        around
+    fn find_side(&self, unit: &[f64; 4]) -> Option<PlaneId> {
+        cells_around(unit, self.size)
             .filter_map(|key| self.cells.get(&key))
             .flat_map(|last| std::iter::successors(Some(*last), |k| self.planes[*k as usize].2))
             .map(|k| &self.planes[k as usize])
-            .filter(|(other, ..)| is_within(unit, other, &tolerances(reach)))
+            .filter(|(other, ..)| is_within(unit, other, self.size))
             .map(|(_, id, _)| *id)
             .min()
     }
+}
 
-    fn shares(&self, unit: [f64; 4]) -> [f64; 4] {
-        shares(unit, self.size)
+/// Which of some planes may be within the tolerance of another: most are told apart by one number each.
+pub(super) fn may_be_near(units: &[[f64; 4]], size: f64) -> Vec<bool> {
+    // the sum of the weights times the tolerance, and room for rounding
+    const APART: f64 = 3.0 * SNAP_TOLERANCE;
+    let reach = units.iter().map(|unit| unit[3].abs()).fold(size, f64::max).max(f64::MIN_POSITIVE);
+    let number = |[x, y, z, d]: [f64; 4]| [x, y, z, d / reach].iter().zip(WEIGHTS).map(|(v, w)| v * w).sum::<f64>();
+    let mut sorted: Vec<(u64, u32)> = units
+        .par_iter()
+        .enumerate()
+        .with_min_len(1024)
+        .map(|(k, unit)| (sortable(number(*unit)), number32(k)))
+        .collect();
+    sorted.par_sort_unstable();
+    // the side of a plane whose first coefficient is noise is noise, too
+    let mut may_be_near: Vec<bool> = units.iter().map(|unit| unit[0] <= SNAP_TOLERANCE).collect();
+    for pair in sorted.windows(2) {
+        let [p, q] = [0, 1].map(|k| pair[k].1 as usize);
+        if number(units[q]) - number(units[p]) <= APART {
+            (may_be_near[p], may_be_near[q]) = (true, true);
+        }
     }
+    may_be_near
 }
 
 /// Groups of planes by where they are, to be put in and taken out.
 #[derive(Debug, Default)]
 pub(crate) struct NearCells {
     cells: FxHashMap<[i64; 4], Vec<([f64; 4], RowGroupId)>>,
-    /// At least the largest distance from the origin, which they are near each other as a share of.
+    /// At least the size of the smallest body.
     size: f64,
 }
 
@@ -122,11 +135,11 @@ impl NearCells {
     }
 
     pub(crate) fn insert(&mut self, unit: &[f64; 4], number: RowGroupId) {
-        self.cells.entry(shares(*unit, self.size).map(cell)).or_default().push((*unit, number));
+        self.cells.entry(cell(unit, self.size)).or_default().push((*unit, number));
     }
 
     pub(crate) fn remove(&mut self, unit: &[f64; 4], number: RowGroupId) {
-        let key = shares(*unit, self.size).map(cell);
+        let key = cell(unit, self.size);
         let Some(members) = self.cells.get_mut(&key) else { return };
         members.retain(|member| member.1 != number);
         if members.is_empty() {
@@ -136,10 +149,9 @@ impl NearCells {
 
     /// Adds the numbers of those that are near a plane, on either side: itself, if it is there.
     pub(crate) fn find(&self, unit: &[f64; 4], found: &mut Vec<RowGroupId>) {
-        let tolerances = tolerances(self.size);
         let mut find = |unit: &[f64; 4]| {
-            let members = cells_around(unit, &tolerances, self.size).filter_map(|key| self.cells.get(&key)).flatten();
-            let near = members.filter(|(other, _)| is_within(unit, other, &tolerances));
+            let members = cells_around(unit, self.size).filter_map(|key| self.cells.get(&key)).flatten();
+            let near = members.filter(|(other, _)| is_within(unit, other, self.size));
             found.extend(near.map(|(_, number)| *number));
         };
         find(unit);
@@ -149,42 +161,45 @@ impl NearCells {
     }
 }
 
-/// Whether two planes are within the tolerance of each other, or one of the other side of the other; `reach` is the largest
-/// distance from the origin.
-pub(crate) fn is_nearly_same(unit: &[f64; 4], other: &[f64; 4], flipped: bool, reach: f64) -> bool {
+/// Whether two planes are within the tolerance of each other, or one of the other side of the other; `size` is that of the smallest
+/// body.
+pub(crate) fn is_nearly_same(unit: &[f64; 4], other: &[f64; 4], flipped: bool, size: f64) -> bool {
     if !flipped {
-        return is_within(unit, other, &tolerances(reach));
+        return is_within(unit, other, size);
     }
     // both have a first coefficient that is not negative
-    unit[0] <= SNAP_TOLERANCE && is_within(&unit.map(|v| -v), other, &tolerances(reach))
+    unit[0] <= SNAP_TOLERANCE && is_within(&unit.map(|v| -v), other, size)
 }
 
-fn tolerances(reach: f64) -> [f64; 4] {
-    [SNAP_TOLERANCE, SNAP_TOLERANCE, SNAP_TOLERANCE, SNAP_TOLERANCE * reach]
+fn is_within(unit: &[f64; 4], other: &[f64; 4], size: f64) -> bool {
+    let distance = unit[3].abs().max(other[3].abs()).max(size);
+    (0..3).all(|k| (unit[k] - other[k]).abs() <= SNAP_TOLERANCE)
+        && (unit[3] - other[3]).abs() <= SNAP_TOLERANCE * distance
 }
 
-fn is_within(unit: &[f64; 4], other: &[f64; 4], tolerances: &[f64; 4]) -> bool {
-    (0..4).all(|k| (unit[k] - other[k]).abs() <= tolerances[k])
-}
-
-/// The cells that hold what is within the tolerances, each once.
-fn cells_around(unit: &[f64; 4], tolerances: &[f64; 4], size: f64) -> impl Iterator<Item = [i64; 4]> + use<> {
-    let low = shares(std::array::from_fn(|k| unit[k] - tolerances[k]), size).map(cell);
-    let high = shares(std::array::from_fn(|k| unit[k] + tolerances[k]), size).map(cell);
+/// The cells that hold what is within the tolerance, each once.
+fn cells_around(unit: &[f64; 4], size: f64) -> impl Iterator<Item = [i64; 4]> + use<> {
+    // the other one may be a little farther away, and so its tolerance larger
+    let distance = 1.001 * SNAP_TOLERANCE * unit[3].abs().max(size);
+    let tolerances = [SNAP_TOLERANCE, SNAP_TOLERANCE, SNAP_TOLERANCE, distance];
+    let low = cell(&std::array::from_fn(|k| unit[k] - tolerances[k]), size);
+    let high = cell(&std::array::from_fn(|k| unit[k] + tolerances[k]), size);
     let different = (0..4).filter(|k| low[*k] != high[*k]).fold(0, |bits, k| bits | 1 << k);
     (0..16_usize)
         .filter(move |corner| corner & !different == 0)
         .map(move |corner| std::array::from_fn(|k| if corner >> k & 1 == 0 { low[k] } else { high[k] }))
 }
 
-fn shares([x, y, z, d]: [f64; 4], size: f64) -> [f64; 4] {
-    [x, y, z, d / size]
+/// The cell of a plane: its offset is divided by the power of two that is at its distance, or at the smallest size, and that power is
+/// part of the cell.
+fn cell([x, y, z, d]: &[f64; 4], size: f64) -> [i64; 4] {
+    let exponent = d.abs().max(size).max(f64::MIN_POSITIVE).to_bits() >> 52;
+    let power = f64::from_bits(exponent << 52);
+    let [x, y, z, share] = [*x, *y, *z, d / power].map(share_cell);
+    [x, y, z, share + (exponent.cast_signed() << 34)]
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "`as` saturates: what lies beyond shares the last cell, and is compared there"
-)]
-fn cell(v: f64) -> i64 {
+#[expect(clippy::cast_possible_truncation, reason = "components of unit normals, and shares below 2")]
+fn share_cell(v: f64) -> i64 {
     (v / SNAP_CELL).floor() as i64
 }

@@ -5,7 +5,7 @@ use planecut_kernel::sign::Row;
 use rustc_hash::FxHashMap;
 
 use super::PlaneTable;
-use super::near::{NearPlanes, unit};
+use super::near::{may_be_near, unit};
 use super::same::{first_side, is_exact};
 
 /// The planes of many half-spaces that a table of all of them would replace by one that is nearly the same, without such a
@@ -15,8 +15,8 @@ pub(crate) struct Snapped {
 }
 
 impl Snapped {
-    /// Those among some half-spaces.
-    pub(crate) fn of<'a>(half_spaces: impl Iterator<Item = &'a HalfSpace> + Clone) -> Self {
+    /// Those among some half-spaces of bodies, of which the smallest has this size.
+    pub(crate) fn of<'a>(half_spaces: impl Iterator<Item = &'a HalfSpace> + Clone, size: f64) -> Self {
         let mut snapped = Self { replaced: FxHashMap::default() };
         let rows = || half_spaces.clone().map(Row::new);
         if rows().all(|row| is_exact(&row)) {
@@ -24,12 +24,11 @@ impl Snapped {
         }
         let first_sides = rows().map(|row| first_side(&row).0);
         let units: Vec<[f64; 4]> = first_sides.map(|row| unit(&row)).collect();
-        let reach = units.iter().map(|unit| unit[3].abs()).fold(0.0, f64::max);
-        let may_be_near = NearPlanes::new(reach).may_be_near(&units);
+        let may_be_near = may_be_near(&units, size);
         drop(units);
         let doubtful = half_spaces.zip(may_be_near).filter(|(_, is_near)| *is_near);
         let doubtful: Vec<HalfSpace> = doubtful.map(|(half_space, _)| *half_space).collect();
-        let (table, ids) = PlaneTable::intern_within(&doubtful, reach);
+        let (table, ids) = PlaneTable::intern(&doubtful, size);
         for (half_space, id) in doubtful.iter().zip(ids) {
             if !table.row(id).is_same_plane(&Row::new(half_space)) {
                 snapped.replaced.insert(bits(half_space), *table.half_space(id));

@@ -16,7 +16,7 @@ fn equal_planes_share_an_id_whatever_scale_and_side() {
         plane(third, 2.0 * third, 0.0, 4.0 * third),
         plane(1.0, 2.0, 0.0, 4.0),
     ];
-    let (table, ids) = PlaneTable::intern(&given);
+    let (table, ids) = PlaneTable::intern(&given, 0.0);
     assert_eq!(ids[0], ids[1]);
     assert_eq!(ids[0].flipped(), ids[2]);
     assert_eq!(ids[3], ids[4]);
@@ -29,7 +29,7 @@ fn noise_is_snapped_and_counted_and_integers_are_not() {
     let noise = 1.0 + 4.0 * f64::EPSILON;
     let given =
         [plane(s, c, 0.0, 7.0), plane(-s * noise, -c, 0.0, -7.0), plane(1e9, 1.0, 0.0, 0.0), plane(1e9, 2.0, 0.0, 0.0)];
-    let (table, ids) = PlaneTable::intern(&given);
+    let (table, ids) = PlaneTable::intern(&given, 0.0);
     assert_eq!(ids[0], ids[1].flipped());
     assert_ne!(ids[2], ids[3]);
     assert_eq!(table.snapped(), 1);
@@ -38,7 +38,7 @@ fn noise_is_snapped_and_counted_and_integers_are_not() {
 #[test]
 fn planes_that_are_inserted_join_those_that_are_there() {
     let (s, c) = 0.3_f64.sin_cos();
-    let (mut table, ids) = PlaneTable::intern(&[plane(s, c, 0.0, 7.0), plane(1.0, 2.0, 3.0, 4.0)]);
+    let (mut table, ids) = PlaneTable::intern(&[plane(s, c, 0.0, 7.0), plane(1.0, 2.0, 3.0, 4.0)], 0.0);
     let noise = 1.0 + 4.0 * f64::EPSILON;
     assert_eq!(table.insert(&plane(-2.0, -4.0, -6.0, -8.0)), ids[1].flipped());
     assert_eq!(table.insert(&plane(-s * noise, -c, 0.0, -7.0)), ids[0].flipped());
@@ -85,8 +85,8 @@ fn a_table_that_grows_is_hashed_again() {
 fn ids_do_not_depend_on_the_order() {
     let given: Vec<HalfSpace> =
         (0..50).map(|k| plane(f64::from(k % 7 - 3) + 0.1, f64::from(k % 5 - 2), 1.0, f64::from(k % 11))).collect();
-    let (_, ids) = PlaneTable::intern(&given);
+    let (_, ids) = PlaneTable::intern(&given, 0.0);
     let reversed: Vec<HalfSpace> = given.iter().rev().copied().collect();
-    let (_, back) = PlaneTable::intern(&reversed);
+    let (_, back) = PlaneTable::intern(&reversed, 0.0);
     assert!(ids.iter().eq(back.iter().rev()));
 }

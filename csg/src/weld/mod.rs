@@ -40,10 +40,9 @@ use thiserror::Error;
 use crate::base::{Clock, by_group, map_chunks};
 use crate::boundary::BoundaryEdge;
 use crate::ids::{EdgeId, HalfEdgeId, Id, PointId, RegionId, VertexId};
-use crate::mesh::{Mesh, MeshFace, SolidMeasures, collapse_thin, contract_short_edges, flip_caps};
+use crate::mesh::{Mesh, MeshFace, Noise, SolidMeasures, remove_noise};
 use crate::model::{Material, MaterialId};
 use crate::plane_table::{PlaneId, PlaneTable};
-use crate::tolerances::CONTRACTION;
 use cancel::{HalfEdge, Pieces, Run};
 pub use live::LiveFace;
 pub(crate) use live::LiveWeld;
@@ -110,6 +109,7 @@ impl WeldError {
 pub(crate) struct Welded {
     pub(crate) mesh: Mesh,
     pub(crate) solid: SolidMeasures,
+    pub(crate) noise: Noise,
     pub(crate) signs: Counts,
     pub(crate) triangulation: Duration,
 }
@@ -141,11 +141,8 @@ pub(crate) fn weld(
     signs += counted;
     manifold::split_repeated_edges(&mut mesh, &mut labels, &pieces);
     let solid = nested.solid;
-    let noise = CONTRACTION * solid.min.abs().max(solid.max.abs()).max_element();
-    contract_short_edges(&mut mesh, noise);
-    collapse_thin(&mut mesh, noise);
-    flip_caps(&mut mesh, noise);
-    Ok(Welded { mesh, solid, signs, triangulation: begin.elapsed() })
+    let noise = remove_noise(&mut mesh);
+    Ok(Welded { mesh, solid, noise, signs, triangulation: begin.elapsed() })
 }
 
 impl Regions {

@@ -1,6 +1,7 @@
 //! Upright walls over the sides of a loop, and the convex cells between them.
 
 use planecut_csg::PlaneTable;
+use planecut_csg::stages::size_of;
 use planecut_kernel::{DVec2, DVec3, HalfSpace};
 
 use super::cells::{PlaneSide, Surface};
@@ -32,7 +33,7 @@ impl Walls {
         let half_space = |k: usize| side(corners[k], corners[(k + 1) % n]);
         let mut half_spaces = (0..n).map(half_space).collect::<Result<Vec<HalfSpace>, ShapeError>>()?;
         // what is one plane in the finished model is one here: cells are told apart by the same lines
-        let (table, ids) = PlaneTable::intern(&half_spaces);
+        let (table, ids) = PlaneTable::intern(&half_spaces, size_of(half_spaces.iter()).unwrap_or(0.0));
         for (half_space, id) in half_spaces.iter_mut().zip(&ids).filter(|_| table.snapped() > 0) {
             *half_space = *table.half_space(*id);
         }

@@ -2,8 +2,8 @@
 //!
 //! [`PlaneTable::intern`] goes through all planes in an order that depends on the planes alone and takes each for an earlier one
 //! that is near. What becomes of a plane so depends on those within the tolerance of it, of these, and so on: mostly on none.
-//! When a plane comes or goes, that is worked out again for what it hangs together with. The tolerance grows with the largest
-//! distance from the origin; when that changes, all planes are looked at that have any other near.
+//! When a plane comes or goes, that is worked out again for what it hangs together with. Near the origin the tolerance depends on the size
+//! of the smallest body; when that changes, all planes are looked at that have any other near.
 
 #[cfg(test)]
 mod tests;
@@ -34,9 +34,10 @@ pub(super) struct LivePlanes {
     groups: Vec<EqualRows>,
     free_groups: Vec<RowGroupId>,
     by_key: FxHashMap<Key, Vec<RowGroupId>>,
-    /// The distances from the origin, each with the number of groups that have it.
-    distances: BTreeMap<u64, u32>,
-    reach: f64,
+    /// The sizes of the bodies, each with the number of bodies that have it.
+    sizes: BTreeMap<u64, u32>,
+    /// The smallest of them, when planes were last settled.
+    size: f64,
     near: NearCells,
     /// Groups with others near them.
     crowded: FxHashSet<RowGroupId>,
@@ -161,12 +162,10 @@ impl LivePlanes {
             let before = std::mem::replace(&mut group.hashed, hashed);
             if hashed != before {
                 if let Some((old, _)) = before {
-                    self.count_distance(old[3], false);
                     self.near.remove(&old, number);
                     self.leave_crowd(number, &old, &mut doubtful);
                 }
-                if let Some((unit, _)) = hashed {
-                    self.count_distance(unit[3], true);
+                if hashed.is_some() {
                     moved.push(number);
                 }
             }
@@ -191,16 +190,17 @@ impl LivePlanes {
         settled
     }
 
-    fn count_distance(&mut self, distance: f64, comes: bool) {
-        // of numbers that are not negative the bits are in the same order
-        let bits = distance.abs().to_bits();
-        let count = self.distances.entry(bits).or_default();
+    /// Counts the size of a body that comes or goes.
+    pub(super) fn count_size(&mut self, size: Option<f64>, comes: bool) {
+        let Some(size) = size else { return };
+        // of positive numbers the bits are in the same order
+        let count = self.sizes.entry(size.to_bits()).or_default();
         if comes {
             *count += 1;
         } else {
             *count -= 1;
             if *count == 0 {
-                self.distances.remove(&bits);
+                self.sizes.remove(&size.to_bits());
             }
         }
     }
@@ -221,12 +221,12 @@ impl LivePlanes {
         }
     }
 
-    /// Puts into the hash what is at another place, or all where the largest distance has grown or shrunk by much.
+    /// Puts into the hash what is at another place, or all where the smallest size has grown or shrunk by much.
     fn rehash(&mut self, moved: &[RowGroupId], doubtful: &mut Vec<RowGroupId>) {
-        let reach = self.distances.last_key_value().map_or(0.0, |(bits, _)| f64::from_bits(*bits));
-        let is_other_reach = self.reach != reach;
-        self.reach = reach;
-        let size = reach.max(f64::MIN_POSITIVE).log2().ceil().exp2();
+        let smallest = self.sizes.first_key_value().map_or(0.0, |(bits, _)| f64::from_bits(*bits));
+        let is_other_size = self.size != smallest;
+        self.size = smallest;
+        let size = smallest.max(f64::MIN_POSITIVE).log2().ceil().exp2();
         let all: Vec<RowGroupId>;
         let moved = if size == self.near.size() {
             moved
@@ -248,7 +248,7 @@ impl LivePlanes {
                 self.crowded.insert(number);
             }
         }
-        if is_other_reach {
+        if is_other_size {
             doubtful.extend(self.crowded.iter());
         }
         // whatever the order of the set
@@ -296,7 +296,7 @@ impl LivePlanes {
             let leads = |flipped: bool| {
                 let is_near = |leader: &&RowGroupId| {
                     let (other, _) = self.groups[leader.index()].hashed.expect("what leads a cluster is hashed");
-                    is_nearly_same(&unit, &other, flipped, self.reach)
+                    is_nearly_same(&unit, &other, flipped, self.size)
                 };
                 leaders.iter().find(is_near).map(|leader| (*leader, flipped))
             };

@@ -28,18 +28,21 @@ impl Draw {
 }
 
 #[test]
-fn planes_come_apart_as_the_farthest_one_goes() {
+fn planes_come_apart_as_the_smallest_body_shrinks() {
     let half_space = |offset: f64| HalfSpace::new(DVec3::new(0.6, 0.7, 0.0), offset).expect("a valid half-space");
     let mut planes = LivePlanes::default();
     let user = OperandId::from_index(0);
-    let [low, high] = [1.0, 1.0 + 4e-12].map(|offset| (half_space(offset), planes.take(&half_space(offset), user)));
-    let far = (half_space(8.0), planes.take(&half_space(8.0), user));
+    let [low, high] = [0.0, 4e-12].map(|offset| planes.take(&half_space(offset), user));
+    planes.count_size(Some(8.0), true);
     planes.settle(&[]);
-    assert_eq!(planes.id(low.1), planes.id(high.1));
-    planes.release(&far.0, far.1, user);
+    assert_eq!(planes.id(low), planes.id(high));
+    planes.count_size(Some(1.0), true);
     let settled = planes.settle(&[]);
-    assert_ne!(planes.id(low.1), planes.id(high.1));
+    assert_ne!(planes.id(low), planes.id(high));
     assert_eq!(settled.users, [user]);
+    planes.count_size(Some(1.0), false);
+    planes.settle(&[]);
+    assert_eq!(planes.id(low), planes.id(high));
 }
 
 #[test]
@@ -49,6 +52,7 @@ fn planes_are_snapped_as_in_a_table_of_all_of_them() {
         let mut draw = Draw(seed);
         let mut planes = LivePlanes::default();
         let mut held: Vec<(HalfSpace, PlaneUse)> = Vec::new();
+        let mut size = None;
         for step in 0..120 {
             for _ in 0..=draw.below(3) {
                 if held.is_empty() || draw.below(5) < 3 {
@@ -59,10 +63,15 @@ fn planes_are_snapped_as_in_a_table_of_all_of_them() {
                     planes.release(&half_space, used, user);
                 }
             }
+            if draw.below(4) == 0 {
+                planes.count_size(size, false);
+                size = [None, Some(0.3), Some(1.0), Some(100.0)][draw.below(4) as usize];
+                planes.count_size(size, true);
+            }
             let settled = planes.settle(&[]);
             settled.retired.iter().for_each(|index| planes.free(*index));
             let all: Vec<HalfSpace> = held.iter().map(|held| held.0).collect();
-            let (table, ids) = PlaneTable::intern(&all);
+            let (table, ids) = PlaneTable::intern(&all, size.unwrap_or(0.0));
             for (k, (half_space, used)) in held.iter().enumerate() {
                 let (found, expected) = (planes.table.row(planes.id(*used)), table.row(ids[k]));
                 assert!(

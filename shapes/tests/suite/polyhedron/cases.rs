@@ -140,7 +140,7 @@ fn planes_along_the_axes_are_exact() {
     let mut planes: Vec<HalfSpace> = solid.cells[0].faces.iter().map(|face| face.half_space).collect();
     assert_eq!(planes.len(), 6);
     planes.extend(Brush::cuboid(low, high, MaterialId(0)).faces.iter().map(|face| face.half_space));
-    let (table, _) = PlaneTable::intern(&planes);
+    let (table, _) = PlaneTable::intern(&planes, 0.0);
     assert_eq!((table.len(), table.snapped()), (6, 0));
 }
 

@@ -1,0 +1,122 @@
+//! Which edges of a finished mesh are rounding noise, by the sizes of the faces that they lie between.
+//!
+//! An edge runs from one plane to another along the line of two more. Where its length is rounding noise, it is that of the planes at its
+//! two ends; so it is compared with the coordinates of the faces there, and not with those of whatever else is in the model: neither
+//! a body far away nor a large face beside the edge makes noise of a thin body.
+
+use glam::DVec3;
+use planecut_parallel::prelude::*;
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use super::Mesh;
+use crate::tolerances::CONTRACTION;
+
+/// An edge that is short enough to be noise.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct NoiseEdge {
+    /// Its vertices, the smaller one first.
+    pub(super) ends: [u32; 2],
+    /// Up to which length it is noise.
+    pub(super) bound: f64,
+}
+
+/// The largest coordinate of some points, whatever its sign.
+fn largest_coordinate(points: impl Iterator<Item = DVec3>) -> f64 {
+    points.map(|point| point.abs().max_element()).fold(0.0, f64::max)
+}
+
+/// The edges that are noise, shortest first.
+pub(super) fn noise_edges(mesh: &Mesh) -> Vec<NoiseEdge> {
+    let length = |[a, b]: [u32; 2]| mesh.positions[a as usize].distance(mesh.positions[b as usize]);
+    let longest = CONTRACTION * largest_coordinate(mesh.positions.iter().copied());
+    let sides = |triangle: &[u32; 3]| {
+        let [a, b, c] = *triangle;
+        [[a, b], [b, c], [c, a]].into_iter().filter(|[a, b]| a < b)
+    };
+    let is_short = |ends: &[u32; 2]| length(*ends) <= longest;
+    let all = mesh.triangles.par_iter().with_min_len(4096);
+    let short: Vec<[u32; 2]> = all.flat_map_iter(|triangle| sides(triangle).filter(is_short)).collect();
+    if short.is_empty() {
+        return Vec::new();
+    }
+    let sizes = FaceSizes::around(mesh, &short);
+    let edge = |ends: &[u32; 2]| NoiseEdge { ends: *ends, bound: CONTRACTION * sizes.at_ends(*ends) };
+    let mut noise: Vec<NoiseEdge> = short.iter().map(edge).filter(|edge| length(edge.ends) <= edge.bound).collect();
+    noise.sort_by(|p, q| length(p.ends).total_cmp(&length(q.ends)).then(p.ends.cmp(&q.ends)));
+    noise
+}
+
+/// The sizes of the faces around some vertices: their largest coordinates.
+struct FaceSizes {
+    sizes: Vec<f64>,
+    /// The faces at each vertex, once for each triangle.
+    faces: FxHashMap<u32, Vec<u32>>,
+}
+
+impl FaceSizes {
+    fn around(mesh: &Mesh, edges: &[[u32; 2]]) -> Self {
+        let ends: FxHashSet<u32> = edges.iter().flatten().copied().collect();
+        let mut sizes = vec![0.0_f64; mesh.faces.len()];
+        let mut faces: FxHashMap<u32, Vec<u32>> = FxHashMap::default();
+        for (triangle, &face) in mesh.triangles.iter().zip(&mesh.triangle_faces) {
+            let size = &mut sizes[face as usize];
+            *size = size.max(largest_coordinate(triangle.iter().map(|v| mesh.positions[*v as usize])));
+            for vertex in triangle.iter().filter(|v| ends.contains(v)) {
+                faces.entry(*vertex).or_default().push(face);
+            }
+        }
+        faces.values_mut().for_each(|faces| {
+            faces.sort_unstable();
+            faces.dedup();
+        });
+        Self { sizes, faces }
+    }
+
+    /// The smaller one of the sizes at both ends of an edge: the largest size of the faces that meet it in that end alone, or, where all
+    /// lie along it, of these.
+    fn at_ends(&self, [a, b]: [u32; 2]) -> f64 {
+        let (at_a, at_b) = (&self.faces[&a], &self.faces[&b]);
+        let largest = |faces: &mut dyn Iterator<Item = &u32>| {
+            faces.map(|face| self.sizes[*face as usize]).reduce(f64::max)
+        };
+        let beyond = |own: &[u32], others: &[u32]| {
+            largest(&mut own.iter().filter(|face| others.binary_search(face).is_err()))
+                .or_else(|| largest(&mut own.iter()))
+                .unwrap_or(0.0)
+        };
+        beyond(at_a, at_b).min(beyond(at_b, at_a))
+    }
+}
+
+/// What was removed from a mesh as rounding noise.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct Noise {
+    /// How many edges were contracted, and vertices joined where a gap, tunnel or bubble was closed.
+    pub collapsed: usize,
+    /// The largest distance by which a vertex moved in that, in the input's units.
+    pub thickest: f64,
+}
+
+impl Noise {
+    /// Counts vertices that moved.
+    pub(super) fn add(&mut self, collapsed: usize, moved: f64) {
+        self.collapsed += collapsed;
+        self.thickest = self.thickest.max(moved);
+    }
+}
+
+/// The height up to which a triangle is noise, by its own coordinates.
+pub(super) fn noise_height(corners: [DVec3; 3]) -> f64 {
+    CONTRACTION * largest_coordinate(corners.into_iter())
+}
+
+/// Takes rounding noise out of a mesh that the weld made, and says how much.
+pub(crate) fn remove_noise(mesh: &mut Mesh) -> Noise {
+    let mut noise = Noise::default();
+    super::contract::contract_noise(mesh, &mut noise);
+    super::collapse::collapse_thin(mesh, &mut noise);
+    super::flip_caps::flip_caps(mesh);
+    noise
+}
