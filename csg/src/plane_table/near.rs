@@ -190,13 +190,14 @@ fn cells_around(unit: &[f64; 4], size: f64) -> impl Iterator<Item = [i64; 4]> + 
         .map(move |corner| std::array::from_fn(|k| if corner >> k & 1 == 0 { low[k] } else { high[k] }))
 }
 
-/// The cell of a plane: its offset is divided by the power of two that is at its distance, or at the smallest size, and that power is
-/// part of the cell.
+/// The cell of a plane. Its offset is divided by the power of two that is at its distance, or at the smallest size, and that power is part
+/// of the cell; both sides of 0 are cut alike, so that what is within the tolerance is in two cells at most, also where the power changes.
 fn cell([x, y, z, d]: &[f64; 4], size: f64) -> [i64; 4] {
     let exponent = d.abs().max(size).max(f64::MIN_POSITIVE).to_bits() >> 52;
     let power = f64::from_bits(exponent << 52);
-    let [x, y, z, share] = [*x, *y, *z, d / power].map(share_cell);
-    [x, y, z, share + (exponent.cast_signed() << 34)]
+    let [x, y, z, share] = [*x, *y, *z, d.abs() / power].map(share_cell);
+    let offset = share + (exponent.cast_signed() << 34);
+    [x, y, z, if *d < 0.0 { !offset } else { offset }]
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "components of unit normals, and shares below 2")]
