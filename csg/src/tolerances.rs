@@ -5,20 +5,28 @@
 //! arithmetic decides, and stand where they are derived.
 
 /// Planes whose unit normals and relative offsets differ by at most this are taken to be one plane that went through
-/// rotations or decimal text, relative to the largest distance of a plane from the origin.
+/// rotations or decimal text. Offsets are relative to the larger distance of the two planes from the origin, or to the size of the smallest
+/// body where that is larger ([`smallest_size`](crate::stages::smallest_size)).
 ///
 /// Decides: which plane a body gets, before anything else is decided; what was snapped is counted
 /// ([`ModelSummary::snapped_planes`](crate::ModelSummary::snapped_planes)). Of the topology: all of it follows from the planes. Any set of
 /// half-spaces is a valid convex body, so the mesh is closed whatever is snapped.
 pub const SNAP_TOLERANCE: f64 = 1e-12;
 
-/// Edges of the finished mesh that are shorter than this share of its largest coordinate, and triangles that are lower, come from
-/// planes that were meant to meet in a point: noise of decimal text or rotations is some `1e-15`, what anybody models is far longer.
+/// Edges of the finished mesh that are shorter than this share of the coordinates of the faces at their ends, and triangles that are lower
+/// than this share of their own, come from planes that were meant to meet in a point: noise of decimal text or rotations is some `1e-15`, what anybody models is far longer.
 ///
 /// Decides: which edges are contracted, which triangles without height are flipped away, and which tunnels, gaps and bubbles
 /// collapse. Of the topology: contraction and flips leave it; the collapse changes it, and the mesh stays a closed, oriented
 /// 2-manifold. The measures are taken before ([`SolidMeasures`](crate::SolidMeasures)), so they do not see it.
 pub const CONTRACTION: f64 = 1e-12;
+
+/// How far volume and area of a finished mesh may be from those of the exact boundary, as a share of the area, beyond what rounding of the
+/// vertices explains; and how far a vertex may have moved as noise, as a share of the largest coordinate.
+///
+/// Decides: whether a mesh leaves. Where removing noise breaks this, the noise stays; otherwise it is a
+/// [`WeldError`](crate::WeldError).
+pub const PROOF: f64 = 1e-9;
 
 /// How deep a corner may lie in an ear that is cut where no ear is free of corners, relative to the largest coordinate of the face.
 ///

@@ -10,7 +10,7 @@ use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::Mesh;
-use super::noise::{Noise, noise_edges};
+use super::noise::{Noise, NoiseEdge};
 use crate::base::by_group;
 
 /// Contracts edges of at most `length` (in the mesh's units) and gives how many went. Edges whose contraction would change
@@ -27,9 +27,8 @@ pub fn contract_edges(mesh: &mut Mesh, is_short: impl Fn(DVec3, DVec3) -> bool) 
     if short.is_empty() { 0 } else { contract_listed(mesh, short, |_| &is_short).became.len() }
 }
 
-/// Contracts the edges that are rounding noise, shortest first; otherwise as [`contract_short_edges`].
-pub(super) fn contract_noise(mesh: &mut Mesh, noise: &mut Noise) {
-    let edges = noise_edges(mesh);
+/// Contracts edges that are rounding noise, in the order given; otherwise as [`contract_short_edges`].
+pub(super) fn contract_noise(mesh: &mut Mesh, edges: &[NoiseEdge], noise: &mut Noise) {
     if edges.is_empty() {
         return;
     }

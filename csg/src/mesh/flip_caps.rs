@@ -14,8 +14,7 @@ use super::noise::noise_height;
 /// Flips away triangles whose height is rounding noise, where that makes no edge that is there already. Faces that lose all their
 /// triangles are dropped.
 pub(super) fn flip_caps(mesh: &mut Mesh) {
-    let all = (0..number32(mesh.triangles.len())).into_par_iter().with_min_len(2048);
-    let mut caps: Vec<u32> = all.filter(|t| is_flat(mesh, *t)).collect();
+    let mut caps = flat_triangles(mesh);
     if caps.is_empty() {
         return;
     }
@@ -34,6 +33,12 @@ pub(super) fn flip_caps(mesh: &mut Mesh) {
     mesh.triangles = order.iter().map(|t| mesh.triangles[*t]).collect();
     mesh.triangle_faces.sort_unstable();
     mesh.drop_empty_faces();
+}
+
+/// The triangles whose height is noise.
+pub(super) fn flat_triangles(mesh: &Mesh) -> Vec<u32> {
+    let all = (0..number32(mesh.triangles.len())).into_par_iter().with_min_len(2048);
+    all.filter(|t| is_flat(mesh, *t)).collect()
 }
 
 /// Whether the height of a triangle is noise.

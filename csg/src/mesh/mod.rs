@@ -6,6 +6,7 @@ mod contract;
 mod flip_caps;
 mod measures;
 mod noise;
+mod proof;
 
 use crate::ids::number32;
 use glam::DVec3;
@@ -14,7 +15,8 @@ use crate::model::{Material, MaterialId};
 pub use contract::{contract_edges, contract_short_edges};
 pub use measures::SolidMeasures;
 pub use noise::Noise;
-pub(crate) use noise::remove_noise;
+pub(crate) use noise::without_noise;
+pub(crate) use proof::{Flaw, prove};
 
 /// One planar, connected region of a [`Mesh`] with one material.
 #[derive(Debug, Clone, Copy, PartialEq)]

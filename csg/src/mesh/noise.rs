@@ -9,6 +9,9 @@ use planecut_parallel::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::Mesh;
+use super::collapse::collapse_thin;
+use super::contract::contract_noise;
+use super::flip_caps::{flat_triangles, flip_caps};
 use crate::tolerances::CONTRACTION;
 
 /// An edge that is short enough to be noise.
@@ -112,11 +115,16 @@ pub(super) fn noise_height(corners: [DVec3; 3]) -> f64 {
     CONTRACTION * largest_coordinate(corners.into_iter())
 }
 
-/// Takes rounding noise out of a mesh that the weld made, and says how much.
-pub(crate) fn remove_noise(mesh: &mut Mesh) -> Noise {
-    let mut noise = Noise::default();
-    super::contract::contract_noise(mesh, &mut noise);
-    super::collapse::collapse_thin(mesh, &mut noise);
-    super::flip_caps::flip_caps(mesh);
-    noise
+/// A mesh without the rounding noise of another that the weld made, and how much that was; nothing where there is none.
+pub(crate) fn without_noise(mesh: &Mesh) -> Option<(Mesh, Noise)> {
+    let edges = noise_edges(mesh);
+    let caps = flat_triangles(mesh);
+    if edges.is_empty() && caps.is_empty() {
+        return None;
+    }
+    let (mut cleared, mut noise) = (mesh.clone(), Noise::default());
+    contract_noise(&mut cleared, &edges, &mut noise);
+    collapse_thin(&mut cleared, &mut noise);
+    flip_caps(&mut cleared);
+    Some((cleared, noise))
 }

@@ -40,7 +40,7 @@ use thiserror::Error;
 use crate::base::{Clock, by_group, map_chunks};
 use crate::boundary::BoundaryEdge;
 use crate::ids::{EdgeId, HalfEdgeId, Id, PointId, RegionId, VertexId};
-use crate::mesh::{Mesh, MeshFace, Noise, SolidMeasures, remove_noise};
+use crate::mesh::{Flaw, Mesh, MeshFace, Noise, SolidMeasures, prove, without_noise};
 use crate::model::{Material, MaterialId};
 use crate::plane_table::{PlaneId, PlaneTable};
 use cancel::{HalfEdge, Pieces, Run};
@@ -75,6 +75,15 @@ pub enum WeldError {
         /// Number of the region.
         region: u32,
     },
+    /// An edge of the mesh is not used once each way.
+    #[error("internal error: the mesh is not closed; please report this model")]
+    OpenMesh,
+    /// A triangle faces against its face.
+    #[error("internal error: a face of the mesh is folded; please report this model")]
+    Folded,
+    /// Volume or area of the mesh are not those of the solid.
+    #[error("internal error: the mesh has another volume or area than the solid; please report this model")]
+    Measures,
     /// Around an edge, solid and empty wedges do not alternate.
     #[error(
         "internal error: faces around the edge between points {from} and {to} do not alternate; please report this model"
@@ -85,6 +94,16 @@ pub enum WeldError {
         /// The other.
         to: u32,
     },
+}
+
+impl From<Flaw> for WeldError {
+    fn from(flaw: Flaw) -> Self {
+        match flaw {
+            Flaw::Open => Self::OpenMesh,
+            Flaw::Folded => Self::Folded,
+            Flaw::Measures => Self::Measures,
+        }
+    }
 }
 
 impl WeldError {
@@ -141,8 +160,19 @@ pub(crate) fn weld(
     signs += counted;
     manifold::split_repeated_edges(&mut mesh, &mut labels, &pieces);
     let solid = nested.solid;
-    let noise = remove_noise(&mut mesh);
+    let (mesh, noise) = proven(mesh, &solid)?;
     Ok(Welded { mesh, solid, noise, signs, triangulation: begin.elapsed() })
+}
+
+/// The mesh without rounding noise, or, where that would damage it, with it; proven to be the boundary of the solid.
+fn proven(mesh: Mesh, solid: &SolidMeasures) -> Result<(Mesh, Noise), WeldError> {
+    if let Some((cleared, noise)) = without_noise(&mesh)
+        && prove(&cleared, solid, noise).is_ok()
+    {
+        return Ok((cleared, noise));
+    }
+    prove(&mesh, solid, Noise::default())?;
+    Ok((mesh, Noise::default()))
 }
 
 impl Regions {

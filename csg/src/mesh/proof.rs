@@ -1,0 +1,89 @@
+//! The last look at a mesh before it leaves: it must be the boundary that was found.
+//!
+//! The measures of the solid are taken from the exact loops of its faces, before these are triangulated and noise is removed. A mesh that
+//! is closed and has the same volume and area, and no triangle that faces the other way, has neither a fold nor a hole.
+
+use glam::DVec3;
+use planecut_parallel::prelude::*;
+
+use super::connectivity::HalfEdges;
+use super::{Mesh, Noise, SolidMeasures};
+use crate::tolerances::PROOF;
+
+/// Triangles that are summed one after the other, so that sums do not depend on the number of threads.
+const CHUNK: usize = 4096;
+
+/// What is wrong with a mesh.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Flaw {
+    /// An edge is not used once each way.
+    Open,
+    /// A triangle faces against its face.
+    Folded,
+    /// Volume or area are not those of the solid, or more was removed as noise than noise can be.
+    Measures,
+}
+
+/// Sums over triangles.
+#[derive(Debug, Clone, Copy, Default)]
+struct Sums {
+    six_volume: f64,
+    twice_area: f64,
+    perimeter: f64,
+    /// The largest amount by which a triangle that faces against its face exceeds what rounding explains; 0 where none does.
+    folded: f64,
+}
+
+impl Sums {
+    fn and(self, other: Self) -> Self {
+        Self {
+            six_volume: self.six_volume + other.six_volume,
+            twice_area: self.twice_area + other.twice_area,
+            perimeter: self.perimeter + other.perimeter,
+            folded: self.folded.max(other.folded),
+        }
+    }
+}
+
+/// Checks a mesh against the solid whose boundary it is to be.
+pub(crate) fn prove(mesh: &Mesh, solid: &SolidMeasures, noise: Noise) -> Result<(), Flaw> {
+    let coordinate = solid.min.abs().max(solid.max.abs()).max_element();
+    if noise.thickest > PROOF * coordinate {
+        return Err(Flaw::Measures);
+    }
+    if !HalfEdges::new(mesh.positions.len(), &mesh.triangles).are_all_paired() {
+        return Err(Flaw::Open);
+    }
+    // how far a vertex may be from where it is exactly
+    let off = f64::EPSILON * coordinate + noise.thickest;
+    let sums = sums(mesh, 0.5 * (solid.min + solid.max), off);
+    if sums.folded > 0.0 {
+        return Err(Flaw::Folded);
+    }
+    let (volume, area) = (sums.six_volume / 6.0, 0.5 * sums.twice_area);
+    let area_slack = PROOF * solid.area + 2.0 * off * sums.perimeter;
+    let volume_slack = (PROOF * solid.area.sqrt() + 4.0 * off) * solid.area;
+    let is_same = (area - solid.area).abs() <= area_slack && (volume - solid.volume).abs() <= volume_slack;
+    if is_same { Ok(()) } else { Err(Flaw::Measures) }
+}
+
+fn sums(mesh: &Mesh, middle: DVec3, off: f64) -> Sums {
+    let of_triangle = |(triangle, face): (&[u32; 3], &u32)| {
+        let [a, b, c] = triangle.map(|v| mesh.positions[v as usize] - middle);
+        let (ab, ac) = (b - a, c - a);
+        let normal = ab.cross(ac);
+        let perimeter = ab.length() + ac.length() + (c - b).length();
+        let against = -normal.dot(mesh.faces[*face as usize].normal);
+        Sums {
+            six_volume: a.dot(normal),
+            twice_area: normal.length(),
+            perimeter,
+            folded: against - 8.0 * off * perimeter,
+        }
+    };
+    let chunks = mesh.triangles.par_chunks(CHUNK).zip(mesh.triangle_faces.par_chunks(CHUNK));
+    let of_chunk = |(triangles, faces): (&[[u32; 3]], &[u32])| {
+        triangles.iter().zip(faces).map(of_triangle).fold(Sums::default(), Sums::and)
+    };
+    chunks.map(of_chunk).collect::<Vec<Sums>>().into_iter().fold(Sums::default(), Sums::and)
+}
