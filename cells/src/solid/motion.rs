@@ -36,7 +36,8 @@ impl Solid {
         let planes = (0..this.table.len() as u32).map(PlaneId::of_index);
         let moved: Vec<HalfSpace> =
             planes.map(|plane| transform.half_space(this.table.half_space(plane))).collect::<Result<_, _>>()?;
-        let planes_of = |cell: &'_ Cell| cell.planes().map(|(_, plane)| plane.plane.index() as usize).collect::<Vec<_>>();
+        let planes_of =
+            |cell: &'_ Cell| cell.planes().map(|(_, plane)| plane.plane.index() as usize).collect::<Vec<_>>();
         let cells: Vec<Vec<usize>> = this.cells.iter().map(|cell| planes_of(cell)).collect();
         let size = smallest_size(cells.iter().map(|planes| planes.iter().map(|plane| &moved[*plane])));
         let (table, ids) = PlaneTable::intern(&moved, size);

@@ -79,9 +79,8 @@ impl FaceSizes {
     /// lie along it, of these.
     fn at_ends(&self, [a, b]: [u32; 2]) -> f64 {
         let (at_a, at_b) = (&self.faces[&a], &self.faces[&b]);
-        let largest = |faces: &mut dyn Iterator<Item = &u32>| {
-            faces.map(|face| self.sizes[*face as usize]).reduce(f64::max)
-        };
+        let largest =
+            |faces: &mut dyn Iterator<Item = &u32>| faces.map(|face| self.sizes[*face as usize]).reduce(f64::max);
         let beyond = |own: &[u32], others: &[u32]| {
             largest(&mut own.iter().filter(|face| others.binary_search(face).is_err()))
                 .or_else(|| largest(&mut own.iter()))

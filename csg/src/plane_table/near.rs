@@ -5,8 +5,8 @@
 //! of the size of the smallest body. So neither a body far away nor a tool without end takes two planes of another body for one.
 
 use crate::ids::number32;
-use planecut_kernel::{DVec3, HalfSpace};
 use planecut_kernel::sign::Row;
+use planecut_kernel::{DVec3, HalfSpace};
 use planecut_parallel::prelude::*;
 use rustc_hash::FxHashMap;
 

@@ -15,12 +15,13 @@ impl Boundary<'_> {
         }
         holes.sort_by(order);
         for &hole in holes.iter() {
-            let bridge = self.visible_from(hole, outer);
-            self.connect(bridge, hole);
+            let proposed = self.visible_from(hole, outer);
+            let bridge = if self.sees(proposed, hole) { Some(proposed) } else { self.nearest_in_sight(hole, outer) };
+            self.connect(bridge.unwrap_or(proposed), hole);
         }
     }
 
-    /// A node of the outer ring that sees `hole`, the leftmost node of a hole.
+    /// A node of the outer ring that sees `hole`, the leftmost node of a hole, but for rounding: heights are those of the rounded points.
     ///
     /// The ray to the left meets an edge; its left end is seen unless some corner lies in the triangle between, and then
     /// the one at the smallest angle to the ray is. Sides are those of the exact points.
@@ -66,6 +67,44 @@ impl Boundary<'_> {
             }
         }
         best
+    }
+
+    /// The nearest node of the outer ring, of those to the left of `hole`, that sees it.
+    fn nearest_in_sight(&self, hole: NodeId, outer: NodeId) -> Option<NodeId> {
+        let corner = |node: NodeId| &self.nodes[node.index()].corner;
+        let is_left = |node: &NodeId| self.turns.order(corner(*node), corner(hole)).is_lt();
+        let mut nodes: Vec<NodeId> = self.ring(outer).filter(is_left).collect();
+        let distance = |node: &NodeId| self.at(*node).distance_squared(self.at(hole));
+        nodes.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
+        nodes.into_iter().find(|node| self.sees(*node, hole))
+    }
+
+    /// Whether a node of the outer ring sees the leftmost node of a hole, and its inside opens towards it: no edge of the ring crosses
+    /// the way between them, none of its corners lies on it. All by the exact points.
+    fn sees(&self, node: NodeId, hole: NodeId) -> bool {
+        let corner = |node: NodeId| &self.nodes[node.index()].corner;
+        let ends = [node, hole].map(|end| corner(end).point);
+        let (low, high) = (self.at(node).min(self.at(hole)), self.at(node).max(self.at(hole)));
+        let is_blocked = |from: NodeId| {
+            let to = self.next(from);
+            // correct rounding keeps the order of coordinates
+            let (min, max) = (self.at(from).min(self.at(to)), self.at(from).max(self.at(to)));
+            if min.cmpgt(high).any() || max.cmplt(low).any() || ends.contains(&corner(from).point) {
+                return false;
+            }
+            let side = self.turn(node, hole, from);
+            let is_between = || {
+                let order = |a: NodeId, b: NodeId| self.turns.order(corner(a), corner(b));
+                order(node, from) == order(from, hole)
+            };
+            if side == Sign::Zero {
+                return is_between();
+            }
+            !ends.contains(&corner(to).point)
+                && self.turn(node, hole, to) == side.flip()
+                && self.turn(from, to, node) == self.turn(from, to, hole).flip()
+        };
+        self.opens_towards(node, hole) && !self.ring(node).any(is_blocked)
     }
 
     /// Whether the inside at `node` lies towards `other`.

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use planecut_check::{CheckOptions, check_mesh};
-use planecut_csg::Operation::Xor;
+use planecut_csg::Operation::{Intersection, Union, Xor};
 use planecut_csg::{Brush, Material, MaterialId, Model, Transform, Tree, UnboundedBrushes};
 use planecut_shapes::primitives::sphere;
 
@@ -77,4 +77,53 @@ fn no_triangle_without_height_is_left() {
         let [a, b, c] = triangle.map(|v| mesh.positions[v as usize]);
         assert!((b - a).cross(c - a).length() > 1e-6, "{a} {b} {c}");
     }
+}
+
+/// Planes of any directions that nearly meet in points: two triangles of a face lay folded on each other, which only its area showed.
+#[test]
+fn a_face_is_not_folded() {
+    let shape = node(
+        Intersection,
+        vec![
+            leaf(&[
+                ([1.0, 0.0, 0.0], 3.0),
+                ([-1.0, -0.0, -0.0], 3.0),
+                ([0.0, 1.0, 0.0], 3.0),
+                ([-0.0, -1.0, -0.0], 3.0),
+                ([0.0, 0.0, 1.0], 3.0),
+                ([-0.0, -0.0, -1.0], 3.0),
+            ]),
+            node(
+                Union,
+                vec![
+                    node(
+                        Xor,
+                        vec![
+                            leaf(&[
+                                ([-3.4096065144704326, -1.5390985326415123, -0.0758888878659274], 1.6090593796801431),
+                                ([-3.0851485877379003, -2.912299559441063, 0.019221541515327623], 1.9179065951708179),
+                            ]),
+                            leaf(&[
+                                ([1.4148131795354684, -2.523661783946116, 0.7933693132852092], 0.13500619552154192),
+                                ([2.235719587987576, 2.789448085919208, 1.1047792991590342], -1.9135258848005627),
+                                ([-1.4482629784608876, -0.5453693354371001, -2.9334462042424594], 1.443683996009168),
+                            ]),
+                            leaf(&[(
+                                [2.2642421792857927, -2.4008103104242617, -0.3306315273891526],
+                                0.13062548515128686,
+                            )]),
+                            leaf(&[
+                                ([-0.6085027466977129, -1.3961637041902752, 2.9462605652526777], -0.16507959922862248),
+                                ([2.6221499049437442, -0.7049802178405956, 1.9045557929493526], -1.1392174908887482),
+                                ([-0.1573945793726912, 1.1734234345372903, -3.5494090197753767], 0.6477678346884301),
+                            ]),
+                        ],
+                    ),
+                    leaf(&[([-0.8828787986757438, -3.191882592905071, -1.0160760502828883], 1.5830709019009648)]),
+                ],
+            ),
+        ],
+    );
+    let evaluation = evaluate_soundly_with(&shape.model(), UnboundedBrushes::Keep).expect("a sound mesh");
+    check_volume(&shape, &evaluation).unwrap();
 }
