@@ -16,7 +16,7 @@ pub use contract::{contract_edges, contract_short_edges};
 pub use measures::SolidMeasures;
 pub use noise::Noise;
 pub(crate) use noise::without_noise;
-pub(crate) use proof::{Flaw, prove};
+pub(crate) use proof::{Flaw, prove, prove_cleared};
 
 /// One planar, connected region of a [`Mesh`] with one material.
 #[derive(Debug, Clone, Copy, PartialEq)]

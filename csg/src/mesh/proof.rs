@@ -30,6 +30,8 @@ struct Sums {
     six_volume: f64,
     twice_area: f64,
     perimeter: f64,
+    /// Products of lengths whose rounding is in the volume.
+    cubes: f64,
     /// The largest amount by which a triangle that faces against its face exceeds what rounding explains; 0 where none does.
     folded: f64,
 }
@@ -40,13 +42,19 @@ impl Sums {
             six_volume: self.six_volume + other.six_volume,
             twice_area: self.twice_area + other.twice_area,
             perimeter: self.perimeter + other.perimeter,
+            cubes: self.cubes + other.cubes,
             folded: self.folded.max(other.folded),
         }
     }
 }
 
-/// Checks a mesh against the solid whose boundary it is to be.
-pub(crate) fn prove(mesh: &Mesh, solid: &SolidMeasures, noise: Noise) -> Result<(), Flaw> {
+/// Checks a mesh as the weld made it against the solid whose boundary it is to be.
+pub(crate) fn prove(mesh: &Mesh, solid: &SolidMeasures) -> Result<(), Flaw> {
+    prove_cleared(mesh, solid, mesh, Noise::default())
+}
+
+/// Checks a mesh from which noise was removed, and which was another one before.
+pub(crate) fn prove_cleared(mesh: &Mesh, solid: &SolidMeasures, before: &Mesh, noise: Noise) -> Result<(), Flaw> {
     let coordinate = solid.min.abs().max(solid.max.abs()).max_element();
     if noise.thickest > PROOF * coordinate {
         return Err(Flaw::Measures);
@@ -56,18 +64,21 @@ pub(crate) fn prove(mesh: &Mesh, solid: &SolidMeasures, noise: Noise) -> Result<
     }
     // how far a vertex may be from where it is exactly
     let off = f64::EPSILON * coordinate + noise.thickest;
-    let sums = sums(mesh, 0.5 * (solid.min + solid.max), off);
+    let middle = 0.5 * (solid.min + solid.max);
+    let sums = sums_of(mesh, middle, off);
+    // of what is gone, too
+    let moved = if noise == Noise::default() { sums } else { sums_of(before, middle, off) };
     if sums.folded > 0.0 {
         return Err(Flaw::Folded);
     }
     let (volume, area) = (sums.six_volume / 6.0, 0.5 * sums.twice_area);
-    let area_slack = PROOF * solid.area + 2.0 * off * sums.perimeter;
-    let volume_slack = (PROOF * solid.area.sqrt() + 4.0 * off) * solid.area;
+    let area_slack = PROOF * solid.area + 4.0 * off * moved.perimeter;
+    let volume_slack = (PROOF * solid.area.sqrt() + 4.0 * off) * solid.area + 4.0 * f64::EPSILON * moved.cubes;
     let is_same = (area - solid.area).abs() <= area_slack && (volume - solid.volume).abs() <= volume_slack;
     if is_same { Ok(()) } else { Err(Flaw::Measures) }
 }
 
-fn sums(mesh: &Mesh, middle: DVec3, off: f64) -> Sums {
+fn sums_of(mesh: &Mesh, middle: DVec3, off: f64) -> Sums {
     let of_triangle = |(triangle, face): (&[u32; 3], &u32)| {
         let [a, b, c] = triangle.map(|v| mesh.positions[v as usize] - middle);
         let (ab, ac) = (b - a, c - a);
@@ -78,6 +89,7 @@ fn sums(mesh: &Mesh, middle: DVec3, off: f64) -> Sums {
             six_volume: a.dot(normal),
             twice_area: normal.length(),
             perimeter,
+            cubes: a.length() * ab.length() * ac.length(),
             folded: against - 8.0 * off * perimeter,
         }
     };
