@@ -24,6 +24,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+mod axis;
 mod bvh;
 mod components;
 mod contact;
