@@ -102,6 +102,21 @@ impl<'a> PairTest<'a> {
         self.limit * self.unit
     }
 
+    /// How far apart triangles may be that have a contact, in the units of [`Self::scaled_corners`].
+    pub(crate) fn margin(&self) -> f64 {
+        self.limit.max(self.slack)
+    }
+
+    /// The positions, scaled so that no product of them over- or underflows.
+    pub(crate) fn scaled(&self) -> &[DVec3] {
+        &self.scaled
+    }
+
+    /// The corners of a triangle, scaled so that no product of them over- or underflows.
+    pub(crate) fn scaled_corners(&self, triangle: usize) -> Triangle {
+        self.corners(triangle, &self.scaled)
+    }
+
     /// A box such that triangles whose boxes do not meet have no contact.
     pub(crate) fn bounds(&self, triangle: usize) -> Aabb {
         Aabb::of_points(&self.corners(triangle, &self.scaled)).grown(self.limit / 2.0)
