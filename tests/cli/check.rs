@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use planecut_testkit::data::data;
+
 use crate::support::{agree, block, folder, keep, planecut, write_map};
 
 /// A tetrahedron with one corner at `(x, 0, 0)`, as OBJ; its vertices are numbered from `first`.
@@ -129,3 +131,30 @@ fn only_stl_loses_where_a_solid_touches_itself() {
         }
     }
 }
+
+/// Slivers, needles along one line, and fins thinner than single precision can say.
+fn outputs_thinner_than_the_tolerance_are_sound() {
+    let folder = folder();
+    for name in ["pencilrot_6_check_cross.json", "keys.csg", "mfxsp20.map"] {
+        let model = data(&format!("regressions/{name}"));
+        for format in ["obj", "glb"] {
+            let mesh = folder.path().join(format!("a.{format}"));
+            planecut(["build".as_ref(), model.as_os_str(), "-q".as_ref(), "-o".as_ref(), mesh.as_ref()])
+                .expect_quiet_success();
+            planecut(["check".as_ref(), mesh.as_os_str()]).expect_quiet_success();
+        }
+    }
+}
+
+fn many_copies_and_corners_are_told_by_topology() {
+    let cases = [("ngon4000", "open edge"), ("dup400", "used 400 times"), ("deg8000", "names one vertex twice")];
+    for (name, words) in cases {
+        let mesh = data(&format!("regressions/{name}.obj"));
+        planecut(["check".as_ref(), mesh.as_os_str()]).expect_error(1, words);
+    }
+}
+
+planecut_testkit::tests_on_data!(
+    outputs_thinner_than_the_tolerance_are_sound,
+    many_copies_and_corners_are_told_by_topology,
+);
