@@ -27,6 +27,11 @@ impl Components {
         self.0[a.max(b) as usize] = a.min(b);
     }
 
+    /// A number for each element that those of its component have and no others.
+    pub(crate) fn labels(mut self) -> Vec<u32> {
+        (0..self.0.len() as u32).map(|i| self.root(i)).collect()
+    }
+
     /// Number of components that hold one of the given elements.
     ///
     /// No component may hold both given and other elements: then each is counted at its root.

@@ -115,6 +115,15 @@ impl EdgeMatching {
     }
 }
 
+/// A number for each triangle, the same where triangles are connected through edges that two of them share.
+pub(crate) fn surfaces(twins: &[u32]) -> Vec<u32> {
+    let mut components = Components::new(twins.len() / 3);
+    for (half_edge, &twin) in twins.iter().enumerate().filter(|(_, twin)| **twin != NO_TWIN) {
+        components.join(half_edge as u32 / 3, twin / 3);
+    }
+    components.labels()
+}
+
 /// Whether a triangle names one vertex twice.
 pub(crate) fn has_repeated_index([a, b, c]: [u32; 3]) -> bool {
     a == b || b == c || c == a

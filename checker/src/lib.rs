@@ -24,12 +24,16 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+mod axis;
 mod bvh;
 mod components;
 mod contact;
 mod crossing;
 mod edges;
+mod forest;
+mod hubs;
 mod measure;
+mod obb;
 mod options;
 mod orient;
 mod pair;

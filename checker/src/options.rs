@@ -5,6 +5,8 @@
 /// Rounding to `f64` moves a vertex by up to `√3 · 2^-53` of its largest coordinate and a depth by twice that, `4e-16`; the rest
 /// is room for positions that were computed, or printed with ten digits or more.
 pub const TOLERANCE_F64: f64 = 1e-9;
+/// How far rounding positions to `f32` moves a depth at most, relative to the largest coordinate: `2 √3 · 2^-24`, rounded down.
+pub(crate) const ROUNDING_F32: f64 = 2.06e-7;
 /// Tolerance for positions that were rounded to `f32`: a depth moves by up to `2 √3 · 2^-24 ≈ 2.1e-7` of the largest coordinate.
 pub const TOLERANCE_F32: f64 = 4e-7;
 
@@ -17,7 +19,10 @@ pub struct CheckOptions {
     /// - A *crossing* counts where two triangles share interior points (by exact signs), no plane holds both, and neither can be
     ///   moved by the tolerance or less so that they only touch. Triangles that share corners or edges are no exception.
     /// - An *overlap* counts where one triangle lies in the plane of a larger one within the tolerance and they share area,
-    ///   a hundred times deeper in the plane than the tolerance, and both are wider than it.
+    ///   a hundred times deeper in the plane than the tolerance, and both are wider than it. Solids and gaps thinner than the
+    ///   tolerance are none. So triangles that face opposite ways count only where they lie in one plane to the last digits of `f64`, and
+    ///   not at all where the tolerance allows for positions in `f32`, which closes such gaps. Triangles that face the same way count where exact
+    ///   signs say that they meet, and in `f32` where both are of one connected surface, which is folded there.
     /// - An *edge crossing* counts where surfaces pass through each other along an edge, all four wings reaching a hundred
     ///   times the tolerance from it at angles above one degree.
     ///

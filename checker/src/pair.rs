@@ -4,6 +4,8 @@ use glam::DVec3;
 
 use crate::bvh::Aabb;
 use crate::contact::{Contact, ContactKind};
+use crate::edges::surfaces;
+use crate::options::ROUNDING_F32;
 use crate::parallel;
 use crate::separation::{Triangle, interiors_cross, interiors_overlap, normal, overlap_depth, penetration_depth};
 use crate::sheet::Sheets;
@@ -21,10 +23,14 @@ pub(crate) struct PairTest<'a> {
     triangles: &'a [[u32; 3]],
     twins: &'a [u32],
     planes: Vec<Plane>,
+    /// Which surface each triangle belongs to.
+    surfaces: Vec<u32>,
     /// Depths up to this do not count.
     limit: f64,
     /// How far a computed depth may be from the true one.
     slack: f64,
+    /// Whether rounding to `f32` may have put a vertex as far away as depths that do not count.
+    is_single: bool,
 }
 
 /// The computed plane of a triangle. Its direction may be badly wrong for a narrow triangle; `thickness` tells.
@@ -86,12 +92,29 @@ impl<'a> PairTest<'a> {
         let scale = if triangles.is_empty() { 0.0 } else { extent.min.distance(extent.max).max(largest) };
         let planes = parallel::map(triangles.len(), |t| Plane::of(&corners(&triangles[t])));
         let (limit, slack) = (tolerance * scale, ROUNDING * scale);
-        Self { positions, unit, triangles, twins, planes, limit, slack, scaled }
+        let is_single = tolerance >= ROUNDING_F32;
+        let surfaces = surfaces(twins);
+        Self { positions, unit, triangles, twins, planes, surfaces, limit, slack, is_single, scaled }
     }
 
     /// Depth up to which contacts do not count, in the units of the positions.
     pub(crate) fn limit(&self) -> f64 {
         self.limit * self.unit
+    }
+
+    /// How far apart triangles may be that have a contact, in the units of [`Self::scaled_corners`].
+    pub(crate) fn margin(&self) -> f64 {
+        self.limit.max(self.slack)
+    }
+
+    /// The positions, scaled so that no product of them over- or underflows.
+    pub(crate) fn scaled(&self) -> &[DVec3] {
+        &self.scaled
+    }
+
+    /// The corners of a triangle, scaled so that no product of them over- or underflows.
+    pub(crate) fn scaled_corners(&self, triangle: usize) -> Triangle {
+        self.corners(triangle, &self.scaled)
     }
 
     /// A box such that triangles whose boxes do not meet have no contact.
@@ -146,12 +169,33 @@ impl<'a> PairTest<'a> {
         self.triangles[t].iter().filter(|v| self.triangles[u].contains(v)).count()
     }
 
+    /// The depth of an overlap in one plane.
+    ///
+    /// What the tolerance calls one plane may be solids and gaps thinner than that, which are sound. Two layers that face opposite ways bound
+    /// one, where a move by less than the tolerance parts them: only where they are in one plane to the last digits they are two walls
+    /// at one place. Layers that face the same way have a third one between them, or are of two bodies: no small move mends that once they meet.
     fn overlap(&self, t: usize, u: usize, a: &Triangle, b: &Triangle) -> Option<f64> {
-        if !self.is_exact() {
-            return overlap_depth(a, b, self.limit);
+        let [a_exact, b_exact] = [t, u].map(|triangle| self.corners(triangle, self.positions));
+        if self.is_exact() {
+            return interiors_overlap(&a_exact, &b_exact).then(|| overlap_depth(a, b, self.slack).unwrap_or(0.0));
         }
-        let overlaps = interiors_overlap(&self.corners(t, self.positions), &self.corners(u, self.positions));
-        overlaps.then(|| overlap_depth(a, b, self.slack).unwrap_or(0.0))
+        let depth = overlap_depth(a, b, self.limit)?;
+        let is_within = |distance: f64| overlap_depth(a, b, distance).is_some();
+        let is_one_plane = is_within(self.slack) || interiors_overlap(&a_exact, &b_exact);
+        let counts = if normal(a).dot(normal(b)) < 0.0 {
+            // Rounding to `f64` leaves the sides of a fin or a gap apart, as far as what made them can tell; rounding to `f32` may make them one.
+            is_one_plane && !self.is_single
+        } else {
+            let may_be_fold = || self.is_single && self.surfaces[t] == self.surfaces[u];
+            is_one_plane || interiors_cross(&a_exact, &b_exact) || may_be_fold() && is_within(self.rounding(a, b))
+        };
+        counts.then_some(depth)
+    }
+
+    /// How far apart rounding to `f32` may put what was in one plane.
+    fn rounding(&self, a: &Triangle, b: &Triangle) -> f64 {
+        let largest = a.iter().chain(b).fold(0.0, |m: f64, p| m.max(p.abs().max_element()));
+        (ROUNDING_F32 * largest).max(self.slack)
     }
 }
 

@@ -33,9 +33,6 @@ pub enum TopologyDefect {
         /// The vertex.
         vertex: usize,
     },
-    /// A mesh without triangles bounds nothing.
-    #[error("the mesh has no triangles")]
-    Empty,
     /// A triangle names one vertex twice.
     #[error("triangle {triangle} names one vertex twice")]
     DegenerateTriangle {
@@ -87,7 +84,7 @@ pub struct TopologyReport {
     pub euler_characteristic: i64,
     /// Number of handles, summed over components: `(2 - χ) / 2` each. Only manifold meshes have one.
     pub genus: Option<i64>,
-    /// Every edge is used equally often in both directions, and there is at least one triangle.
+    /// Every edge is used equally often in both directions. A mesh without triangles is so: the whole boundary of the empty solid.
     pub watertight: bool,
     /// Watertight, and in addition every edge is used once in each direction, and the triangles around each vertex form one fan.
     pub manifold: bool,
@@ -118,7 +115,6 @@ pub(crate) fn analyse(positions: &[DVec3], triangles: &[[u32; 3]]) -> (TopologyR
     let first_degenerate = (0..triangles.len()).find(degenerate);
     let (used, pinched, first_pinched) = count_fans(positions.len(), triangles, &edges.twins);
     let defects = [
-        triangles.is_empty().then_some(TopologyDefect::Empty),
         edges.first_open.map(|(a, b)| TopologyDefect::OpenEdge { a, b }),
         first_degenerate.map(|triangle| TopologyDefect::DegenerateTriangle { triangle }),
         edges.first_multiple.map(|((a, b), uses)| TopologyDefect::DuplicateEdge { a, b, uses }),
@@ -137,7 +133,7 @@ pub(crate) fn analyse(positions: &[DVec3], triangles: &[[u32; 3]]) -> (TopologyR
         components: edges.components,
         euler_characteristic,
         genus: manifold.then_some((2 * edges.components as i64 - euler_characteristic) / 2),
-        watertight: edges.open == 0 && !triangles.is_empty(),
+        watertight: edges.open == 0,
         manifold,
         degenerate_triangles,
         open_edges: edges.open,

@@ -1,7 +1,7 @@
 //! `planecut check`: is a mesh watertight, manifold and not self-crossing?
 
 use planecut::check::{CheckOptions, CheckReport, TOLERANCE_F32, TOLERANCE_F64, check_mesh};
-use planecut::import::mesh::{MeshFormat, Precision, read_mesh};
+use planecut::import::mesh::{MeshFormat, Precision, read_mesh_or_empty};
 
 use super::args::CheckArgs;
 use super::error::CliError;
@@ -37,13 +37,16 @@ fn check(
     progress: &Progress,
 ) -> Result<CheckReport, CliError> {
     progress.stage("reading");
-    let mesh = read_mesh(&input.read()?, format, &input.name())?;
+    let mesh = read_mesh_or_empty(&input.read()?, format, &input.name())?;
     let tolerance = tolerance.unwrap_or(match mesh.precision {
         Precision::Single => TOLERANCE_F32,
         Precision::Double | Precision::Digits(_) | Precision::Places(_) => TOLERANCE_F64,
     });
     progress.stage("checking");
-    Ok(check_mesh(&mesh.positions, &mesh.triangles, &CheckOptions { tolerance, crossings: true }))
+    let check = |crossings| check_mesh(&mesh.positions, &mesh.triangles, &CheckOptions { tolerance, crossings });
+    // Crossings are sought only where nothing worse is to be told: what is open, doubled or degenerate may have them by the million.
+    let report = check(false);
+    Ok(if report.is_sound() { check(true) } else { report })
 }
 
 fn describe(input: &Input, report: &CheckReport) -> String {

@@ -206,13 +206,9 @@ pub(crate) struct MeshPart {
 }
 
 impl MeshPart {
-    /// The mesh of a model. One without triangles is the whole boundary of the empty solid: closed.
+    /// The mesh of a model.
     pub(crate) fn of_solid(topology: &TopologyReport, faces: usize) -> Self {
-        let part = Self::new(topology, Some(faces));
-        if topology.triangles > 0 {
-            return part;
-        }
-        Self { genus: Some(0), watertight: true, manifold: true, ..part }
+        Self::new(topology, Some(faces))
     }
 
     /// What a file holds of this mesh. Where no triangle is missing there, only the volume is another.

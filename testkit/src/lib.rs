@@ -3,7 +3,7 @@
 //! - [`random`]: the one seeded generator; a printed seed repeats a test on every machine.
 //! - [`data`]: files that others made, and tests that are ignored where these are absent;
 //! - with the feature `csg`: [`scene`] builds, draws, shrinks and prints models, [`generate`] draws them at random,
-//!   [`soundness`] has what must hold of every mesh, [`sheets`] finds lines along which a surface passes through itself,
+//!   [`pencils`] draws those with many faces around a line, [`soundness`] has what must hold of every mesh, [`sheets`] finds lines along which a surface passes through itself,
 //!   [`meshes`] has some that are made by hand;
 //! - with the feature `cells`: [`shape`] has trees whose value at a point is known from their half-spaces alone;
 //! - with the feature `serde`: [`saved`] writes data types and reads them again.
@@ -15,6 +15,8 @@ pub mod data;
 pub mod generate;
 #[cfg(feature = "csg")]
 pub mod meshes;
+#[cfg(feature = "csg")]
+pub mod pencils;
 pub mod random;
 #[cfg(feature = "serde")]
 pub mod saved;

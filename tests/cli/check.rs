@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use planecut_testkit::data::data;
+
 use crate::support::{agree, block, folder, keep, planecut, write_map};
 
 /// A tetrahedron with one corner at `(x, 0, 0)`, as OBJ; its vertices are numbered from `first`.
@@ -68,6 +70,31 @@ fn what_is_no_mesh_is_unusable() {
     }
 }
 
+/// Nothing is the boundary of nothing.
+#[test]
+fn an_empty_mesh_is_sound() {
+    let folder = folder();
+    let nothing = r#"{"planecut": 1, "model": {"difference": [{"box": {"min": [0,0,0], "max": [1,1,1]}}, {"box": {"min": [0,0,0], "max": [2,2,2]}}]}}"#;
+    let model = folder.path().join("nothing.json");
+    std::fs::write(&model, nothing).expect("written");
+    for format in ["glb", "gltf", "obj", "stl", "ply"] {
+        let mesh = folder.path().join(format!("a.{format}"));
+        planecut(["build".as_ref(), model.as_os_str(), "-q".as_ref(), "-o".as_ref(), mesh.as_ref()])
+            .expect_quiet_success();
+        let run = planecut(["check".as_ref(), mesh.as_os_str()]).expect_quiet_success();
+        let line = String::from_utf8(run.stdout).expect("UTF-8");
+        assert!(line.contains("watertight, manifold, not self-crossing; vertices 0, triangles 0"), "{format}: {line}");
+    }
+}
+
+/// The defect of the indices is told, not the many crossings that come with it.
+#[test]
+fn topology_is_told_before_crossings() {
+    let doubled = tetrahedron(0.0, 1) + &"f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n".repeat(2);
+    not_sound(&doubled, "used 3 times in each direction");
+    not_sound(&(tetrahedron(0.0, 1) + &tetrahedron(1.0, 5) + "f 1 1 1\n"), "names one vertex twice");
+}
+
 /// Everything that is written can be read back, is sound, and has the volume of the report.
 #[test]
 fn what_build_writes_is_sound() {
@@ -104,3 +131,30 @@ fn only_stl_loses_where_a_solid_touches_itself() {
         }
     }
 }
+
+/// Slivers, needles along one line, and fins thinner than single precision can say.
+fn outputs_thinner_than_the_tolerance_are_sound() {
+    let folder = folder();
+    for name in ["pencilrot_6_check_cross.json", "keys.csg", "mfxsp20.map"] {
+        let model = data(&format!("regressions/{name}"));
+        for format in ["obj", "glb"] {
+            let mesh = folder.path().join(format!("a.{format}"));
+            planecut(["build".as_ref(), model.as_os_str(), "-q".as_ref(), "-o".as_ref(), mesh.as_ref()])
+                .expect_quiet_success();
+            planecut(["check".as_ref(), mesh.as_os_str()]).expect_quiet_success();
+        }
+    }
+}
+
+fn many_copies_and_corners_are_told_by_topology() {
+    let cases = [("ngon4000", "open edge"), ("dup400", "used 400 times"), ("deg8000", "names one vertex twice")];
+    for (name, words) in cases {
+        let mesh = data(&format!("regressions/{name}.obj"));
+        planecut(["check".as_ref(), mesh.as_os_str()]).expect_error(1, words);
+    }
+}
+
+planecut_testkit::tests_on_data!(
+    outputs_thinner_than_the_tolerance_are_sound,
+    many_copies_and_corners_are_told_by_topology,
+);

@@ -103,16 +103,33 @@ impl IndexedMesh {
 /// # Errors
 /// [`MeshError`] where the data is damaged, truncated or not of this format, refers to other files, or holds no triangle.
 pub fn read_mesh(bytes: &[u8], format: MeshFormat, name: &str) -> Result<IndexedMesh, MeshError> {
-    let read = match format {
+    let check = |mesh: IndexedMesh| if mesh.triangles.is_empty() { Err(no_triangles()) } else { Ok(mesh) };
+    read(bytes, format).and_then(check).map_err(|fault| fault.in_file(name))
+}
+
+/// Reads a mesh that may be empty: without triangles and without vertices. Otherwise as [`read_mesh`].
+///
+/// # Errors
+/// [`MeshError`] as [`read_mesh`], also where there are vertices without triangles. Of an OBJ file some statement must say that there is an object.
+pub fn read_mesh_or_empty(bytes: &[u8], format: MeshFormat, name: &str) -> Result<IndexedMesh, MeshError> {
+    let check = |mesh: IndexedMesh| {
+        let is_empty = mesh.positions.is_empty();
+        if mesh.triangles.is_empty() && !is_empty { Err(no_triangles()) } else { Ok(mesh) }
+    };
+    read(bytes, format).and_then(check).map_err(|fault| fault.in_file(name))
+}
+
+fn read(bytes: &[u8], format: MeshFormat) -> Result<IndexedMesh, Fault> {
+    match format {
         MeshFormat::Obj => obj::read(bytes),
         MeshFormat::Stl => stl::read(bytes),
         MeshFormat::Ply => ply::read(bytes),
         MeshFormat::Gltf => gltf::read(bytes),
-    };
-    let check = |mesh: IndexedMesh| {
-        if mesh.triangles.is_empty() { Err(Fault::new(Place::End, "no triangles", "at least one")) } else { Ok(mesh) }
-    };
-    read.and_then(check).map_err(|fault| fault.in_file(name))
+    }
+}
+
+fn no_triangles() -> Fault {
+    Fault::new(Place::End, "no triangles", "at least one")
 }
 
 /// The objects of a mesh of `count` triangles that starts a new one at each `(first triangle, name)`; empty ones are dropped.

@@ -9,7 +9,7 @@ use super::decimals::Decimals;
 use super::error::{Fault, Place, quoted};
 use super::polygon::{MAX_CONCAVE_CORNERS, triangulate};
 use super::text::finite;
-use super::{IndexedMesh, objects_from_starts};
+use super::{IndexedMesh, no_triangles, objects_from_starts};
 
 /// Reads an OBJ file. Faces may name vertices that are defined before them, by position from either end.
 pub(super) fn read(bytes: &[u8]) -> Result<IndexedMesh, Fault> {
@@ -19,6 +19,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<IndexedMesh, Fault> {
     }
     let ObjReader { positions, decimals, triangles, places, materials, material_of, objects, groups, .. } = reader;
     let starts = if objects.is_empty() { groups } else { objects };
+    if triangles.is_empty() && starts.is_empty() {
+        return Err(no_triangles());
+    }
     let objects = objects_from_starts(starts, triangles.len());
     let precision = decimals.precision();
     let material_of = if materials.is_empty() { Vec::new() } else { material_of };
