@@ -88,12 +88,12 @@ pub const PARALLEL_EDGES: f64 = 1e-6;
 /// Vertices of a written cell are farther from each other than this share of its size.
 ///
 /// Decides: which corners become one vertex; the cell grows until it holds them all, exactly.
-pub const WRITTEN_SEPARATION: f64 = 1.0 / (1u64 << 26) as f64;
+pub const WRITTEN_SEPARATION: f64 = 1.0 / (1u64 << 21) as f64;
 
 /// The same as a share of the size of all cells together, as far as [`MOST_WRITTEN_SEPARATION`] allows.
 ///
 /// Decides: which corners become one vertex in cells that are small among others; the cell grows until it holds them all, exactly.
-pub const WRITTEN_SEPARATION_OF_ALL: f64 = 1.0 / (1u64 << 29) as f64;
+pub const WRITTEN_SEPARATION_OF_ALL: f64 = 1.0 / (1u64 << 22) as f64;
 
 /// No separation that follows from the size of all cells is more than this share of a cell's own size.
 ///

@@ -33,6 +33,9 @@ use merge::{Clusters, distinct};
 /// How often the growth is doubled before a cell is refused: from one rounding to beyond the accepted range of coordinates.
 const MOST_GROWTHS: usize = 200;
 
+/// How often sharp corners are moved farther before the cell becomes its box.
+const MOST_SHARP: u32 = 4;
+
 /// What the vertices of written cells must fulfil.
 pub struct Writing<'a> {
     /// Factor from the units of the cells to those of the positions.
@@ -105,13 +108,16 @@ fn enclosing(corners: &Corners, writing: &Writing<'_>, separation: f64) -> Optio
     let stored = |places: &[DVec3]| distinct(&(writing.stored)(places), separation);
     let nearest = (writing.stored)(&clusters.places(corners));
     let first = 2.0 * clusters.largest_move(corners, &nearest).max(corners.rounding());
-    let (mut growth, mut shape) = (0.0, Shape::Rounded);
+    let (mut growth, mut shape, mut sharp) = (0.0, Shape::Rounded, 0);
     for _ in 0..MOST_GROWTHS {
         let positions = stored(&grown(corners, &clusters, growth, separation, shape));
+        sharp += u32::from(shape == Shape::Sharp);
         match around(&positions, &corners.holding) {
             Some(surface) if surface.0.len() <= writing.max_vertices => return Some(surface),
             // enclosed, but with more vertices than it may have
             Some(_) if shape != Shape::Box => shape = shape.with_fewer_vertices(),
+            // a corner of opposite faces can be moved as far as one likes
+            None if sharp > MOST_SHARP => (growth, shape, sharp) = (first, Shape::Box, 0),
             _ => growth = if growth == 0.0 { first } else { 2.0 * growth },
         }
     }
