@@ -10,11 +10,6 @@
 /// Decides: the material and source of a cell's face. Not its place.
 pub const SOURCE_DISTANCE: f64 = 1e-9;
 
-/// A point of the input may belong to a part that it is outside of by this share of the size of all.
-///
-/// Decides: which part encloses the point; each is enclosed exactly afterwards, whichever it is.
-pub const INPUT_POINT_DISTANCE: f64 = 1e-9;
-
 /// Facets of a trial hull whose normals have a larger cosine are one.
 ///
 /// Decides: how a trial hull is costed; the hulls that leave are built exactly.
@@ -89,3 +84,28 @@ pub const THICK_ENOUGH: f64 = 1e-9;
 ///
 /// Decides: in which directions the thickness is measured.
 pub const PARALLEL_EDGES: f64 = 1e-6;
+
+/// Vertices of a written cell are farther from each other than this share of its size.
+///
+/// Decides: which corners become one vertex; the cell grows until it holds them all, exactly.
+pub const WRITTEN_SEPARATION: f64 = 1.0 / (1u64 << 21) as f64;
+
+/// The same as a share of the size of all cells together, as far as [`MOST_WRITTEN_SEPARATION`] allows.
+///
+/// Decides: which corners become one vertex in cells that are small among others; the cell grows until it holds them all, exactly.
+pub const WRITTEN_SEPARATION_OF_ALL: f64 = 1.0 / (1u64 << 22) as f64;
+
+/// No separation that follows from the size of all cells is more than this share of a cell's own size.
+///
+/// Decides: how far a small cell among large ones may grow; it holds its corners, exactly.
+pub const MOST_WRITTEN_SEPARATION: f64 = 1.0 / (1u64 << 16) as f64;
+
+/// A corner whose faces all have a larger cosine to one direction is moved outward as it is written; a sharper one becomes several vertices.
+///
+/// Decides: the shape of written cells at knife edges, by their growth.
+pub const SHARP_CORNER: f64 = 0.125;
+
+/// A triangle of a written cell whose normal has a smaller cosine to all faces of the cell is a face of its own.
+///
+/// Decides: which face of a written cell a triangle belongs to.
+pub const SAME_FACE: f64 = 0.9;

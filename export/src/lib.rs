@@ -3,6 +3,7 @@
 //! - [`encode`] turns a [`planecut_csg::Mesh`] into the bytes of a mesh file ([`Format`]); [`encode_parts`]
 //!   does so for several named meshes in one file, and [`write_parts`] piece by piece. [`Format`] says what each format keeps of the mesh.
 //! - [`written`] tells what triangles such a file holds, where its precision is not that of the mesh.
+//! - [`stored_positions`] finds positions that such a file stores without rounding.
 //! - [`write_brushes`] puts convex bodies back into formats that editors open: a Quake map, or OpenSCAD's evaluated tree
 //!   ([`BrushFormat`]).
 //! - [`AtomicFile`] and [`write_atomic`] put bytes under a file name, completely or not at all.
@@ -22,6 +23,7 @@ mod obj;
 mod part;
 mod ply;
 mod stl;
+mod stored;
 mod surface;
 mod threemf;
 
@@ -32,6 +34,7 @@ pub use format::{Format, encode, encode_parts, write_parts, written};
 pub use material::{distinct_color, material_color};
 pub use obj::write_mtl;
 pub use part::{ExportOptions, Part, Projection, Shading, TextureMapping, Unit, Written};
+pub use stored::stored_positions;
 
 /// The example of the README, run as a test.
 #[cfg(doctest)]

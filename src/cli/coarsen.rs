@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use planecut::csg::coarsen::{CoarsenOptions, Coarsened, Coarsener};
 use planecut::csg::{Brush, EvaluateError, Material, MaterialId, Mesh, Model, Tree, evaluate};
-use planecut::export::{ExportOptions, distinct_color};
+use planecut::export::{ExportOptions, Format, distinct_color};
 use planecut::import::Warning;
 use planecut::import::mesh::{MeshImport, read_parts};
 use planecut::kernel::DVec3;
@@ -13,12 +13,13 @@ use planecut::kernel::DVec3;
 use super::args::CoarsenArgs;
 use super::error::CliError;
 use super::input::{Input, InputKind};
-use super::output::{MeshTarget, Output, Target, check_targets};
-use super::pieces::{NUMBER, Pieces, bounded_tree, brush_meshes};
-use super::product::{Contents, Product, draw, encode, first_written, produce};
+use super::output::{MeshTarget, Output, OutputFormat, Target, check_targets};
+use super::pieces::{NUMBER, bounded_tree};
+use super::product::{Contents, Product, draw, encode, produce};
 use super::progress::Progress;
 use super::report::{CoarsenPart, milliseconds};
 use super::solve::{Read, Solved, read, solve_read};
+use super::written_cells::{Request, WrittenCells};
 
 /// What is to be written where.
 struct Plan<'a> {
@@ -91,17 +92,13 @@ impl<'a> Plan<'a> {
         let begin = Instant::now();
         let coarsened = self.coarsen(&solved, &points, &self.args.limits.options(clear))?;
         let time = begin.elapsed();
-        let (cells, bodies) = self.cells(&coarsened, &solved)?;
+        let cells = self.cells(&coarsened, &solved)?;
         self.tell(&mut solved, &coarsened, &cells, time);
         solved.report.time_ms.evaluate += milliseconds(begin.elapsed());
         let begin = Instant::now();
         progress.stage("encoding");
-        let mut outputs = self.encode(&cells, &bodies, &solved)?;
+        let mut outputs = self.encode(&cells, &solved)?;
         let encoding = begin.elapsed();
-        let first = self.first.as_ref().filter(|_| self.report.is_some());
-        if let Some(written) = first_written(first, &cells.as_parts(&[]), &self.options())? {
-            solved.report.set_written(&written);
-        }
         if let Some(target) = &self.preview {
             let drawing = Instant::now();
             progress.stage("drawing");
@@ -138,17 +135,29 @@ impl<'a> Plan<'a> {
         coarsened.map_err(|source| CliError::Coarsen { path: self.input.path.clone(), source })
     }
 
-    /// The mesh of each cell that has one, and the same cells as bodies: what is thinner than rounding has none, and gets no number in any format.
-    fn cells(&self, coarsened: &Coarsened, solved: &Solved) -> Result<(Pieces, Vec<Brush>), CliError> {
-        let meshes = brush_meshes(&coarsened.cells, &solved.model.materials);
-        let meshes = meshes.map_err(|source| CliError::of_evaluation(&self.input.path, source))?;
-        let cells = meshes.into_iter().zip(coarsened.cells.iter().cloned());
-        let (meshes, bodies) = cells.filter(|(mesh, _)| !mesh.triangles.is_empty()).unzip();
-        Ok((Pieces::named(meshes, &self.args.name), bodies))
+    /// The cells as each of the formats holds them that are asked for.
+    fn cells(&self, coarsened: &Coarsened, solved: &Solved) -> Result<WrittenCells, CliError> {
+        let mesh_format = |target: &MeshTarget| match target.format {
+            OutputFormat::Mesh(format) => Some(format),
+            OutputFormat::Brushes(_) => None,
+        };
+        // double precision where the first output holds bodies, and for what is thinner than rounding among these
+        let formats = [self.first.as_ref().and_then(mesh_format).unwrap_or(Format::Obj), Format::Obj];
+        let formats = formats.into_iter().chain(self.meshes.iter().chain(&self.patterns).filter_map(mesh_format));
+        let request = Request {
+            materials: &solved.model.materials,
+            name: &self.args.name,
+            encloses: !self.args.limits.inner,
+            max_vertices: self.args.limits.max_vertices,
+            options: self.options(),
+            has_bodies: self.meshes.iter().chain(&self.patterns).any(|target| mesh_format(target).is_none()),
+        };
+        WrittenCells::of(&coarsened.cells, formats, &request)
+            .map_err(|source| CliError::Coarsen { path: self.input.path.clone(), source })
     }
 
     /// Tells the report and, where cells could not become so few, warns.
-    fn tell(&self, solved: &mut Solved, coarsened: &Coarsened, cells: &Pieces, time: Duration) {
+    fn tell(&self, solved: &mut Solved, coarsened: &Coarsened, cells: &WrittenCells, time: Duration) {
         solved.report.set_coarsen(CoarsenPart::new(coarsened, time), cells.measured());
         if let Some(asked) = self.args.limits.max_cells.filter(|asked| coarsened.cells.len() > *asked) {
             let found = coarsened.cells.len();
@@ -164,18 +173,21 @@ impl<'a> Plan<'a> {
         ExportOptions { convex_colliders: true, ..self.args.output.assets.options(self.args.output.scale) }
     }
 
-    fn encode(&self, cells: &Pieces, bodies: &[Brush], solved: &Solved) -> Result<Vec<Output>, CliError> {
-        let options = self.options();
-        let parts = cells.as_parts(&[]);
+    fn encode(&self, cells: &WrittenCells, solved: &Solved) -> Result<Vec<Output>, CliError> {
         let materials = &solved.model.materials;
-        let contents = Contents { parts: &parts, materials, brushes: &|| bodies.to_vec() };
-        let mut outputs = encode(&contents, &self.meshes, &options)?;
+        let mut outputs = Vec::new();
+        for mesh in &self.meshes {
+            let (pieces, options) = cells.in_format(mesh.format);
+            let contents = Contents { parts: &pieces.as_parts(&[]), materials, brushes: &|| cells.bodies().to_vec() };
+            outputs.extend(encode(&contents, std::slice::from_ref(mesh), options)?);
+        }
         for mesh in &self.patterns {
             let pattern = pattern_of(mesh).unwrap_or_default();
-            for (number, (part, body)) in parts.iter().zip(bodies).enumerate() {
+            let (pieces, options) = cells.in_format(mesh.format);
+            for (number, (part, body)) in pieces.as_parts(&[]).iter().zip(cells.bodies()).enumerate() {
                 let target = Target::File(PathBuf::from(pattern.replace(NUMBER, &number.to_string())));
                 let contents = Contents { parts: &[*part], materials, brushes: &|| vec![body.clone()] };
-                outputs.extend(encode(&contents, &[MeshTarget::alone(target, mesh.format)], &options)?);
+                outputs.extend(encode(&contents, &[MeshTarget::alone(target, mesh.format)], options)?);
             }
         }
         Ok(outputs)

@@ -23,6 +23,7 @@ mod report;
 mod schema;
 mod solve;
 mod terminal;
+mod written_cells;
 
 use std::panic;
 use std::process::ExitCode;

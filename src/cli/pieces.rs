@@ -80,10 +80,15 @@ impl Pieces {
 
     /// The counts of all meshes together.
     pub(crate) fn measured(&self) -> MeshPart {
+        self.measured_at(1.0)
+    }
+
+    /// The same, with lengths of which each is so many times that of the meshes.
+    pub(crate) fn measured_at(&self, scale: f64) -> MeshPart {
         let (mut positions, mut triangles, mut faces) = (Vec::new(), Vec::new(), 0);
         for mesh in &self.meshes {
             let first = positions.len() as u32;
-            positions.extend_from_slice(&mesh.positions);
+            positions.extend(mesh.positions.iter().map(|position| *position * scale));
             triangles.extend(mesh.triangles.iter().map(|corners| corners.map(|corner| corner + first)));
             faces += mesh.faces.len();
         }

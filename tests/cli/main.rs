@@ -7,6 +7,7 @@ mod coarsen;
 mod damaged;
 mod determinism;
 mod edit;
+mod enclosed;
 mod examples;
 mod meshes;
 mod model;

@@ -8,6 +8,7 @@
 //! - `free` merges what adds nothing, `merge` what adds least, with `pairs`; `relocate` and `regroup` better the groups.
 //! - `enclose` makes exact bodies of them, `shrink` draws these in where they overlap, with `subtract`; `limits` sees to engines' caps.
 //! - `inner`: cells within the solid.
+//! - `written`: cells as a file holds them.
 //!
 //! Floating point proposes; that the cells enclose the solid is decided by exact signs.
 
@@ -27,15 +28,16 @@ mod relocate;
 mod search;
 mod shrink;
 mod subtract;
+mod written;
 
 use planecut_csg::stages::{Bounds, Boxes, evaluate_shape};
 use planecut_csg::{Brush, Tree};
 use planecut_kernel::DVec3;
 
 pub use options::{CoarsenError, CoarsenOptions, LEAST_MAX_FACES, LEAST_MAX_VERTICES, Side};
+pub use written::{Writing, written_meshes};
 
 use crate::solid::convex_union;
-use crate::tolerances::INPUT_POINT_DISTANCE;
 use clear::Clear;
 use limits::Limits;
 use merge::{Merge, Merger};
@@ -340,26 +342,22 @@ fn held_exactly(part: &Part) -> Result<Part, CoarsenError> {
     Part::around(&[part], &Clear::default())
 }
 
-/// Gives each point that no part holds exactly to the nearest one, as far as it is near.
+/// Gives each point that no part holds exactly to the nearest one, however far it is: a mesh's vertices may be off the planes of its cells by as much
+/// as the rounding of its file leaves open.
 fn give_points(parts: &mut [Part], points: &[DVec3]) {
-    let size =
-        parts.iter().map(|part| part.bounds.min.abs().max(part.bounds.max.abs()).max_element()).fold(0.0, f64::max);
-    let margin = INPUT_POINT_DISTANCE * size;
     let boxes = boxes_of(parts);
     let mut near = Vec::new();
     for point in points {
-        let around = Bounds { min: *point - margin, max: *point + margin };
-        boxes.touching(&around, &mut near);
+        boxes.touching(&Bounds { min: *point, max: *point }, &mut near);
         if near.iter().any(|part| parts[*part as usize].polytope.contains(*point)) {
             continue;
         }
-        let distance = |part: &u32| {
-            let planes = parts[*part as usize].half_spaces.iter();
-            planes.map(|plane| plane.signed_distance(*point)).fold(f64::NEG_INFINITY, f64::max)
+        let distance = |part: &Part| {
+            let planes = part.half_spaces.iter().map(|plane| plane.signed_distance(*point));
+            planes.fold(f64::NEG_INFINITY, f64::max)
         };
-        let nearest = near.iter().copied().min_by(|a, b| distance(a).total_cmp(&distance(b)));
-        if let Some(part) = nearest.filter(|part| distance(part) <= margin) {
-            parts[part as usize].points.push(*point);
+        if let Some(part) = parts.iter_mut().min_by(|a, b| distance(a).total_cmp(&distance(b))) {
+            part.points.push(*point);
         }
     }
 }

@@ -23,6 +23,7 @@ use std::borrow::Cow;
 use std::io::Write;
 
 use self::base64::Base64Writer;
+use glam::DVec3;
 use planecut_csg::Mesh;
 use planecut_parallel::prelude::*;
 
@@ -99,4 +100,10 @@ pub(crate) fn written(parts: &[Part<'_>], options: &ExportOptions) -> Result<Wri
         written.push(part, mesh, has_three_corners, |position| rounding.place(position) + repeat.moved)?;
     }
     Ok(written)
+}
+
+/// For each position of one mesh one near it that a file stores as it is.
+pub(crate) fn stored_positions(positions: &[DVec3], options: &ExportOptions) -> Vec<DVec3> {
+    let step = rounding::exact_step(positions, options);
+    positions.iter().map(|position| (*position / step).round() * step).collect()
 }

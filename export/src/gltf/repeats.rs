@@ -3,9 +3,11 @@
 use std::hash::{Hash, Hasher};
 
 use glam::DVec3;
+use planecut_csg::Mesh;
 use planecut_parallel::prelude::*;
 use rustc_hash::{FxHashMap, FxHasher};
 
+use super::origin::choose_origin;
 use crate::material::Looks;
 use crate::{ExportOptions, Part};
 
@@ -43,12 +45,17 @@ impl Repeats {
         let looks: Vec<Looks> = parts.iter().map(|part| Looks::of(&part.mesh.materials)).collect();
         let numbers: Vec<u64> = (0..parts.len()).into_par_iter().map(|part| number_of(&parts[part])).collect();
         let mut known: FxHashMap<u64, Vec<usize>> = FxHashMap::default();
-        let (mut firsts, mut repeats) = (Vec::new(), Vec::with_capacity(parts.len()));
+        let (mut firsts, mut repeats): (Vec<usize>, Vec<Repeat>) = (Vec::new(), Vec::with_capacity(parts.len()));
         for (place, part) in parts.iter().enumerate() {
             let alike = known.entry(numbers[place]).or_default();
             let moved = alike.iter().find_map(|first: &usize| {
                 let other = firsts[*first];
                 let moved = moved(&parts[other], part, (&looks[other], &looks[place]))?;
+                let is_exact = || is_moved_exactly(parts[other].mesh, part.mesh, moved);
+                // a collider is around something: it stays where it is to the last bit
+                if options.convex_colliders && !is_exact() {
+                    return None;
+                }
                 Some(Repeat { first: *first, moved })
             });
             repeats.push(moved.unwrap_or_else(|| {
@@ -77,6 +84,14 @@ fn number_of(part: &Part<'_>) -> u64 {
     part.mesh.triangles.hash(&mut hasher);
     part.mesh.positions.len().hash(&mut hasher);
     hasher.finish()
+}
+
+/// Whether readers in single precision find a mesh in its place if it is written as another one that is moved.
+fn is_moved_exactly(one: &Mesh, other: &Mesh, moved: DVec3) -> bool {
+    let origin = choose_origin(&one.positions) + moved;
+    origin.as_vec3().as_dvec3() == origin
+        && origin - moved == choose_origin(&one.positions)
+        && one.positions.iter().zip(&other.positions).all(|(a, b)| *a + moved == *b && *b - moved == *a)
 }
 
 /// How far a part is moved against another; `None` where it is not the same otherwise.

@@ -61,3 +61,22 @@ fn grid_step(positions: &[DVec3], origin: DVec3) -> f64 {
     let finest = reach / REACH;
     if finest.is_normal() && finest.is_finite() { finest.log2().ceil().exp2() } else { 1.0 }
 }
+
+/// A power of two whose multiples near these positions are stored without rounding.
+///
+/// The origin is a multiple of it as well, within 1/16 of half the extent from the middle, or within a step of single precision of that, whichever is
+/// more; so the difference of both is a multiple of the step that has 24 bits, or 16 of a grid. Rounding may make the extent larger
+/// by a step: a hundredth is room for that.
+pub(super) fn exact_step(positions: &[DVec3], options: &ExportOptions) -> f64 {
+    let Some(&first) = positions.first() else { return 1.0 };
+    let (min, max) = positions.iter().fold((first, first), |(min, max), p| (min.min(*p), max.max(*p)));
+    let (middle, half) = (min * 0.5 + max * 0.5, (max * 0.5 - min * 0.5).max_element());
+    let origin = (half / 16.0).max(middle.abs().max_element() * f64::from(f32::EPSILON));
+    let reach = 1.01 * half + origin;
+    let finest = if options.quantize { reach / REACH } else { reach / (1u64 << 24) as f64 };
+    if finest.is_normal() && finest.is_finite() {
+        finest.log2().ceil().exp2().max(f64::from(f32::MIN_POSITIVE) * f64::from(f32::EPSILON))
+    } else {
+        1.0
+    }
+}
