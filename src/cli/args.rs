@@ -257,6 +257,9 @@ pub(crate) struct ReadingArgs {
     /// Format of the input; by default from the ending of its name, and json for `-`
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub(crate) input_format: Option<InputKind>,
+    /// End with exit status 0, not 3, where a solid that the input states is left out
+    #[arg(long)]
+    pub(crate) allow_loss: bool,
     #[command(flatten)]
     model: ModelArgs,
     #[command(flatten)]
@@ -286,6 +289,7 @@ impl ReadingArgs {
     pub(crate) fn of_any_kind(&self) -> Self {
         Self {
             input_format: None,
+            allow_loss: self.allow_loss,
             model: ModelArgs { set: Vec::new() },
             map: MapArgs { world_only: false, skip_texture: Vec::new(), skip_class: Vec::new() },
             scad: ScadArgs { keep_going: self.scad.keep_going },

@@ -9,6 +9,7 @@ use planecut::check::{Measures, TopologyReport, check_topology, measure_triangle
 use planecut::csg::coarsen::Coarsened;
 use planecut::csg::{Evaluation, ModelSummary, SolidMeasures, StageTimes};
 use planecut::export::Written;
+use planecut::import::Warning;
 use planecut::kernel::DVec3;
 use planecut::kernel::sign::Counts;
 use serde::Serialize;
@@ -38,8 +39,10 @@ pub(crate) struct Report {
     coarsen: Option<CoarsenPart>,
     /// Where the time went, in milliseconds.
     pub(crate) time_ms: Times,
+    /// How many solids that the input states are left out; warnings name them.
+    left_out: usize,
     /// What was left out or is doubtful.
-    pub(crate) warnings: Vec<String>,
+    warnings: Vec<String>,
 }
 
 impl Report {
@@ -62,8 +65,15 @@ impl Report {
             edit: None,
             coarsen: None,
             time_ms: Times::new(&evaluation.times),
+            left_out: 0,
             warnings: Vec::new(),
         }
+    }
+
+    /// Says what is to be warned of, after what was said before.
+    pub(crate) fn warn(&mut self, warnings: &[Warning]) {
+        self.left_out += warnings.iter().map(|warning| warning.left_out).sum::<usize>();
+        self.warnings.extend(warnings.iter().map(ToString::to_string));
     }
 
     /// Says what of the solid's parts is written.
@@ -93,6 +103,7 @@ impl Report {
             edit: None,
             coarsen: None,
             time_ms: Times::default(),
+            left_out: 0,
             warnings: Vec::new(),
         }
     }

@@ -8,6 +8,7 @@ mod damaged;
 mod determinism;
 mod edit;
 mod examples;
+mod losses;
 mod meshes;
 mod model;
 mod outputs;

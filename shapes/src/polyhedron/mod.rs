@@ -1,5 +1,6 @@
 //! Solids from closed surfaces of facets, as convex cells.
 //!
+//! - `joining` makes corners one that differ by rounding, where the surface is open without that.
 //! - `surface` merges points by position, checks that the surface is closed and pairs its triangles (`pairing`) along
 //!   edges; `polygon` cuts facets into triangles.
 //! - `planes` finds one plane for facets that were meant to lie on one, as exactly as corners are known (`precision`).
@@ -14,6 +15,7 @@ mod choice;
 mod edges;
 mod error;
 pub(crate) mod exact;
+mod joining;
 mod lumps;
 mod pairing;
 mod part;
@@ -34,6 +36,7 @@ pub use precision::Precision;
 pub(crate) use sides::cells_within;
 
 use crate::tolerances::{GOOD_VOLUME, LESS_SLACK};
+use joining::closed_surface;
 use planes::Planes;
 use surface::Surface;
 
@@ -64,6 +67,8 @@ pub struct Polyhedron {
     pub touches_itself: bool,
     /// How many facets were cut into triangles as their corners lie on no plane.
     pub bent_facets: usize,
+    /// How many places of corners went because the surface was not closed without joining them to others, as near as rounding.
+    pub joined_corners: usize,
 }
 
 impl From<Polyhedron> for Tree {
@@ -76,7 +81,8 @@ impl From<Polyhedron> for Tree {
 ///
 /// `facets` hold the numbers of their corners in `points`, counter-clockwise seen from outside; all may be clockwise instead.
 /// They may have any number of corners and need not be convex. A facet whose corners lie on no plane, as exactly as they are
-/// known ([`Precision`]), is cut into triangles. Points at the same position are one. There may be several shells, and
+/// known ([`Precision`]), is cut into triangles. Points at the same position are one; where the surface is not closed with
+/// that, also those that differ only by rounding ([`JOINED_CORNERS`](crate::tolerances::JOINED_CORNERS)). There may be several shells, and
 /// shells of cavities with their facets seen from the cavity counter-clockwise; they may touch each other in edges and
 /// corners. Faces have the material of their facet: `materials` holds one for each facet, or one for all. Where facets of
 /// several materials lie side by side on one plane of a cell, the widest decides.
@@ -112,7 +118,7 @@ pub fn polyhedron<F: AsRef<[u32]>>(
     if materials.len() != 1 && materials.len() != facets.len() {
         return Err(PolyhedronError::Materials { found: materials.len(), facets: facets.len() });
     }
-    let mut surface = Surface::new(points, facets, options.precision)?;
+    let (mut surface, joined_corners) = closed_surface(points, facets, options.precision)?;
     check_crossings(&surface)?;
     let material_of = |facet: u32| if materials.len() == 1 { materials[0] } else { materials[facet as usize] };
     let mut best = solid(&surface, material_of);
@@ -127,7 +133,7 @@ pub fn polyhedron<F: AsRef<[u32]>>(
             best = Ok((solid, off));
         }
     }
-    best.map(|(solid, _)| solid)
+    best.map(|(solid, _)| Polyhedron { joined_corners, ..solid })
 }
 
 /// Whether less tolerance would not help.
@@ -157,6 +163,7 @@ fn solid(
         is_turned: surface.is_turned,
         touches_itself: surface.touches_itself,
         bent_facets: planes.bent_facets,
+        joined_corners: 0,
     };
     Ok((solid, off))
 }
