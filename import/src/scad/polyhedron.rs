@@ -2,7 +2,9 @@
 
 use planecut_csg::MaterialId;
 use planecut_kernel::DVec3;
-use planecut_shapes::polyhedron::{Polyhedron, PolyhedronError, PolyhedronOptions, Precision, polyhedron};
+use planecut_shapes::polyhedron::{
+    Polyhedron, PolyhedronError, PolyhedronOptions, Precision, polyhedron, polyhedron_by_winding,
+};
 use rustc_hash::FxHashMap;
 
 use super::arguments::Arguments;
@@ -31,13 +33,20 @@ pub(super) fn body(node: &Node<'_>, material: MaterialId) -> Result<(Body, Vec<S
     if facets.is_empty() {
         return Ok((Body::default(), Vec::new()));
     }
-    match solid(&points, &facets, material) {
+    let (solid, crosses) = match solid(&points, &facets, material) {
+        Err(error @ (PolyhedronError::Crossing { .. } | PolyhedronError::Inconsistent { .. })) => {
+            let solid = solid_by_winding(&points, &facets, material).ok_or_else(|| error.to_string())?;
+            (Ok(solid), Some(format!("{error}: what the surface winds around more than zero times is kept")))
+        }
+        solid => (solid, None),
+    };
+    match solid {
         Ok(solid) => {
             let turned =
                 solid.is_turned.then(|| "a polyhedron whose faces are all turned around is turned back".to_owned());
             let joined = (solid.joined_corners > 0).then(|| joined_message(solid.joined_corners));
             let touches_itself = solid.touches_itself;
-            let messages = turned.into_iter().chain(joined).collect();
+            let messages = turned.into_iter().chain(joined).chain(crosses).collect();
             Ok((Body { tree: solid.into(), touches_itself, ..Body::default() }, messages))
         }
         Err(PolyhedronError::NoVolume) => Ok((Body::default(), Vec::new())),
@@ -60,6 +69,13 @@ fn solid(points: &[DVec3], facets: &[Vec<u32>], material: MaterialId) -> Result<
         }
     }
     known_to(Precision::Digits(DIGITS))
+}
+
+/// The same for a surface that crosses itself, where it is small enough.
+fn solid_by_winding(points: &[DVec3], facets: &[Vec<u32>], material: MaterialId) -> Option<Polyhedron> {
+    let precisions = [Precision::Digits(DIGITS), Precision::Double];
+    let solid = |precision| polyhedron_by_winding(points, facets, &[material], &PolyhedronOptions { precision }).ok();
+    precisions.into_iter().find_map(solid)
 }
 
 fn surface(node: &Node<'_>) -> Result<Surface, String> {

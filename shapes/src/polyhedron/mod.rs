@@ -6,6 +6,7 @@
 //! - `planes` finds one plane for facets that were meant to lie on one, as exactly as corners are known (`precision`).
 //! - `cells` cuts space along planes of facets (`choice` says which) until what is left in each `part` is convex
 //!   (`edges`, `lumps`); `sides` does the same for surfaces that are closed by the ends of a slab.
+//! - `winding` cuts space along all facets of a surface that crosses itself, and keeps what that winds around.
 //!
 //! The sum of the cells' volumes must be the volume that the facets enclose, by the divergence theorem; a surface for which it
 //! is not has no inside.
@@ -24,6 +25,7 @@ mod polygon;
 mod precision;
 mod sides;
 mod surface;
+mod winding;
 
 use planecut_cells::joined;
 use planecut_check::{CheckOptions, ContactKind, check_mesh};
@@ -34,6 +36,7 @@ pub use error::PolyhedronError;
 pub use polygon::{MAX_CONCAVE_CORNERS, triangulate};
 pub use precision::Precision;
 pub(crate) use sides::cells_within;
+pub use winding::{MAX_CROSSING_TRIANGLES, polyhedron_by_winding};
 
 use crate::tolerances::{GOOD_VOLUME, LESS_SLACK};
 use joining::closed_surface;
