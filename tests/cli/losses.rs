@@ -32,7 +32,7 @@ fn every_command_that_reads_solids_tells_of_a_loss_and_writes_all_the_same() {
         ("edit m.csg none.jsonl -o a.obj --report a.json", vec!["a.json", "a.obj"]),
         ("coarsen m.csg -o a.stl --report a.json", vec!["a.json", "a.stl"]),
         ("render m.csg -o a.png --size 32x32", vec!["a.png"]),
-        ("render m.csg m.csg -o a.png --size 64x32", vec!["a.png"]),
+        ("render m.csg m.csg -o a.png --size 640x320", vec!["a.png"]),
         ("render m.csg -o a.png --size 32x32 --section x", vec!["a.png"]),
         ("info m.csg", vec![]),
     ];
@@ -64,9 +64,8 @@ fn patches_and_unbounded_brushes_of_a_map_are_losses_and_each_line_is_named() {
     let whole = write_map(folder.path(), "whole.map", &boxes(["a", "b"]));
     planecut(["info".as_ref(), whole.as_os_str()]).expect_quiet_success();
     let [a, b] = boxes(["a", "b"]);
-    // without its last face the second box has no end
-    let open = b.lines().filter(|line| !line.contains("2 2 2")).collect::<Vec<_>>().join("\n");
-    let half = format!("{}\n}}\n", open.lines().take(6).collect::<Vec<_>>().join("\n"));
+    // without the faces at its largest corner the second box has no end
+    let half = b.lines().filter(|line| !line.contains("( 2 2 2 )")).collect::<Vec<_>>().join("\n") + "\n";
     let lossy = write_map(folder.path(), "lossy.map", &[a, PATCH.to_owned(), half, PATCH.to_owned()]);
     let text = std::fs::read_to_string(&lossy).expect("the map");
     let lines: Vec<usize> = (1..).zip(text.lines()).filter(|(_, line)| *line == "patchDef2").map(|(n, _)| n).collect();
@@ -93,7 +92,8 @@ fn a_loss_in_what_is_to_be_kept_clear_is_told_with_its_file() {
 planecut_testkit::tests_on_data!(
     a_map_of_doom_3_has_the_volume_of_its_planes,
     corners_of_an_stl_that_differ_by_rounding_are_joined,
-    openscad_parts_keep_what_they_state
+    openscad_parts_keep_what_they_state,
+    a_thread_that_crosses_itself_is_kept_where_its_surface_winds_around
 );
 
 fn info(name: &str) -> (i32, Value) {
@@ -173,4 +173,14 @@ fn openscad_parts_keep_what_they_state() {
         assert_eq!((status, &report["left_out"]), (0, &json!(0)), "{name}");
         assert!(agree(&report["solid"]["volume"], volume, 1e-4), "{name}: {}", report["solid"]);
     }
+}
+
+/// The thread's triangles enclose 1.54475 where places that the surface winds around twice count twice; columns at 40,000 random places (seed 7), worked out
+/// apart from this program, gave 0.0144 for these. A cube of volume 1 stands beside it.
+fn a_thread_that_crosses_itself_is_kept_where_its_surface_winds_around() {
+    let (status, report) = info("regressions/nop_nut_thread.csg");
+    assert_eq!((status, &report["left_out"], &report["mesh"]["manifold"]), (0, &json!(0), &json!(true)));
+    assert!(agree(&report["solid"]["volume"], 2.54475 - 0.0144, 3e-4), "{}", report["solid"]);
+    let warnings = report["warnings"].to_string();
+    assert!(warnings.contains("winds around more than zero times is kept"), "{warnings}");
 }

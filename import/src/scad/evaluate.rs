@@ -304,7 +304,7 @@ impl<'s, 'a> Evaluator<'s, 'a> {
         if mixed {
             self.warn(turn, format!("`{}` of solids: an outline among them is left out", turn.node.name));
         }
-        if turn.node.name != "hull" {
+        if turn.node.name != "hull" && !self.options.keep_touching {
             self.leave_out_touching(turn, &mut bodies);
         }
         bodies
@@ -336,7 +336,7 @@ impl<'s, 'a> Evaluator<'s, 'a> {
             _ => None,
         });
         let mut bodies: Vec<Option<Body>> = bodies.collect();
-        if let Some(node) = self.nodes.first() {
+        if let Some(node) = self.nodes.first().filter(|_| !self.options.keep_touching) {
             let whole = Node { name: "the whole", ..node.clone() };
             self.leave_out_touching(Turn { node: &whole, frame: Frame::outermost() }, &mut bodies);
         }

@@ -131,11 +131,33 @@ fn facets_with_corners_at_one_place_do_not_make_a_solid_touch_itself() {
     assert!(read(&format!("cube(1); {text}")).warnings.is_empty());
 }
 
+/// A cube of 10 with a pit in its top: a pyramid over all of the top, 1 deep; two of its facets name the pit's tip twice.
+///
+/// Its sum with a unit cube: 11 x 11 x 11 but for a pit. The sum's depth at a place is the least depth over the unit square before that, so the pit is a pyramid
+/// of base 9 x 9, 0.9 deep: volume 24.3.
+#[test]
+fn the_sum_of_a_body_with_a_pit_is_the_body_that_slides() {
+    let points = "[[0, 10, 10], [10, 10, 10], [10, 0, 10], [0, 0, 10], [0, 0, 0], [10, 0, 0], [10, 10, 0], [0, 10, 0], \
+                  [5, 5, 9], [5, 5, 9]]";
+    let faces = "[[4, 5, 6, 7], [3, 2, 5, 4], [2, 1, 6, 5], [1, 0, 7, 6], [0, 3, 4, 7], [0, 8, 3], [1, 2, 9], \
+                 [0, 1, 9, 8], [2, 3, 8, 9]]";
+    let body = format!("polyhedron(points = {points}, faces = {faces});");
+    assert_volume(&body, 1000.0 - 100.0 / 3.0);
+    assert_volume(&format!("minkowski() {{ {body} cube(1); }}"), 1331.0 - 81.0 * 0.9 / 3.0);
+}
+
 #[test]
 fn what_touches_itself_is_not_combined() {
     let bow = "linear_extrude(height = 1) polygon(points = [[0, 0], [2, 2], [2, 0], [0, 2]]);";
     assert_volume(bow, 2.0);
     assert_warns(&format!("union() {{ {bow} cube([1, 1, 9]); }}"), 9.0, "touches itself");
+    let options = ScadOptions { keep_touching: true, ..ScadOptions::default() };
+    let kept =
+        read_scad(format!("union() {{ {bow} cube([1, 1, 9]); }}").as_bytes(), "test.csg", &options).expect("read");
+    assert_eq!(kept.warnings, []);
+    // beyond the column over the unit square: of the triangle (0, 0), (1, 1), (0, 2) the half with y above 1, and all of the other one
+    let volume = planecut_csg::evaluate(&kept.model).expect("a mesh").solid.volume;
+    assert!((volume - (9.0 + 1.5)).abs() < 1e-12, "{volume}");
     // two cones tip to tip
     let cones = "rotate_extrude($fn = 4) polygon(points = [[0, 1], [1, 0], [1, 2]]);";
     assert_warns(&format!("{cones} cube([9, 9, 9]);"), 729.0, "touches itself");
