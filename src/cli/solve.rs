@@ -168,15 +168,14 @@ fn brush_warnings(kind: InputKind, model: &Model, summary: &ModelSummary) -> imp
     // without interior there is nothing to leave out
     let kinds = [(&summary.empty[..], "without interior", false), (unbounded, "that is not bounded", true)];
     kinds.into_iter().filter_map(|(numbers, kind, is_loss)| {
-        let mut lines = numbers.iter().map(|number| model.tree.source_line(*number).map_or(0, NonZeroU32::get));
-        let line = lines.next()?;
+        let line_of = |number: &usize| model.tree.source_line(*number).map_or(0, NonZeroU32::get);
+        let line = line_of(numbers.first()?);
         let message = match numbers.len() {
             1 => format!("left out a brush {kind}"),
             count => {
                 let kind = kind.replace("that is", "that are");
-                let others: Vec<String> = lines.map(|line| line.to_string()).collect();
-                let others = others.join(", ");
-                format!("left out {count} brushes {kind}, the first of them here, others on lines {others}")
+                let lines = numbers.iter().map(|number| line_of(number).to_string()).collect::<Vec<_>>().join(", ");
+                format!("left out {count} brushes {kind}, the first of them here (lines {lines})")
             }
         };
         Some(Warning::loss(line, message, if is_loss { numbers.len() } else { 0 }))

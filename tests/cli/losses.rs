@@ -71,8 +71,7 @@ fn patches_and_unbounded_brushes_of_a_map_are_losses_and_each_line_is_named() {
     let lines: Vec<usize> = (1..).zip(text.lines()).filter(|(_, line)| *line == "patchDef2").map(|(n, _)| n).collect();
     let found = planecut(["info".as_ref(), lossy.as_os_str()]);
     assert_eq!(found.status, 3, "{}", found.stderr);
-    let told =
-        format!("lossy.map:{}: left out 2 patches, the first of them here, others on lines {}", lines[0], lines[1]);
+    let told = format!("lossy.map:{}: left out 2 patches, the first of them here (lines {0}, {1})", lines[0], lines[1]);
     assert!(found.stderr.contains(&told), "{}", found.stderr);
     assert!(found.stderr.contains("left out a brush that is not bounded"), "{}", found.stderr);
     let report: Value = serde_json::from_slice(&found.stdout).expect("JSON");

@@ -53,7 +53,9 @@ fn editor_fixtures_are_built_or_refused_with_a_line() {
             Err(words) => run.expect_error(2, words),
             Ok(brushes) => {
                 let report = run.lossy_json();
-                assert_eq!(run.status == 3, name == "18_Quake_3_patch", "{}", run.stderr);
+                // of a brush, two faces have no area and the others leave it without an end
+                let is_lossy = matches!(name, "18_Quake_3_patch" | "21_1424");
+                assert_eq!(run.status == 3, is_lossy, "{}", run.stderr);
                 assert_eq!(report["model"]["brushes"], json!(brushes), "{name}");
                 assert_eq!(report["mesh"]["manifold"], json!(true), "{name}");
             }

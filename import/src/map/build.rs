@@ -190,16 +190,14 @@ impl Tally {
         self.lines.len()
     }
 
-    /// The first line, and a message that names the others.
+    /// The first line, and a message that names all where there are several.
     fn warning(&self, one: &str, many: &str) -> Option<(u32, String)> {
-        let (first, others) = self.lines.split_first()?;
-        let message = match others {
-            [] => format!("left out a {one}"),
-            _ => {
-                format!("left out {} {many}, the first of them here, others on lines {}", self.count(), listed(others))
-            }
+        let first = *self.lines.first()?;
+        let message = match self.count() {
+            1 => format!("left out a {one}"),
+            count => format!("left out {count} {many}, the first of them here (lines {})", listed(&self.lines)),
         };
-        Some((*first, message))
+        Some((first, message))
     }
 
     /// The same for solids.

@@ -188,7 +188,8 @@ impl<'s, 'a> Evaluator<'s, 'a> {
             "polygon" => {
                 let (outline, message) = leaf::polygon(node)?;
                 if let Some(message) = message {
-                    self.warn(turn, message);
+                    // and so is what is made of it
+                    self.warn_of_loss(turn, message);
                 }
                 Ok(Some(Geometry::Flat(outline)))
             }

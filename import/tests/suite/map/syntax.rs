@@ -233,13 +233,13 @@ fn other_primitives_are_left_out_with_a_warning() {
     let line = |keyword| 1 + text.lines().position(|line| line == keyword).expect("in the text");
     let expected = [
         format!(
-            "line {}: left out 3 patches, the first of them here, others on lines {}, {}",
+            "line {0}: left out 3 patches, the first of them here (lines {0}, {1}, {2})",
             line("patchDef2"),
             line("patchDef3"),
             line("patchDefNew")
         ),
         format!(
-            "line {}: left out 2 primitives that are not supported, the first of them here, others on lines {}",
+            "line {0}: left out 2 primitives that are not supported, the first of them here (lines {0}, {1})",
             line("meshDef"),
             line("terrainDef")
         ),
