@@ -54,8 +54,7 @@ pub fn polyhedron_by_winding<F: AsRef<[u32]>>(
     let planes = Planes::of(&surface)?;
     let wound = wound_parts(&surface, &planes, material_of)?;
     let (enclosed, found) = (surface.volume(), sum(wound.iter().map(|part| part.winding as f64 * part.volume)));
-    // written so that what is not a number fails
-    if !((enclosed - found).abs() <= surface.volume_slack()) {
+    if !(found.is_finite() && (enclosed - found).abs() <= surface.volume_slack()) {
         return Err(PolyhedronError::Inconsistent { enclosed, cells: found });
     }
     let kept: Vec<Wound> = wound.into_iter().filter(|part| part.winding > 0).collect();
