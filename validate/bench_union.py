@@ -138,7 +138,7 @@ def _run_planecut(way: Way, binary: str, path: Path, threads: int, folder: Path)
         way.seconds.append(time.perf_counter() - begin)
     finally:
         os.sched_setaffinity(0, everything)
-    if os.waitstatus_to_exitcode(status) != 0:
+    if os.waitstatus_to_exitcode(status) not in (0, 3):
         raise RuntimeError(f"{' '.join(command)}: exit status {os.waitstatus_to_exitcode(status)}")
     # Linux counts in KiB, macOS in bytes.
     way.peak = max(way.peak, usage.ru_maxrss * (1 if sys.platform == "darwin" else 1024))

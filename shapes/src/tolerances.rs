@@ -9,6 +9,12 @@
 /// Decides: with [`PLANE_MARGIN`] and the file's precision, which corners count as on the plane of a face.
 pub const CORNER_NOISE: f64 = 1e-12;
 
+/// Corners of a surface that is not closed are joined where they are no farther from each other, relative to the largest coordinate; or, where that
+/// does not close it, no farther than neighbouring numbers of the file.
+///
+/// Decides: which corners are one, only where the surface has open edges without that and none with it.
+pub const JOINED_CORNERS: f64 = 1e-9;
+
 /// Corners may be off the plane that several of them have by this many times what each is off its place, as the plane is off,
 /// too.
 pub const PLANE_MARGIN: f64 = 4.0;

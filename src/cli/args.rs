@@ -257,6 +257,9 @@ pub(crate) struct ReadingArgs {
     /// Format of the input; by default from the ending of its name, and json for `-`
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub(crate) input_format: Option<InputKind>,
+    /// End with exit status 0, not 3, where a solid that the input states is left out
+    #[arg(long)]
+    pub(crate) allow_loss: bool,
     #[command(flatten)]
     model: ModelArgs,
     #[command(flatten)]
@@ -279,16 +282,17 @@ impl ReadingArgs {
     /// The options for OpenSCAD's trees; files that `input` names lie beside it.
     pub(crate) fn scad_options(&self, input: &Input) -> ScadOptions {
         let folder = input.file().and_then(Path::parent).map(Path::to_owned).unwrap_or_default();
-        ScadOptions { folder, keep_going: self.scad.keep_going }
+        ScadOptions { folder, keep_going: self.scad.keep_going, keep_touching: self.scad.keep_touching }
     }
 
     /// The same for another input, of any kind: what is for one kind alone is left out.
     pub(crate) fn of_any_kind(&self) -> Self {
         Self {
             input_format: None,
+            allow_loss: self.allow_loss,
             model: ModelArgs { set: Vec::new() },
             map: MapArgs { world_only: false, skip_texture: Vec::new(), skip_class: Vec::new() },
-            scad: ScadArgs { keep_going: self.scad.keep_going },
+            scad: self.scad.clone(),
         }
     }
 
@@ -308,6 +312,9 @@ impl ReadingArgs {
         }
         if kind != InputKind::Csg && self.scad.keep_going {
             return refuse("--keep-going", "an OpenSCAD tree (.csg)");
+        }
+        if kind != InputKind::Csg && self.scad.keep_touching {
+            return refuse("--keep-touching", "an OpenSCAD tree (.csg)");
         }
         Ok(())
     }
@@ -349,12 +356,15 @@ impl MapArgs {
 }
 
 /// How strictly to read OpenSCAD's trees.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Options for .csg")]
 struct ScadArgs {
     /// Leave out, with a warning, what is not supported or fails, instead of failing as a whole
     #[arg(long)]
     keep_going: bool,
+    /// Keep solids that touch themselves also where they are combined with others, as OpenSCAD does since 2024
+    #[arg(long)]
+    keep_touching: bool,
 }
 
 /// What every command takes.

@@ -6,7 +6,7 @@ use planecut::export::Part;
 use planecut::picture::Subject;
 
 use super::args::BuildArgs;
-use super::error::CliError;
+use super::error::{CliError, Done};
 use super::input::{Input, InputKind};
 use super::output::{MeshTarget, Target, check_targets};
 use super::pieces::{Pieces, brushes};
@@ -29,10 +29,11 @@ struct Plan<'a> {
 ///
 /// # Errors
 /// Any [`CliError`] but those of `check`.
-pub(crate) fn run(args: &BuildArgs) -> Result<(), CliError> {
+pub(crate) fn run(args: &BuildArgs) -> Result<Done, CliError> {
     let begin = Instant::now();
     let plan = Plan::resolve(args)?;
-    produce(&args.common, &plan.input, plan.report.as_ref(), begin, |progress| plan.carry_out(progress))
+    let product = produce(&args.common, &plan.input, plan.report.as_ref(), begin, |progress| plan.carry_out(progress));
+    product.map(|warnings| Done::with(&warnings, args.reading.allow_loss))
 }
 
 impl<'a> Plan<'a> {

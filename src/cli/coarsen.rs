@@ -11,7 +11,7 @@ use planecut::import::mesh::{MeshImport, read_parts};
 use planecut::kernel::DVec3;
 
 use super::args::CoarsenArgs;
-use super::error::CliError;
+use super::error::{CliError, Done};
 use super::input::{Input, InputKind};
 use super::output::{MeshTarget, Output, OutputFormat, Target, check_targets};
 use super::pieces::{NUMBER, bounded_tree};
@@ -41,10 +41,11 @@ struct Plan<'a> {
 ///
 /// # Errors
 /// Any [`CliError`] but those of `check` and `edit`.
-pub(crate) fn run(args: &CoarsenArgs) -> Result<(), CliError> {
+pub(crate) fn run(args: &CoarsenArgs) -> Result<Done, CliError> {
     let begin = Instant::now();
     let plan = Plan::resolve(args)?;
-    produce(&args.common, &plan.input, plan.report.as_ref(), begin, |progress| plan.carry_out(progress))
+    let product = produce(&args.common, &plan.input, plan.report.as_ref(), begin, |progress| plan.carry_out(progress));
+    product.map(|warnings| Done::with(&warnings, args.reading.allow_loss))
 }
 
 impl<'a> Plan<'a> {
@@ -85,8 +86,9 @@ impl<'a> Plan<'a> {
     fn carry_out(&self, progress: &Progress) -> Result<Product, CliError> {
         let begin = Instant::now();
         progress.stage("reading");
-        let (read, points) = self.read()?;
-        let clear = self.read_clear()?;
+        let (mut read, points) = self.read()?;
+        let (clear, warnings) = self.read_clear()?;
+        read.warnings.extend(warnings);
         let mut solved = solve_read(&self.input, self.kind, read, begin.elapsed(), progress)?;
         progress.stage("coarsening");
         let begin = Instant::now();
@@ -121,12 +123,17 @@ impl<'a> Plan<'a> {
         Ok((read(&self.input, self.kind, &self.args.reading)?, Vec::new()))
     }
 
-    /// The union of what is to be kept clear.
-    fn read_clear(&self) -> Result<Option<Tree>, CliError> {
-        let tree =
-            |(input, kind): &(Input, InputKind)| Ok(read(input, *kind, &self.args.reading.of_any_kind())?.model.tree);
-        let trees: Vec<Tree> = self.clear.iter().map(tree).collect::<Result<_, CliError>>()?;
-        Ok((!trees.is_empty()).then(|| Tree::union(trees)))
+    /// The union of what is to be kept clear, and the warnings about it, which name the file.
+    fn read_clear(&self) -> Result<(Option<Tree>, Vec<Warning>), CliError> {
+        let (mut trees, mut warnings) = (Vec::new(), Vec::new());
+        for (input, kind) in &self.clear {
+            let read = read(input, *kind, &self.args.reading.of_any_kind())?;
+            trees.push(read.model.tree);
+            let in_file =
+                |warning: Warning| Warning { line: 0, message: format!("{}: {warning}", input.name()), ..warning };
+            warnings.extend(read.warnings.into_iter().map(in_file));
+        }
+        Ok(((!trees.is_empty()).then(|| Tree::union(trees)), warnings))
     }
 
     fn coarsen(&self, solved: &Solved, points: &[DVec3], options: &CoarsenOptions) -> Result<Coarsened, CliError> {
@@ -163,8 +170,8 @@ impl<'a> Plan<'a> {
             let found = coarsened.cells.len();
             let message =
                 format!("found no way to fewer than {found} cells within the other limits, {asked} were asked for");
-            let warning = Warning { line: 0, message };
-            solved.report.warnings.push(warning.to_string());
+            let warning = Warning::note(0, message);
+            solved.report.warn(std::slice::from_ref(&warning));
             solved.warnings.push(warning);
         }
     }

@@ -9,7 +9,7 @@ use planecut::import::Warning;
 use planecut::import::edits::{EditsImport, read_edits};
 
 use super::args::EditArgs;
-use super::error::CliError;
+use super::error::{CliError, Done};
 use super::input::{Input, InputKind};
 use super::output::{MeshTarget, Target, check_targets};
 use super::pieces::bounded_tree_of;
@@ -31,10 +31,11 @@ struct Plan<'a> {
 ///
 /// # Errors
 /// Any [`CliError`] but those of `check`.
-pub(crate) fn run(args: &EditArgs) -> Result<(), CliError> {
+pub(crate) fn run(args: &EditArgs) -> Result<Done, CliError> {
     let begin = Instant::now();
     let plan = Plan::resolve(args)?;
-    produce(&args.common, &plan.input, plan.report.as_ref(), begin, |progress| plan.carry_out(progress))
+    let product = produce(&args.common, &plan.input, plan.report.as_ref(), begin, |progress| plan.carry_out(progress));
+    product.map(|warnings| Done::with(&warnings, args.reading.allow_loss))
 }
 
 impl<'a> Plan<'a> {
@@ -89,8 +90,8 @@ impl<'a> Plan<'a> {
     }
 
     /// Applies edits, each given with its line; with `--verify` each result is compared with a fresh build.
-    fn edit(&self, live: &mut LiveModel, edits: Vec<(u32, Edit)>) -> Result<Done, CliError> {
-        let mut done = Done { times: Vec::with_capacity(edits.len()), fresh_times: Vec::new(), fresh: None };
+    fn edit(&self, live: &mut LiveModel, edits: Vec<(u32, Edit)>) -> Result<Applied, CliError> {
+        let mut done = Applied { times: Vec::with_capacity(edits.len()), fresh_times: Vec::new(), fresh: None };
         for (line, edit) in edits {
             let refused = |source| CliError::Edit { path: self.args.edits.clone(), line, source };
             let before = Instant::now();
@@ -112,7 +113,7 @@ impl<'a> Plan<'a> {
         &self,
         mesh: Mesh,
         read: Read,
-        mut done: Done,
+        mut done: Applied,
         import_time: Duration,
         progress: &Progress,
     ) -> Result<Edited, CliError> {
@@ -164,7 +165,7 @@ impl<'a> Plan<'a> {
 }
 
 /// Edits that were applied, and how long each took.
-struct Done {
+struct Applied {
     times: Vec<Duration>,
     /// How long a fresh build took after each edit, where it was compared with one.
     fresh_times: Vec<Duration>,

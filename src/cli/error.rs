@@ -7,6 +7,7 @@ use planecut::check::MeshProblem;
 use planecut::csg::coarsen::CoarsenError;
 use planecut::csg::{EditError, EvaluateError};
 use planecut::export::ExportError;
+use planecut::import::Warning;
 use planecut::import::edits::EditsError;
 use planecut::import::map::MapError;
 use planecut::import::mesh::{MeshError, SolidError};
@@ -20,6 +21,33 @@ use thiserror::Error;
 pub(crate) const FAILED: u8 = 1;
 /// Exit status where arguments or input are unusable.
 pub(crate) const UNUSABLE: u8 = 2;
+/// Exit status where all is done and written, but a solid that the input states is left out.
+pub(crate) const INCOMPLETE: u8 = 3;
+
+/// A job that was done.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Done {
+    /// With all that the input states.
+    Complete,
+    /// Without some solid that the input states.
+    Incomplete,
+}
+
+impl Done {
+    /// What warnings say of a job; with `allow_loss` solids may be missing.
+    pub(crate) fn with<'a>(warnings: impl IntoIterator<Item = &'a Warning>, allow_loss: bool) -> Self {
+        let is_incomplete = warnings.into_iter().any(|warning| warning.left_out > 0);
+        if is_incomplete && !allow_loss { Self::Incomplete } else { Self::Complete }
+    }
+
+    /// The status that the process ends with.
+    pub(crate) fn exit_status(self) -> u8 {
+        match self {
+            Self::Complete => 0,
+            Self::Incomplete => INCOMPLETE,
+        }
+    }
+}
 
 /// Why a command did not do its job. Displays as one line, which names the file that it is about.
 #[derive(Debug, Error)]

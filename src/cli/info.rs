@@ -8,7 +8,7 @@ use planecut::import::Warning;
 use planecut::import::mesh::{MeshFormat, read_mesh, solid_of_mesh};
 
 use super::args::InfoArgs;
-use super::error::CliError;
+use super::error::{CliError, Done};
 use super::input::{Input, InputKind};
 use super::pool::on_threads;
 use super::progress::Progress;
@@ -20,7 +20,7 @@ use super::terminal;
 ///
 /// # Errors
 /// [`CliError`] where the input is unusable, or where the solid has no mesh.
-pub(crate) fn run(args: &InfoArgs) -> Result<(), CliError> {
+pub(crate) fn run(args: &InfoArgs) -> Result<Done, CliError> {
     let begin = Instant::now();
     let (input, kind) = Input::resolve_any(&args.input, args.reading.input_format)?;
     args.reading.check(kind)?;
@@ -37,7 +37,8 @@ pub(crate) fn run(args: &InfoArgs) -> Result<(), CliError> {
         terminal::print_warnings(&input.name(), &warnings);
     }
     report.time_ms.total = milliseconds(begin.elapsed());
-    terminal::print_text(&report.to_json())
+    terminal::print_text(&report.to_json())?;
+    Ok(Done::with(&warnings, args.reading.allow_loss))
 }
 
 /// What the file says of the mesh, and what its solid is where there is one.
@@ -61,10 +62,10 @@ fn report_on_mesh(input: &Input, format: MeshFormat, progress: &Progress) -> Res
         }
         Err(error) => warnings.push(warning(format_args!("no solid: {error}"))),
     }
-    report.warnings = warnings.iter().map(ToString::to_string).collect();
+    report.warn(&warnings);
     Ok((report, warnings))
 }
 
 fn warning(message: impl Display) -> Warning {
-    Warning { line: 0, message: message.to_string() }
+    Warning::note(0, message.to_string())
 }

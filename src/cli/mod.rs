@@ -30,13 +30,13 @@ use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use args::Command;
-use error::{CliError, FAILED};
+use error::{CliError, Done, FAILED};
 
 /// Runs the program on the process's arguments and gives its exit status.
 pub(crate) fn run() -> ExitCode {
     report_panics_in_one_line();
     let status = match panic::catch_unwind(parse_and_run) {
-        Ok(Ok(())) => 0,
+        Ok(Ok(done)) => done.exit_status(),
         Ok(Err(error)) => {
             terminal::print_error(&error.to_string());
             error.exit_status()
@@ -46,19 +46,20 @@ pub(crate) fn run() -> ExitCode {
     ExitCode::from(status)
 }
 
-fn parse_and_run() -> Result<(), CliError> {
-    let Some(command) = args::parse()? else { return Ok(()) };
+fn parse_and_run() -> Result<Done, CliError> {
+    let Some(command) = args::parse()? else { return Ok(Done::Complete) };
     match command {
-        Command::Build(args) => build::run(&args),
-        Command::Info(args) => info::run(&args),
-        Command::Render(args) => render::run(&args),
-        Command::Edit(args) => edit::run(&args),
-        Command::Coarsen(args) => coarsen::run(&args),
+        Command::Build(args) => return build::run(&args),
+        Command::Info(args) => return info::run(&args),
+        Command::Render(args) => return render::run(&args),
+        Command::Edit(args) => return edit::run(&args),
+        Command::Coarsen(args) => return coarsen::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Schema => schema::run(),
         Command::Completions(args) => completions::run(&args),
         Command::Man(args) => man::run(&args),
-    }
+    }?;
+    Ok(Done::Complete)
 }
 
 /// A panic is a bug of ours, and callers still get the one line and the status they expect of a job that failed.

@@ -28,11 +28,18 @@ pub(crate) struct Product {
 }
 
 impl Product {
-    /// Prints the warnings about an input and commits all outputs, the report last; `begin` is when the work began.
+    /// Prints the warnings about an input and commits all outputs, the report last; `begin` is when the work began. Gives the
+    /// warnings.
     ///
     /// # Errors
     /// [`CliError::Write`] or [`CliError::Stdout`] where the system refuses.
-    fn commit(self, input: &str, is_quiet: bool, target: Option<&Target>, begin: Instant) -> Result<(), CliError> {
+    fn commit(
+        self,
+        input: &str,
+        is_quiet: bool,
+        target: Option<&Target>,
+        begin: Instant,
+    ) -> Result<Vec<Warning>, CliError> {
         if !is_quiet {
             terminal::print_warnings(input, &self.warnings);
         }
@@ -44,11 +51,11 @@ impl Product {
             // Last, so that a report is a sign that all else is there.
             target.write(report.to_json().as_bytes())?;
         }
-        Ok(())
+        Ok(self.warnings)
     }
 }
 
-/// Makes a product on as many threads as asked for, with a spinner, and writes it.
+/// Makes a product on as many threads as asked for, with a spinner, and writes it; gives what there is to warn of.
 ///
 /// # Errors
 /// What `work` gives, [`CliError::Threads`], and those of writing.
@@ -58,7 +65,7 @@ pub(crate) fn produce(
     report: Option<&Target>,
     begin: Instant,
     work: impl FnOnce(&Progress) -> Result<Product, CliError> + Send,
-) -> Result<(), CliError> {
+) -> Result<Vec<Warning>, CliError> {
     let progress = Progress::start(common.quiet);
     let product = on_threads(common.threads, || work(&progress))?;
     drop(progress);

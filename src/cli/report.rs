@@ -7,8 +7,9 @@ use std::time::Duration;
 
 use planecut::check::{Measures, TopologyReport, check_topology, measure_triangles};
 use planecut::csg::coarsen::Coarsened;
-use planecut::csg::{Evaluation, ModelSummary, SolidMeasures, StageTimes};
+use planecut::csg::{Evaluation, ModelSummary, Noise, SolidMeasures, StageTimes};
 use planecut::export::Written;
+use planecut::import::Warning;
 use planecut::kernel::DVec3;
 use planecut::kernel::sign::Counts;
 use serde::Serialize;
@@ -28,6 +29,8 @@ pub(crate) struct Report {
     solid: Option<SolidPart>,
     /// The mesh.
     mesh: MeshPart,
+    /// What was removed from the mesh as rounding noise.
+    noise: NoisePart,
     /// The signs that were asked for.
     signs: SignsPart,
     /// What `edit` did; other commands say nothing of it.
@@ -38,8 +41,10 @@ pub(crate) struct Report {
     coarsen: Option<CoarsenPart>,
     /// Where the time went, in milliseconds.
     pub(crate) time_ms: Times,
+    /// How many solids that the input states are left out; warnings name them.
+    left_out: usize,
     /// What was left out or is doubtful.
-    pub(crate) warnings: Vec<String>,
+    warnings: Vec<String>,
 }
 
 impl Report {
@@ -58,12 +63,20 @@ impl Report {
             model: Some(ModelPart::new(&evaluation.model, materials)),
             solid: Some(SolidPart::new(&evaluation.solid)),
             mesh,
+            noise: NoisePart::new(evaluation.noise),
             signs: SignsPart::new(&evaluation.signs),
             edit: None,
             coarsen: None,
             time_ms: Times::new(&evaluation.times),
+            left_out: 0,
             warnings: Vec::new(),
         }
+    }
+
+    /// Says what is to be warned of, after what was said before.
+    pub(crate) fn warn(&mut self, warnings: &[Warning]) {
+        self.left_out += warnings.iter().map(|warning| warning.left_out).sum::<usize>();
+        self.warnings.extend(warnings.iter().map(ToString::to_string));
     }
 
     /// Says what of the solid's parts is written.
@@ -89,10 +102,12 @@ impl Report {
             model: None,
             solid: topology.watertight.then(|| SolidPart::new(&measures)),
             mesh: MeshPart::new(topology, None),
+            noise: NoisePart::new(Noise::default()),
             signs: SignsPart::new(&Counts::default()),
             edit: None,
             coarsen: None,
             time_ms: Times::default(),
+            left_out: 0,
             warnings: Vec::new(),
         }
     }
@@ -101,6 +116,7 @@ impl Report {
     pub(crate) fn take_model(&mut self, other: Self) {
         self.model = other.model;
         self.solid = other.solid;
+        self.noise = other.noise;
         self.signs = other.signs;
         self.time_ms = other.time_ms;
     }
@@ -161,6 +177,20 @@ impl ModelPart {
             unbounded_brushes: summary.unbounded.len(),
             brush_volume_sum: summary.brush_volume_sum,
         }
+    }
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct NoisePart {
+    /// How many edges were contracted or gaps closed.
+    collapsed: usize,
+    /// The largest distance by which a vertex moved in that.
+    thickest: f64,
+}
+
+impl NoisePart {
+    fn new(Noise { collapsed, thickest }: Noise) -> Self {
+        Self { collapsed, thickest }
     }
 }
 

@@ -89,7 +89,7 @@ pub(crate) fn solved(
     let mesh = MeshPart::of_solid(&topology, evaluation.mesh.faces.len());
     let mut report = Report::of_model(input.given(), kind.name(), model.materials.len(), &evaluation, mesh);
     report.time_ms.import = milliseconds(import_time);
-    report.warnings = warnings.iter().map(ToString::to_string).collect();
+    report.warn(&warnings);
     Solved {
         model,
         sources: Vec::new(),
@@ -157,7 +157,7 @@ pub(crate) fn unbounded_of(kind: InputKind) -> UnboundedBrushes {
 pub(crate) fn solid_warnings(kind: InputKind, model: &Model, summary: &ModelSummary, mesh: &Mesh) -> Vec<Warning> {
     let mut warnings: Vec<Warning> = brush_warnings(kind, model, summary).collect();
     if mesh.triangles.is_empty() {
-        warnings.push(Warning { line: 0, message: "the result is empty".to_owned() });
+        warnings.push(Warning::note(0, "the result is empty"));
     }
     warnings
 }
@@ -165,16 +165,19 @@ pub(crate) fn solid_warnings(kind: InputKind, model: &Model, summary: &ModelSumm
 /// One warning for each kind of brush that adds nothing to the solid, on the line of the first of them.
 fn brush_warnings(kind: InputKind, model: &Model, summary: &ModelSummary) -> impl Iterator<Item = Warning> {
     let unbounded: &[usize] = if kind == InputKind::Map { &summary.unbounded } else { &[] };
-    let kinds = [(&summary.empty[..], "without interior"), (unbounded, "that is not bounded")];
-    kinds.into_iter().filter_map(|(numbers, kind)| {
-        let line = model.tree.source_line(*numbers.first()?).map_or(0, NonZeroU32::get);
+    // without interior there is nothing to leave out
+    let kinds = [(&summary.empty[..], "without interior", false), (unbounded, "that is not bounded", true)];
+    kinds.into_iter().filter_map(|(numbers, kind, is_loss)| {
+        let line_of = |number: &usize| model.tree.source_line(*number).map_or(0, NonZeroU32::get);
+        let line = line_of(numbers.first()?);
         let message = match numbers.len() {
             1 => format!("left out a brush {kind}"),
             count => {
                 let kind = kind.replace("that is", "that are");
-                format!("left out {count} brushes {kind}, the first of them here")
+                let lines = numbers.iter().map(|number| line_of(number).to_string()).collect::<Vec<_>>().join(", ");
+                format!("left out {count} brushes {kind}, the first of them here (lines {lines})")
             }
         };
-        Some(Warning { line, message })
+        Some(Warning::loss(line, message, if is_loss { numbers.len() } else { 0 }))
     })
 }

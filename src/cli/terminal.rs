@@ -13,7 +13,7 @@ pub(crate) fn print_error(message: &str) {
 
 /// Prints one line for each warning, that starts with `warning:` and names the file `name`.
 pub(crate) fn print_warnings(name: &str, warnings: &[Warning]) {
-    for Warning { line, message } in warnings {
+    for Warning { line, message, .. } in warnings {
         let line = if *line > 0 { format!(":{line}") } else { String::new() };
         print_line("warning", &format!("{name}{line}: {message}"));
     }

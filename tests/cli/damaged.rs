@@ -43,7 +43,9 @@ fn the_others_are_built() {
     for input in damaged_maps().into_iter().filter(|path| READABLE.iter().any(|name| path.ends_with(name))) {
         let folder = folder();
         let run = build_all_outputs(&input, folder.path());
-        assert_eq!(run.status, 0, "{}", run.stderr);
+        // what has too few faces with an area is left out
+        let expected = if input.ends_with("whole.map") { 0 } else { 3 };
+        assert_eq!(run.status, expected, "{}", run.stderr);
         assert!(run.stderr.lines().all(|line| line.starts_with("warning: ")), "{}", run.stderr);
         assert_eq!(everything_in(folder.path()), ["a.glb", "a.json", "a.obj", "a.png", "sub"]);
     }
@@ -95,7 +97,7 @@ fn damage_at_random(whole: &str, name: &str, bytes: &[u8]) {
         std::fs::write(&input, &text).expect("written");
         let run = planecut(["info".as_ref(), input.as_os_str()]);
         match run.status {
-            0 => assert!(serde_json::from_slice::<serde_json::Value>(&run.stdout).is_ok(), "round {round}"),
+            0 | 3 => assert!(serde_json::from_slice::<serde_json::Value>(&run.stdout).is_ok(), "round {round}"),
             _ => run.expect_error(2, name),
         }
     }

@@ -146,7 +146,7 @@ fn brushes_of_a_map_that_lose_their_end_are_left_out() {
     for arguments in ["edit m.map e.jsonl -o b.glb", "edit m.map e.jsonl -o a.glb --verify --report r.json"] {
         let run = finish(command().current_dir(folder.path()).args(arguments.split(' ')));
         let is_left_out = run.stderr.contains("left out a brush that is not bounded");
-        assert_eq!((run.status, is_left_out), (0, true), "{}", run.stderr);
+        assert_eq!((run.status, is_left_out), (3, true), "{}", run.stderr);
     }
     assert_eq!(report(folder.path())["solid"]["volume"], json!(8.0));
 }

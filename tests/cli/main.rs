@@ -9,6 +9,7 @@ mod determinism;
 mod edit;
 mod enclosed;
 mod examples;
+mod losses;
 mod meshes;
 mod model;
 mod outputs;

@@ -29,7 +29,7 @@ fn keys_are_those_of_the_contract_in_its_order() {
         mesh vertices triangles faces components genus watertight manifold volume \
         signs total filtered small_int big \
         time_ms import evaluate weld triangulate export preview total \
-        warnings";
+        left_out warnings";
     assert_eq!(keys(&text), expected.split_whitespace().collect::<Vec<_>>());
     assert!(text.ends_with("}\n"));
 }
@@ -97,7 +97,8 @@ fn brushes_that_add_nothing_are_counted_and_warned_of() {
     let unbounded: Vec<&str> = unit.lines().filter(|line| !line.contains("( 1 1 1 )")).collect();
     let brushes = [block([5; 3], [4; 3], "stone"), unit.clone(), unbounded.join("\n") + "\n"];
     let run = info(&brushes);
-    let report = run.json();
+    let report = run.lossy_json();
+    assert_eq!((run.status, &report["left_out"]), (3, &json!(1)), "the one without end");
     let model = &report["model"];
     assert_eq!(
         (&model["brushes"], &model["empty_brushes"], &model["unbounded_brushes"]),

@@ -41,6 +41,7 @@ fn editor_fixtures_are_built_or_refused_with_a_line() {
         ("10_Daikatana_map_header", Ok(1)),
         ("13_Ordered_layers_with_gaps_and_duplicates", Err(".map:21: found")),
         ("15_Grouped_entities_and_brushes", Ok(5)),
+        // nothing but patches, which are left out
         ("18_Quake_3_patch", Ok(0)),
         ("19___TB_empty_material_name", Ok(1)),
         ("20_Quoted_material_names", Err(".map:3: found")),
@@ -51,7 +52,10 @@ fn editor_fixtures_are_built_or_refused_with_a_line() {
         match expected {
             Err(words) => run.expect_error(2, words),
             Ok(brushes) => {
-                let report = run.json();
+                let report = run.lossy_json();
+                // of a brush, two faces have no area and the others leave it without an end
+                let is_lossy = matches!(name, "18_Quake_3_patch" | "21_1424");
+                assert_eq!(run.status == 3, is_lossy, "{}", run.stderr);
                 assert_eq!(report["model"]["brushes"], json!(brushes), "{name}");
                 assert_eq!(report["mesh"]["manifold"], json!(true), "{name}");
             }

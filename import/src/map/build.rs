@@ -3,7 +3,8 @@
 use std::borrow::Cow;
 use std::num::NonZeroU32;
 
-use planecut_csg::{Brush, BrushFace, Material, MaterialId, Tree};
+use glam::{DVec2, DVec3};
+use planecut_csg::{Brush, BrushFace, Material, MaterialId, TextureAxes, Tree};
 use rustc_hash::FxHashMap;
 
 use super::error::MapError;
@@ -88,7 +89,8 @@ impl<'a> Builder<'a> {
                 Ok(half_space) => {
                     let normal = half_space.normal();
                     let scale = normal.abs().max_element();
-                    textures.push(face.alignment.axes((normal / scale).normalize()));
+                    let axes = face.alignment.axes((normal / scale).normalize());
+                    textures.push(axes.map(|axes| moved(axes, face.origin)));
                     faces.push(BrushFace { half_space, material: self.material(&text(&face.texture)) });
                 }
                 Err(PlaneError::NoArea) => self.faces_left_out.add(self.lines.line_of(face.offset)),
@@ -141,22 +143,22 @@ impl<'a> Builder<'a> {
         let lines = std::mem::take(&mut self.brush_lines);
         self.import.model.tree = Tree::union_of(std::mem::take(&mut self.brushes)).with_source_lines(lines);
         self.import.warnings = self.warnings();
-        self.import.faces_left_out = self.faces_left_out.count;
-        self.import.brushes_left_out = self.brushes_left_out.count;
-        self.import.patches_left_out = self.patches_left_out.count;
-        self.import.primitives_left_out = self.primitives_left_out.count;
+        self.import.faces_left_out = self.faces_left_out.count();
+        self.import.brushes_left_out = self.brushes_left_out.count();
+        self.import.patches_left_out = self.patches_left_out.count();
+        self.import.primitives_left_out = self.primitives_left_out.count();
         Ok(self.import)
     }
 
     /// One warning for each kind of thing left out, by line.
     fn warnings(&self) -> Vec<Warning> {
-        let (patches, primitives) = (self.patches_left_out, self.primitives_left_out);
         let mut warnings: Vec<Warning> = [
             self.faces_left_out
-                .warning("face whose three points lie on one line", "faces whose three points lie on one line"),
-            self.brushes_left_out.warning("brush without faces", "brushes without faces"),
-            patches.warning("patch", "patches"),
-            primitives.warning("primitive that is not supported", "primitives that are not supported"),
+                .warning("face whose three points lie on one line", "faces whose three points lie on one line")
+                .map(|(line, message)| Warning::note(line, message)),
+            self.brushes_left_out.loss("brush without faces", "brushes without faces"),
+            self.patches_left_out.loss("patch", "patches"),
+            self.primitives_left_out.loss("primitive that is not supported", "primitives that are not supported"),
         ]
         .into_iter()
         .flatten()
@@ -167,35 +169,50 @@ impl<'a> Builder<'a> {
                 (0, _) => "the map holds no brushes".to_owned(),
                 (read, skipped) => format!("no brush is left: {read} read, {skipped} of them skipped by option"),
             };
-            warnings.push(Warning { line: 0, message });
+            warnings.push(Warning::note(0, message));
         }
         warnings
     }
 }
 
-/// How often something was left out, and on which line first.
-#[derive(Clone, Copy, Default)]
+/// What was left out, by the lines on which it begins.
+#[derive(Default)]
 struct Tally {
-    count: usize,
-    first_line: u32,
+    lines: Vec<u32>,
 }
 
 impl Tally {
     fn add(&mut self, line: u32) {
-        if self.count == 0 {
-            self.first_line = line;
-        }
-        self.count += 1;
+        self.lines.push(line);
     }
 
-    fn warning(self, one: &str, many: &str) -> Option<Warning> {
-        let message = match self.count {
-            0 => return None,
-            1 => format!("left out a {one}"),
-            count => format!("left out {count} {many}, the first of them here"),
-        };
-        Some(Warning { line: self.first_line, message })
+    fn count(&self) -> usize {
+        self.lines.len()
     }
+
+    /// The first line, and a message that names all where there are several.
+    fn warning(&self, one: &str, many: &str) -> Option<(u32, String)> {
+        let first = *self.lines.first()?;
+        let message = match self.count() {
+            1 => format!("left out a {one}"),
+            count => format!("left out {count} {many}, the first of them here (lines {})", listed(&self.lines)),
+        };
+        Some((first, message))
+    }
+
+    /// The same for solids.
+    fn loss(&self, one: &str, many: &str) -> Option<Warning> {
+        self.warning(one, many).map(|(line, message)| Warning::loss(line, message, self.count()))
+    }
+}
+
+fn listed(lines: &[u32]) -> String {
+    lines.iter().map(u32::to_string).collect::<Vec<_>>().join(", ")
+}
+
+/// How a texture lies that is laid from an origin.
+fn moved(axes: TextureAxes, origin: DVec3) -> TextureAxes {
+    TextureAxes { offset: axes.offset - DVec2::new(axes.u.dot(origin), axes.v.dot(origin)), ..axes }
 }
 
 /// Class of the entity that holds the level itself.

@@ -9,6 +9,7 @@ use winnow::combinator::delimited;
 use winnow::stream::Location;
 use winnow::token::any;
 
+use super::decimal::Decimal;
 use super::error::{Found, SyntaxError};
 use super::plane::{self, PlaneError, Point};
 use super::texture::Alignment;
@@ -21,11 +22,13 @@ pub(super) struct Entity<'a> {
     pub(super) is_bare: bool,
     /// The last value of `classname`.
     pub(super) classname: Option<Cow<'a, [u8]>>,
+    /// The last value of `origin` that is three numbers.
+    origin: Option<Point>,
     pub(super) brushes: Vec<Brush<'a>>,
     pub(super) left_out: Vec<LeftOut>,
 }
 
-/// A brush of three-point faces.
+/// A brush.
 #[derive(Debug)]
 pub(super) struct Brush<'a> {
     /// Offset of its opening brace.
@@ -39,9 +42,13 @@ pub(super) struct Face<'a> {
     /// Offset of its first parenthesis.
     pub(super) offset: usize,
     pub(super) plane: Result<HalfSpace, PlaneError>,
+    /// The plane as it is stated, where that is by four numbers.
+    equation: Option<[Decimal; 4]>,
     pub(super) texture: Cow<'a, [u8]>,
     /// How the texture lies.
     pub(super) alignment: Alignment,
+    /// The place from which the texture is laid.
+    pub(super) origin: DVec3,
 }
 
 /// A primitive that is not read.
@@ -70,8 +77,10 @@ pub(super) fn entity<'a>(input: &mut Input<'a>) -> Parsed<Option<Entity<'a>>> {
         match peek(input)? {
             Some(b'"') => {
                 let (key, value) = (quoted, quoted).parse_next(input)?;
-                if *key == *b"classname" {
-                    entity.classname = Some(value);
+                match &*key {
+                    b"classname" => entity.classname = Some(value),
+                    b"origin" => entity.origin = point_of(&value).or(entity.origin),
+                    _ => {}
                 }
             }
             Some(b'{') => {
@@ -80,10 +89,31 @@ pub(super) fn entity<'a>(input: &mut Input<'a>) -> Parsed<Option<Entity<'a>>> {
             }
             _ => {
                 close_brace(input, opened, "a key in quotes, `{` or `}`")?;
+                entity.put_in_place();
                 return Ok(Some(entity));
             }
         }
     }
+}
+
+impl Entity<'_> {
+    /// Moves what Doom 3 states relative to the origin of its entity: planes of four numbers, and textures on them. The world has no origin.
+    fn put_in_place(&mut self) {
+        let Some(origin) = self.origin.filter(|_| self.classname.as_deref() != Some(b"worldspawn")) else { return };
+        for face in self.brushes.iter_mut().flat_map(|brush| &mut brush.faces) {
+            if let Some(equation) = &face.equation {
+                face.plane = plane::half_space_of(equation, &origin);
+                face.origin = DVec3::from_array(origin.map(Decimal::to_f64));
+            }
+        }
+    }
+}
+
+/// Three numbers between blanks.
+fn point_of(text: &[u8]) -> Option<Point> {
+    let mut numbers = text.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty()).map(Decimal::parse);
+    let point = [numbers.next()??, numbers.next()??, numbers.next()??];
+    numbers.next().is_none().then_some(point)
 }
 
 /// The first line of a Doom 3 map, `Version 2`.
@@ -109,14 +139,21 @@ fn close_brace(input: &mut Input<'_>, opened: usize, expected: &'static str) -> 
 /// What follows the opening brace of a brush, its closing brace included.
 fn brush_or_primitive<'a>(input: &mut Input<'a>, opened: usize, entity: &mut Entity<'a>) -> Parsed<()> {
     if !peek(input)?.is_some_and(|byte| byte.is_ascii_alphabetic()) {
-        entity.brushes.push(Brush { offset: opened, faces: faces(input, opened, false)? });
+        entity.brushes.push(Brush { offset: opened, faces: faces(input, opened, Form::Points)? });
         return Ok(());
     }
     let offset = input.current_token_start();
     let keyword = word(input)?;
-    if keyword.eq_ignore_ascii_case(b"brushDef") {
+    let form = if keyword.eq_ignore_ascii_case(b"brushDef") {
+        Some(Form::PointsAndMatrix)
+    } else if keyword.eq_ignore_ascii_case(b"brushDef3") {
+        Some(Form::EquationAndMatrix)
+    } else {
+        None
+    };
+    if let Some(form) = form {
         let inner = open_brace(input)?;
-        entity.brushes.push(Brush { offset: opened, faces: faces(input, inner, true)? });
+        entity.brushes.push(Brush { offset: opened, faces: faces(input, inner, form)? });
     } else {
         skip_block(input)?;
         let is_patch = keyword.get(..5).is_some_and(|start| start.eq_ignore_ascii_case(b"patch"));
@@ -147,19 +184,31 @@ fn skip_block(input: &mut Input<'_>) -> Parsed<()> {
     Ok(())
 }
 
-/// Faces up to the closing brace, which is taken; those of a brush primitive have a texture matrix.
-fn faces<'a>(input: &mut Input<'a>, opened: usize, has_matrix: bool) -> Parsed<Vec<Face<'a>>> {
+/// How a face states its plane, and whether a texture matrix follows.
+#[derive(Clone, Copy, PartialEq)]
+enum Form {
+    /// Three points.
+    Points,
+    /// Three points and a matrix (`brushDef`).
+    PointsAndMatrix,
+    /// Four numbers and a matrix (`brushDef3`).
+    EquationAndMatrix,
+}
+
+/// Faces up to the closing brace, which is taken.
+fn faces<'a>(input: &mut Input<'a>, opened: usize, form: Form) -> Parsed<Vec<Face<'a>>> {
     let mut faces = Vec::with_capacity(6);
     while peek(input)? == Some(b'(') {
-        faces.push(face(input, has_matrix)?);
+        faces.push(face(input, form)?);
     }
     close_brace(input, opened, "`(` or `}`")?;
     Ok(faces)
 }
 
-fn face<'a>(input: &mut Input<'a>, has_matrix: bool) -> Parsed<Face<'a>> {
+fn face<'a>(input: &mut Input<'a>, form: Form) -> Parsed<Face<'a>> {
     let offset = input.current_token_start();
-    let points: [Point; 3] = (triple, triple, triple).map(<[Point; 3]>::from).parse_next(input)?;
+    let (plane, equation) = plane_of_face(input, form)?;
+    let has_matrix = form != Form::Points;
     let matrix = if has_matrix { Some(matrix(input)?) } else { None };
     let texture = name(input)?;
     let (layout, axes) = if has_matrix {
@@ -178,7 +227,26 @@ fn face<'a>(input: &mut Input<'a>, has_matrix: bool) -> Parsed<Face<'a>> {
             Alignment::Plain { shift: DVec2::new(x, y), degrees, scale: DVec2::new(wide, high) }
         }
     };
-    Ok(Face { offset, plane: plane::half_space(&points), texture, alignment })
+    Ok(Face { offset, plane, equation, texture, alignment, origin: DVec3::ZERO })
+}
+
+/// The plane of a face, and the four numbers that state it, where they do.
+type StatedPlane = (Result<HalfSpace, PlaneError>, Option<[Decimal; 4]>);
+
+fn plane_of_face(input: &mut Input<'_>, form: Form) -> Parsed<StatedPlane> {
+    if form == Form::EquationAndMatrix {
+        let equation = quadruple(input)?;
+        let nowhere = [Decimal::Exact { mantissa: 0, places: 0 }; 3];
+        return Ok((plane::half_space_of(&equation, &nowhere), Some(equation)));
+    }
+    let points: [Point; 3] = (triple, triple, triple).map(<[Point; 3]>::from).parse_next(input)?;
+    Ok((plane::half_space(&points), None))
+}
+
+/// `( a b c d )`.
+fn quadruple(input: &mut Input<'_>) -> Parsed<[Decimal; 4]> {
+    let numbers = (number, number, number, number).map(<[Decimal; 4]>::from);
+    delimited(punctuation(b'(', "`(`"), numbers, punctuation(b')', "`)`")).parse_next(input)
 }
 
 /// `( x y z )`.

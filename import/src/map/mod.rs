@@ -1,8 +1,8 @@
 //! Reader of Quake-family `.map` files.
 //!
 //! A map is a list of entities; an entity is a list of quoted key/value pairs and of brushes; a brush is a list of
-//! faces, each of three points, a texture and how the texture is laid on. What is read here is the planes, the texture
-//! names and the class names. All dialects that write brushes as three-point faces are taken, also mixed in one file:
+//! faces, each of a plane, mostly as three points, a texture and how the texture is laid on. What is read here is the planes, the texture
+//! names and the class names. These dialects are taken, also mixed in one file:
 //!
 //! | dialect | after the texture |
 //! |---|---|
@@ -12,8 +12,9 @@
 //! | Daikatana | the same and three values of colour |
 //! | Valve 220 | `[ ux uy uz x ] [ vx vy vz y ] rotation x-scale y-scale`, and any of the additions above |
 //! | `brushDef` | nothing or `contents flags value`; a texture matrix stands before the texture |
+//! | `brushDef3` | the same; four numbers `a b c d` state the half-space `a x + b y + c z + d ≤ 0`, relative to the entity's `origin` |
 //!
-//! Patches and other primitives are left out, with a warning. The stages, each in its own file: bytes → tokens
+//! Comments begin with `//` or `;`. Patches and other primitives are left out, with a warning. The stages, each in its own file: bytes → tokens
 //! (`token`), tokens → entities with planes (`grammar`, `decimal`, `plane`), entities → model (`build`).
 //!
 //! Sources: the parsers of id Software's `qbsp`, of ericw-tools and of TrenchBroom, and the maps made with them.
@@ -75,7 +76,7 @@ pub struct MapImport {
     pub faces_left_out: usize,
     /// Curved patches left out (`patchDef2`, `patchDef3`, …).
     pub patches_left_out: usize,
-    /// Primitives of other kinds left out (`brushDef3`, `terrainDef`, …).
+    /// Primitives of other kinds left out (`terrainDef`, `meshDef`, …).
     pub primitives_left_out: usize,
     /// What was left out, one warning for each kind, naming the first line.
     pub warnings: Vec<Warning>,

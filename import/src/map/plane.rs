@@ -35,6 +35,37 @@ pub(super) fn half_space(points: &[Point; 3]) -> Result<HalfSpace, PlaneError> {
     HalfSpace::new(DVec3::new(x, y, z), offset).map_err(PlaneError::OutOfRange)
 }
 
+/// The half-space `a x + b y + c z + d ≤ 0` of a plane that is given relative to `origin`.
+///
+/// Decimals with few places are taken exactly, as integers without a common factor; others as the `f64` values that they are.
+pub(super) fn half_space_of(equation: &[Decimal; 4], origin: &Point) -> Result<HalfSpace, PlaneError> {
+    if let Some([x, y, z, offset]) = small_equation(equation, origin) {
+        if [x, y, z] == [0.0; 3] {
+            return Err(PlaneError::NoArea);
+        }
+        return HalfSpace::new(DVec3::new(x, y, z), offset).map_err(PlaneError::OutOfRange);
+    }
+    let [a, b, c, d] = equation.map(Decimal::to_f64);
+    let normal = DVec3::new(a, b, c);
+    if normal == DVec3::ZERO {
+        return Err(PlaneError::NoArea);
+    }
+    let offset = normal.dot(DVec3::from_array(origin.map(Decimal::to_f64))) - d;
+    HalfSpace::new(normal, offset).map_err(PlaneError::OutOfRange)
+}
+
+/// Coefficients `[nx, ny, nz, offset]` without a common factor, where all are exact.
+fn small_equation([a, b, c, d]: &[Decimal; 4], origin: &Point) -> Option<[f64; 4]> {
+    let normal = [*a, *b, *c];
+    let ([normal, origin, [d, ..]], scale) = small_integers(&[normal, *origin, [*d; 3]])?;
+    // The normal, origin and offset are `scale` times the true ones: |n·o| < 3·2^80, the rest is smaller.
+    let offset = normal[0] * origin[0] + normal[1] * origin[1] + normal[2] * origin[2] - d * scale;
+    let integers = [normal[0] * scale, normal[1] * scale, normal[2] * scale, offset];
+    let divisor = integers.into_iter().fold(0, |divisor, v| gcd(divisor, v.unsigned_abs())).max(1) as i128;
+    let primitive = integers.map(|v| v / divisor);
+    primitive.iter().all(|v| v.unsigned_abs() <= 1 << f64::MANTISSA_DIGITS).then(|| primitive.map(|v| v as f64))
+}
+
 /// Largest coordinate, times the scale, for 128-bit arithmetic.
 ///
 /// With `|P| ≤ 2^40`: differences `≤ 2^41`, `|N| ≤ 2·2^82`, `10^6·|N| < 2^103`, `|D| ≤ 3·2^83·2^40 < 2^125`.

@@ -49,11 +49,16 @@ pub(super) fn is_delimiter(byte: u8) -> bool {
     is_blank(byte) || matches!(byte, b'(' | b')' | b'[' | b']' | b'{' | b'}' | b'"')
 }
 
-/// Skips white space and `//` comments.
+/// Skips white space and comments, which begin with `//` or, as QuArK writes them, with `;`.
 fn blank(input: &mut Input<'_>) -> Parsed<()> {
+    skip(input, &[b"//", b";"])
+}
+
+/// Skips white space and comments that begin with one of `marks`.
+fn skip(input: &mut Input<'_>, marks: &[&[u8]]) -> Parsed<()> {
     loop {
         take_while(0.., is_blank).void().parse_next(input)?;
-        if !input.starts_with(b"//") {
+        if !marks.iter().any(|mark| input.starts_with(mark)) {
             return Ok(());
         }
         take_till(0.., (b'\n', b'\r')).void().parse_next(input)?;
@@ -85,7 +90,9 @@ pub(super) fn word<'a>(input: &mut Input<'a>) -> Parsed<&'a [u8]> {
 
 /// A name between blanks, whatever its characters, or in quotes: a texture.
 pub(super) fn name<'a>(input: &mut Input<'a>) -> Parsed<Cow<'a, [u8]>> {
-    match peek(input)? {
+    // names may begin with a semicolon
+    skip(input, &[b"//"])?;
+    match input.first() {
         Some(b'"') => quoted(input),
         _ => take_till(1.., is_blank).map(Cow::Borrowed).context("a texture name").parse_next(input),
     }

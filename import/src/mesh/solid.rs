@@ -43,6 +43,17 @@ pub enum SolidError {
     },
 }
 
+/// What is said of corners that were joined.
+pub(crate) fn joined_message(count: usize) -> String {
+    match count {
+        1 => "a corner that differs from another by rounding is joined with it: the surface is not closed otherwise"
+            .to_owned(),
+        _ => format!(
+            "{count} corners that differ from others by rounding are joined with them: the surface is not closed otherwise"
+        ),
+    }
+}
+
 fn of_object(object: Option<&str>) -> String {
     object.map_or_else(String::new, |name| format!("object `{}`: ", name.escape_debug()))
 }
@@ -152,7 +163,11 @@ fn united(mesh: &IndexedMesh, objects: &[MeshObject], convex: ConvexObjects) -> 
         if solid.is_turned {
             let message = "found facets that are clockwise seen from outside, turned them over";
             let message = format!("{}{message}", of_object(object.name.as_deref()));
-            import.warnings.push(Warning { line: line.map_or(0, NonZeroU32::get), message });
+            import.warnings.push(Warning::note(line.map_or(0, NonZeroU32::get), message));
+        }
+        if solid.joined_corners > 0 {
+            let message = format!("{}{}", of_object(object.name.as_deref()), joined_message(solid.joined_corners));
+            import.warnings.push(Warning::note(line.map_or(0, NonZeroU32::get), message));
         }
         brushes.extend(solid.cells.into_iter().map(|mut brush| {
             brush.name = object.name.clone();

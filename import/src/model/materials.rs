@@ -70,12 +70,10 @@ pub(super) fn warn_of_unknown(document: &Document<'_>, lines: &LineTable, entrie
     entries.sort_unstable();
     let first = entries.into_iter().filter(|entry| seen.insert(document.text(*entry)));
     first
-        .map(|entry| Warning {
-            line: lines.line_of(document.offset(entry)),
-            message: format!(
-                "the file defines no material `{}`; its colour is made up",
-                shorten(&document.text(entry))
-            ),
+        .map(|entry| {
+            let name = shorten(&document.text(entry));
+            let message = format!("the file defines no material `{name}`; its colour is made up");
+            Warning::note(lines.line_of(document.offset(entry)), message)
         })
         .collect()
 }

@@ -10,6 +10,7 @@ use planecut_shapes::Outline;
 
 use super::error::Fault;
 use super::frame::{Frame, Matrix};
+use super::import::Imported;
 use super::materials::Materials;
 use super::problem::{Body, Geometry, Made, Problem};
 use super::syntax::Node;
@@ -174,17 +175,21 @@ impl<'s, 'a> Evaluator<'s, 'a> {
             "square" => made_flat(leaf::square(node)),
             "circle" => made_flat(leaf::circle(node)),
             "polyhedron" => Ok(self.polyhedron(turn)),
-            "import" => {
-                let (tree, message) = import::mesh(node, &self.options.folder, material)?;
-                if let Some(message) = message {
-                    self.warn(turn, message);
+            "import" => match import::mesh(node, &self.options.folder, material)? {
+                Imported::Solid(tree, messages) => {
+                    messages.into_iter().for_each(|message| self.warn(turn, message));
+                    Ok(Some(tree.into()))
                 }
-                Ok(Some(tree.into()))
-            }
+                Imported::LeftOut(why) => {
+                    self.warn_of_loss(turn, format!("an import is left out: {why}"));
+                    Ok(Some(Tree::empty().into()))
+                }
+            },
             "polygon" => {
                 let (outline, message) = leaf::polygon(node)?;
                 if let Some(message) = message {
-                    self.warn(turn, message);
+                    // and so is what is made of it
+                    self.warn_of_loss(turn, message);
                 }
                 Ok(Some(Geometry::Flat(outline)))
             }
@@ -203,14 +208,12 @@ impl<'s, 'a> Evaluator<'s, 'a> {
     /// A solid of given faces; like OpenSCAD, goes on without it where it is none.
     fn polyhedron(&mut self, turn: Turn<'s, 'a>) -> Option<Geometry> {
         match polyhedron::body(turn.node, turn.frame.material) {
-            Ok((body, message)) => {
-                if let Some(message) = message {
-                    self.warn(turn, message);
-                }
+            Ok((body, messages)) => {
+                messages.into_iter().for_each(|message| self.warn(turn, message));
                 Some(Geometry::Solid(body))
             }
             Err(message) => {
-                self.warn(turn, format!("a polyhedron is left out: {message}"));
+                self.warn_of_loss(turn, format!("a polyhedron is left out: {message}"));
                 Some(Tree::empty().into())
             }
         }
@@ -220,7 +223,11 @@ impl<'s, 'a> Evaluator<'s, 'a> {
     fn moved(&mut self, turn: Turn<'s, 'a>, children: Vec<Option<Geometry>>) -> Made {
         let matrix = Matrix::of(turn.node);
         if !matrix.is_finite() {
-            self.warn(turn, "a matrix that is not finite: what it moves is left out");
+            let message = "a matrix that is not finite: what it moves is left out";
+            match children.iter().flatten().any(Geometry::is_some_solid) {
+                true => self.warn_of_loss(turn, message),
+                false => self.warn(turn, message),
+            }
             return Ok(None);
         }
         let is_single = children.iter().flatten().count() == 1;
@@ -278,7 +285,7 @@ impl<'s, 'a> Evaluator<'s, 'a> {
         });
         let outlines = outlines.collect();
         if mixed {
-            self.warn(turn, format!("`{}` of outlines: a solid among them is left out", turn.node.name));
+            self.warn_of_loss(turn, format!("`{}` of outlines: a solid among them is left out", turn.node.name));
         }
         outlines
     }
@@ -298,7 +305,7 @@ impl<'s, 'a> Evaluator<'s, 'a> {
         if mixed {
             self.warn(turn, format!("`{}` of solids: an outline among them is left out", turn.node.name));
         }
-        if turn.node.name != "hull" {
+        if turn.node.name != "hull" && !self.options.keep_touching {
             self.leave_out_touching(turn, &mut bodies);
         }
         bodies
@@ -313,7 +320,7 @@ impl<'s, 'a> Evaluator<'s, 'a> {
         {
             *body = None;
             let message = "a solid whose surface touches itself in an edge or a corner is left out";
-            self.warn(turn, format!("`{}`: {message}, as in OpenSCAD 2021.01", turn.node.name));
+            self.warn_of_loss(turn, format!("`{}`: {message}, as in OpenSCAD 2021.01", turn.node.name));
         }
     }
 
@@ -323,14 +330,14 @@ impl<'s, 'a> Evaluator<'s, 'a> {
             made.iter().flatten().any(|made| matches!(made, Geometry::Flat(outline) if !outline.is_empty()));
         if are_outlines {
             let message = "outlines that nothing extrudes are left out: the result is a solid".to_owned();
-            self.warnings.push(Warning { line: 0, message });
+            self.warnings.push(Warning::note(0, message));
         }
         let bodies = made.into_iter().filter_map(|made| match made {
             Some(Geometry::Solid(body)) => Some(Some(body)),
             _ => None,
         });
         let mut bodies: Vec<Option<Body>> = bodies.collect();
-        if let Some(node) = self.nodes.first() {
+        if let Some(node) = self.nodes.first().filter(|_| !self.options.keep_touching) {
             let whole = Node { name: "the whole", ..node.clone() };
             self.leave_out_touching(Turn { node: &whole, frame: Frame::outermost() }, &mut bodies);
         }
@@ -339,14 +346,20 @@ impl<'s, 'a> Evaluator<'s, 'a> {
 
     pub(super) fn warn(&mut self, turn: Turn<'_, '_>, message: impl Into<String>) {
         let line = self.lines.line_of(turn.node.offset);
-        self.warnings.push(Warning { line, message: message.into() });
+        self.warnings.push(Warning::note(line, message));
+    }
+
+    /// Says that a solid is left out.
+    pub(super) fn warn_of_loss(&mut self, turn: Turn<'_, '_>, message: impl Into<String>) {
+        let line = self.lines.line_of(turn.node.offset);
+        self.warnings.push(Warning::loss(line, message, 1));
     }
 
     fn fail(&mut self, turn: Turn<'_, '_>, problem: Problem) -> Result<Option<Geometry>, Fault> {
         if !self.options.keep_going {
             return Err(Fault::found(turn.node.offset, problem.found, problem.expected));
         }
-        self.warn(
+        self.warn_of_loss(
             turn,
             format!("`{}` is left out: found {}, expected {}", turn.node.name, problem.found, problem.expected),
         );

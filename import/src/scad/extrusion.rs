@@ -108,7 +108,8 @@ pub(super) fn rotational(evaluator: &mut Evaluator<'_, '_>, turn: Turn<'_, '_>, 
     }
     let (least, most) = outline.loops().flatten().fold((0.0f64, 0.0f64), |(a, b), p| (a.min(p.x), b.max(p.x)));
     if least < 0.0 && most > 0.0 {
-        evaluator.warn(turn, format!("an outline on both sides of the axis (x from {least} to {most}) is left out"));
+        evaluator
+            .warn_of_loss(turn, format!("an outline on both sides of the axis (x from {least} to {most}) is left out"));
         return Ok(None);
     }
     let fragments = Fragments::of(&arguments);

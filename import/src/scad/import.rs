@@ -9,12 +9,19 @@ use super::problem::Problem;
 use super::syntax::Node;
 use crate::mesh::{MeshFormat, read_solid};
 
-/// The solid of a mesh file, and what is to be said of it. Like OpenSCAD, goes on without a file that is not there or holds no
-/// solid.
+/// What a mesh file gives.
+pub(super) enum Imported {
+    /// Its solid, and what is to be said of it.
+    Solid(Tree, Vec<String>),
+    /// Nothing, and why.
+    LeftOut(String),
+}
+
+/// The solid of a mesh file. Like OpenSCAD, goes on without a file that is not there or holds no solid.
 ///
 /// # Errors
 /// [`Problem`] for a format that is not supported.
-pub(super) fn mesh(node: &Node<'_>, folder: &Path, material: MaterialId) -> Result<(Tree, Option<String>), Problem> {
+pub(super) fn mesh(node: &Node<'_>, folder: &Path, material: MaterialId) -> Result<Imported, Problem> {
     let arguments = Arguments::of(node, &["file"]);
     let file = arguments.text("file").unwrap_or_default();
     let format = Path::new(file).extension().and_then(|ending| MeshFormat::from_extension(ending.to_str()?));
@@ -25,17 +32,17 @@ pub(super) fn mesh(node: &Node<'_>, folder: &Path, material: MaterialId) -> Resu
         ));
     };
     let path = folder.join(file);
-    let left_out = |why: &str| (Tree::empty(), Some(format!("an import is left out: {why}")));
     let bytes = match std::fs::read(&path) {
         Ok(bytes) => bytes,
-        Err(error) => return Ok(left_out(&format!("`{}` cannot be read ({error})", file.escape_debug()))),
+        Err(error) => return Ok(Imported::LeftOut(format!("`{}` cannot be read ({error})", file.escape_debug()))),
     };
-    match read_solid(&bytes, format, file) {
+    Ok(match read_solid(&bytes, format, file) {
         Ok(import) => {
-            let message = import.warnings.first().map(|warning| format!("`{}`: {warning}", file.escape_debug()));
+            let messages = import.warnings.iter().map(|warning| format!("`{}`: {warning}", file.escape_debug()));
             // a line of the mesh file is none of this one
-            Ok((import.model.tree.with_material(material).without_source_lines(), message))
+            let tree = import.model.tree.with_material(material).without_source_lines();
+            Imported::Solid(tree, messages.collect())
         }
-        Err(error) => Ok(left_out(&error.to_string())),
-    }
+        Err(error) => Imported::LeftOut(error.to_string()),
+    })
 }

@@ -53,6 +53,9 @@ pub struct ScadOptions {
     pub folder: PathBuf,
     /// Leaves out what cannot be made, with a warning, instead of failing.
     pub keep_going: bool,
+    /// Keeps solids that touch themselves in an edge or a corner also where they are combined with others, as OpenSCAD does since it has Manifold
+    /// (2024). OpenSCAD 2021.01 leaves them out.
+    pub keep_touching: bool,
 }
 
 /// A tree that was read.

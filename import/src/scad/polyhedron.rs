@@ -2,7 +2,9 @@
 
 use planecut_csg::MaterialId;
 use planecut_kernel::DVec3;
-use planecut_shapes::polyhedron::{Polyhedron, PolyhedronError, PolyhedronOptions, Precision, polyhedron};
+use planecut_shapes::polyhedron::{
+    Polyhedron, PolyhedronError, PolyhedronOptions, Precision, polyhedron, polyhedron_by_winding,
+};
 use rustc_hash::FxHashMap;
 
 use super::arguments::Arguments;
@@ -10,6 +12,7 @@ use super::leaf::corners;
 use super::problem::Body;
 use super::syntax::Node;
 use super::value::Value;
+use crate::mesh::joined_message;
 use crate::mesh::merge::PositionMerger;
 
 /// Significant digits of the numbers that OpenSCAD writes.
@@ -25,19 +28,28 @@ type Surface = (Vec<DVec3>, Vec<Vec<u32>>);
 ///
 /// # Errors
 /// Why there is none, in one line.
-pub(super) fn body(node: &Node<'_>, material: MaterialId) -> Result<(Body, Option<String>), String> {
+pub(super) fn body(node: &Node<'_>, material: MaterialId) -> Result<(Body, Vec<String>), String> {
     let (points, facets) = surface(node)?;
     if facets.is_empty() {
-        return Ok((Body::default(), None));
+        return Ok((Body::default(), Vec::new()));
     }
-    match solid(&points, &facets, material) {
-        Ok(solid) => {
-            let message =
-                solid.is_turned.then(|| "a polyhedron whose faces are all turned around is turned back".to_owned());
-            let touches_itself = touches_itself(&points, &facets);
-            Ok((Body { tree: solid.into(), touches_itself, ..Body::default() }, message))
+    let (solid, crosses) = match solid(&points, &facets, material) {
+        Err(error @ (PolyhedronError::Crossing { .. } | PolyhedronError::Inconsistent { .. })) => {
+            let solid = solid_by_winding(&points, &facets, material).ok_or_else(|| error.to_string())?;
+            (Ok(solid), Some(format!("{error}: what the surface winds around more than zero times is kept")))
         }
-        Err(PolyhedronError::NoVolume) => Ok((Body::default(), None)),
+        solid => (solid, None),
+    };
+    match solid {
+        Ok(solid) => {
+            let turned =
+                solid.is_turned.then(|| "a polyhedron whose faces are all turned around is turned back".to_owned());
+            let joined = (solid.joined_corners > 0).then(|| joined_message(solid.joined_corners));
+            let touches_itself = solid.touches_itself;
+            let messages = turned.into_iter().chain(joined).chain(crosses).collect();
+            Ok((Body { tree: solid.into(), touches_itself, ..Body::default() }, messages))
+        }
+        Err(PolyhedronError::NoVolume) => Ok((Body::default(), Vec::new())),
         Err(error) => Err(error.to_string()),
     }
 }
@@ -57,6 +69,13 @@ fn solid(points: &[DVec3], facets: &[Vec<u32>], material: MaterialId) -> Result<
         }
     }
     known_to(Precision::Digits(DIGITS))
+}
+
+/// The same for a surface that crosses itself, where it is small enough.
+fn solid_by_winding(points: &[DVec3], facets: &[Vec<u32>], material: MaterialId) -> Option<Polyhedron> {
+    let precisions = [Precision::Digits(DIGITS), Precision::Double];
+    let solid = |precision| polyhedron_by_winding(points, facets, &[material], &PolyhedronOptions { precision }).ok();
+    precisions.into_iter().find_map(solid)
 }
 
 fn surface(node: &Node<'_>) -> Result<Surface, String> {
@@ -88,7 +107,16 @@ fn surface(node: &Node<'_>) -> Result<Surface, String> {
 pub(super) fn touches_itself(points: &[DVec3], facets: &[Vec<u32>]) -> bool {
     let mut places = PositionMerger::default();
     let mut place = |corner: &u32| places.index(points[*corner as usize]).expect("no more places than corners");
-    let facets: Vec<Vec<u32>> = facets.iter().map(|facet| facet.iter().map(&mut place).collect()).collect();
+    let facets = facets.iter().map(|facet| {
+        let mut facet: Vec<u32> = facet.iter().map(&mut place).collect();
+        facet.dedup();
+        while facet.len() > 1 && facet.first() == facet.last() {
+            facet.pop();
+        }
+        facet
+    });
+    // a facet whose corners are at fewer than three places has no part in the surface
+    let facets: Vec<Vec<u32>> = facets.filter(|facet| facet.len() > 2).collect();
     // after each corner of a face, seen from that corner: where the face came from, by where it goes
     let mut fans: FxHashMap<(u32, u32), u32> = FxHashMap::default();
     let mut degree = vec![0_u32; places.into_positions().len()];

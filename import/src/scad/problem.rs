@@ -49,6 +49,13 @@ impl Body {
     }
 }
 
+impl Geometry {
+    /// Whether this is a solid that is not surely empty.
+    pub(super) fn is_some_solid(&self) -> bool {
+        matches!(self, Self::Solid(body) if !body.is_empty())
+    }
+}
+
 impl From<Tree> for Geometry {
     fn from(tree: Tree) -> Self {
         Self::Solid(tree.into())

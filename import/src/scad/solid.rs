@@ -95,8 +95,8 @@ pub(super) fn resized(node: &Node<'_>, made: Option<Geometry>) -> Made {
     let wanted = arguments.size::<3>("newsize");
     let wanted = if arguments.get("newsize").is_some() { wanted } else { [0.0; 3] };
     let follows: [bool; 3] = match arguments.get("auto") {
-        Some(Value::Boolean(all)) => [*all; 3],
-        Some(value) => std::array::from_fn(|axis| value.items().get(axis) == Some(&Value::Boolean(true))),
+        Some(Value::Vector(items)) => std::array::from_fn(|axis| items.get(axis).is_some_and(Value::is_true)),
+        Some(value) => [value.is_true(); 3],
         None => [false; 3],
     };
     match made {

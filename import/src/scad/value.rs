@@ -21,6 +21,17 @@ impl Value {
         if let Self::Number(number) = self { Some(*number) } else { None }
     }
 
+    /// Whether OpenSCAD takes the value for true: not `false`, not undefined, not 0 and not empty.
+    pub(super) fn is_true(&self) -> bool {
+        match self {
+            Self::Undefined => false,
+            Self::Boolean(value) => *value,
+            Self::Number(number) => *number != 0.0,
+            Self::Text(text) => !text.is_empty(),
+            Self::Vector(items) => !items.is_empty(),
+        }
+    }
+
     /// The values in brackets; none for anything else.
     pub(super) fn items(&self) -> &[Self] {
         if let Self::Vector(items) = self { items } else { &[] }

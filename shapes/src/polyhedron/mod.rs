@@ -1,10 +1,12 @@
 //! Solids from closed surfaces of facets, as convex cells.
 //!
+//! - `joining` makes corners one that differ by rounding, where the surface is open without that.
 //! - `surface` merges points by position, checks that the surface is closed and pairs its triangles (`pairing`) along
 //!   edges; `polygon` cuts facets into triangles.
 //! - `planes` finds one plane for facets that were meant to lie on one, as exactly as corners are known (`precision`).
 //! - `cells` cuts space along planes of facets (`choice` says which) until what is left in each `part` is convex
 //!   (`edges`, `lumps`); `sides` does the same for surfaces that are closed by the ends of a slab.
+//! - `winding` cuts space along all facets of a surface that crosses itself, and keeps what that winds around.
 //!
 //! The sum of the cells' volumes must be the volume that the facets enclose, by the divergence theorem; a surface for which it
 //! is not has no inside.
@@ -14,6 +16,7 @@ mod choice;
 mod edges;
 mod error;
 pub(crate) mod exact;
+mod joining;
 mod lumps;
 mod pairing;
 mod part;
@@ -22,6 +25,7 @@ mod polygon;
 mod precision;
 mod sides;
 mod surface;
+mod winding;
 
 use planecut_cells::joined;
 use planecut_check::{CheckOptions, ContactKind, check_mesh};
@@ -32,8 +36,10 @@ pub use error::PolyhedronError;
 pub use polygon::{MAX_CONCAVE_CORNERS, triangulate};
 pub use precision::Precision;
 pub(crate) use sides::cells_within;
+pub use winding::{MAX_CROSSING_TRIANGLES, polyhedron_by_winding};
 
 use crate::tolerances::{GOOD_VOLUME, LESS_SLACK};
+use joining::closed_surface;
 use planes::Planes;
 use surface::Surface;
 
@@ -64,6 +70,8 @@ pub struct Polyhedron {
     pub touches_itself: bool,
     /// How many facets were cut into triangles as their corners lie on no plane.
     pub bent_facets: usize,
+    /// How many places of corners went because the surface was not closed without joining them to others, as near as rounding.
+    pub joined_corners: usize,
 }
 
 impl From<Polyhedron> for Tree {
@@ -76,7 +84,8 @@ impl From<Polyhedron> for Tree {
 ///
 /// `facets` hold the numbers of their corners in `points`, counter-clockwise seen from outside; all may be clockwise instead.
 /// They may have any number of corners and need not be convex. A facet whose corners lie on no plane, as exactly as they are
-/// known ([`Precision`]), is cut into triangles. Points at the same position are one. There may be several shells, and
+/// known ([`Precision`]), is cut into triangles. Points at the same position are one; where the surface is not closed with
+/// that, also those that differ only by rounding ([`JOINED_CORNERS`](crate::tolerances::JOINED_CORNERS)). There may be several shells, and
 /// shells of cavities with their facets seen from the cavity counter-clockwise; they may touch each other in edges and
 /// corners. Faces have the material of their facet: `materials` holds one for each facet, or one for all. Where facets of
 /// several materials lie side by side on one plane of a cell, the widest decides.
@@ -112,7 +121,7 @@ pub fn polyhedron<F: AsRef<[u32]>>(
     if materials.len() != 1 && materials.len() != facets.len() {
         return Err(PolyhedronError::Materials { found: materials.len(), facets: facets.len() });
     }
-    let mut surface = Surface::new(points, facets, options.precision)?;
+    let (mut surface, joined_corners) = closed_surface(points, facets, options.precision)?;
     check_crossings(&surface)?;
     let material_of = |facet: u32| if materials.len() == 1 { materials[0] } else { materials[facet as usize] };
     let mut best = solid(&surface, material_of);
@@ -127,7 +136,7 @@ pub fn polyhedron<F: AsRef<[u32]>>(
             best = Ok((solid, off));
         }
     }
-    best.map(|(solid, _)| solid)
+    best.map(|(solid, _)| Polyhedron { joined_corners, ..solid })
 }
 
 /// Whether less tolerance would not help.
@@ -157,6 +166,7 @@ fn solid(
         is_turned: surface.is_turned,
         touches_itself: surface.touches_itself,
         bent_facets: planes.bent_facets,
+        joined_corners: 0,
     };
     Ok((solid, off))
 }

@@ -172,21 +172,7 @@ impl Part {
 
     /// What lies below a plane of one of the pieces, and what lies above; each is `None` where there is no solid.
     pub(super) fn cut(self, points: &mut Points<'_>, plane: u32) -> [Option<Self>; 2] {
-        let (mut below, mut above, mut on) = (Vec::new(), Vec::new(), Vec::new());
-        for piece in self.pieces {
-            if piece.plane == plane {
-                on.push(piece);
-                continue;
-            }
-            let (low, high) =
-                (points.beside(&piece, plane, Ordering::Less), points.beside(&piece, plane, Ordering::Greater));
-            if low.is_none() && high.is_none() {
-                on.push(piece);
-                continue;
-            }
-            below.extend(low);
-            above.extend(high);
-        }
+        let [below, on, above] = divided(self.pieces, points, plane);
         let covers = Covers::of(points, &on, plane);
         let part = |mut pieces: Vec<Piece>, is_above: bool| {
             if !pieces.iter().any(|piece| points.is_wide(piece)) {
@@ -198,6 +184,39 @@ impl Part {
         };
         [part(below, false), part(above, true)]
     }
+
+    /// What lies below a plane of one of the pieces, and what lies above, whether or not there is solid. Pieces on the plane go, and those that are no
+    /// wider than points are exact.
+    pub(super) fn halves(self, points: &mut Points<'_>, plane: u32) -> [Self; 2] {
+        let [below, on, above] = divided(self.pieces, points, plane);
+        let covers = Covers::of(points, &on, plane);
+        let part = |mut pieces: Vec<Piece>, is_above: bool| {
+            pieces.retain(|piece| points.is_wide(piece));
+            let wall = PlaneSide { plane, is_above, facet: covers.widest(is_above) };
+            Self { walls: self.walls.iter().copied().chain([wall]).collect(), pieces }
+        };
+        [part(below, false), part(above, true)]
+    }
+}
+
+/// The pieces below a plane, on it and above.
+fn divided(pieces: Vec<Piece>, points: &mut Points<'_>, plane: u32) -> [Vec<Piece>; 3] {
+    let (mut below, mut on, mut above) = (Vec::new(), Vec::new(), Vec::new());
+    for piece in pieces {
+        if piece.plane == plane {
+            on.push(piece);
+            continue;
+        }
+        let (low, high) =
+            (points.beside(&piece, plane, Ordering::Less), points.beside(&piece, plane, Ordering::Greater));
+        if low.is_none() && high.is_none() {
+            on.push(piece);
+            continue;
+        }
+        below.extend(low);
+        above.extend(high);
+    }
+    [below, on, above]
 }
 
 /// The facets on a plane that cuts a part, with the area of each whose solid lies below and above.

@@ -24,6 +24,14 @@ impl Precision {
         points.iter().map(of).collect()
     }
 
+    /// How far two coordinates are apart that were meant to be one and are rounded to neighbouring numbers, where they are largest.
+    pub(super) fn between_neighbours(self, points: &[DVec3]) -> f64 {
+        let size = points.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
+        let rounding = points.iter().map(|p| self.rounding(p, size)).fold(0.0, f64::max);
+        // the difference of neighbours is rounded, too
+        2.0 * rounding * (1.0 + CORNER_NOISE) + 4.0 * f64::EPSILON * size
+    }
+
     /// The largest rounding of a coordinate.
     fn rounding(self, point: &DVec3, size: f64) -> f64 {
         match self {

@@ -2,7 +2,7 @@
 
 use planecut_csg::stages::CompensatedSum;
 use planecut_kernel::DVec3;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::error::PolyhedronError;
 use super::pairing::{pair_half_edges, split_vertices};
@@ -52,7 +52,7 @@ impl Surface {
         let mates = pair_half_edges(&merged, &triangles);
         let used = used_points(&triangles, merged.len());
         let points = split_vertices(&merged, &mut triangles, &mates);
-        let touches_itself = points.len() > used;
+        let touches_itself = points.len() > used || repeats_an_edge(&polygons);
         let slack = precision.slack(&points);
         Ok(Self { points, slack, triangles, facet_of, mates, is_turned, touches_itself })
     }
@@ -158,6 +158,16 @@ fn check_closed(polygons: &[(u32, Vec<u32>)], points: &[DVec3]) -> Result<(), Po
         }
     }
     Ok(())
+}
+
+/// Whether an edge is used more than once in the same direction.
+fn repeats_an_edge(polygons: &[(u32, Vec<u32>)]) -> bool {
+    let mut edges = FxHashSet::default();
+    let edges_of = |polygon: &Vec<u32>| {
+        let next = polygon.iter().copied().cycle().skip(1);
+        polygon.iter().copied().zip(next).collect::<Vec<_>>()
+    };
+    polygons.iter().flat_map(|(_, polygon)| edges_of(polygon)).any(|edge| !edges.insert(edge))
 }
 
 fn triangulate(polygons: &[(u32, Vec<u32>)], points: &[DVec3]) -> Result<(Vec<[u32; 3]>, Vec<u32>), PolyhedronError> {

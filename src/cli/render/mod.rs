@@ -15,7 +15,7 @@ use planecut::picture::{
 use self::args::IdKind;
 pub(crate) use self::args::RenderArgs;
 use self::subject::{Drawn, subject};
-use super::error::CliError;
+use super::error::{CliError, Done};
 use super::input::{Input, InputKind};
 use super::output::{Output, PictureFormat, Target, check_targets};
 use super::pool::on_threads;
@@ -42,7 +42,7 @@ type Made = (Vec<Output>, Vec<Vec<Warning>>);
 ///
 /// # Errors
 /// [`CliError`] where the arguments or the input are unusable, or the picture cannot be written.
-pub(crate) fn run(args: &RenderArgs) -> Result<(), CliError> {
+pub(crate) fn run(args: &RenderArgs) -> Result<Done, CliError> {
     let plan = Plan::resolve(args)?;
     let progress = Progress::start(args.common.quiet);
     let (outputs, warnings) = on_threads(args.common.threads, || plan.carry_out(&progress))?;
@@ -52,7 +52,8 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), CliError> {
             terminal::print_warnings(&input.name(), warnings);
         }
     }
-    outputs.into_iter().try_for_each(Output::commit)
+    outputs.into_iter().try_for_each(Output::commit)?;
+    Ok(Done::with(warnings.iter().flatten(), args.reading.allow_loss))
 }
 
 impl<'a> Plan<'a> {

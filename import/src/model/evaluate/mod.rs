@@ -327,7 +327,7 @@ impl<'v, 'a> Evaluator<'v, 'a> {
         self.make_from(context, value, |maker| maker.body(key).map(Option::unwrap_or_default))?;
         if key == "points" && self.trees.last().is_some_and(|tree| tree.brushes().is_empty()) {
             let message = "the hull of the points has no interior: they lie on a plane".to_owned();
-            self.warnings.push(Warning { line, message });
+            self.warnings.push(Warning::note(line, message));
         }
         Ok(())
     }

@@ -148,7 +148,7 @@ fn a_brush_of_such_faces_is_left_out() {
         warnings,
         [
             "line 4: left out a brush without faces",
-            "line 5: left out 2 faces whose three points lie on one line, the first of them here",
+            "line 5: left out 2 faces whose three points lie on one line, the first of them here (lines 5, 6)",
             "no brush is left: 1 read, 0 of them skipped by option",
         ]
     );

@@ -219,10 +219,10 @@ fn brush_primitives_with_points_are_brushes() {
 fn other_primitives_are_left_out_with_a_warning() {
     let patch =
         |keyword| format!("{{\n{keyword}\n{{\n\"my tex}}\"\n( 3 3 0 0 0 )\n(\n((-64 -64 4 0   0 ))\n)\n}}\n}}\n");
-    let doom = "{\nbrushDef3\n{\n( 0 0 1 -64 ) ( ( 0.03 0 0 ) ( 0 0.03 0 ) ) \"textures/a\" 0 0 0\n}\n}\n";
+    let other = "{\nmeshDef\n{\n( 0 0 1 -64 ) ( ( 0.03 0 0 ) ( 0 0.03 0 ) ) \"textures/a\" 0 0 0\n}\n}\n";
     let brush = format!("{{\n{POINTS} a 0 0 0 1 1\n}}\n");
     let text = format!(
-        "Version 2\n{{\n\"classname\" \"worldspawn\"\n{brush}{}{doom}{}{}{}{brush}}}\n",
+        "Version 2\n{{\n\"classname\" \"worldspawn\"\n{brush}{}{other}{}{}{}{brush}}}\n",
         patch("patchDef2"),
         patch("patchDef3"),
         patch("terrainDef"),
@@ -232,10 +232,88 @@ fn other_primitives_are_left_out_with_a_warning() {
     assert_eq!((import.model.tree.brushes().len(), import.patches_left_out, import.primitives_left_out), (2, 3, 2));
     let line = |keyword| 1 + text.lines().position(|line| line == keyword).expect("in the text");
     let expected = [
-        format!("line {}: left out 3 patches, the first of them here", line("patchDef2")),
-        format!("line {}: left out 2 primitives that are not supported, the first of them here", line("brushDef3")),
+        format!(
+            "line {0}: left out 3 patches, the first of them here (lines {0}, {1}, {2})",
+            line("patchDef2"),
+            line("patchDef3"),
+            line("patchDefNew")
+        ),
+        format!(
+            "line {0}: left out 2 primitives that are not supported, the first of them here (lines {0}, {1})",
+            line("meshDef"),
+            line("terrainDef")
+        ),
     ];
     assert_eq!(warnings(&import), expected);
+    assert_eq!(import.warnings.iter().map(|warning| warning.left_out).collect::<Vec<_>>(), [3, 2]);
+}
+
+/// A brush of Doom 3: planes by four numbers, each with `a x + b y + c z + d <= 0` inside.
+fn doom_brush(planes: &[&str]) -> String {
+    let face = |plane: &&str| format!("( {plane} ) ( ( 0.25 0 0.5 ) ( 0 0.125 0 ) ) \"textures/a\" 0 0 0\n");
+    format!("{{\nbrushDef3\n{{\n{}}}\n}}\n", planes.iter().map(face).collect::<String>())
+}
+
+/// 2 x 3 x 4, from (1, 2, 3) to (3, 5, 7).
+const DOOM_BOX: [&str; 6] = ["-1 0 0 1", "1 0 0 -3", "0 -1 0 2", "0 1 0 -5", "0 0 -1 3", "0 0 1 -7"];
+
+fn volume_of(import: &MapImport) -> f64 {
+    planecut_csg::evaluate(&import.model).expect("a mesh").solid.volume
+}
+
+#[test]
+fn planes_by_four_numbers_bound_brushes() {
+    let read_brush = |planes: &[&str]| {
+        let import = read(format!("Version 2\n{{\n\"classname\" \"worldspawn\"\n{}}}\n", doom_brush(planes)));
+        assert_eq!((import.brushes_read, import.primitives_left_out), (1, 0));
+        import
+    };
+    assert_eq!(volume_of(&read_brush(&DOOM_BOX)), 24.0);
+    // x + y + z <= 13 cuts off the tetrahedron with edges of 2 along the axes at (3, 5, 7)
+    let cut = [&DOOM_BOX[..], &["0.5 0.5 0.5 -6.5"]].concat();
+    let volume = volume_of(&read_brush(&cut));
+    assert!((volume - (24.0 - 8.0 / 6.0)).abs() < 1e-12, "{volume}");
+    // decimals are taken as such: -0.1 and 0.3 are no doubles, and their planes are those of x = 3
+    let faces = &read_brush(&["0.1 0 0 -0.3", "1 0 0 -3"]).model.tree.brushes()[0].faces.clone();
+    assert_eq!(faces[0].half_space, faces[1].half_space);
+    let long = volume_of(&read_brush(&[
+        "-1.0000000 0 0 1.00000001",
+        "1 0 0 -3",
+        "0 -1 0 2",
+        "0 1 0 -5",
+        "0 0 -1 3",
+        "0 0 1 -7",
+    ]));
+    assert!((long - (2.0 - 1e-8) * 12.0).abs() < 1e-12, "{long}");
+    let nothing = read_brush(&["0 0 0 1", "1 0 0 -3"]);
+    assert_eq!(nothing.faces_left_out, 1, "a face without a normal");
+}
+
+#[test]
+fn planes_by_four_numbers_are_relative_to_the_origin_of_their_entity() {
+    let entity = |class: &str, origin: &str| {
+        let text = format!("{{\n{}\"classname\" \"{class}\"\n\"origin\" \"{origin}\"\n}}\n", doom_brush(&DOOM_BOX));
+        read(format!("Version 2\n{text}"))
+    };
+    let centroid = |import: &MapImport| planecut_csg::evaluate(&import.model).expect("a mesh").solid.centroid;
+    let at_rest = DVec3::new(2.0, 3.5, 5.0);
+    let near = |a: DVec3, b: DVec3| assert!(a.abs_diff_eq(b, 1e-12), "{a} {b}");
+    near(centroid(&entity("worldspawn", "10 20 30")), at_rest);
+    let moved = entity("func_static", "10 -20.5 30");
+    near(centroid(&moved), at_rest + DVec3::new(10.0, -20.5, 30.0));
+    near(centroid(&entity("func_static", "10 20")), at_rest);
+    // textures go with the brush
+    let [at, there] = [entity("worldspawn", "0 0 0"), moved].map(|import| import.textures[0][0].expect("axes"));
+    let point = DVec3::new(1.0, 4.0, 6.0);
+    let (a, b) = (at.at(point), there.at(point + DVec3::new(10.0, -20.5, 30.0)));
+    assert!(a.abs_diff_eq(b, 1e-12), "{a} {b}");
+}
+
+#[test]
+fn comments_begin_with_two_slashes_or_a_semicolon() {
+    let faces = [format!("; a face (\n{POINTS} a 0 0 0 1 1 ; its end {{"), format!("{POINTS} a;b 0 0 0 1 1 // \"")];
+    let import = read(format!("; QuArK\r\n;{{\r{}", world(&faces)));
+    assert_eq!(textures(&import.model), [["a", "a;b"]]);
 }
 
 #[test]

@@ -12,6 +12,27 @@ fn polygon(radius: f64, n: f64) -> f64 {
 }
 
 #[test]
+fn resize_takes_numbers_as_truth_values() {
+    // 1 x 2 x 3 to a height of 7: the factor is 7/3 where `auto` is set
+    let resized = |auto: &str| format!("resize(newsize = [0, 0, 7], auto = {auto}) cube([1, 2, 3]);");
+    let (alone, one, both) = (14.0, 14.0 * 7.0 / 3.0, 14.0 * 49.0 / 9.0);
+    for (auto, expected) in [
+        ("[1, 1, 1]", both),
+        ("[1, 0, 1]", one),
+        ("[0, 2.5, 0]", one),
+        ("[0, 0, 0]", alone),
+        ("[true, 1, false]", both),
+        ("1", both),
+        ("0", alone),
+        ("true", both),
+        ("[1]", one),
+        ("undef", alone),
+    ] {
+        assert_volume(&resized(auto), expected);
+    }
+}
+
+#[test]
 fn circles_have_the_fragments_of_the_special_variables() {
     // $fn where it is above 0, but at least 3; else by angle and length, but at least 5
     let cases = [

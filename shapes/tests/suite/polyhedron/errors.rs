@@ -31,12 +31,30 @@ fn facets_that_are_turned_leave_edges_open() {
     assert!(matches!(error(&given), PolyhedronError::Open { .. }));
 }
 
-#[test]
-fn a_gap_of_one_rounding_is_a_gap() {
+/// A cube one of whose facets has a corner of its own, off by that much.
+fn with_a_gap(off: f64) -> Given {
     let mut given = unit();
-    given.points.push(DVec3::new(1.0, 1.0, 1.0 + f64::EPSILON));
+    given.points.push(DVec3::new(1.0, 1.0, 1.0 + off));
     given.facets[1] = vec![4, 5, 8, 6];
-    assert!(matches!(error(&given), PolyhedronError::Open { edges: 4, .. }));
+    given
+}
+
+#[test]
+fn a_gap_of_roundings_is_closed_and_counted_and_a_wider_one_is_a_gap() {
+    for off in [f64::EPSILON, 1e-12, 0.99e-9] {
+        let given = with_a_gap(off);
+        let solid = polyhedron(&given.points, &given.facets, &[MaterialId(0)], &PolyhedronOptions::default());
+        let solid = solid.expect("a solid");
+        assert_eq!((solid.joined_corners, solid.volume, solid.cells.len()), (1, 1.0, 1), "{off}");
+    }
+    for off in [1.1e-9, 1e-6] {
+        assert!(matches!(error(&with_a_gap(off)), PolyhedronError::Open { edges: 4, .. }), "{off}");
+    }
+    // as coordinates of single precision are 1.2e-7 apart there
+    let given = with_a_gap(f64::from(f32::EPSILON));
+    let single = PolyhedronOptions { precision: Precision::Single };
+    let solid = polyhedron(&given.points, &given.facets, &[MaterialId(0)], &single).expect("a solid");
+    assert_eq!((solid.joined_corners, solid.volume), (1, 1.0));
 }
 
 #[test]

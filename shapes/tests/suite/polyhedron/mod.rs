@@ -14,3 +14,4 @@ mod judge;
 mod materials;
 mod random;
 mod voxels;
+mod winding;
