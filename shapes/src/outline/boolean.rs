@@ -12,7 +12,7 @@ use planecut_csg::Operation;
 use planecut_kernel::DVec2;
 use rustc_hash::FxHashMap;
 
-use super::{FillRule, Outline, largest_coordinate, signed_area};
+use super::{FillRule, Outline, crossings, largest_coordinate, signed_area};
 use crate::parameter::{ShapeError, refuse};
 use crate::tolerances::SLIVER;
 
@@ -30,8 +30,10 @@ impl Outline {
     /// A set operation on outlines, regularised; [`Operation::Difference`] takes the others from the first.
     ///
     /// # Errors
-    /// [`ShapeError::Parameter`] for [`Operation::Complement`]: no outline is unbounded.
+    /// [`ShapeError::Parameter`] for [`Operation::Complement`]: no outline is unbounded. [`ShapeError::Crossings`] where sides cross more than
+    /// [`MAX_CROSSINGS`](super::MAX_CROSSINGS) times.
     pub fn combine(operation: Operation, operands: &[Self]) -> Result<Self, ShapeError> {
+        crossings::refuse_many(operands.iter().flat_map(Self::loops))?;
         let points = || operands.iter().flat_map(Self::loops).flatten();
         let mut grid = Grid::of(points());
         let loops: Vec<Vec<Loop>> = operands.iter().map(|operand| grid.loops(operand.loops())).collect();

@@ -1,6 +1,7 @@
 //! Outlines in the plane: polygons with holes, their set operations, offsets, hulls and Minkowski sums.
 
 mod boolean;
+mod crossings;
 mod hull;
 mod minkowski;
 mod offset;
@@ -9,6 +10,7 @@ use glam::DMat2;
 pub(crate) use i_overlay::core::fill_rule::FillRule;
 use planecut_kernel::DVec2;
 
+pub use crossings::MAX_CROSSINGS;
 pub(crate) use hull::{corners_of_hull, turn};
 pub use offset::{ClipperJoin, Join, MITER_LIMIT, OffsetRule};
 
@@ -34,9 +36,12 @@ impl Outline {
     /// each other. Corners keep their coordinates to the last bit.
     ///
     /// # Errors
-    /// [`ShapeError::Parameter`] where a loop has fewer than three points or a coordinate is not accepted.
+    /// [`ShapeError::Parameter`] where a loop has fewer than three points or a coordinate is not accepted,
+    /// [`ShapeError::Crossings`] where sides cross more than [`MAX_CROSSINGS`] times.
     pub fn from_loops(loops: &[Vec<DVec2>]) -> Result<Self, ShapeError> {
-        Ok(Self::filled(&accepted(loops)?, FillRule::EvenOdd))
+        let loops = accepted(loops)?;
+        crossings::refuse_many(loops.iter())?;
+        Ok(Self::filled(&loops, FillRule::EvenOdd))
     }
 
     /// What loops go around, counting counter-clockwise turns as positive and clockwise ones as negative, a number of times
@@ -46,7 +51,9 @@ impl Outline {
     /// # Errors
     /// As [`from_loops`](Self::from_loops).
     pub fn from_wound_loops(loops: &[Vec<DVec2>]) -> Result<Self, ShapeError> {
-        Ok(Self::filled(&accepted(loops)?, FillRule::NonZero))
+        let loops = accepted(loops)?;
+        crossings::refuse_many(loops.iter())?;
+        Ok(Self::filled(&loops, FillRule::NonZero))
     }
 
     /// The rectangle between two corners.
@@ -81,8 +88,14 @@ impl Outline {
     }
 
     /// All loops.
-    pub fn loops(&self) -> impl Iterator<Item = &Vec<DVec2>> {
+    pub fn loops(&self) -> impl Iterator<Item = &Vec<DVec2>> + Clone {
         self.shapes.iter().flatten()
+    }
+
+    /// The number of corners of all loops.
+    #[must_use]
+    pub fn corner_count(&self) -> usize {
+        self.loops().map(Vec::len).sum()
     }
 
     /// Whether nothing is left.

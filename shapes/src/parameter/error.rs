@@ -56,6 +56,14 @@ pub enum ShapeError {
         /// How many are accepted.
         limit: u64,
     },
+    /// The sides of outlines cross too often.
+    #[error("found sides of outlines that cross {found} times, expected at most {limit}")]
+    Crossings {
+        /// How often they cross.
+        found: u64,
+        /// How often they may.
+        limit: u64,
+    },
     /// An operand that had to be evaluated first could not be.
     #[error(transparent)]
     Evaluate(#[from] EvaluateError),

@@ -3,13 +3,15 @@
 //! The sum of two convex bodies has a facet for each direction in which one of them has a facet, or in which both have edges
 //! that are not parallel: where an arc between the normals of neighbouring faces of one body crosses such an arc of the
 //! other (the Gaussian maps laid over each other). Its distance from the origin is the sum of theirs. Which arcs cross is
-//! decided by exact signs of the normals.
+//! decided by exact signs of the normals, of those alone whose boxes on the unit sphere meet.
 
 use planecut_csg::Tree;
 use planecut_csg::{Brush, MaterialId};
 use planecut_kernel::sign::{Row, Sign, orient3};
 use planecut_kernel::{DVec3, HalfSpace, direction_across, line_direction};
+use rustc_hash::FxHashMap;
 
+use super::boxes::{Bounds, BoxTree};
 use super::convex::{Convex, Edge, parts_of_union, wide_faces};
 use crate::parameter::{ShapeError, pieces};
 
@@ -42,9 +44,13 @@ fn convex_parts(tree: &Tree) -> Result<Vec<Gauss>, ShapeError> {
 
 /// The Gaussian map of a body.
 struct Gauss {
-    corners: Vec<DVec3>,
+    corners: BoxTree,
     faces: Vec<HalfSpace>,
+    /// The offset of the face with a normal.
+    offsets: FxHashMap<[u64; 3], f64>,
     edges: Vec<Arc>,
+    /// The boxes of the arcs.
+    arcs: BoxTree,
 }
 
 /// An edge: the normals of its faces, its unit direction and one of its ends.
@@ -53,30 +59,52 @@ struct Arc {
     outward: DVec3,
     direction: DVec3,
     end: DVec3,
+    /// A box around the arc on the unit sphere.
+    bounds: Bounds,
 }
 
 impl Gauss {
     fn of(body: &Convex) -> Self {
         let arc = |edge: &Edge| {
             let rows = edge.planes.each_ref().map(Row::new);
-            let outward = unit(edge.planes[0].normal()) + unit(edge.planes[1].normal());
-            Arc { rows, outward, direction: line_direction(&rows[0], &rows[1]), end: edge.end }
+            let normals = edge.planes.map(|plane| unit(plane.normal()));
+            let direction = line_direction(&rows[0], &rows[1]);
+            Arc { rows, outward: normals[0] + normals[1], direction, end: edge.end, bounds: around_arc(normals) }
         };
-        let edges = body.edges.iter().map(arc).collect();
-        Self { corners: body.corners.clone(), faces: body.half_spaces.clone(), edges }
-    }
-
-    /// The greatest `normal · x`.
-    fn reach(&self, normal: DVec3) -> f64 {
-        self.corners.iter().map(|corner| normal.dot(*corner)).fold(f64::NEG_INFINITY, f64::max)
+        let edges: Vec<Arc> = body.edges.iter().map(arc).collect();
+        let mut offsets = FxHashMap::default();
+        for face in &body.half_spaces {
+            offsets.entry(key(face.normal())).or_insert(face.offset());
+        }
+        Self {
+            corners: BoxTree::new(body.corners.iter().map(|corner| [*corner; 2])),
+            faces: body.half_spaces.clone(),
+            offsets,
+            arcs: BoxTree::new(edges.iter().map(|arc| arc.bounds)),
+            edges,
+        }
     }
 
     /// The offset in the direction of a half-space: that of the face with the same normal, where there is one.
     fn offset_along(&self, half_space: &HalfSpace) -> f64 {
         let normal = half_space.normal();
-        let same = self.faces.iter().find(|face| face.normal() == normal);
-        same.map_or_else(|| self.reach(normal), HalfSpace::offset)
+        self.offsets.get(&key(normal)).copied().unwrap_or_else(|| self.corners.reach(normal))
     }
+}
+
+/// The same for equal vectors, whatever the signs of their zeros.
+fn key(v: DVec3) -> [u64; 3] {
+    (v + DVec3::ZERO).to_array().map(f64::to_bits)
+}
+
+/// Far above the rounding of a unit vector.
+const ROUNDING: f64 = 1e-12;
+
+/// A box around the shorter arc between two points of the unit sphere: nowhere is it farther from the chord than in its middle.
+fn around_arc([a, b]: [DVec3; 2]) -> Bounds {
+    let half = 0.5 * a.distance(b);
+    let height = 1.0 - (1.0 - half * half).max(0.0).sqrt() + ROUNDING;
+    [a.min(b) - height, a.max(b) + height]
 }
 
 fn unit(v: DVec3) -> DVec3 {
@@ -92,9 +120,11 @@ fn sum(a: &Gauss, b: &Gauss) -> Result<Vec<HalfSpace>, ShapeError> {
         }
     }
     for first in &a.edges {
-        for second in b.edges.iter().filter(|second| crosses(first, second)) {
+        let near = b.arcs.meeting(first.bounds).into_iter().map(|number| &b.edges[number as usize]);
+        for second in near.filter(|second| crosses(first, second)) {
             planes.extend(across(first, second)?);
         }
+        pieces(planes.len() as u64)?;
     }
     wide_faces(&planes)
 }

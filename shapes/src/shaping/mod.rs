@@ -1,5 +1,6 @@
 //! Solids from solids: hulls, Minkowski sums, slices and shadows.
 
+mod boxes;
 mod convex;
 mod hull;
 mod minkowski;
