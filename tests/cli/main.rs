@@ -14,6 +14,7 @@ mod meshes;
 mod model;
 mod outputs;
 mod reference;
+mod regressions;
 mod render;
 mod report;
 mod shared_maps;
