@@ -20,9 +20,10 @@ pub struct CheckOptions {
     ///   moved by the tolerance or less so that they only touch. Triangles that share corners or edges are no exception.
     /// - An *overlap* counts where one triangle lies in the plane of a larger one within the tolerance and they share area,
     ///   a hundred times deeper in the plane than the tolerance, and both are wider than it. Solids and gaps thinner than the
-    ///   tolerance are none. So triangles that face opposite ways count only where they lie in one plane to the last digits of `f64`, and
-    ///   not at all where the tolerance allows for positions in `f32`, which closes such gaps. Triangles that face the same way count where exact
-    ///   signs say that they meet, and in `f32` where both are of one connected surface, which is folded there.
+    ///   tolerance are none. So triangles that face opposite ways count only where they lie in one plane, those of two surfaces
+    ///   to the last digits of `f64` and those of one surface by exact signs; and not at all where the tolerance allows for
+    ///   positions in `f32`, which closes such gaps. Triangles that face the same way count where exact signs say that they meet,
+    ///   and in `f32` where both are of one connected surface, which is folded there.
     /// - An *edge crossing* counts where surfaces pass through each other along an edge, all four wings reaching a hundred
     ///   times the tolerance from it at angles above one degree.
     ///

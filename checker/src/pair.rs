@@ -181,13 +181,14 @@ impl<'a> PairTest<'a> {
         }
         let depth = overlap_depth(a, b, self.limit)?;
         let is_within = |distance: f64| overlap_depth(a, b, distance).is_some();
-        let is_one_plane = is_within(self.slack) || interiors_overlap(&a_exact, &b_exact);
+        let coincide = interiors_overlap(&a_exact, &b_exact);
+        let is_one_surface = self.surfaces[t] == self.surfaces[u];
         let counts = if normal(a).dot(normal(b)) < 0.0 {
-            // Rounding to `f64` leaves the sides of a fin or a gap apart, as far as what made them can tell; rounding to `f32` may make them one.
-            is_one_plane && !self.is_single
+            // Sides of a fin or a gap stay apart when they are rounded to `f64`, be it by the last digit; rounding to `f32` may make them one.
+            !self.is_single && (coincide || !is_one_surface && is_within(self.slack))
         } else {
-            let may_be_fold = || self.is_single && self.surfaces[t] == self.surfaces[u];
-            is_one_plane || interiors_cross(&a_exact, &b_exact) || may_be_fold() && is_within(self.rounding(a, b))
+            let may_be_fold = || self.is_single && is_one_surface && is_within(self.rounding(a, b));
+            coincide || is_within(self.slack) || interiors_cross(&a_exact, &b_exact) || may_be_fold()
         };
         counts.then_some(depth)
     }
