@@ -8,6 +8,8 @@ mod damaged;
 mod determinism;
 mod edit;
 mod examples;
+mod interrupt;
+mod limits;
 mod meshes;
 mod model;
 mod outputs;

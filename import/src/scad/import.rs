@@ -1,5 +1,6 @@
 //! `import`: a closed mesh beside the file.
 
+use std::io::ErrorKind;
 use std::path::Path;
 
 use planecut_csg::{MaterialId, Tree};
@@ -7,6 +8,7 @@ use planecut_csg::{MaterialId, Tree};
 use super::arguments::Arguments;
 use super::problem::Problem;
 use super::syntax::Node;
+use crate::file::{MAX_MESH, read_file};
 use crate::mesh::{MeshFormat, read_solid};
 
 /// The solid of a mesh file, and what is to be said of it. Like OpenSCAD, goes on without a file that is not there or holds no
@@ -26,8 +28,11 @@ pub(super) fn mesh(node: &Node<'_>, folder: &Path, material: MaterialId) -> Resu
     };
     let path = folder.join(file);
     let left_out = |why: &str| (Tree::empty(), Some(format!("an import is left out: {why}")));
-    let bytes = match std::fs::read(&path) {
+    let bytes = match read_file(&path, MAX_MESH) {
         Ok(bytes) => bytes,
+        Err(error) if error.kind() == ErrorKind::FileTooLarge => {
+            return Err(Problem::new(format!("`{}` of {error}", file.escape_debug()), "a file that is shorter"));
+        }
         Err(error) => return Ok(left_out(&format!("`{}` cannot be read ({error})", file.escape_debug()))),
     };
     match read_solid(&bytes, format, file) {

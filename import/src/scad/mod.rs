@@ -40,19 +40,28 @@ pub use error::ScadError;
 
 use crate::Warning;
 use crate::lines::LineTable;
-use crate::source::without_byte_order_mark;
+use crate::source::{DEFAULT_MAX_PIECES, without_byte_order_mark};
 use evaluate::Evaluator;
 
 pub use crate::source::MAX_TEXT;
 
 /// How a tree is read.
-#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct ScadOptions {
     /// Where files that `import` names are looked for; the current folder by default.
     pub folder: PathBuf,
     /// Leaves out what cannot be made, with a warning, instead of failing.
     pub keep_going: bool,
+    /// Most convex bodies that are made, and most corners of all outlines, those included that later steps leave out;
+    /// [`DEFAULT_MAX_PIECES`](crate::DEFAULT_MAX_PIECES) unless it is set.
+    pub max_pieces: usize,
+}
+
+impl Default for ScadOptions {
+    fn default() -> Self {
+        Self { folder: PathBuf::new(), keep_going: false, max_pieces: DEFAULT_MAX_PIECES }
+    }
 }
 
 /// A tree that was read.

@@ -134,7 +134,7 @@ fn planes_of_whole_points_in_maps_stay() {
 fn volumes_of_trees_stay() {
     for (name, path) in shared("csg") {
         let text = fs::read(&path).expect("a readable file");
-        let options = ScadOptions { folder: path.with_file_name(""), keep_going: false };
+        let options = ScadOptions { folder: path.with_file_name(""), ..ScadOptions::default() };
         // those that ask for what the reader has not are no concern of the writers
         let Ok(import) = read_scad(&text, &name, &options) else { continue };
         let Some(cells) = cells(&import.model).filter(|cells| !cells.is_empty()) else { continue };

@@ -31,7 +31,7 @@ fn volumes_are_those_of_the_reference() {
         let is_twice = entry["checked"].as_str().expect("a text").starts_with("two evaluators");
         let tolerance = if is_twice { 1e-6 } else { 3e-5 };
         let text = fs::read(folder.join(file)).expect("a tree");
-        let options = ScadOptions { folder: folder.join(file).with_file_name(""), keep_going: false };
+        let options = ScadOptions { folder: folder.join(file).with_file_name(""), ..ScadOptions::default() };
         let import = read_scad(&text, file, &options).unwrap_or_else(|error| panic!("{error}"));
         let evaluation = evaluate(&import.model).unwrap_or_else(|error| panic!("{file}: {error}"));
         let volume = evaluation.solid.volume;
