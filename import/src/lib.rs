@@ -3,6 +3,7 @@
 #![deny(missing_docs)]
 
 pub mod edits;
+pub mod file;
 mod lines;
 pub mod map;
 pub mod mesh;
@@ -11,6 +12,7 @@ pub mod scad;
 mod source;
 mod warning;
 
+pub use source::DEFAULT_MAX_PIECES;
 pub use warning::Warning;
 
 /// The example of the README, run as a test.

@@ -3,6 +3,14 @@
 /// Most bytes of a text that is read: 1 GiB.
 pub const MAX_TEXT: usize = 1 << 30;
 
+/// Most pieces of a model unless an option says another number: 1,048,576.
+pub const DEFAULT_MAX_PIECES: usize = 1 << 20;
+
+/// What is expected of a number of pieces, for an error.
+pub(crate) fn at_most(pieces: usize) -> String {
+    format!("at most {pieces} (--max-pieces)")
+}
+
 /// Most characters of a text that an error shows.
 const MAX_SHOWN: usize = 40;
 

@@ -7,8 +7,9 @@ use clap::{Args, CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 use planecut::csg::Tree;
 use planecut::csg::coarsen::{CoarsenOptions, LEAST_MAX_FACES, LEAST_MAX_VERTICES, Side};
+use planecut::import::DEFAULT_MAX_PIECES;
 use planecut::import::map::MapOptions;
-use planecut::import::model::ModelOptions;
+use planecut::import::model::{MAX_BRUSHES, ModelOptions};
 use planecut::import::scad::ScadOptions;
 use planecut::picture::{MAX_IMAGE_SIDE, PreviewOptions};
 
@@ -260,6 +261,10 @@ pub(crate) struct ReadingArgs {
     /// End with exit status 0, not 3, where a solid that the input states is left out
     #[arg(long)]
     pub(crate) allow_loss: bool,
+    /// Maximum number of convex pieces of a model or tree, and of corners of its outlines, 1 to 4194304: what has more is refused
+    /// before it is made
+    #[arg(long, value_name = "N", default_value_t = DEFAULT_MAX_PIECES, value_parser = parse_pieces)]
+    max_pieces: usize,
     #[command(flatten)]
     model: ModelArgs,
     #[command(flatten)]
@@ -271,7 +276,7 @@ pub(crate) struct ReadingArgs {
 impl ReadingArgs {
     /// The options for model files.
     pub(crate) fn model_options(&self) -> ModelOptions {
-        ModelOptions { parameters: self.model.set.clone() }
+        ModelOptions { parameters: self.model.set.clone(), max_pieces: self.max_pieces }
     }
 
     /// The options for maps.
@@ -282,7 +287,8 @@ impl ReadingArgs {
     /// The options for OpenSCAD's trees; files that `input` names lie beside it.
     pub(crate) fn scad_options(&self, input: &Input) -> ScadOptions {
         let folder = input.file().and_then(Path::parent).map(Path::to_owned).unwrap_or_default();
-        ScadOptions { folder, keep_going: self.scad.keep_going, keep_touching: self.scad.keep_touching }
+        let ScadArgs { keep_going, keep_touching } = self.scad;
+        ScadOptions { folder, keep_going, keep_touching, max_pieces: self.max_pieces }
     }
 
     /// The same for another input, of any kind: what is for one kind alone is left out.
@@ -290,6 +296,7 @@ impl ReadingArgs {
         Self {
             input_format: None,
             allow_loss: self.allow_loss,
+            max_pieces: self.max_pieces,
             model: ModelArgs { set: Vec::new() },
             map: MapArgs { world_only: false, skip_texture: Vec::new(), skip_class: Vec::new() },
             scad: self.scad.clone(),
@@ -452,6 +459,11 @@ fn parse_tolerance(text: &str) -> Result<f64, String> {
 fn parse_count<const LEAST: usize>(text: &str) -> Result<usize, String> {
     let count = text.parse().ok().filter(|count| *count >= LEAST);
     count.ok_or_else(|| format!("expected a whole number, at least {LEAST}"))
+}
+
+fn parse_pieces(text: &str) -> Result<usize, String> {
+    let count = text.parse().ok().filter(|count| (1..=MAX_BRUSHES).contains(count));
+    count.ok_or_else(|| format!("expected a whole number from 1 to {MAX_BRUSHES}"))
 }
 
 fn parse_ratio(text: &str) -> Result<f64, String> {

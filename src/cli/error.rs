@@ -81,6 +81,14 @@ pub(crate) enum CliError {
         /// What the system said.
         source: io::Error,
     },
+    /// The input has more bytes than are read, or no end at all.
+    #[error("{}: found {source}, expected no more", .path.display())]
+    TooLong {
+        /// The input.
+        path: PathBuf,
+        /// How many are read.
+        source: io::Error,
+    },
     /// The input is no map.
     #[error(transparent)]
     Map(#[from] MapError),
@@ -198,6 +206,7 @@ impl CliError {
             | Self::Ending { .. }
             | Self::Output { .. }
             | Self::Read { .. }
+            | Self::TooLong { .. }
             | Self::Map(_)
             | Self::Model(_)
             | Self::Scad(_)

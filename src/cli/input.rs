@@ -1,11 +1,11 @@
 //! Input files: what kind they are, and their bytes.
 
-use std::fs;
-use std::io::{self, Read};
+use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use clap::builder::PossibleValue;
+use planecut::import::file::{MAX_MESH, read_file, read_stream};
 use planecut::import::mesh::MeshFormat;
 use planecut::import::model::MAX_TEXT;
 
@@ -73,6 +73,8 @@ pub(crate) struct Input {
     /// The path as it was given, or a name for standard input.
     pub(crate) path: PathBuf,
     source: Source,
+    /// Most bytes that are read of a regular file.
+    limit: u64,
 }
 
 impl Input {
@@ -92,18 +94,19 @@ impl Input {
             Source::File => kind_of(path),
             Source::Stdin => Some(InputKind::Json),
         };
-        match stated.or_else(of_name).and_then(accept) {
-            Some(kind) => {
+        let kind = stated.or_else(of_name);
+        match kind.and_then(|kind| Some((kind, accept(kind)?))) {
+            Some((kind_read, kind)) => {
                 let path = if source == Source::Stdin { PathBuf::from("standard input") } else { path.to_owned() };
-                Ok((Self { path, source }, kind))
+                Ok((Self { path, source, limit: limit_of(kind_read) }, kind))
             }
             None => Err(CliError::Ending { path: path.to_owned(), expected }),
         }
     }
 
-    /// A file of any kind.
+    /// A text of any kind.
     pub(crate) fn plain(path: &Path) -> Self {
-        Self { path: path.to_owned(), source: Source::File }
+        Self { path: path.to_owned(), source: Source::File, limit: MAX_TEXT as u64 }
     }
 
     /// Any input.
@@ -135,21 +138,25 @@ impl Input {
     /// The content.
     ///
     /// # Errors
-    /// [`CliError::Read`] where there is no such file, or it is a folder, or closed to us.
+    /// [`CliError::Read`] where there is no such file, or it is a folder, or closed to us; [`CliError::TooLong`] where it has no end, or one too far.
     pub(crate) fn read(&self) -> Result<Vec<u8>, CliError> {
         let bytes = match self.source {
-            Source::File => fs::read(&self.path),
-            Source::Stdin => read_stdin(),
+            Source::File => read_file(&self.path, self.limit),
+            Source::Stdin => read_stream(io::stdin().lock(), MAX_TEXT as u64),
         };
-        bytes.map_err(|source| CliError::Read { path: self.path.clone(), source })
+        bytes.map_err(|source| match source.kind() {
+            ErrorKind::FileTooLarge => CliError::TooLong { path: self.path.clone(), source },
+            _ => CliError::Read { path: self.path.clone(), source },
+        })
     }
 }
 
-/// Standard input to its end, or just past the length that readers refuse.
-fn read_stdin() -> io::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    io::stdin().lock().take(MAX_TEXT as u64 + 1).read_to_end(&mut bytes)?;
-    Ok(bytes)
+/// Most bytes of a regular file.
+fn limit_of(kind: InputKind) -> u64 {
+    match kind {
+        InputKind::Mesh(_) => MAX_MESH,
+        InputKind::Json | InputKind::Map | InputKind::Csg => MAX_TEXT as u64,
+    }
 }
 
 fn kind_of(path: &Path) -> Option<InputKind> {

@@ -25,7 +25,7 @@ pub(crate) fn run(args: &ManArgs) -> Result<(), CliError> {
                 Target::File(folder.join(page.get_filename())).begin(|out| Ok::<_, ExportError>(page.render(out)?))
             })
             .collect::<Result<_, _>>()?;
-        return outputs.into_iter().try_for_each(Output::commit);
+        return Output::commit_all(outputs);
     }
     let command = args.command.as_deref().map_or(Ok(&program), |name| find(&program, name))?;
     let mut text = Vec::new();

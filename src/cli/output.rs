@@ -69,13 +69,21 @@ impl Target {
             write(&mut bytes).map_err(failed)?;
             return Ok(Output { target: self.clone(), content: Content::Waiting(bytes) });
         };
-        if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
-            fs::create_dir_all(folder).map_err(|source| CliError::Write { path: path.clone(), source })?;
+        if folder_of(path).is_some_and(|folder| !folder.exists()) {
+            // made in the end: a program that is interrupted leaves no folder behind either
+            let mut bytes = Vec::new();
+            write(&mut bytes).map_err(failed)?;
+            return Ok(Output { target: self.clone(), content: Content::Waiting(bytes) });
         }
         let mut file = AtomicFile::create(path).map_err(|error| error.at(self))?;
         write(&mut file).map_err(failed)?;
         Ok(Output { target: self.clone(), content: Content::File(file) })
     }
+}
+
+/// The folder of a file, where its path names one.
+fn folder_of(path: &Path) -> Option<&Path> {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty())
 }
 
 /// What may go wrong while an output is written.
@@ -140,7 +148,7 @@ pub(crate) struct Output {
 #[derive(Debug)]
 enum Content {
     File(AtomicFile),
-    /// For standard output.
+    /// For standard output, or a folder that is still to be made.
     Waiting(Vec<u8>),
 }
 
@@ -154,11 +162,34 @@ impl Output {
     ///
     /// # Errors
     /// [`CliError::Write`] or [`CliError::Stdout`] where the system refuses.
-    pub(crate) fn commit(self) -> Result<(), CliError> {
+    fn commit(mut self) -> Result<(), CliError> {
+        self.prepare()?;
         match self.content {
             Content::File(file) => file.commit().map_err(|error| error.at(&self.target)),
             Content::Waiting(bytes) => terminal::print_bytes(&bytes),
         }
+    }
+
+    /// Gives all their names, once all of them are written.
+    ///
+    /// # Errors
+    /// As [`Output::commit`].
+    pub(crate) fn commit_all(mut outputs: Vec<Self>) -> Result<(), CliError> {
+        outputs.iter_mut().try_for_each(Self::prepare)?;
+        outputs.into_iter().try_for_each(Self::commit)
+    }
+
+    /// Makes its folder where there is none, and writes what waits for that; only the name is missing then.
+    fn prepare(&mut self) -> Result<(), CliError> {
+        let (Target::File(path), Content::Waiting(bytes)) = (&self.target, &self.content) else { return Ok(()) };
+        let refused = |source| CliError::Write { path: path.clone(), source };
+        if let Some(folder) = folder_of(path) {
+            fs::create_dir_all(folder).map_err(refused)?;
+        }
+        let mut file = AtomicFile::create(path).map_err(|error| error.at(&self.target))?;
+        file.write_all(bytes).map_err(refused)?;
+        self.content = Content::File(file);
+        Ok(())
     }
 }
 

@@ -44,7 +44,7 @@ impl Product {
             terminal::print_warnings(input, &self.warnings);
         }
         let writing = Instant::now();
-        self.outputs.into_iter().try_for_each(Output::commit)?;
+        Output::commit_all(self.outputs)?;
         if let (Some(target), Some(mut report)) = (target, self.report) {
             report.time_ms.export = milliseconds(self.encoding + writing.elapsed());
             report.time_ms.total = milliseconds(begin.elapsed());

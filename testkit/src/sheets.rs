@@ -119,7 +119,7 @@ pub fn check_around_lines(model: &Model, mesh: &Mesh) -> Result<(), String> {
         let foot = ends[0] - unit * unit.dot(ends[0]);
         // no such point lies half way between two of this grid
         let place = foot.to_array().map(|x| (x * 1e6 + 0.3567).floor() as i64);
-        let chord = [exact.into_face(a, axis), exact.into_face(b, axis)];
+        let chord = [exact.toward_face(a, axis), exact.toward_face(b, axis)];
         let mut ends = ends.map(|end| end.dot(unit));
         ends.sort_by(f64::total_cmp);
         lines.entry((axis, place)).or_default().push(Bend { ends, chord });
@@ -158,7 +158,7 @@ impl<'a> Exact<'a> {
     }
 
     /// The direction from a side into its triangle, perpendicular to the axis along which the side runs.
-    fn into_face(&self, side: &Side, axis: Direction) -> Direction {
+    fn toward_face(&self, side: &Side, axis: Direction) -> Direction {
         let [from, to] = [side.from, side.to].map(|v| self.mesh.positions[v as usize]);
         let along = if (to - from).dot(float(axis)) > 0.0 { axis } else { negated(axis) };
         reduced(cross(self.normal(side.triangle), along))

@@ -9,6 +9,8 @@ mod determinism;
 mod edit;
 mod enclosed;
 mod examples;
+mod interrupt;
+mod limits;
 mod losses;
 mod meshes;
 mod model;

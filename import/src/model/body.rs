@@ -196,6 +196,9 @@ impl Maker<'_, '_> {
             ShapeError::TooLarge { found, limit } => {
                 Fault::new(self.value, format!("a shape of {found} convex pieces"), format!("at most {limit}"))
             }
+            ShapeError::Crossings { found, limit } => {
+                Fault::new(self.value, format!("sides that cross {found} times"), format!("at most {limit}"))
+            }
             ShapeError::Unbounded => Fault::new(self.value, "an unbounded body", "a bounded one"),
             error => Fault::new(self.value, error.to_string(), "a shape that can be made"),
         }

@@ -2,16 +2,21 @@
 
 use planecut_csg::Tree;
 
+use super::MAX_PLANES;
 use super::error::{Checked, Fault};
 use super::json::Entry;
-use super::{MAX_BRUSHES, MAX_PLANES};
+use crate::source::at_most;
 
 /// Most nodes that are evaluated, those in parts counting each time: a bound on work that leaves no brush behind.
 const MAX_STEPS: u64 = 1 << 26;
 
 /// What is there at the moment.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Budget {
+    /// Most brushes, and most corners of outlines.
+    limit: usize,
+    /// Those of all outlines that were made, those included that later ones took the place of: each is work.
+    corners: usize,
     brushes: usize,
     planes: usize,
     steps: u64,
@@ -38,6 +43,24 @@ impl Size {
 }
 
 impl Budget {
+    /// Nothing yet, and how many brushes and corners there may be.
+    pub(super) fn new(limit: usize) -> Self {
+        Self { limit, corners: 0, brushes: 0, planes: 0, steps: 0 }
+    }
+
+    /// Counts the corners of an outline.
+    ///
+    /// # Errors
+    /// A fault of the outline where there are too many by now.
+    pub(super) fn add_corners(&mut self, entry: Entry, corners: usize) -> Checked<()> {
+        self.corners += corners;
+        if self.corners <= self.limit {
+            return Ok(());
+        }
+        let found = format!("outlines of {} corners in all, each step counted", self.corners);
+        Err(Fault::new(entry, found, at_most(self.limit)))
+    }
+
     /// Counts one more node.
     ///
     /// # Errors
@@ -77,9 +100,9 @@ impl Budget {
     pub(super) fn allow(&self, node: Entry, size: Size, copies: f64) -> Checked<()> {
         let (brushes, planes) = size.times(copies);
         let (brushes, planes) = (brushes + self.brushes as f64, planes + self.planes as f64);
-        if brushes > MAX_BRUSHES as f64 || copies > MAX_BRUSHES as f64 {
+        if brushes > self.limit as f64 || copies > self.limit as f64 {
             let found = format!("{} brushes in all", brushes.max(copies));
-            return Err(Fault::new(node, found, format!("at most {MAX_BRUSHES}")));
+            return Err(Fault::new(node, found, at_most(self.limit)));
         }
         if planes > MAX_PLANES as f64 {
             return Err(Fault::new(node, format!("{planes} planes in all"), format!("at most {MAX_PLANES}")));

@@ -2,6 +2,7 @@
 
 use rustc_hash::FxHashMap;
 
+use super::MAX_DEPTH;
 use super::error::{Checked, Fault};
 use super::expression::{self, Expression};
 use super::form::{PlaceForm, find, kind_of, list, place_of, unknown_key};
@@ -10,7 +11,6 @@ use super::keys::{
     Field, MATERIAL, NODE_EXTRAS, NODE_KINDS, OUTLINE_EXTRAS, OUTLINE_KINDS, PLACE, STEP_KINDS, TURN, WITH, Want,
 };
 use super::names::Names;
-use super::{MAX_BRUSHES, MAX_DEPTH};
 use crate::source::shorten;
 
 /// What was learned from looking at every value once.
@@ -60,13 +60,25 @@ pub(super) struct Checker<'d, 'a> {
     /// How many copies there will be of what is being looked at, and of what is below it.
     copies: f64,
     copies_below: f64,
+    /// Most brushes.
+    limit: usize,
 }
 
 impl<'d, 'a> Checker<'d, 'a> {
     /// A checker that has seen nothing yet.
-    pub(super) fn new(document: &'d Document<'a>, names: &'d Names) -> Self {
+    pub(super) fn new(document: &'d Document<'a>, names: &'d Names, limit: usize) -> Self {
         let findings = Findings { brushes: vec![0.0; names.vertices()], ..Findings::default() };
-        Self { document, names, findings, tasks: Vec::new(), definition: 0, depth: 0, copies: 0.0, copies_below: 0.0 }
+        Self {
+            document,
+            names,
+            findings,
+            tasks: Vec::new(),
+            definition: 0,
+            depth: 0,
+            copies: 0.0,
+            copies_below: 0.0,
+            limit,
+        }
     }
 
     /// Everything that the file defines, and its model.
@@ -139,7 +151,7 @@ impl<'d, 'a> Checker<'d, 'a> {
                 let counts = document.member(value, "count").into_iter().flat_map(|count| document.numbers_of(count));
                 let places = document.member(value, "at").map_or(1, |at| document.items(at).count());
                 self.copies_below = self.copies * places as f64 * counts.product::<f64>().max(1.0);
-                if self.copies_below > MAX_BRUSHES as f64 {
+                if self.copies_below > self.limit as f64 {
                     self.findings.too_many.get_or_insert(node);
                 }
             }

@@ -28,7 +28,7 @@ pub use error::ModelError;
 
 use crate::Warning;
 use crate::lines::LineTable;
-use crate::source::{shorten, without_byte_order_mark};
+use crate::source::{DEFAULT_MAX_PIECES, at_most, shorten, without_byte_order_mark};
 use check::{Checker, Findings, Use};
 use error::{Checked, Fault};
 use evaluate::Evaluator;
@@ -41,17 +41,26 @@ pub use crate::source::MAX_TEXT;
 
 /// Most nodes around a node.
 pub const MAX_DEPTH: u32 = 10_000;
-/// Most brushes of a model, copies of instances counted: 4,194,304.
+/// Most brushes of a model, copies of instances counted, whatever [`ModelOptions::max_pieces`] is: 4,194,304.
 pub const MAX_BRUSHES: usize = 1 << 22;
 /// Most planes of a model, copies of instances counted: 33,554,432.
 pub const MAX_PLANES: usize = 1 << 25;
 
 /// What a caller sets before a model is made.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct ModelOptions {
     /// Values that replace those of parameters of the file, by name; others that depend on them follow.
     pub parameters: Vec<(String, f64)>,
+    /// Most brushes of the model, copies of instances counted, and most corners of all outlines that are made on the way;
+    /// [`DEFAULT_MAX_PIECES`](crate::DEFAULT_MAX_PIECES) unless it is set, at most [`MAX_BRUSHES`].
+    pub max_pieces: usize,
+}
+
+impl Default for ModelOptions {
+    fn default() -> Self {
+        Self { parameters: Vec::new(), max_pieces: DEFAULT_MAX_PIECES }
+    }
 }
 
 /// A model that was read.
@@ -76,7 +85,7 @@ pub struct ModelImport {
 ///   "parameters": {"width": 4},
 ///   "model": {"box": {"min": [0, 0, 0], "max": ["=width", "=width / 2", 1]}}
 /// }"#;
-/// let options = ModelOptions { parameters: vec![("width".to_owned(), 6.0)] };
+/// let options = ModelOptions { parameters: vec![("width".to_owned(), 6.0)], ..ModelOptions::default() };
 /// let import = read_model(text, "block.json", &options)?;
 /// assert_eq!(planecut_csg::evaluate(&import.model)?.solid.volume, 18.0);
 ///
@@ -102,13 +111,14 @@ pub fn read_model(text: &[u8], name: &str, options: &ModelOptions) -> Result<Mod
         found: fault.found,
         expected: fault.expected.to_owned(),
     })?;
+    let limit = options.max_pieces.min(MAX_BRUSHES);
     let located = |fault: Fault| fault.locate(name, &document, &lines);
     let root = model_of(&document).map_err(located)?;
     let mut names = Names::read(&document).map_err(located)?;
     let set = numbers_of(&options.parameters, &names, name)?;
-    let findings = Checker::new(&document, &names).run(root).map_err(located)?;
+    let findings = Checker::new(&document, &names, limit).run(root).map_err(located)?;
     let order = order_of_definitions(&names, &findings.uses).map_err(located)?;
-    refuse_too_many(&findings, &order, root).map_err(located)?;
+    refuse_too_many(&findings, &order, root, limit).map_err(located)?;
     let warnings = materials::warn_of_unknown(&document, &lines, &findings.unknown_materials);
     for entry in &findings.unknown_materials {
         names.material(&document.text(*entry));
@@ -117,7 +127,7 @@ pub fn read_model(text: &[u8], name: &str, options: &ModelOptions) -> Result<Mod
     let environment = definitions.environment(&set).map_err(located)?;
     let mut materials = materials::read(&names, &definitions.values(&environment)).map_err(located)?;
     let parameters = names.parameters.names.iter().cloned().zip(environment.values.iter().copied()).collect();
-    let evaluator = Evaluator::new(&definitions, &names, &lines, &findings.uses);
+    let evaluator = Evaluator::new(&definitions, &names, &lines, &findings.uses, limit);
     let (mut tree, more) = evaluator.run(root, environment).map_err(located)?;
     materials::fill(&mut tree, &mut materials);
     let warnings = warnings.into_iter().chain(more).collect();
@@ -182,7 +192,7 @@ fn order_of_definitions(names: &Names, uses: &[Use]) -> Checked<Vec<usize>> {
 }
 
 /// Refuses a model that has too many brushes by its text alone, before the first of them is made.
-fn refuse_too_many(findings: &Findings, order: &[usize], model: Entry) -> Checked<()> {
+fn refuse_too_many(findings: &Findings, order: &[usize], model: Entry, limit: usize) -> Checked<()> {
     let mut totals = findings.brushes.clone();
     let mut uses: Vec<&Use> = findings.uses.iter().collect();
     uses.sort_by_key(|each| each.user);
@@ -191,9 +201,9 @@ fn refuse_too_many(findings: &Findings, order: &[usize], model: Entry) -> Checke
         let own = uses[first..].iter().take_while(|each| each.user == *definition);
         totals[*definition] += own.map(|each| each.copies * totals[each.used]).sum::<f64>();
     }
-    if totals[0] <= MAX_BRUSHES as f64 {
+    if totals[0] <= limit as f64 {
         return Ok(());
     }
     let found = format!("{} or more brushes in all", totals[0]);
-    Err(Fault::new(findings.too_many.unwrap_or(model), found, format!("at most {MAX_BRUSHES}")))
+    Err(Fault::new(findings.too_many.unwrap_or(model), found, at_most(limit)))
 }

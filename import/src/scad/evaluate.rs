@@ -18,6 +18,7 @@ use super::turn::{Combination, Turn};
 use super::{ScadImport, ScadOptions, extrusion, flat, import, leaf, polyhedron, solid, text};
 use crate::Warning;
 use crate::lines::LineTable;
+use crate::source::at_most;
 
 /// Most planes of a tree, those included that later steps leave out: 8,388,608.
 const MAX_PLANES: usize = 1 << 23;
@@ -40,8 +41,10 @@ pub(super) struct Evaluator<'s, 'a> {
     /// What the children of each node gave, last one first.
     made: Vec<Vec<Option<Geometry>>>,
     pub(super) warnings: Vec<Warning>,
-    /// How many planes were made.
+    /// How many planes, convex bodies and corners of outlines were made.
     planes: usize,
+    bodies: usize,
+    corners: usize,
     /// The node that stands for all, where one is marked so.
     root: Option<usize>,
 }
@@ -61,6 +64,8 @@ impl<'s, 'a> Evaluator<'s, 'a> {
             made,
             warnings: Vec::new(),
             planes: 0,
+            bodies: 0,
+            corners: 0,
             root,
         }
     }
@@ -126,6 +131,7 @@ impl<'s, 'a> Evaluator<'s, 'a> {
 
     /// What a node makes of what its children made.
     fn make(&mut self, turn: Turn<'s, 'a>, children: Vec<Option<Geometry>>) -> Result<Option<Geometry>, Fault> {
+        let operands = children.len();
         let made = match turn.node.name {
             "multmatrix" => self.moved(turn, children),
             "group" | "union" | "render" | "color" => self.combine(turn, children, Combination::Union),
@@ -136,25 +142,50 @@ impl<'s, 'a> Evaluator<'s, 'a> {
             _ => self.leaf(turn).and_then(|made| turn.place(made)),
         };
         let mut made = made.or_else(|problem| self.fail(turn, problem))?;
+        self.count(turn, operands, made.as_ref())?;
         if let Some(Geometry::Solid(body)) = &mut made
             && MAKERS.contains(&turn.node.name)
         {
             // each new brush is told on which line it was made
             let line = self.lines.line_of(turn.node.offset);
             body.tree = std::mem::take(&mut body.tree).with_source_line(NonZeroU32::new(line));
-            self.planes += body.tree.brushes().iter().map(|brush| brush.faces.len()).sum::<usize>();
-            if self.planes > MAX_PLANES {
-                let (found, expected) = (format!("more than {MAX_PLANES} planes"), "a smaller tree");
-                return Err(Fault::found(turn.node.offset, found, expected));
-            }
         }
         Ok(made)
+    }
+
+    /// Counts what a node made of its operands; what is handed up as it is counts as little as it costs.
+    fn count(&mut self, turn: Turn<'_, '_>, operands: usize, made: Option<&Geometry>) -> Result<(), Fault> {
+        let refuse = |found: String, expected: String| Err(Fault::found(turn.node.offset, found, expected));
+        match made {
+            Some(Geometry::Solid(body)) if MAKERS.contains(&turn.node.name) => {
+                self.bodies += body.tree.brushes().len();
+                self.planes += body.tree.brushes().iter().map(|brush| brush.faces.len()).sum::<usize>();
+            }
+            Some(Geometry::Flat(outline)) if operands != 1 || turn.node.name == "offset" => {
+                self.corners += outline.corner_count();
+            }
+            _ => {}
+        }
+        let limit = self.options.max_pieces;
+        if self.bodies > limit {
+            return refuse(format!("{} convex bodies in all", self.bodies), at_most(limit));
+        }
+        if self.corners > limit {
+            return refuse(format!("outlines of {} corners in all, each step counted", self.corners), at_most(limit));
+        }
+        if self.planes > MAX_PLANES {
+            return refuse(format!("more than {MAX_PLANES} planes"), "a smaller tree".to_owned());
+        }
+        Ok(())
     }
 
     /// What a node makes of its children in a frame of its own.
     fn unplaced(&mut self, turn: Turn<'s, 'a>, children: Vec<Option<Geometry>>) -> Made {
         match turn.node.name {
-            "minkowski" => self.combine(turn, children, Combination::Minkowski),
+            "minkowski" => {
+                self.allow_sum(&children)?;
+                self.combine(turn, children, Combination::Minkowski)
+            }
             "resize" => solid::resized(turn.node, self.combine(turn, children, Combination::Union)?),
             "linear_extrude" => extrusion::linear(turn, &self.flat_union(turn, children)?),
             "rotate_extrude" => {
@@ -164,6 +195,20 @@ impl<'s, 'a> Evaluator<'s, 'a> {
             "offset" => flat::offset(turn.node, &self.flat_union(turn, children)?),
             _ => solid::projection(turn.node, &self.solid_union(turn, children)?),
         }
+    }
+
+    /// Refuses a sum of unions that has too many convex bodies: one for each choice of one of each operand.
+    fn allow_sum(&self, children: &[Option<Geometry>]) -> Result<(), Problem> {
+        let bodies = |child: &Geometry| match child {
+            Geometry::Solid(body) if body.tree.is_union() => body.tree.brushes().len().max(1) as f64,
+            _ => 1.0,
+        };
+        let sums: f64 = children.iter().flatten().map(bodies).product();
+        if self.bodies as f64 + sums <= self.options.max_pieces as f64 {
+            return Ok(());
+        }
+        let found = format!("{} convex bodies in all", self.bodies as f64 + sums);
+        Err(Problem::new(found, at_most(self.options.max_pieces)))
     }
 
     fn leaf(&mut self, turn: Turn<'s, 'a>) -> Made {

@@ -1,5 +1,6 @@
 //! `import`: a closed mesh beside the file.
 
+use std::io::ErrorKind;
 use std::path::Path;
 
 use planecut_csg::{MaterialId, Tree};
@@ -7,6 +8,7 @@ use planecut_csg::{MaterialId, Tree};
 use super::arguments::Arguments;
 use super::problem::Problem;
 use super::syntax::Node;
+use crate::file::{MAX_MESH, read_file};
 use crate::mesh::{MeshFormat, read_solid};
 
 /// What a mesh file gives.
@@ -32,8 +34,11 @@ pub(super) fn mesh(node: &Node<'_>, folder: &Path, material: MaterialId) -> Resu
         ));
     };
     let path = folder.join(file);
-    let bytes = match std::fs::read(&path) {
+    let bytes = match read_file(&path, MAX_MESH) {
         Ok(bytes) => bytes,
+        Err(error) if error.kind() == ErrorKind::FileTooLarge => {
+            return Err(Problem::new(format!("`{}` of {error}", file.escape_debug()), "a file that is shorter"));
+        }
         Err(error) => return Ok(Imported::LeftOut(format!("`{}` cannot be read ({error})", file.escape_debug()))),
     };
     Ok(match read_solid(&bytes, format, file) {

@@ -40,13 +40,13 @@ pub use error::ScadError;
 
 use crate::Warning;
 use crate::lines::LineTable;
-use crate::source::without_byte_order_mark;
+use crate::source::{DEFAULT_MAX_PIECES, without_byte_order_mark};
 use evaluate::Evaluator;
 
 pub use crate::source::MAX_TEXT;
 
 /// How a tree is read.
-#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct ScadOptions {
     /// Where files that `import` names are looked for; the current folder by default.
@@ -56,6 +56,15 @@ pub struct ScadOptions {
     /// Keeps solids that touch themselves in an edge or a corner also where they are combined with others, as OpenSCAD does since it has Manifold
     /// (2024). OpenSCAD 2021.01 leaves them out.
     pub keep_touching: bool,
+    /// Most convex bodies that are made, and most corners of all outlines, those included that later steps leave out;
+    /// [`DEFAULT_MAX_PIECES`](crate::DEFAULT_MAX_PIECES) unless it is set.
+    pub max_pieces: usize,
+}
+
+impl Default for ScadOptions {
+    fn default() -> Self {
+        Self { folder: PathBuf::new(), keep_going: false, keep_touching: false, max_pieces: DEFAULT_MAX_PIECES }
+    }
 }
 
 /// A tree that was read.

@@ -52,7 +52,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Done, CliError> {
             terminal::print_warnings(&input.name(), warnings);
         }
     }
-    outputs.into_iter().try_for_each(Output::commit)?;
+    Output::commit_all(outputs)?;
     Ok(Done::with(warnings.iter().flatten(), args.reading.allow_loss))
 }
 

@@ -58,6 +58,8 @@ enum Task {
     Outline(Entry, Environment, u32),
     /// Move the last outline.
     MoveOutline(Entry, Environment),
+    /// Keep the last outline as that of a definition in this environment.
+    KeepOutline(u32, u32),
     CombineOutlines(Operation, usize, Entry),
     Offset(Entry, Environment),
     /// An outline from the last tree.
@@ -70,13 +72,15 @@ pub(super) struct Evaluator<'v, 'a> {
     definitions: &'v Definitions<'v, 'a>,
     names: &'v Names,
     lines: &'v LineTable,
-    /// How often each part is used.
+    /// How often each definition is used.
     uses: Vec<u32>,
     tasks: Vec<Task>,
     trees: Vec<Tree>,
     outlines: Vec<Outline>,
     /// Trees of parts that are used more than once, by part and environment.
     kept: FxHashMap<(u32, u32), Tree>,
+    /// Outlines that are used more than once, by definition and environment.
+    kept_outlines: FxHashMap<(u32, u32), Outline>,
     budget: Budget,
     /// How many environments there were.
     environments: u32,
@@ -84,18 +88,18 @@ pub(super) struct Evaluator<'v, 'a> {
 }
 
 impl<'v, 'a> Evaluator<'v, 'a> {
-    /// An evaluator with nothing to do; `uses` are those of parts and outlines, by the numbers of definitions.
+    /// An evaluator with nothing to do; `uses` are those of parts and outlines, by the numbers of definitions, and `limit` is
+    /// that of brushes and corners.
     pub(super) fn new(
         definitions: &'v Definitions<'v, 'a>,
         names: &'v Names,
         lines: &'v LineTable,
         uses: &[Use],
+        limit: usize,
     ) -> Self {
-        let mut counts = vec![0; names.parts.names.len()];
+        let mut counts = vec![0; names.vertices()];
         for Use { used, .. } in uses {
-            if let Some(count) = used.checked_sub(names.part_vertex(0)).and_then(|part| counts.get_mut(part)) {
-                *count += 1;
-            }
+            counts[*used] += 1;
         }
         Self {
             definitions,
@@ -106,7 +110,8 @@ impl<'v, 'a> Evaluator<'v, 'a> {
             trees: Vec::new(),
             outlines: Vec::new(),
             kept: FxHashMap::default(),
-            budget: Budget::default(),
+            kept_outlines: FxHashMap::default(),
+            budget: Budget::new(limit),
             environments: 0,
             warnings: Vec::new(),
         }
@@ -140,6 +145,10 @@ impl<'v, 'a> Evaluator<'v, 'a> {
             Task::Minkowski(context) => {
                 let operands = self.used_up(2);
                 let [a, b] = &operands[..] else { return Ok(()) };
+                if a.is_union() && b.is_union() {
+                    let pairs = Size { brushes: a.brushes().len(), planes: 0 };
+                    self.budget.allow(context.node, pairs, b.brushes().len() as f64)?;
+                }
                 let maker = |maker: Maker<'_, '_>| maker.accept(shaping::minkowski(a, b, maker.material));
                 self.make(&context, maker)
             }
@@ -162,29 +171,33 @@ impl<'v, 'a> Evaluator<'v, 'a> {
             }
             Task::Outline(entry, environment, depth) => self.outline(entry, &environment, depth),
             Task::MoveOutline(matrix, environment) => self.move_outline(matrix, &environment),
+            Task::KeepOutline(outline, environment) => {
+                self.keep_outline(outline, environment);
+                Ok(())
+            }
             Task::CombineOutlines(operation, count, value) => {
                 let operands = self.outlines.split_off(self.outlines.len().saturating_sub(count));
                 let combined = Outline::combine(operation, &operands);
-                self.outlines.push(combined.map_err(|error| Fault::new(value, error.to_string(), "other outlines"))?);
-                Ok(())
+                let combined = combined.map_err(|error| Fault::new(value, error.to_string(), "other outlines"))?;
+                self.made_outline(value, combined)
             }
             Task::Offset(value, environment) => {
                 let outline = self.outlines.pop().unwrap_or_default();
                 let maker = Maker { values: self.definitions.values(&environment), value, material: NO_MATERIAL };
-                self.outlines.push(maker.offset(&outline)?);
-                Ok(())
+                let grown = maker.offset(&outline)?;
+                self.made_outline(value, grown)
             }
             Task::Slice(value, environment) => {
                 let solid = self.used_up(1).pop().unwrap_or_default();
                 let maker = Maker { values: self.definitions.values(&environment), value, material: NO_MATERIAL };
-                self.outlines.push(maker.accept(shaping::slice(&solid, maker.number("z")?))?);
-                Ok(())
+                let slice = maker.accept(shaping::slice(&solid, maker.number("z")?))?;
+                self.made_outline(value, slice)
             }
             Task::Project(value, environment) => {
                 let solid = self.used_up(1).pop().unwrap_or_default();
                 let maker = Maker { values: self.definitions.values(&environment), value, material: NO_MATERIAL };
-                self.outlines.push(maker.accept(shaping::project(&solid))?);
-                Ok(())
+                let shadow = maker.accept(shaping::project(&solid))?;
+                self.made_outline(value, shadow)
             }
         }
     }
@@ -289,7 +302,7 @@ impl<'v, 'a> Evaluator<'v, 'a> {
             self.trees.push(placed);
             return Ok(());
         }
-        if self.uses[part as usize] > 1 {
+        if self.uses[self.names.part_vertex(part as usize)] > 1 {
             let depth = context.depth + 1;
             self.tasks.push(Task::Keep(Context { environment: environment.clone(), ..context.clone() }, part));
             self.tasks.push(Task::Node(Context::frame(entry, environment, depth)));

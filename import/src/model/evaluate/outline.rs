@@ -1,6 +1,7 @@
 //! OUTLINEs, which may need solids and be needed by them.
 
 use planecut_csg::Operation;
+use planecut_shapes::Outline;
 
 use super::{Context, Evaluator, Task};
 use crate::model::body::Maker;
@@ -34,17 +35,34 @@ impl Evaluator<'_, '_> {
             "offset" => self.tasks.extend([Task::Offset(value, environment.clone()), within(of)]),
             "slice" => self.tasks.extend([Task::Slice(value, environment.clone()), solid(of)]),
             "project" => self.tasks.extend([Task::Project(value, environment.clone()), solid(value)]),
-            "use" => {
-                let outline = self.names.outlines.by_name.get(&*document.text(value)).copied().unwrap_or(0);
-                self.tasks.push(within(self.names.outlines.entries[outline as usize]));
-            }
+            "use" => self.use_of_outline(value, environment, within),
             key => {
                 let maker = Maker { values: self.definitions.values(environment), value, material: NO_MATERIAL };
                 let outline = maker.outline(key)?;
-                self.outlines.push(outline.unwrap_or_default());
+                self.made_outline(value, outline.unwrap_or_default())?;
             }
         }
         Ok(())
+    }
+
+    /// An outline by its name: the one that was made before, where there is one.
+    fn use_of_outline(&mut self, name: Entry, environment: &Environment, within: impl Fn(Entry) -> Task) {
+        let outline = self.names.outlines.by_name.get(&*self.definitions.document.text(name)).copied().unwrap_or(0);
+        if let Some(made) = self.kept_outlines.get(&(outline, environment.number)) {
+            self.outlines.push(made.clone());
+            return;
+        }
+        if self.uses[self.names.outline_vertex(outline as usize)] > 1 {
+            self.tasks.push(Task::KeepOutline(outline, environment.number));
+        }
+        self.tasks.push(within(self.names.outlines.entries[outline as usize]));
+    }
+
+    /// Keeps the last outline.
+    pub(super) fn keep_outline(&mut self, outline: u32, environment: u32) {
+        if let Some(made) = self.outlines.last() {
+            self.kept_outlines.insert((outline, environment), made.clone());
+        }
     }
 
     fn combine_outlines(&mut self, operation: Operation, value: Entry, within: impl Fn(Entry) -> Task) {
@@ -61,7 +79,17 @@ impl Evaluator<'_, '_> {
         let outline = self.outlines.pop().unwrap_or_default();
         let (linear, translation) = self.definitions.values(environment).planar_matrix(matrix)?;
         let moved = outline.transformed(linear, translation);
-        self.outlines.push(moved.map_err(|error| Fault::new(matrix, error.to_string(), "an invertible map"))?);
+        let moved = moved.map_err(|error| Fault::new(matrix, error.to_string(), "an invertible map"))?;
+        self.made_outline(matrix, moved)
+    }
+
+    /// Puts an outline that was made from numbers, or from other outlines, where the next step finds it.
+    ///
+    /// # Errors
+    /// [`Fault`] where there are too many corners by now.
+    pub(super) fn made_outline(&mut self, entry: Entry, outline: Outline) -> Checked<()> {
+        self.budget.add_corners(entry, outline.corner_count())?;
+        self.outlines.push(outline);
         Ok(())
     }
 }

@@ -411,7 +411,7 @@ fn outlines_that_cannot_be() {
 fn parameters_that_the_caller_sets() {
     let text = r#"{"planecut": 1, "parameters": {"w": 1, "h": "=w"}, "model": {"sphere": {"radius": "=h"}}}"#;
     let set = |name: &str, value: f64| {
-        let options = ModelOptions { parameters: vec![(name.to_owned(), value)] };
+        let options = ModelOptions { parameters: vec![(name.to_owned(), value)], ..ModelOptions::default() };
         read_model(text.as_bytes(), "m.json", &options)
     };
     assert_eq!(set("w", 3.0).expect("read").parameters, [("w".to_owned(), 3.0), ("h".to_owned(), 3.0)]);

@@ -4,7 +4,8 @@ use std::num::NonZeroU32;
 use std::time::{Duration, Instant};
 
 use planecut_csg::TreeNode;
-use planecut_import::model::{MAX_BRUSHES, MAX_DEPTH};
+use planecut_import::DEFAULT_MAX_PIECES;
+use planecut_import::model::{MAX_DEPTH, ModelOptions, read_model};
 
 use super::support::{file, model, read};
 
@@ -83,7 +84,7 @@ fn refused_at_once(text: &str, words: &str) {
 
 #[test]
 fn a_billion_copies_are_refused_before_any_is_made() {
-    let limit = format!("expected at most {MAX_BRUSHES}");
+    let limit = format!("expected at most {DEFAULT_MAX_PIECES} (--max-pieces)");
     for text in [
         format!(r#"{{"array": {{"of": {CUBE}, "count": [1000, 1000, 1000], "step": [2, 2, 2]}}}}"#),
         format!(r#"{{"array": {{"of": {CUBE}, "count": [1e300, 1e300, 1e300], "step": [2, 2, 2]}}}}"#),
@@ -110,7 +111,7 @@ fn parts_that_double_are_refused_before_they_are_copied() {
         )
     };
     assert_eq!(read(&doubling(CUBE, 10)).expect("read").model.tree.brushes().len(), 1024);
-    refused_at_once(&doubling(CUBE, 40), "brushes in all, expected at most 4194304");
+    refused_at_once(&doubling(CUBE, 40), "brushes in all, expected at most 1048576 (--max-pieces)");
     // A million nodes that make nothing would do no harm, but a billion take time.
     let nothing = r#"{"points": [[0, 0, 0], [1, 0, 0], [0, 1, 0]]}"#;
     let import = read(&doubling(nothing, 16)).expect("read");
@@ -158,4 +159,59 @@ fn a_list_of_many_bodies_is_read_in_linear_time() {
     let tree = &import.model.tree;
     assert_eq!(tree.brushes()[199_999].name.as_deref(), Some("b199999"));
     assert_eq!(tree.source_line(199_999), NonZeroU32::new(200_001));
+}
+
+/// A file of outlines, each made of the one before by what `step` says of its name; the last one is extruded.
+fn outlines_on_outlines(levels: usize, step: impl Fn(&str) -> String) -> String {
+    let outlines: Vec<String> =
+        (1..=levels).map(|k| format!("\"o{k}\": {}", step(&format!("{{\"use\": \"o{}\"", k - 1)))).collect();
+    format!(
+        r#"{{"planecut": 1, "outlines": {{"o0": {{"rectangle": {{"min": [0, 0], "max": [1, 1]}}}}, {}}},
+             "model": {{"extrude": {{"outline": {{"use": "o{levels}"}}, "height": 1}}}}}}"#,
+        outlines.join(", ")
+    )
+}
+
+#[test]
+fn an_outline_that_is_used_twice_is_made_once() {
+    // 2^40 squares, of which only 41 differ
+    let text = outlines_on_outlines(40, |name| {
+        format!(r#"{{"union": [{name}}}, {name}, "matrix": [[1, 0, 1], [0, 1, 0]]}}]}}"#)
+    });
+    let begin = Instant::now();
+    let import = read(&text).expect("read");
+    assert!(begin.elapsed() < Duration::from_secs(5), "{:?}", begin.elapsed());
+    let extent = |axis: usize| {
+        let faces = import.model.tree.brushes().iter().flat_map(|brush| &brush.faces);
+        let offsets = faces.filter(|face| face.half_space.normal()[axis] > 0.0).map(|face| face.half_space.offset());
+        offsets.fold(0.0, f64::max)
+    };
+    assert_eq!([extent(0), extent(1), extent(2)], [41.0, 1.0, 1.0]);
+}
+
+#[test]
+fn offsets_of_offsets_are_refused_with_count_and_limit() {
+    // a corner of an offset with round joins has at least two corners in the next one
+    let text = outlines_on_outlines(60, |name| format!(r#"{{"offset": {{"of": {name}}}, "by": 1, "segments": 64}}}}"#));
+    refused_at_once(&text, "corners in all, each step counted, expected at most 1048576 (--max-pieces)");
+}
+
+#[test]
+fn the_limit_of_pieces_is_an_option() {
+    let text = file(&format!(r#"{{"array": {{"of": {CUBE}, "count": [10, 10, 1], "step": [2, 2, 2]}}}}"#));
+    let with = |max_pieces| {
+        let options = ModelOptions { max_pieces, ..ModelOptions::default() };
+        read_model(text.as_bytes(), "model.json", &options)
+    };
+    assert_eq!(with(100).expect("read").model.tree.brushes().len(), 100);
+    let error = with(99).expect_err("refused").to_string();
+    assert!(error.contains("found 100 or more brushes in all, expected at most 99 (--max-pieces)"), "{error}");
+}
+
+#[test]
+fn sums_of_many_bodies_are_refused_before_they_are_made() {
+    let row = |count: usize| format!(r#"{{"array": {{"of": {CUBE}, "count": [{count}, 1, 1], "step": [3, 3, 3]}}}}"#);
+    let sum = |a, b| file(&format!(r#"{{"minkowski": [{}, {}]}}"#, row(a), row(b)));
+    assert_eq!(read(&sum(20, 30)).expect("read").model.tree.brushes().len(), 600);
+    refused_at_once(&sum(20_000, 30_000), "600000000 brushes in all, expected at most 1048576 (--max-pieces)");
 }
