@@ -82,6 +82,8 @@ fn numbers_of_files_are_the_same_in_all_formats() {
     let outputs = endings.map(|ending| format!("-o DIR/part_{{}}.{ending} -o DIR/all.{ending}")).join(" ");
     let run = coarsen(&path.display().to_string(), folder.path(), &format!("{outputs} -q"));
     assert_eq!(run.status, 0, "{}", run.stderr);
+    // vertices are farther from each other than 2⁻²² of the size of all cells; a thin cell grows by that, and by its roundings, to either side
+    let thickest = 6.0 * f64::powi(2.0, -20);
     for ending in endings {
         let info = |name: &str| planecut(["info", &folder.path().join(name).display().to_string()]).json();
         for (number, min) in [(0, 0.0), (2, 5.0)] {
@@ -90,10 +92,10 @@ fn numbers_of_files_are_the_same_in_all_formats() {
         }
         let solid = info(&format!("part_1.{ending}"))["solid"].clone();
         let reach = ["min", "max"].map(|end| solid[end][0].as_f64().expect("a number"));
-        assert!(reach[0] <= 3.0 && reach[1] >= sheet && reach[1] - reach[0] < 1e-6, "{ending}: {reach:?}");
+        assert!(reach[0] <= 3.0 && reach[1] >= sheet && reach[1] - reach[0] < thickest, "{ending}: {reach:?}");
         assert!(!folder.path().join(format!("part_3.{ending}")).exists(), "{ending}");
         let volume = info(&format!("all.{ending}"))["solid"]["volume"].as_f64().expect("a number");
-        assert!((volume - 2.0).abs() < 1e-6, "{ending}: {volume}");
+        assert!((volume - 2.0).abs() < thickest, "{ending}: {volume}");
     }
 }
 

@@ -27,6 +27,7 @@ fn keys_are_those_of_the_contract_in_its_order() {
         model brushes planes empty_brushes redundant_planes snapped_planes materials unbounded_brushes brush_volume_sum \
         solid volume area centroid min max cells \
         mesh vertices triangles faces components genus watertight manifold volume \
+        noise collapsed thickest \
         signs total filtered small_int big \
         time_ms import evaluate weld triangulate export preview total \
         left_out warnings";

@@ -38,7 +38,7 @@ impl Solid {
             planes.map(|plane| transform.half_space(this.table.half_space(plane))).collect::<Result<_, _>>()?;
         let planes_of =
             |cell: &'_ Cell| cell.planes().map(|(_, plane)| plane.plane.index() as usize).collect::<Vec<_>>();
-        let cells: Vec<Vec<usize>> = this.cells.iter().map(|cell| planes_of(cell)).collect();
+        let cells: Vec<Vec<usize>> = this.cells.iter().map(planes_of).collect();
         let size = smallest_size(cells.iter().map(|planes| planes.iter().map(|plane| &moved[*plane])));
         let (table, ids) = PlaneTable::intern(&moved, size);
         let id = |plane: PlaneId| {

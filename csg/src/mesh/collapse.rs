@@ -17,15 +17,17 @@ use crate::base::DisjointSets;
 const NONE: u32 = u32::MAX;
 
 /// Collapses what is joined by edges that are rounding noise, changing the topology where it must: tunnels, gaps, bridges and bubbles
-/// that thin go. The mesh must be a closed, oriented 2-manifold, and stays one.
-pub(super) fn collapse_thin(mesh: &mut Mesh, noise: &mut Noise) {
-    let Some(place) = places(mesh) else { return };
+/// that thin go. A closed, oriented 2-manifold stays one; of any other mesh it gives back nothing.
+pub(super) fn collapse_thin(mesh: &mut Mesh, noise: &mut Noise) -> Option<()> {
+    let Some(place) = places(mesh) else { return Some(()) };
     for (at, place) in mesh.positions.iter().zip(&place) {
         let moved = at.distance(mesh.positions[*place as usize]);
         noise.add(usize::from(moved > 0.0), moved);
     }
     let twins = HalfEdges::new(mesh.positions.len(), &mesh.triangles).twins();
-    assert!(!twins.contains(&NO_TWIN), "a welded mesh is closed");
+    if twins.contains(&NO_TWIN) {
+        return None;
+    }
     let at = |h: u32| place[mesh.triangles[(h / 3) as usize][(h % 3) as usize] as usize];
     let corners = |t: u32| [at(3 * t), at(3 * t + 1), at(3 * t + 2)];
     let is_kept = |t: u32| {
@@ -59,6 +61,7 @@ pub(super) fn collapse_thin(mesh: &mut Mesh, noise: &mut Noise) {
     }
     joined.split_repeated(mesh);
     joined.write(mesh);
+    Some(())
 }
 
 /// For each vertex the least one that edges of noise join it with; nothing where there are no such edges.

@@ -12,14 +12,16 @@ use super::connectivity::{HalfEdges, NO_TWIN, next, previous};
 use super::noise::noise_height;
 
 /// Flips away triangles whose height is rounding noise, where that makes no edge that is there already. Faces that lose all their
-/// triangles are dropped.
-pub(super) fn flip_caps(mesh: &mut Mesh) {
+/// triangles are dropped. Nothing of a mesh that is not closed.
+pub(super) fn flip_caps(mesh: &mut Mesh) -> Option<()> {
     let mut caps = flat_triangles(mesh);
     if caps.is_empty() {
-        return;
+        return Some(());
     }
     let mut twins = HalfEdges::new(mesh.positions.len(), &mesh.triangles).twins();
-    assert!(!twins.contains(&NO_TWIN), "a welded mesh is closed");
+    if twins.contains(&NO_TWIN) {
+        return None;
+    }
     // a flip can make a cap of the neighbour only where that was one; so few rounds do
     for _ in 0..8 {
         let before = caps.len();
@@ -33,6 +35,7 @@ pub(super) fn flip_caps(mesh: &mut Mesh) {
     mesh.triangles = order.iter().map(|t| mesh.triangles[*t]).collect();
     mesh.triangle_faces.sort_unstable();
     mesh.drop_empty_faces();
+    Some(())
 }
 
 /// The triangles whose height is noise.

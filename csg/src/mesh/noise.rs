@@ -114,7 +114,8 @@ pub(super) fn noise_height(corners: [DVec3; 3]) -> f64 {
     CONTRACTION * largest_coordinate(corners.into_iter())
 }
 
-/// A mesh without the rounding noise of another that the weld made, and how much that was; nothing where there is none.
+/// A mesh without the rounding noise of another that the weld made, and how much that was; nothing where there is none, or where the mesh
+/// is not closed.
 pub(crate) fn without_noise(mesh: &Mesh) -> Option<(Mesh, Noise)> {
     let edges = noise_edges(mesh);
     let caps = flat_triangles(mesh);
@@ -123,7 +124,7 @@ pub(crate) fn without_noise(mesh: &Mesh) -> Option<(Mesh, Noise)> {
     }
     let (mut cleared, mut noise) = (mesh.clone(), Noise::default());
     contract_noise(&mut cleared, &edges, &mut noise);
-    collapse_thin(&mut cleared, &mut noise);
-    flip_caps(&mut cleared);
+    collapse_thin(&mut cleared, &mut noise)?;
+    flip_caps(&mut cleared)?;
     Some((cleared, noise))
 }

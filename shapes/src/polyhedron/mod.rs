@@ -29,6 +29,7 @@ mod winding;
 
 use planecut_cells::joined;
 use planecut_check::{CheckOptions, ContactKind, check_mesh};
+use planecut_csg::stages::DisjointSets;
 use planecut_csg::{Brush, MaterialId, Tree};
 use planecut_kernel::DVec3;
 
@@ -171,6 +172,17 @@ fn solid(
     Ok((solid, off))
 }
 
+/// Whether triangles that overlap in one plane belong to one surface: a concave face that its program has cut into a fan overlaps itself,
+/// and is the same polygon all the same.
+fn are_connected(surface: &Surface, [a, b]: [usize; 2]) -> bool {
+    let mut sets = DisjointSets::new(surface.points.len());
+    for &[p, q, r] in &surface.triangles {
+        sets.join(p, q);
+        sets.join(p, r);
+    }
+    sets.root(surface.triangles[a][0]) == sets.root(surface.triangles[b][0])
+}
+
 fn check_crossings(surface: &Surface) -> Result<(), PolyhedronError> {
     let size = surface.points.iter().map(|p| p.abs().max_element()).fold(f64::MIN_POSITIVE, f64::max);
     let slack = surface.slack.iter().copied().fold(0.0, f64::max);
@@ -178,7 +190,8 @@ fn check_crossings(surface: &Surface) -> Result<(), PolyhedronError> {
     let report = check_mesh(&surface.points, &surface.triangles, &options);
     let Some(contact) = report.crossings.and_then(|crossings| crossings.first) else { return Ok(()) };
     let normals = contact.triangles.map(|t| polygon::area_vector(&surface.corners(t)));
-    if contact.kind == ContactKind::Overlap && normals[0].dot(normals[1]) < 0.0 {
+    let is_thin = || normals[0].dot(normals[1]) < 0.0;
+    if contact.kind == ContactKind::Overlap && (is_thin() || are_connected(surface, contact.triangles)) {
         return Ok(());
     }
     let mut facets = contact.triangles.map(|t| surface.facet_of[t] as usize);

@@ -95,8 +95,8 @@ fn written_cells_hold_their_points_in_every_precision() {
         let step = (size(positions).max(f64::MIN_POSITIVE) / 4096.0).log2().ceil().exp2();
         positions.iter().map(|p| (*p / step).round() * step).collect::<Vec<_>>()
     };
-    let formats: [(&str, &(dyn Fn(&[DVec3]) -> Vec<DVec3> + Sync)); 3] =
-        [("double", &double), ("single", &single), ("grid", &coarse)];
+    type Stored<'a> = &'a (dyn Fn(&[DVec3]) -> Vec<DVec3> + Sync);
+    let formats: [(&str, Stored<'_>); 3] = [("double", &double), ("single", &single), ("grid", &coarse)];
     let materials = [Material::named("any")];
     for seed in 0..CASES {
         let bodies = bodies(&mut Rng::spread(seed));

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use planecut_check::check_topology;
-use planecut_csg::{Brush, Evaluation, Model, UnboundedBrushes, evaluate_with, summarize};
+use planecut_csg::{Brush, Evaluation, Model, UnboundedBrushes, contract_short_edges, evaluate_with, summarize};
 use planecut_kernel::IncrementalPolytope;
 
 use super::invariance::same;
@@ -236,4 +236,22 @@ fn a_crowd_of_turned_boxes_is_sound() {
     let model = model(boxes.collect());
     let evaluation = sound(&model);
     check_membership(&model, &evaluation, 40).unwrap();
+}
+
+/// Unions of bodies with many corners, contracted by lengths up to their own size, whatever they look like then.
+#[test]
+fn contraction_keeps_meshes_closed() {
+    for seed in 0..200 {
+        let mut rng = Rng::new(seed);
+        let bodies = (0..4).map(|_| {
+            let at = rng.point(-1.0, 1.0);
+            let planes = 6 + rng.below(30);
+            ball(&mut rng, at, 1.0, planes)
+        });
+        let mut mesh = sound(&model(bodies.collect())).mesh;
+        let length = rng.float(0.0, 0.5);
+        let contracted = contract_short_edges(&mut mesh, length);
+        let topology = check_topology(&mesh.positions, &mesh.triangles);
+        assert!(topology.watertight && topology.manifold, "seed {seed}, length {length}: {contracted} edges");
+    }
 }
