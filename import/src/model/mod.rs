@@ -53,7 +53,7 @@ pub struct ModelOptions {
     /// Values that replace those of parameters of the file, by name; others that depend on them follow.
     pub parameters: Vec<(String, f64)>,
     /// Most brushes of the model, copies of instances counted, and most corners of all outlines that are made on the way;
-    /// [`DEFAULT_MAX_PIECES`](crate::DEFAULT_MAX_PIECES) unless it is set, at most [`MAX_BRUSHES`].
+    /// [`DEFAULT_MAX_PIECES`] unless it is set, at most [`MAX_BRUSHES`].
     pub max_pieces: usize,
 }
 

@@ -57,7 +57,7 @@ pub struct ScadOptions {
     /// (2024). OpenSCAD 2021.01 leaves them out.
     pub keep_touching: bool,
     /// Most convex bodies that are made, and most corners of all outlines, those included that later steps leave out;
-    /// [`DEFAULT_MAX_PIECES`](crate::DEFAULT_MAX_PIECES) unless it is set.
+    /// [`DEFAULT_MAX_PIECES`] unless it is set.
     pub max_pieces: usize,
 }
 
