@@ -2,7 +2,9 @@
 
 use glam::DVec3;
 use planecut_check::{CheckOptions, check_mesh};
-use planecut_csg::{Brush, EvaluateError, Evaluation, Material, MaterialId, Model, Tree, UnboundedBrushes, evaluate};
+use planecut_csg::{
+    Brush, EvaluateError, Evaluation, Material, MaterialId, Model, Transform, Tree, UnboundedBrushes, evaluate,
+};
 use planecut_kernel::HalfSpace;
 
 use planecut_testkit::soundness::evaluate_soundly_with;
@@ -38,6 +40,39 @@ fn an_empty_result_is_a_result() {
     ] {
         let evaluation = sound(tree);
         assert_eq!((evaluation.mesh.triangles.len(), evaluation.solid.volume), (0, 0.0));
+    }
+}
+
+/// A unit cube, turned so that no plane is exact.
+fn turned(min: [f64; 3], max: [f64; 3]) -> Tree {
+    let turn = Transform::rotation(DVec3::new(1.0, 2.0, 3.0), 33.0).expect("a rotation");
+    Tree::from(Brush::cuboid(min, max, MaterialId(0))).transformed(&turn).expect("in range")
+}
+
+#[test]
+fn tools_without_end_cut_what_they_cut_and_bodies_far_away_change_nothing() {
+    for reach in [1e3, 1e9, 1e12, 1e15] {
+        let cube = || turned([0.0; 3], [1.0; 3]);
+        let below = || turned([-reach; 3], [reach, reach, 0.25]);
+        let above = || turned([-reach, -reach, 0.75], [reach; 3]);
+        let slab = || turned([-reach, -reach, 0.25], [reach, reach, 0.75]);
+        let shift = Transform::translation(DVec3::new(reach, 0.0, 0.0)).expect("a shift");
+        let plate = || turned([0.0; 3], [1.0, 1.0, 1e-3]);
+        for (tree, volume) in [
+            (cube() - below(), 0.75),
+            (cube() - below() - above(), 0.5),
+            (cube() - slab(), 0.5),
+            (cube() & slab(), 0.5),
+            (plate() - below(), 0.0),
+            (plate() - above(), 1e-3),
+        ] {
+            let found = sound(tree.clone()).solid.volume;
+            assert!((found - volume).abs() < 1e-12, "{reach:e}: {found}, expected {volume}");
+            // a body far away, from which the rest is cut again
+            let far = cube().transformed(&shift).expect("in range");
+            let found = sound((tree | far) & turned([-2.0; 3], [2.0; 3])).solid.volume;
+            assert!((found - volume).abs() < 1e-12, "{reach:e}, beside a body far away: {found}, expected {volume}");
+        }
     }
 }
 
