@@ -36,7 +36,7 @@ impl Aabb {
 /// Most items in a leaf.
 const LEAF: usize = 4;
 /// Below this many items a subtree is built on the current thread.
-const PARALLEL_BUILD: usize = 512;
+pub(crate) const PARALLEL_BUILD: usize = 512;
 
 #[derive(Clone, Copy)]
 struct Node {
@@ -56,12 +56,12 @@ pub(crate) struct Bvh {
 }
 
 /// Levels of inner nodes above the leaves: items are halved until they fit a leaf, everywhere equally often.
-fn levels(items: usize) -> u32 {
+pub(crate) fn levels(items: usize) -> u32 {
     items.div_ceil(LEAF).max(1).next_power_of_two().trailing_zeros()
 }
 
 /// Number of nodes of a tree with `levels` levels of inner nodes.
-fn node_count(levels: u32) -> usize {
+pub(crate) fn node_count(levels: u32) -> usize {
     (2 << levels) - 1
 }
 

@@ -4,15 +4,11 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::DVec3;
 
-use crate::bvh::{Aabb, Bvh};
+use crate::bvh::{Aabb, Bvh, PARALLEL_BUILD, levels, node_count};
 use crate::hubs::{Groups, arc};
 use crate::obb::Obb;
 use crate::parallel;
 
-/// Most triangles in a leaf.
-const LEAF: usize = 4;
-/// Below this many triangles a subtree is built on the current thread.
-const PARALLEL_BUILD: usize = 512;
 /// Pairs of subtrees to begin with, so that all threads have work.
 const TASKS: usize = 1024;
 
@@ -36,11 +32,6 @@ struct Tree {
     nodes: Vec<Node>,
     items: Vec<u32>,
     height: u32,
-}
-
-/// Number of nodes of a tree with `height` levels of inner nodes.
-fn node_count(height: u32) -> usize {
-    (2 << height) - 1
 }
 
 /// The triangles of a mesh by where they are.
@@ -185,7 +176,7 @@ fn children(Place { tree, node, height }: Place) -> [Place; 2] {
 
 impl Tree {
     fn new(mut items: Vec<u32>, corners: &(dyn Fn(u32) -> [DVec3; 3] + Sync), limit: f64) -> Self {
-        let height = items.len().div_ceil(LEAF).max(1).next_power_of_two().trailing_zeros();
+        let height = levels(items.len());
         let empty = Node { bounds: Obb::of_points(&[], 0.0), start: 0, count: 0 };
         let mut nodes = vec![empty; node_count(height)];
         build(&mut nodes, &mut items, 0, height, &|item| corners(item), limit);

@@ -27,12 +27,11 @@ pub fn contract_edges(mesh: &mut Mesh, is_short: impl Fn(DVec3, DVec3) -> bool) 
     if short.is_empty() { 0 } else { contract_listed(mesh, short, |_| &is_short).became.len() }
 }
 
-/// Contracts edges that are rounding noise, in the order given; otherwise as [`contract_short_edges`].
-pub(super) fn contract_noise(mesh: &mut Mesh, edges: &[NoiseEdge], noise: &mut Noise) {
+/// Contracts edges that are rounding noise, in the order given; otherwise as [`contract_short_edges`]. `before` are the positions of the mesh.
+pub(super) fn contract_noise(mesh: &mut Mesh, edges: &[NoiseEdge], before: &[DVec3], noise: &mut Noise) {
     if edges.is_empty() {
         return;
     }
-    let before = mesh.positions.clone();
     let bounds: FxHashMap<[u32; 2], f64> = edges.iter().map(|edge| (edge.ends, edge.bound)).collect();
     let is_noise = |ends: [u32; 2]| {
         let bound = bounds[&ends];

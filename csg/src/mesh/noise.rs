@@ -123,7 +123,7 @@ pub(crate) fn without_noise(mesh: &Mesh) -> Option<(Mesh, Noise)> {
         return None;
     }
     let (mut cleared, mut noise) = (mesh.clone(), Noise::default());
-    contract_noise(&mut cleared, &edges, &mut noise);
+    contract_noise(&mut cleared, &edges, &mesh.positions, &mut noise);
     collapse_thin(&mut cleared, &mut noise)?;
     flip_caps(&mut cleared)?;
     Some((cleared, noise))

@@ -119,12 +119,9 @@ pub fn polyhedron<F: AsRef<[u32]>>(
     materials: &[MaterialId],
     options: &PolyhedronOptions,
 ) -> Result<Polyhedron, PolyhedronError> {
-    if materials.len() != 1 && materials.len() != facets.len() {
-        return Err(PolyhedronError::Materials { found: materials.len(), facets: facets.len() });
-    }
+    let material_of = material_of_facet(materials, facets.len())?;
     let (mut surface, joined_corners) = closed_surface(points, facets, options.precision)?;
     check_crossings(&surface)?;
-    let material_of = |facet: u32| if materials.len() == 1 { materials[0] } else { materials[facet as usize] };
     let mut best = solid(&surface, material_of);
     for _ in 0..MORE_TRIALS {
         if best.as_ref().map_or_else(is_final, |(_, off)| *off <= GOOD_VOLUME * surface.volume_slack()) {
@@ -138,6 +135,17 @@ pub fn polyhedron<F: AsRef<[u32]>>(
         }
     }
     best.map(|(solid, _)| Polyhedron { joined_corners, ..solid })
+}
+
+/// The material of each facet: one is given for each, or one for all.
+fn material_of_facet(
+    materials: &[MaterialId],
+    facets: usize,
+) -> Result<impl Fn(u32) -> MaterialId + Copy + '_, PolyhedronError> {
+    if materials.len() != 1 && materials.len() != facets {
+        return Err(PolyhedronError::Materials { found: materials.len(), facets });
+    }
+    Ok(move |facet: u32| if let [all] = materials { *all } else { materials[facet as usize] })
 }
 
 /// Whether less tolerance would not help.

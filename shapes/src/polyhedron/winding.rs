@@ -16,7 +16,7 @@ use super::joining::closed_surface;
 use super::part::{Part, PlaneSide, Points};
 use super::planes::Planes;
 use super::surface::Surface;
-use super::{Polyhedron, PolyhedronOptions};
+use super::{Polyhedron, PolyhedronOptions, material_of_facet};
 
 /// Most triangles of a surface that is cut so.
 pub const MAX_CROSSING_TRIANGLES: usize = 4096;
@@ -43,14 +43,11 @@ pub fn polyhedron_by_winding<F: AsRef<[u32]>>(
     materials: &[MaterialId],
     options: &PolyhedronOptions,
 ) -> Result<Polyhedron, PolyhedronError> {
-    if materials.len() != 1 && materials.len() != facets.len() {
-        return Err(PolyhedronError::Materials { found: materials.len(), facets: facets.len() });
-    }
+    let material_of = material_of_facet(materials, facets.len())?;
     let (surface, joined_corners) = closed_surface(points, facets, options.precision)?;
     if surface.triangles.len() > MAX_CROSSING_TRIANGLES {
         return Err(PolyhedronError::TooLarge { limit: MAX_CROSSING_TRIANGLES });
     }
-    let material_of = |facet: u32| if materials.len() == 1 { materials[0] } else { materials[facet as usize] };
     let planes = Planes::of(&surface)?;
     let wound = wound_parts(&surface, &planes, material_of)?;
     let (enclosed, found) = (surface.volume(), sum(wound.iter().map(|part| part.winding as f64 * part.volume)));
