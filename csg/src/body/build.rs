@@ -5,10 +5,12 @@ use std::borrow::{Borrow, Cow};
 use planecut_kernel::sign::{Counts, Row};
 use planecut_kernel::{HalfSpace, IncrementalPolytope, PlaneIdx};
 use planecut_parallel::prelude::*;
+use rustc_hash::FxHashMap;
 
-use super::built::{self, BrushShape, BuiltBodies};
+use super::built::{self, BrushShape, BuiltBodies, ShapeBuilder};
 use super::{Body, BrushBody, Shape};
 use crate::base::{Bounds, map_chunks};
+use crate::ids::number32;
 use crate::model::{Brush, BrushFace, MaterialId};
 use crate::plane_table::{PlaneId, PlaneTable, renumber_planes, smallest_size};
 
@@ -32,21 +34,11 @@ pub(crate) fn build_bodies(brushes: &[Brush]) -> BrushBodies {
 /// The same, where some may be built already; `size` is the size of the smallest of these brushes and of all others that their planes are
 /// to be the same with.
 pub(crate) fn build_other_bodies(brushes: &[Brush], built: &BuiltBodies, size: f64) -> BrushBodies {
-    let half_spaces: Vec<HalfSpace> = brushes.iter().flat_map(Brush::half_spaces).copied().collect();
-    let (mut table, ids) = PlaneTable::intern(&half_spaces, size);
-    let mut rest = ids.as_slice();
-    let mut planes: Vec<Vec<PlaneId>> = brushes
-        .iter()
-        .map(|brush| {
-            let (own, others) = rest.split_at(brush.faces.len());
-            rest = others;
-            own.to_vec()
-        })
-        .collect();
+    let (mut table, mut planes) = intern_planes(brushes, size);
     let with_planes: Vec<(&Brush, &Vec<PlaneId>)> = brushes.iter().zip(&planes).collect();
     let (parts, signs) = map_chunks(&with_planes, least_of_chunk(brushes), |chunk| {
-        let mut polytope = IncrementalPolytope::with_epsilon(0.0);
-        chunk.iter().map(|&(brush, planes)| shape_of(&table, built, brush, planes, &mut polytope)).collect::<Vec<_>>()
+        let mut builder = ShapeBuilder::default();
+        chunk.iter().map(|&(brush, planes)| shape_of(&table, built, brush, planes, &mut builder)).collect::<Vec<_>>()
     });
     let shapes: Vec<Cow<'_, BrushShape>> = parts.into_iter().flatten().collect();
     let bounds: Vec<Option<Bounds>> = shapes.iter().map(|shape| shape.bounds().copied()).collect();
@@ -60,20 +52,115 @@ pub(crate) fn build_other_bodies(brushes: &[Brush], built: &BuiltBodies, size: f
     BrushBodies { table, planes, bodies, signs }
 }
 
+/// The planes of brushes in a table, and those of each brush, in its order; `size` as for [`build_other_bodies`].
+fn intern_planes(brushes: &[Brush], size: f64) -> (PlaneTable, Vec<Vec<PlaneId>>) {
+    let half_spaces: Vec<HalfSpace> = brushes.iter().flat_map(Brush::half_spaces).copied().collect();
+    let (table, ids) = PlaneTable::intern(&half_spaces, size);
+    let mut rest = ids.as_slice();
+    let of_brush = |brush: &Brush| {
+        let (own, others) = rest.split_at(brush.faces.len());
+        rest = others;
+        own.to_vec()
+    };
+    let planes = brushes.iter().map(of_brush).collect();
+    (table, planes)
+}
+
+/// The same for brushes many of which have planes in common: what is the same in every bit is looked for first.
+fn intern_repeated_planes(brushes: &[Brush], size: f64) -> (PlaneTable, Vec<Vec<PlaneId>>) {
+    let mut different: Vec<HalfSpace> = Vec::new();
+    let mut known: FxHashMap<[u64; 4], u32> = FxHashMap::default();
+    let mut number = |half_space: &HalfSpace| {
+        *known.entry(half_space.to_array().map(f64::to_bits)).or_insert_with(|| {
+            different.push(*half_space);
+            number32(different.len() - 1)
+        })
+    };
+    let of_brush = |brush: &Brush| brush.half_spaces().map(&mut number).collect();
+    let numbers: Vec<Vec<u32>> = brushes.iter().map(of_brush).collect();
+    drop(known);
+    let (table, ids) = PlaneTable::intern(&different, size);
+    let of_brush = |numbers: Vec<u32>| numbers.into_iter().map(|number| ids[number as usize]).collect();
+    (table, numbers.into_iter().map(of_brush).collect())
+}
+
+/// What is known of a brush of which nothing but its planes is kept.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum BrushExtent {
+    /// A bounded body.
+    Bounded {
+        /// The box around it.
+        bounds: Bounds,
+        /// Its volume.
+        volume: f64,
+        /// How many of its planes have no face.
+        redundant: usize,
+    },
+    /// No interior.
+    Empty,
+    /// Not bounded.
+    Unbounded,
+}
+
+/// Where the brushes of a model are.
+pub(crate) struct BrushExtents {
+    pub(crate) table: PlaneTable,
+    /// The planes of each brush, in its order.
+    pub(crate) planes: Vec<Vec<PlaneId>>,
+    pub(crate) extents: Vec<BrushExtent>,
+    pub(crate) signs: Counts,
+}
+
+/// Interns the planes of brushes and tells what each is, without keeping the bodies: some kilobytes for each are a lot for a million of
+/// them. They are built again, some of them at a time, by [`built_or_build`].
+pub(crate) fn brush_extents(brushes: &[Brush], built: &BuiltBodies, size: f64) -> BrushExtents {
+    let (mut table, mut planes) = intern_repeated_planes(brushes, size);
+    let with_planes: Vec<(&Brush, &Vec<PlaneId>)> = brushes.iter().zip(&planes).collect();
+    let (parts, signs) = map_chunks(&with_planes, least_of_chunk(brushes), |chunk| {
+        let mut builder = ShapeBuilder::default();
+        let extent = |&(brush, planes): &(&Brush, &Vec<PlaneId>)| {
+            match &*shape_of(&table, built, brush, planes, &mut builder) {
+                BrushShape::Bounded(shape) => BrushExtent::Bounded {
+                    bounds: *shape.bounds(),
+                    volume: shape.volume,
+                    redundant: planes.len() - shape.faces.len(),
+                },
+                BrushShape::Empty => BrushExtent::Empty,
+                BrushShape::Unbounded => BrushExtent::Unbounded,
+            }
+        };
+        chunk.iter().map(extent).collect::<Vec<BrushExtent>>()
+    });
+    let extents = parts.concat();
+    let bounds: Vec<Option<Bounds>> = extents.iter().map(|extent| extent.bounds().copied()).collect();
+    renumber_planes(&mut table, &mut planes, &bounds);
+    BrushExtents { table, planes, extents, signs }
+}
+
+impl BrushExtent {
+    /// The box around a bounded body.
+    pub(crate) fn bounds(&self) -> Option<&Bounds> {
+        match self {
+            Self::Bounded { bounds, .. } => Some(bounds),
+            Self::Empty | Self::Unbounded => None,
+        }
+    }
+}
+
 /// Number of brushes in a chunk; each chunk has a polytope of its own, which is worth the while from some planes on.
 pub(super) fn least_of_chunk<B: Borrow<Brush>>(brushes: &[B]) -> usize {
     let planes: usize = brushes.iter().map(|brush| brush.borrow().faces.len()).sum();
     PLANES_OF_CHUNK * brushes.len() / planes.max(1)
 }
 
-/// What a brush is, whose planes have ids in a table; `polytope` is a buffer. It is not built again where that was done and the
+/// What a brush is, whose planes have ids in a table. It is not built again where that was done and the
 /// table has taken none of the planes for another.
 fn shape_of<'a>(
     table: &PlaneTable,
     built: &'a BuiltBodies,
     brush: &Brush,
     planes: &[PlaneId],
-    polytope: &mut IncrementalPolytope,
+    builder: &mut ShapeBuilder,
 ) -> Cow<'a, BrushShape> {
     let stays = |(face, plane): (&BrushFace, &PlaneId)| {
         let row = Row::new(&face.half_space);
@@ -82,34 +169,33 @@ fn shape_of<'a>(
     let known = built.shape_of(&brush.faces);
     match known.filter(|_| brush.faces.iter().zip(planes).all(stays)) {
         Some(known) => Cow::Borrowed(known),
-        None => Cow::Owned(shape_in_table(table, planes, polytope)),
+        None => Cow::Owned(shape_in_table(table, planes, builder)),
     }
 }
 
-fn shape_in_table(table: &PlaneTable, planes: &[PlaneId], polytope: &mut IncrementalPolytope) -> BrushShape {
-    let plane = |k: usize| (table.row(planes[k]), table.half_space(planes[k]));
-    built::shape_of_planes(planes.len(), plane, polytope)
+fn shape_in_table(table: &PlaneTable, planes: &[PlaneId], builder: &mut ShapeBuilder) -> BrushShape {
+    builder.shape(planes.len(), |k| (table.row(planes[k]), table.half_space(planes[k])))
 }
 
-/// The body of a brush, whose planes have ids in a table; `polytope` is a buffer.
+/// The body of a brush, whose planes have ids in a table.
 pub(crate) fn built_or_build(
     table: &PlaneTable,
     built: &BuiltBodies,
     brush: &Brush,
     planes: &[PlaneId],
-    polytope: &mut IncrementalPolytope,
+    builder: &mut ShapeBuilder,
 ) -> BrushBody {
-    shape_of(table, built, brush, planes, polytope).body(planes, |k| brush.faces[k].material)
+    shape_of(table, built, brush, planes, builder).body(planes, |k| brush.faces[k].material)
 }
 
-/// The body that planes bound, each with the material of its face; `polytope` is a buffer.
+/// The body that planes bound, each with the material of its face.
 pub(crate) fn build(
     table: &PlaneTable,
     planes: &[PlaneId],
     materials: &[MaterialId],
-    polytope: &mut IncrementalPolytope,
+    builder: &mut ShapeBuilder,
 ) -> BrushBody {
-    shape_in_table(table, planes, polytope).body(planes, |k| materials[k])
+    shape_in_table(table, planes, builder).body(planes, |k| materials[k])
 }
 
 /// The body of a polytope, its faces in the order of the planes, whatever that in which they were added: `planes` have ids in a

@@ -9,6 +9,7 @@ use rustc_hash::{FxHashMap, FxHasher};
 
 use super::Shape;
 use super::build::least_of_chunk;
+use super::pattern::Pattern;
 use crate::base::map_chunks;
 use crate::model::{Brush, BrushFace};
 use crate::plane_table::half_space_of;
@@ -50,8 +51,8 @@ impl BuiltBodies {
     pub fn of<'a>(brushes: impl IntoIterator<Item = &'a Brush>) -> Self {
         let brushes: Vec<&Brush> = brushes.into_iter().collect();
         let (parts, _) = map_chunks(&brushes, least_of_chunk(&brushes), |chunk| {
-            let mut polytope = IncrementalPolytope::with_epsilon(0.0);
-            chunk.iter().map(|brush| ahead(brush, &mut polytope)).collect::<Vec<BuiltBody>>()
+            let mut builder = ShapeBuilder::default();
+            chunk.iter().map(|brush| ahead(brush, &mut builder)).collect::<Vec<BuiltBody>>()
         });
         let mut bodies: FxHashMap<u64, Vec<BuiltBody>> = FxHashMap::default();
         for (brush, built) in brushes.iter().zip(parts.into_iter().flatten()) {
@@ -102,7 +103,7 @@ fn shape_among<'a>(bodies: &'a [BuiltBody], faces: &[BrushFace]) -> Option<&'a B
     bodies.iter().find(|(half_spaces, _)| is_same(half_spaces)).map(|(_, shape)| shape)
 }
 
-fn ahead(brush: &Brush, polytope: &mut IncrementalPolytope) -> BuiltBody {
+fn ahead(brush: &Brush, builder: &mut ShapeBuilder) -> BuiltBody {
     let half_spaces: Vec<HalfSpace> = brush.faces.iter().map(|face| face.half_space).collect();
     // as a table has them
     let in_table = |half_space: &HalfSpace| {
@@ -110,8 +111,40 @@ fn ahead(brush: &Brush, polytope: &mut IncrementalPolytope) -> BuiltBody {
         (row, half_space_of(&row))
     };
     let planes: Vec<(Row, HalfSpace)> = half_spaces.iter().map(in_table).collect();
-    let shape = shape_of_planes(planes.len(), |k| (&planes[k].0, &planes[k].1), polytope);
+    let shape = builder.shape(planes.len(), |k| (&planes[k].0, &planes[k].1));
     (half_spaces, shape)
+}
+
+/// Builds one shape after another; shapes do not depend on those before them.
+#[derive(Debug)]
+pub(crate) struct ShapeBuilder {
+    polytope: IncrementalPolytope,
+    /// The last shape that was built.
+    pattern: Pattern,
+}
+
+impl Default for ShapeBuilder {
+    fn default() -> Self {
+        Self { polytope: IncrementalPolytope::with_epsilon(0.0), pattern: Pattern::default() }
+    }
+}
+
+impl ShapeBuilder {
+    /// What planes bound: the coefficients of each, exact ones and the same as a half-space.
+    pub(super) fn shape<'a>(
+        &mut self,
+        count: usize,
+        plane: impl Fn(usize) -> (&'a Row, &'a HalfSpace),
+    ) -> BrushShape {
+        if let Some(shape) = self.pattern.shape(count, &plane) {
+            return BrushShape::Bounded(shape);
+        }
+        let shape = shape_of_planes(count, &plane, &mut self.polytope);
+        if let BrushShape::Bounded(shape) = &shape {
+            self.pattern.set(shape, count, plane);
+        }
+        shape
+    }
 }
 
 /// What planes bound: the coefficients of each, exact ones and the same as a half-space; `polytope` is a buffer.

@@ -4,27 +4,25 @@ use std::hash::BuildHasher;
 
 use rustc_hash::{FxBuildHasher, FxHashMap};
 
-use super::BodyFace;
 use crate::ids::{Id, LeafId};
 use crate::model::MaterialId;
 use crate::plane_table::PlaneId;
 
-/// For the body of each leaf the first leaf with an equal one: equal for bodies with the same faces of the same materials, and for no others; `faces` gives those of a
-/// body, and `mark` a [`mark_of`] them.
-pub(crate) fn kinds<'a>(
+/// For the body of each leaf the first leaf with an equal one: equal for bodies with the same faces of the same materials, and for no others; `faces` gives the planes
+/// and materials of those of a body, and `mark` a [`mark_of`] them.
+pub(crate) fn kinds<I: Iterator<Item = (PlaneId, MaterialId)>>(
     bodies: usize,
-    faces: impl Fn(LeafId) -> &'a [BodyFace],
+    faces: impl Fn(LeafId) -> I,
     mark: impl Fn(LeafId) -> u64,
 ) -> Vec<LeafId> {
     let sorted = |number: LeafId| {
-        let mut faces: Vec<(PlaneId, MaterialId)> =
-            faces(number).iter().map(|face| (face.plane, face.material)).collect();
+        let mut faces: Vec<(PlaneId, MaterialId)> = faces(number).collect();
         faces.sort_unstable();
         faces
     };
     let mut known: FxHashMap<u64, Vec<LeafId>> = FxHashMap::default();
     let kind = |number: LeafId| {
-        if faces(number).is_empty() {
+        if faces(number).next().is_none() {
             return number;
         }
         let alike = known.entry(mark(number)).or_default();
@@ -39,7 +37,27 @@ pub(crate) fn kinds<'a>(
 }
 
 /// A number that faces of the same planes and materials share, whatever their order.
-pub(crate) fn mark_of(faces: &[BodyFace]) -> u64 {
-    let each = faces.iter().map(|face| FxBuildHasher.hash_one((face.plane, face.material)));
-    each.fold(0, u64::wrapping_add)
+pub(crate) fn mark_of(faces: impl Iterator<Item = (PlaneId, MaterialId)>) -> u64 {
+    // the hash is linear in what it is of, so that sums of it would be the same wherever sums of plane numbers are
+    let mixed = |face| {
+        let hash = FxBuildHasher.hash_one(face);
+        let folded = (hash ^ hash >> 32).wrapping_mul(0xD6E8_FEB8_6659_FD93);
+        folded ^ folded >> 32
+    };
+    faces.map(mixed).fold(0, u64::wrapping_add)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn boxes_of_a_grid_have_different_marks() {
+        let planes = |x: u32, y: u32| [2 * x, 2 * x + 1, 2000 + 2 * y, 2001 + 2 * y].map(PlaneId::of_index);
+        let mark = |x, y| mark_of(planes(x, y).into_iter().map(|plane| (plane, MaterialId(0))));
+        let mut marks: Vec<u64> = (0..200).flat_map(|x| (0..200).map(move |y| mark(x, y))).collect();
+        marks.sort_unstable();
+        marks.dedup();
+        assert_eq!(marks.len(), 200 * 200);
+    }
 }

@@ -2,6 +2,7 @@
 //!
 //! - [`shape`] is a body in numbers of its own, which it keeps whatever table its planes are in.
 //! - [`build`] makes those of brushes, where they were not made before ([`BuiltBodies`]).
+//! - [`pattern`] knows bodies again that differ from another one in the distances of their planes alone.
 //! - [`polar_dual`] tells where points lie in a body of many faces.
 
 mod build;
@@ -9,6 +10,7 @@ mod built;
 mod corner;
 mod kinds;
 mod outer;
+mod pattern;
 mod polar_dual;
 mod shape;
 
@@ -22,8 +24,11 @@ use crate::ids::{BodyFaceId, Id};
 use crate::model::MaterialId;
 use crate::plane_table::{PlaneId, PlaneTable};
 
-pub(crate) use build::{BrushBodies, build, build_bodies, build_other_bodies, built_or_build, read};
+pub(crate) use build::{
+    BrushBodies, BrushExtent, BrushExtents, brush_extents, build, build_bodies, build_other_bodies, built_or_build, read,
+};
 pub use built::BuiltBodies;
+pub(crate) use built::ShapeBuilder;
 pub(crate) use corner::{Corner, PlaneFilter};
 pub(crate) use kinds::{kinds, mark_of};
 pub(crate) use outer::OuterBox;
@@ -99,6 +104,11 @@ impl Body {
             .polar_dual
             .get_or_init(|| PolarDual::new(half_spaces, edges, &self.corners).map(Box::new))
             .as_deref()
+    }
+
+    /// The planes and materials of its faces.
+    pub(crate) fn planes_and_materials(&self) -> impl Iterator<Item = (PlaneId, MaterialId)> {
+        self.faces.iter().map(|face| (face.plane, face.material))
     }
 
     /// The planes of the edges of a face, counter-clockwise seen from outside.

@@ -7,7 +7,7 @@
 use glam::DVec3;
 use planecut_kernel::{HalfSpace, MAX_OFFSET_RATIO};
 
-use super::{BrushBody, build};
+use super::{BrushBody, ShapeBuilder, build};
 use crate::model::MaterialId;
 use crate::plane_table::{PlaneId, PlaneTable};
 
@@ -58,6 +58,6 @@ impl OuterBox {
         let planes: Vec<PlaneId> = planes.iter().chain(&self.planes).copied().collect();
         let last = materials.last().copied().unwrap_or(MaterialId(0));
         let materials: Vec<MaterialId> = materials.iter().copied().chain([last; 6]).collect();
-        build(table, &planes, &materials, &mut planecut_kernel::IncrementalPolytope::with_epsilon(0.0))
+        build(table, &planes, &materials, &mut ShapeBuilder::default())
     }
 }

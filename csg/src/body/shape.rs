@@ -45,6 +45,13 @@ pub(super) struct Corners {
 }
 
 impl Corners {
+    /// Adds the meeting point of three planes.
+    pub(super) fn add(&mut self, [a, b, c]: [&Row; 3]) -> CornerId {
+        let number = CornerId::from_index(self.different.len());
+        self.different.push(Corner { number, ..Corner::new(Homogeneous::meet(a, b, c)) });
+        number
+    }
+
     /// The mean of the corners, each counted once for each face at it.
     pub(super) fn middle(&self) -> DVec3 {
         let corners = self.numbers.iter().map(|number| self.different[number.index()].at);
@@ -59,49 +66,68 @@ impl Shape {
         polytope: &IncrementalPolytope,
         plane: impl Fn(PlaneIdx) -> (&'a Row, &'a HalfSpace),
     ) -> Option<Self> {
-        let mut faces: Vec<Face> = Vec::new();
-        let mut corners = Corners::default();
-        let mut volume = Volume::default();
+        let (mut ends, mut corners) = (Vec::new(), Corners::default());
         let mut is_bounded = true;
         // the corners that other faces have as well, by their numbers
         let mut shared: Vec<Option<CornerId>> = vec![None; polytope.corner_bound()];
         polytope.for_each_facet(|own, edges| {
+            // loops begin at the edge whose plane comes first, so that a shape does not depend on how it was found
+            let first = (0..edges.len()).min_by_key(|k| edges[*k].plane).unwrap_or(0);
+            let edges = || edges[first..].iter().chain(&edges[..first]);
             let start = corners.edges.len();
-            for edge in edges {
+            for edge in edges() {
                 let Some(edge) = edge.plane else {
                     is_bounded = false;
                     return;
                 };
                 corners.edges.push(edge);
             }
-            let mut bounds = Bounds::EMPTY;
-            volume.begin_face();
-            for (i, edge) in edges.iter().enumerate() {
-                let triple = [own, corners.edges[start + i], corners.edges[start + (i + 1) % edges.len()]];
-                let [a, b, c] = triple.map(|idx| plane(idx).0);
+            let count = corners.edges.len() - start;
+            for (i, edge) in edges().enumerate() {
                 let known = edge.corner.and_then(|number| shared[number]);
                 let number = known.unwrap_or_else(|| {
-                    let number = CornerId::from_index(corners.different.len());
-                    corners.different.push(Corner { number, ..Corner::new(Homogeneous::meet(a, b, c)) });
-                    number
+                    let triple = [own, corners.edges[start + i], corners.edges[start + (i + 1) % count]];
+                    corners.add(triple.map(|idx| plane(idx).0))
                 });
                 if let Some(shared_number) = edge.corner {
                     shared[shared_number] = Some(number);
                 }
-                let corner = &corners.different[number.index()];
-                bounds = bounds.with_corner(corner);
-                volume.add(if corner.is_well_known() { Some(corner.at) } else { meet(a, b, c) });
                 corners.numbers.push(number);
             }
             corners.planes.push(own);
-            faces.push(Face { bounds, start: number32(start), end: number32(corners.edges.len()) });
+            ends.push(number32(corners.edges.len()));
         });
-        if !is_bounded {
-            return None;
-        }
+        is_bounded.then(|| Self::measured(&ends, corners, plane))
+    }
+
+    /// The shape of known corners: boxes of its faces, of which each ends at an entry of the edges, and volume.
+    pub(super) fn measured<'a>(
+        ends: &[u32],
+        corners: Corners,
+        plane: impl Fn(PlaneIdx) -> (&'a Row, &'a HalfSpace),
+    ) -> Self {
+        let mut volume = Volume::default();
+        let mut start = 0;
+        let face = |(&end, &own): (&u32, &PlaneIdx)| {
+            let range = std::mem::replace(&mut start, end) as usize..end as usize;
+            let (numbers, edges) = (&corners.numbers[range.clone()], &corners.edges[range.clone()]);
+            let mut bounds = Bounds::EMPTY;
+            volume.begin_face();
+            for (i, number) in numbers.iter().enumerate() {
+                let corner = &corners.different[number.index()];
+                bounds = bounds.with_corner(corner);
+                let exactly = || {
+                    let [a, b, c] = [own, edges[i], edges[(i + 1) % edges.len()]].map(|idx| plane(idx).0);
+                    meet(a, b, c)
+                };
+                volume.add(if corner.is_well_known() { Some(corner.at) } else { exactly() });
+            }
+            Face { bounds, start: number32(range.start), end }
+        };
+        let faces = ends.iter().zip(&corners.planes).map(face).collect();
         let mut shape = Self { faces, corners: Arc::new(corners), bounds: Bounds::EMPTY, volume: volume.six / 6.0 };
         shape.tighten_bounds(|idx| plane(idx).1);
-        Some(shape)
+        shape
     }
 
     /// Brings the faces into the order that their planes have.

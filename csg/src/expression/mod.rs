@@ -142,6 +142,12 @@ impl Expression {
         self.nodes[self.leaves[leaf.index()].index()].polarity
     }
 
+    /// Whether the tree, of which the value is 0 where all leaves are, is 1 where only this leaf is.
+    pub(crate) fn is_solid_alone(&self, leaf: LeafId) -> bool {
+        let node = &self.nodes[self.leaves[leaf.index()].index()];
+        node.blocked_at == 0 && !node.is_negated
+    }
+
     /// The lowest node above two different leaves, `p < q`.
     fn lowest_above(&self, p: LeafId, q: LeafId) -> TreeNodeId {
         let (p, q) = (p.index(), q.index());

@@ -1,6 +1,6 @@
 //! The bodies of brushes that change, and what of them is another than before.
 
-use planecut_kernel::{IncrementalPolytope, PlaneIdx};
+use planecut_kernel::PlaneIdx;
 use rustc_hash::FxHashMap;
 
 use super::LiveModel;
@@ -9,7 +9,7 @@ use super::operand::{Operand, State};
 use super::polytopes::{KeptPolytope, LEAST_PLANES, OUTER_BOX, PLANES_PER_CHANGE};
 use crate::base::Bounds;
 use crate::base::map_chunks;
-use crate::body::{Body, BodyFace, BrushBody, built_or_build, mark_of, read};
+use crate::body::{Body, BodyFace, BrushBody, ShapeBuilder, built_or_build, mark_of, read};
 use crate::boundary::BoundaryEdge;
 use crate::evaluate::UnboundedBrushes;
 use crate::ids::{BodyFaceId, EdgeId, Id, OperandId};
@@ -47,8 +47,8 @@ impl LiveModel {
         };
         if numbers.len() >= MANY {
             let (chunks, _) = map_chunks(numbers, MANY, |chunk| {
-                let mut polytope = IncrementalPolytope::with_epsilon(0.0);
-                let body = |number: &OperandId| placed(*number, self.body(self.operand(*number), &mut polytope));
+                let mut builder = ShapeBuilder::default();
+                let body = |number: &OperandId| placed(*number, self.body(self.operand(*number), &mut builder));
                 chunk.iter().map(body).collect::<Vec<Placed>>()
             });
             return chunks.into_iter().flatten().collect();
@@ -63,9 +63,9 @@ impl LiveModel {
                     body
                 }
                 None => {
-                    let mut polytope = std::mem::take(&mut self.buffers.polytope);
-                    let body = self.body(self.operand(*number), &mut polytope);
-                    self.buffers.polytope = polytope;
+                    let mut builder = std::mem::take(&mut self.buffers.builder);
+                    let body = self.body(self.operand(*number), &mut builder);
+                    self.buffers.builder = builder;
                     body
                 }
             };
@@ -90,14 +90,14 @@ impl LiveModel {
         (changes * PLANES_PER_CHANGE <= count).then(|| known.unwrap_or_default())
     }
 
-    fn body(&self, operand: &Operand, polytope: &mut IncrementalPolytope) -> Option<Body> {
+    fn body(&self, operand: &Operand, builder: &mut ShapeBuilder) -> Option<Body> {
         if !operand.is_there {
             return None;
         }
         let table = &self.planes.table;
         let planes = self.ids(operand);
         let brush = &operand.state.brush;
-        let bounded = match built_or_build(table, &self.built, brush, &planes, polytope) {
+        let bounded = match built_or_build(table, &self.built, brush, &planes, builder) {
             BrushBody::Unbounded if self.unbounded == UnboundedBrushes::Keep => {
                 let materials: Vec<MaterialId> = brush.faces.iter().map(|face| face.material).collect();
                 self.outer.cut(table, &planes, &materials)
@@ -156,7 +156,7 @@ impl LiveModel {
         }
         if let Some(new) = &placed.body {
             self.places.insert(&new.bounds, placed.number);
-            operand.mark = mark_of(&new.faces);
+            operand.mark = mark_of(new.planes_and_materials());
             self.marks.insert(operand.mark);
             for face in &new.faces {
                 let count = &mut self.bodies_on_plane[face.plane.index() as usize];

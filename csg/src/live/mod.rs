@@ -25,11 +25,11 @@ use std::collections::BTreeMap;
 use std::num::NonZeroU32;
 use std::sync::Arc;
 
-use planecut_kernel::{IncrementalPolytope, PlaneIdx};
+use planecut_kernel::PlaneIdx;
 use rustc_hash::FxHashSet;
 use thiserror::Error;
 
-use crate::body::{Body, BuiltBodies, OuterBox};
+use crate::body::{Body, BuiltBodies, OuterBox, ShapeBuilder};
 use crate::boundary::BoundaryEdge;
 use crate::evaluate::{EvaluateError, UnboundedBrushes, check_materials, material_ranks};
 use crate::expression::Expression;
@@ -169,7 +169,7 @@ struct Base {
 
 #[derive(Default)]
 struct Buffers {
-    polytope: IncrementalPolytope,
+    builder: ShapeBuilder,
     /// The faces to be worked out again.
     faces: Vec<OperandFace>,
     /// The body of each brush among those near.

@@ -15,8 +15,8 @@ use crate::model::{Material, MaterialId};
 pub use contract::{contract_edges, contract_short_edges};
 pub use measures::SolidMeasures;
 pub use noise::Noise;
-pub(crate) use noise::without_noise;
-pub(crate) use proof::{Flaw, prove, prove_cleared};
+use noise::without_noise;
+pub(crate) use proof::{Flaw, proven};
 
 /// One planar, connected region of a [`Mesh`] with one material.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -7,7 +7,7 @@ use glam::DVec3;
 use planecut_parallel::prelude::*;
 
 use super::connectivity::HalfEdges;
-use super::{Mesh, Noise, SolidMeasures};
+use super::{Mesh, Noise, SolidMeasures, without_noise};
 use crate::tolerances::PROOF;
 
 /// Triangles that are summed one after the other, so that sums do not depend on the number of threads.
@@ -48,13 +48,24 @@ impl Sums {
     }
 }
 
+/// A mesh without rounding noise, or, where that would damage it, with it; proven to be the boundary of a solid.
+pub(crate) fn proven(mesh: Mesh, solid: &SolidMeasures) -> Result<(Mesh, Noise), Flaw> {
+    if let Some((cleared, noise)) = without_noise(&mesh)
+        && prove_cleared(&cleared, solid, &mesh, noise).is_ok()
+    {
+        return Ok((cleared, noise));
+    }
+    prove(&mesh, solid)?;
+    Ok((mesh, Noise::default()))
+}
+
 /// Checks a mesh as the weld made it against the solid whose boundary it is to be.
-pub(crate) fn prove(mesh: &Mesh, solid: &SolidMeasures) -> Result<(), Flaw> {
+fn prove(mesh: &Mesh, solid: &SolidMeasures) -> Result<(), Flaw> {
     prove_cleared(mesh, solid, mesh, Noise::default())
 }
 
 /// Checks a mesh from which noise was removed, and which was another one before.
-pub(crate) fn prove_cleared(mesh: &Mesh, solid: &SolidMeasures, before: &Mesh, noise: Noise) -> Result<(), Flaw> {
+fn prove_cleared(mesh: &Mesh, solid: &SolidMeasures, before: &Mesh, noise: Noise) -> Result<(), Flaw> {
     let coordinate = solid.min.abs().max(solid.max.abs()).max_element();
     if noise.thickest > PROOF * coordinate {
         return Err(Flaw::Measures);

@@ -40,7 +40,7 @@ use thiserror::Error;
 use crate::base::{Clock, by_group, map_chunks};
 use crate::boundary::BoundaryEdge;
 use crate::ids::{EdgeId, HalfEdgeId, Id, PointId, RegionId, VertexId};
-use crate::mesh::{Flaw, Mesh, MeshFace, Noise, SolidMeasures, prove, prove_cleared, without_noise};
+use crate::mesh::{Flaw, Mesh, MeshFace, Noise, SolidMeasures, proven};
 use crate::model::{Material, MaterialId};
 use crate::plane_table::{PlaneId, PlaneTable};
 use cancel::{HalfEdge, Pieces, Run};
@@ -162,17 +162,6 @@ pub(crate) fn weld(
     let solid = nested.solid;
     let (mesh, noise) = proven(mesh, &solid)?;
     Ok(Welded { mesh, solid, noise, signs, triangulation: begin.elapsed() })
-}
-
-/// The mesh without rounding noise, or, where that would damage it, with it; proven to be the boundary of the solid.
-fn proven(mesh: Mesh, solid: &SolidMeasures) -> Result<(Mesh, Noise), WeldError> {
-    if let Some((cleared, noise)) = without_noise(&mesh)
-        && prove_cleared(&cleared, solid, &mesh, noise).is_ok()
-    {
-        return Ok((cleared, noise));
-    }
-    prove(&mesh, solid)?;
-    Ok((mesh, Noise::default()))
 }
 
 impl Regions {

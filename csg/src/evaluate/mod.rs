@@ -1,5 +1,9 @@
 //! From a model to its solid's mesh, stage by stage, with what each stage counted.
 
+mod convex;
+mod scattered;
+mod totals;
+
 use crate::ids::number32;
 use std::time::Duration;
 
@@ -154,6 +158,11 @@ pub(crate) fn evaluate_among(
     let begin = Clock::start();
     let used = model.tree.brushes().iter().flat_map(|brush| &brush.faces).map(|face| face.material);
     check_materials(used, model.materials.len())?;
+    if model.tree.brushes().len() >= scattered::LEAST
+        && let Some(evaluation) = scattered::evaluate_scattered(model, unbounded, built, size)?
+    {
+        return Ok(evaluation);
+    }
     let BrushBodies { mut table, planes, bodies, mut signs } = build_other_bodies(model.tree.brushes(), built, size);
     let summary = summary_of(&table, &bodies);
     let expression = Expression::new(model.tree.nodes());
@@ -164,7 +173,8 @@ pub(crate) fn evaluate_among(
         BrushBody::Bounded(body, _) => body.faces.as_slice(),
         BrushBody::Empty | BrushBody::Unbounded => &[],
     };
-    let kinds = kinds(bodies.len(), faces, |number| mark_of(faces(number)));
+    let materials = |leaf: LeafId| faces(leaf).iter().map(|face| (face.plane, face.material));
+    let kinds = kinds(bodies.len(), materials, |leaf| mark_of(materials(leaf)));
     let repeated = expression.repeated_leaves(&kinds);
     let brushes = bodies.into_iter().zip(&planes).enumerate().zip(repeated);
     for ((leaf, (body, planes)), _) in brushes.filter(|(_, is_repeated)| !is_repeated) {
@@ -180,11 +190,7 @@ pub(crate) fn evaluate_among(
             _ => {}
         }
     }
-    let mut rank = material_ranks(&model.materials);
-    if rank.is_empty() {
-        // The outer box is of the first material.
-        rank.push(0);
-    }
+    let rank = ranks(model);
     let (edges, counted) = match outer {
         None => leaves.boundary_edges(&table, &expression, &rank),
         Some(outer) => leaves.boundary_within(&table, &outer, model.tree.nodes(), &rank)?,
@@ -199,6 +205,16 @@ pub(crate) fn evaluate_among(
         triangulate: triangulation,
     };
     Ok(Evaluation { mesh, solid, noise, model: summary, signs, times })
+}
+
+/// The places of the materials of a model by name, one at least.
+fn ranks(model: &Model) -> Vec<u32> {
+    let mut rank = material_ranks(&model.materials);
+    if rank.is_empty() {
+        // The outer box is of the first material.
+        rank.push(0);
+    }
+    rank
 }
 
 /// The boundary of the union of bodies as a watertight mesh, and the measures taken from it; `ranks` are the [`material_ranks`].

@@ -1,0 +1,280 @@
+//! Models of very many bodies: in groups that have no point in common.
+//!
+//! Where two bodies are apart, neither changes what the tree is near the other. So the bodies fall into groups, those within a group touching one
+//! another by their boxes, and the boundary of the solid is that of one group after another: of a model of a million bodies only the
+//! boxes are kept, and the bodies of some thousand are built again when it is their turn. A group of one body needs no boundary and no weld
+//! ([`convex`](super::convex)).
+//!
+//! Vertices and faces come group by group, in the order of space, so that their order still depends on the geometry alone.
+
+use planecut_kernel::sign::Counts;
+
+use super::convex::{ConvexMesh, mesh_of};
+use super::totals::Totals;
+use super::{EvaluateError, Evaluation, Leaves, ModelSummary, StageTimes, UnboundedBrushes, ranks};
+use crate::base::{Bounds, Boxes, Clock, DisjointSets, map_chunks};
+use crate::body::{
+    Body, BrushExtent, BrushExtents, BuiltBodies, ShapeBuilder, brush_extents, built_or_build, kinds,
+    mark_of,
+};
+use crate::expression::Expression;
+use crate::ids::{Id, LeafId, number32};
+use crate::mesh::{Mesh, Noise, proven};
+use crate::model::{BrushFace, Model};
+use crate::plane_table::{PlaneId, PlaneTable, curve_number};
+use crate::weld::{Welded, weld};
+
+/// Models of fewer brushes are evaluated at once.
+pub(super) const LEAST: usize = 1 << 16;
+
+/// Groups are evaluated together until they have this many bodies.
+const BODIES_AT_A_TIME: usize = 1 << 13;
+
+/// Number of bodies whose meshes are proven together.
+const PROVEN_AT_A_TIME: usize = 1 << 9;
+
+/// The solid of a model, group by group; nothing where a body that is kept reaches infinity, or the solid does.
+pub(super) fn evaluate_scattered(
+    model: &Model,
+    unbounded: UnboundedBrushes,
+    built: &BuiltBodies,
+    size: f64,
+) -> Result<Option<Evaluation>, EvaluateError> {
+    let begin = Clock::start();
+    let expression = Expression::new(model.tree.nodes());
+    if expression.base() {
+        return Ok(None);
+    }
+    let BrushExtents { table, planes, extents, mut signs } = brush_extents(model.tree.brushes(), built, size);
+    let summary = summary_of(&table, &extents);
+    if unbounded == UnboundedBrushes::Keep && !summary.unbounded.is_empty() {
+        return Ok(None);
+    }
+    let groups = Groups::of(&extents, &expression, &repeated(model, &planes, &extents, &expression));
+    let scene = Scattered { model, built, table: &table, planes: &planes };
+    let evaluated = begin.elapsed();
+
+    let welding = Clock::start();
+    let rank = ranks(model);
+    let mut solid = Solid::with_room(model, &groups.alone, &extents);
+    let mut others = groups.several;
+    for some in groups.alone.chunks(PROVEN_AT_A_TIME * 64) {
+        let (parts, counted) = map_chunks(some, PROVEN_AT_A_TIME, |chunk| {
+            let mut builder = ShapeBuilder::default();
+            let parts = chunk.chunks(PROVEN_AT_A_TIME);
+            parts.map(|leaves| scene.alone(leaves, &mut builder)).collect::<Vec<_>>()
+        });
+        signs += counted;
+        for Alone { mesh, noise, rest } in parts.into_iter().flatten() {
+            solid.add(mesh.mesh, &mesh.totals, noise);
+            others.extend(rest.into_iter().map(|leaf| vec![leaf]));
+        }
+    }
+    let mut triangulate = std::time::Duration::ZERO;
+    let mut rest = others.as_slice();
+    while !rest.is_empty() {
+        let (some, after) = rest.split_at(next_groups(rest));
+        rest = after;
+        let mut leaves = some.concat();
+        leaves.sort_unstable();
+        let (edges, counted) = scene.leaves(&leaves, &mut signs).boundary_edges(&table, &expression, &rank);
+        signs += counted;
+        let Welded { mesh, solid: measures, noise, signs: counted, triangulation } =
+            weld(&table, &edges, &rank, &model.materials)?;
+        signs += counted;
+        triangulate += triangulation;
+        solid.add(mesh, &Totals::of(&measures), noise);
+    }
+    let times = StageTimes { evaluate: evaluated, weld: welding.elapsed().saturating_sub(triangulate), triangulate };
+    let Solid { mesh, totals, noise } = solid;
+    Ok(Some(Evaluation { mesh, solid: totals.measures(), noise, model: summary, signs, times }))
+}
+
+/// How many groups are evaluated together.
+fn next_groups(groups: &[Vec<LeafId>]) -> usize {
+    let bodies = groups.iter().scan(0, |bodies, group| {
+        *bodies += group.len();
+        Some(*bodies)
+    });
+    bodies.take_while(|bodies| *bodies <= BODIES_AT_A_TIME).count().max(1)
+}
+
+/// What all groups need.
+struct Scattered<'a> {
+    model: &'a Model,
+    built: &'a BuiltBodies,
+    table: &'a PlaneTable,
+    planes: &'a [Vec<PlaneId>],
+}
+
+/// The mesh of some bodies that touch nothing.
+struct Alone {
+    mesh: ConvexMesh,
+    noise: Noise,
+    /// Those that are not in it.
+    rest: Vec<LeafId>,
+}
+
+impl Scattered<'_> {
+    fn body(&self, leaf: LeafId, builder: &mut ShapeBuilder) -> Option<Body> {
+        let number = leaf.index();
+        let brush = &self.model.tree.brushes()[number];
+        built_or_build(self.table, self.built, brush, &self.planes[number], builder).bounded()
+    }
+
+    /// Bodies that touch nothing, of which each is its own boundary.
+    fn alone(&self, leaves: &[LeafId], builder: &mut ShapeBuilder) -> Alone {
+        let mut rest = Vec::new();
+        let bodies = leaves.iter().filter_map(|leaf| self.body(*leaf, builder).map(|body| (*leaf, body)));
+        let mut mesh = mesh_of(self.table, bodies, &mut rest);
+        match proven(std::mem::take(&mut mesh.mesh), &mesh.totals.measures()) {
+            Ok((proven, noise)) => {
+                mesh.mesh = proven;
+                Alone { mesh, noise, rest }
+            }
+            // what is wrong with one of them the weld may do better, or it tells of it
+            Err(_) => Alone { mesh: ConvexMesh::default(), noise: Noise::default(), rest: leaves.to_vec() },
+        }
+    }
+
+    /// The bodies of some leaves.
+    fn leaves(&self, leaves: &[LeafId], signs: &mut Counts) -> Leaves {
+        let (parts, counted) = map_chunks(leaves, 16, |chunk| {
+            let mut builder = ShapeBuilder::default();
+            chunk.iter().map(|leaf| self.body(*leaf, &mut builder)).collect::<Vec<_>>()
+        });
+        *signs += counted;
+        let mut bodies = Leaves::default();
+        for (leaf, body) in leaves.iter().zip(parts.into_iter().flatten()) {
+            if let Some(body) = body {
+                bodies.push(leaf.index(), body);
+            }
+        }
+        bodies
+    }
+}
+
+/// Leaves whose bodies have no point in common with those of other groups, in the order of space.
+struct Groups {
+    alone: Vec<LeafId>,
+    several: Vec<Vec<LeafId>>,
+}
+
+impl Groups {
+    fn of(extents: &[BrushExtent], expression: &Expression, repeated: &[bool]) -> Self {
+        let bounds = |leaf: usize| match extents[leaf].bounds() {
+            Some(bounds) if !repeated[leaf] => *bounds,
+            _ => Bounds::EMPTY,
+        };
+        let boxes = Boxes::new((0..extents.len()).map(bounds).collect());
+        let in_order: Vec<u32> = boxes.in_order().collect();
+        let (pairs, _) = map_chunks(&in_order, 256, |chunk| {
+            let (mut found, mut pairs) = (Vec::new(), Vec::new());
+            for &body in chunk {
+                boxes.touching(boxes.get(body), &mut found);
+                pairs.extend(found.iter().filter(|other| **other < body).map(|other| (*other, body)));
+            }
+            pairs
+        });
+        let mut sets = DisjointSets::new(extents.len());
+        pairs.into_iter().flatten().for_each(|(a, b)| sets.join(a, b));
+        let mut members: Vec<(u32, u32)> = in_order.iter().map(|body| (sets.root(*body), *body)).collect();
+        members.sort_unstable();
+        // a group is where the first of its bodies is; boxes of different groups have no point in common
+        let place = |body: u32| {
+            let min = boxes.get(body).min;
+            (curve_number(min), min.to_array().map(crate::base::sortable))
+        };
+        let mut groups: Vec<_> = members
+            .chunk_by(|a, b| a.0 == b.0)
+            .map(|group| (group.iter().map(|(_, body)| place(*body)).min(), group))
+            .collect();
+        groups.sort_unstable();
+        let mut sorted = Self { alone: Vec::new(), several: Vec::new() };
+        for (_, group) in groups {
+            match group {
+                [(_, body)] => sorted.alone.push(LeafId::from_index(*body as usize)),
+                several => {
+                    let leaves = several.iter().map(|(_, body)| LeafId::from_index(*body as usize));
+                    sorted.several.push(leaves.collect());
+                }
+            }
+        }
+        sorted.alone.retain(|leaf| expression.is_solid_alone(*leaf));
+        sorted
+    }
+}
+
+/// For each leaf whether the tree says the same without it.
+fn repeated(model: &Model, planes: &[Vec<PlaneId>], extents: &[BrushExtent], expression: &Expression) -> Vec<bool> {
+    let faces = |leaf: LeafId| {
+        let number = leaf.index();
+        let all = planes[number].iter().zip(&model.tree.brushes()[number].faces);
+        let is_body = extents[number].bounds().is_some();
+        all.filter(move |_| is_body).map(|(plane, face): (&PlaneId, &BrushFace)| (*plane, face.material))
+    };
+    let kinds = kinds(extents.len(), faces, |leaf| mark_of(faces(leaf)));
+    expression.repeated_leaves(&kinds)
+}
+
+/// What is there of the solid so far.
+struct Solid {
+    mesh: Mesh,
+    totals: Totals,
+    noise: Noise,
+}
+
+impl Solid {
+    /// With room for bodies of which each is its own boundary, with three planes at every corner.
+    fn with_room(model: &Model, alone: &[LeafId], extents: &[BrushExtent]) -> Self {
+        let face_count = |leaf: &LeafId| match extents[leaf.index()] {
+            BrushExtent::Bounded { redundant, .. } => {
+                model.tree.brushes()[leaf.index()].faces.len().saturating_sub(redundant)
+            }
+            BrushExtent::Empty | BrushExtent::Unbounded => 0,
+        };
+        let faces: usize = alone.iter().map(face_count).sum();
+        // Euler's formula, with three edges at each vertex
+        let vertices = (2 * faces).saturating_sub(4 * alone.len());
+        let triangles = (2 * vertices).saturating_sub(4 * alone.len());
+        let mut mesh = Mesh { materials: model.materials.clone(), ..Mesh::default() };
+        mesh.positions.reserve_exact(vertices);
+        mesh.triangles.reserve_exact(triangles);
+        mesh.triangle_faces.reserve_exact(triangles);
+        mesh.faces.reserve_exact(faces);
+        Self { mesh, totals: Totals::default(), noise: Noise::default() }
+    }
+
+    fn add(&mut self, part: Mesh, totals: &Totals, noise: Noise) {
+        let (vertex, face) = (number32(self.mesh.positions.len()), number32(self.mesh.faces.len()));
+        self.mesh.positions.extend_from_slice(&part.positions);
+        self.mesh.triangles.extend(part.triangles.iter().map(|corners| corners.map(|corner| vertex + corner)));
+        self.mesh.triangle_faces.extend(part.triangle_faces.iter().map(|number| face + number));
+        self.mesh.faces.extend_from_slice(&part.faces);
+        // numbers of vertices and faces must fit
+        number32(self.mesh.positions.len());
+        self.totals.add(totals);
+        self.noise.collapsed += noise.collapsed;
+        self.noise.thickest = self.noise.thickest.max(noise.thickest);
+    }
+}
+
+fn summary_of(table: &PlaneTable, extents: &[BrushExtent]) -> ModelSummary {
+    let mut summary = ModelSummary {
+        brushes: extents.len(),
+        planes: table.len(),
+        snapped_planes: table.snapped(),
+        ..ModelSummary::default()
+    };
+    for (number, extent) in extents.iter().enumerate() {
+        match extent {
+            BrushExtent::Bounded { volume, redundant, .. } => {
+                summary.redundant_planes += redundant;
+                summary.brush_volume_sum += volume;
+            }
+            BrushExtent::Empty => summary.empty.push(number),
+            BrushExtent::Unbounded => summary.unbounded.push(number),
+        }
+    }
+    summary
+}
