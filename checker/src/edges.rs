@@ -3,6 +3,8 @@
 //! Half-edge `3 t + k` runs from corner `k` of triangle `t` to the next corner. The pipeline has half-edges of its own: this crate
 //! shares no code with what it checks.
 
+use std::ops::Range;
+
 use crate::components::Components;
 
 /// The twin of a half-edge that has none, or not exactly one.
@@ -47,27 +49,18 @@ pub(crate) struct EdgeMatching {
 /// One use of an undirected edge, kept with the edge's smaller vertex.
 #[derive(Clone, Copy, Default)]
 struct EdgeUse {
-    /// Twice the larger vertex, plus one where the half-edge starts there.
-    key: u64,
+    larger: u32,
     half_edge: u32,
 }
 
-impl EdgeUse {
-    fn larger(self) -> u64 {
-        self.key >> 1
-    }
-
-    fn is_backward(self) -> bool {
-        self.key & 1 == 1
-    }
-}
+/// Uses are gathered for this many vertices at a time, so that memory is bounded.
+const VERTICES_AT_A_TIME: usize = 1 << 21;
 
 impl EdgeMatching {
     /// Matches the half-edges of triangles whose indices are below `vertices`; triangles with a repeated index take no part.
     ///
     /// Uses are gathered at the edge's smaller vertex by a counting sort, so the time is linear for vertices of bounded degree.
     pub(crate) fn new(vertices: usize, triangles: &[[u32; 3]]) -> Self {
-        let (starts, uses) = gather(vertices, triangles);
         let mut matching = Self {
             twins: vec![NO_TWIN; 3 * triangles.len()],
             edges: 0,
@@ -78,15 +71,19 @@ impl EdgeMatching {
             components: 0,
         };
         let mut components = Components::new(triangles.len());
-        let mut bucket = Vec::new();
-        for smaller in 0..vertices {
-            bucket.clear();
-            bucket.extend_from_slice(&uses[starts[smaller] as usize..starts[smaller + 1] as usize]);
-            bucket.sort_unstable_by_key(|u| (u.key, u.half_edge));
-            for uses in bucket.chunk_by(|a, b| a.larger() == b.larger()) {
-                matching.record(smaller as u32, uses);
-                for pair in uses.windows(2) {
-                    components.join(pair[0].half_edge / 3, pair[1].half_edge / 3);
+        let mut bucket: Vec<(EdgeUse, bool)> = Vec::new();
+        for first in (0..vertices).step_by(VERTICES_AT_A_TIME) {
+            let (starts, uses) = gather(first..vertices.min(first + VERTICES_AT_A_TIME), triangles);
+            for (smaller, ends) in (first..).zip(starts.windows(2)) {
+                let is_backward = |u: &EdgeUse| origin(triangles, u.half_edge) == u.larger;
+                bucket.clear();
+                bucket.extend(uses[ends[0] as usize..ends[1] as usize].iter().map(|u| (*u, is_backward(u))));
+                bucket.sort_unstable_by_key(|(u, is_backward)| (u.larger, *is_backward, u.half_edge));
+                for uses in bucket.chunk_by(|a, b| a.0.larger == b.0.larger) {
+                    matching.record(smaller as u32, uses);
+                    for pair in uses.windows(2) {
+                        components.join(pair[0].0.half_edge / 3, pair[1].0.half_edge / 3);
+                    }
                 }
             }
         }
@@ -95,14 +92,14 @@ impl EdgeMatching {
         matching
     }
 
-    /// Takes in all uses of one edge, those in the forward direction first.
-    fn record(&mut self, smaller: u32, uses: &[EdgeUse]) {
+    /// Takes in all uses of one edge, each with whether it runs from the larger vertex to the smaller, those that do last.
+    fn record(&mut self, smaller: u32, uses: &[(EdgeUse, bool)]) {
         self.edges += 1;
-        let larger = uses[0].larger() as u32;
-        let forward = uses.partition_point(|u| !u.is_backward());
+        let larger = uses[0].0.larger;
+        let forward = uses.partition_point(|(_, is_backward)| !is_backward);
         let backward = uses.len() - forward;
         if forward == 1 && backward == 1 {
-            let (a, b) = (uses[0].half_edge, uses[1].half_edge);
+            let (a, b) = (uses[0].0.half_edge, uses[1].0.half_edge);
             self.twins[a as usize] = b;
             self.twins[b as usize] = a;
         } else if forward == backward {
@@ -129,29 +126,31 @@ pub(crate) fn has_repeated_index([a, b, c]: [u32; 3]) -> bool {
     a == b || b == c || c == a
 }
 
-/// The edge uses by smaller vertex, and where each vertex's uses start (one entry more than there are vertices).
-fn gather(vertices: usize, triangles: &[[u32; 3]]) -> (Vec<u32>, Vec<EdgeUse>) {
+/// The edge uses by smaller vertex, where that is among some, and where the uses of each of these start (one entry more than there are).
+fn gather(smaller: Range<usize>, triangles: &[[u32; 3]]) -> (Vec<u32>, Vec<EdgeUse>) {
+    let place = |v: u32| (v as usize).wrapping_sub(smaller.start);
+    let count = smaller.len();
     let sides = |t: usize| {
         let [a, b, c] = triangles[t];
         let present = !has_repeated_index(triangles[t]);
-        [(a, b), (b, c), (c, a)].into_iter().enumerate().filter(move |_| present)
+        let all = [(a, b), (b, c), (c, a)].into_iter().enumerate().filter(move |_| present);
+        all.map(|(k, (a, b))| (k, place(a.min(b)), a.max(b))).filter(move |(_, place, _)| *place < count)
     };
-    let mut starts = vec![0u32; vertices + 1];
+    let mut starts = vec![0u32; count + 1];
     for t in 0..triangles.len() {
-        for (_, (a, b)) in sides(t) {
-            starts[a.min(b) as usize + 1] += 1;
+        for (_, place, _) in sides(t) {
+            starts[place + 1] += 1;
         }
     }
-    for v in 0..vertices {
-        starts[v + 1] += starts[v];
+    for place in 0..count {
+        starts[place + 1] += starts[place];
     }
-    let mut uses = vec![EdgeUse::default(); starts[vertices] as usize];
+    let mut uses = vec![EdgeUse::default(); starts[count] as usize];
     let mut free = starts.clone();
     for t in 0..triangles.len() {
-        for (k, (a, b)) in sides(t) {
-            let slot = &mut free[a.min(b) as usize];
-            let key = u64::from(a.max(b)) << 1 | u64::from(a > b);
-            uses[*slot as usize] = EdgeUse { key, half_edge: (3 * t + k) as u32 };
+        for (k, place, larger) in sides(t) {
+            let slot = &mut free[place];
+            uses[*slot as usize] = EdgeUse { larger, half_edge: (3 * t + k) as u32 };
             *slot += 1;
         }
     }

@@ -2,13 +2,14 @@
 
 use std::time::Instant;
 
+use planecut::csg::Tree;
 use planecut::export::Part;
 use planecut::picture::Subject;
 
 use super::args::BuildArgs;
 use super::error::{CliError, Done};
 use super::input::{Input, InputKind};
-use super::output::{MeshTarget, Target, check_targets};
+use super::output::{MeshTarget, OutputFormat, Target, check_targets};
 use super::pieces::{Pieces, brushes};
 use super::product::{Contents, Product, draw, encode, first_written, produce};
 use super::progress::Progress;
@@ -65,6 +66,10 @@ impl<'a> Plan<'a> {
         } else {
             None
         };
+        if !self.meshes.iter().any(|place| matches!(place.format, OutputFormat::Brushes(_))) {
+            // a million brushes take as much memory as their mesh
+            solved.model.tree = Tree::default();
+        }
         let begin = Instant::now();
         progress.stage("encoding");
         let options = assets.options(self.args.output.scale);

@@ -242,10 +242,10 @@ impl<'a> Document<'a> {
             let material = self.material(&mesh.mesh.materials[run.material as usize]);
             primitives.push(primitive(attributes.clone(), indices, Some(material)));
         }
-        let manifold = mesh.merges.as_ref().map(|merges| {
+        let manifold = mesh.merge_count().map(|merges| {
             let positions = attributes.iter().find(|(semantic, _)| *semantic == Semantic::Positions);
             let positions: Vec<_> = positions.cloned().into_iter().collect();
-            self.manifold_extension(positions, indices.whole(), merges.len(), (number, mesh), views)
+            self.manifold_extension(positions, indices.whole(), merges, (number, mesh), views)
         });
         self.root.push(Mesh {
             extensions: manifold.map(|value| MeshExtensions { others: extension(MESH_MANIFOLD, value) }),
@@ -374,7 +374,7 @@ impl<'a> Document<'a> {
                 self.root.extensions_required.push(extension.to_owned());
             }
         };
-        if self.meshes.iter().any(|mesh| !mesh.vertices.corners.is_empty() && mesh.merges.is_some()) {
+        if self.meshes.iter().any(|mesh| !mesh.vertices.corners.is_empty() && mesh.merge_count().is_some()) {
             name(MESH_MANIFOLD, false);
         }
         if self.options.quantize && has_meshes {

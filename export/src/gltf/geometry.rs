@@ -28,9 +28,16 @@ pub(super) struct Geometry<'a> {
     pub(super) tangents: Vec<[f32; 4]>,
     /// Triangles of one material.
     pub(super) runs: Vec<Run>,
-    /// For a closed, oriented 2-manifold: pairs `(place among the corners, vertex)` in rising order, which turn the corners into
-    /// the manifold's own. `None` for any other mesh.
-    pub(super) merges: Option<Vec<(u32, u32)>>,
+    /// What turns the corners into those of a closed, oriented 2-manifold. `None` for any other mesh.
+    merges: Option<Merges>,
+}
+
+/// Which vertices stand for others.
+struct Merges {
+    /// For each position of the mesh the first of its vertices.
+    first: Vec<u32>,
+    /// At how many corners another vertex stands.
+    count: usize,
 }
 
 /// A primitive of a mesh.
@@ -96,26 +103,44 @@ impl<'a> Geometry<'a> {
 
     /// Finds which vertices are one, once the corners have their order.
     pub(super) fn find_merges(&mut self) {
-        self.merges = self.merged();
-    }
-
-    fn merged(&self) -> Option<Vec<(u32, u32)>> {
-        let Vertices { origins, corners, .. } = &self.vertices;
-        let (triangles, _) = corners.as_chunks::<3>();
-        let own: Vec<[u32; 3]> =
-            triangles.iter().map(|corners| corners.map(|corner| origins[corner as usize])).collect();
-        if !HalfEdges::new(self.mesh.positions.len(), &own).are_all_paired() {
-            return None;
+        if !self.is_manifold() {
+            return;
         }
         // the first copy of a vertex stands for it
         let mut first = vec![NONE; self.mesh.positions.len()];
-        for (copy, origin) in (0..).zip(origins) {
+        for (copy, origin) in (0..).zip(&self.vertices.origins) {
             let first = &mut first[*origin as usize];
             *first = copy.min(*first);
         }
-        let merged =
-            (0..).zip(corners).map(|(place, corner)| (place, *corner, first[origins[*corner as usize] as usize]));
-        Some(merged.filter(|(_, corner, merged)| corner != merged).map(|(place, _, merged)| (place, merged)).collect())
+        self.merges = Some(Merges { first, count: 0 });
+        let count = self.merges().count();
+        self.merges = self.merges.take().map(|merges| Merges { count, ..merges });
+    }
+
+    /// Whether the triangles are a closed, oriented 2-manifold.
+    fn is_manifold(&self) -> bool {
+        let (vertices, all) = (self.mesh.positions.len(), &self.mesh.triangles);
+        let are_paired = |triangles: &[[u32; 3]]| HalfEdges::new(vertices, triangles).are_all_paired();
+        if self.vertices.corners.len() == 3 * all.len() {
+            return are_paired(all);
+        }
+        let proper: Vec<[u32; 3]> = all.iter().copied().filter(has_three_corners).collect();
+        are_paired(&proper)
+    }
+
+    /// How many corners there are where another vertex stands for theirs; nothing for what is no manifold.
+    pub(super) fn merge_count(&self) -> Option<usize> {
+        self.merges.as_ref().map(|merges| merges.count)
+    }
+
+    /// These corners by their places, rising, and the vertices that stand for theirs.
+    pub(super) fn merges(&self) -> impl Iterator<Item = (u32, u32)> {
+        let Vertices { origins, corners, .. } = &self.vertices;
+        let of = move |merges: &'_ Merges, corner: u32| merges.first[origins[corner as usize] as usize];
+        self.merges.iter().flat_map(move |merges| {
+            let all = (0..).zip(corners).map(move |(place, corner)| (place, *corner, of(merges, *corner)));
+            all.filter(|(_, corner, merged)| corner != merged).map(|(place, _, merged)| (place, merged))
+        })
     }
 }
 
@@ -156,13 +181,16 @@ fn order_for_cache(corners: &mut [u32], count: usize) {
 #[cfg(not(feature = "meshopt"))]
 fn order_for_cache(_: &mut [u32], _: usize) {}
 
+/// Triangles are put into an order for caches this many at a time: thousands of times what such a cache holds.
+const ORDERED_AT_A_TIME: usize = 1 << 17;
+
 /// Puts the triangles of each run into an order that suits the caches of graphics cards, and vertices into that of their use.
 fn order_for_caches(vertices: &mut Vertices, runs: &[Run]) {
     let mut rest = vertices.corners.as_mut_slice();
     let mut parts = Vec::with_capacity(runs.len());
     for run in runs {
         let (part, after) = rest.split_at_mut(run.corners.len());
-        parts.push(part);
+        parts.extend(part.chunks_mut(3 * ORDERED_AT_A_TIME));
         rest = after;
     }
     parts.into_par_iter().for_each(|corners| {

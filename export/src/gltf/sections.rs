@@ -175,8 +175,8 @@ impl Section {
                 }
             }),
             Kind::Indices(width) => vertices.corners.iter().try_for_each(|corner| width.write(*corner, out)),
-            Kind::MergePlaces(width) => merges(mesh).try_for_each(|(place, _)| width.write(*place, out)),
-            Kind::MergeVertices(width) => merges(mesh).try_for_each(|(_, vertex)| width.write(*vertex, out)),
+            Kind::MergePlaces(width) => mesh.merges().try_for_each(|(place, _)| width.write(place, out)),
+            Kind::MergeVertices(width) => mesh.merges().try_for_each(|(_, vertex)| width.write(vertex, out)),
         }
     }
 
@@ -187,8 +187,8 @@ impl Section {
             match self.kind {
                 kind if count(kind, mesh) == 0 => Vec::new(),
                 Kind::Indices(_) => mesh.vertices.corners.clone(),
-                Kind::MergePlaces(_) => merges(mesh).map(|(place, _)| *place).collect(),
-                Kind::MergeVertices(_) => merges(mesh).map(|(_, vertex)| *vertex).collect(),
+                Kind::MergePlaces(_) => mesh.merges().map(|(place, _)| place).collect(),
+                Kind::MergeVertices(_) => mesh.merges().map(|(_, vertex)| vertex).collect(),
                 _ => Vec::new(),
             }
         };
@@ -205,14 +205,10 @@ fn count(kind: Kind, mesh: &Geometry) -> usize {
         Kind::Texture => mesh.vertices.texture.len(),
         Kind::Colors => mesh.vertices.materials.len(),
         Kind::Indices(_) if kind == Kind::indices(mesh) => mesh.vertices.corners.len(),
-        Kind::MergePlaces(_) if kind == Kind::merge_places(mesh) => merges(mesh).count(),
-        Kind::MergeVertices(_) if kind == Kind::merge_vertices(mesh) => merges(mesh).count(),
+        Kind::MergePlaces(_) if kind == Kind::merge_places(mesh) => mesh.merge_count().unwrap_or(0),
+        Kind::MergeVertices(_) if kind == Kind::merge_vertices(mesh) => mesh.merge_count().unwrap_or(0),
         Kind::Indices(_) | Kind::MergePlaces(_) | Kind::MergeVertices(_) => 0,
     }
-}
-
-fn merges<'a>(mesh: &'a Geometry) -> impl ExactSizeIterator<Item = &'a (u32, u32)> {
-    mesh.merges.as_deref().unwrap_or_default().iter()
 }
 
 fn write_floats(values: &[f32], out: &mut dyn Write) -> io::Result<()> {

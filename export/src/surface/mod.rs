@@ -60,30 +60,39 @@ impl Vertices {
         self.origins.len() as u32 - 1
     }
 
-    /// Numbers the vertices by their first use.
+    /// Numbers the vertices by their first use; each must be used.
     pub(crate) fn renumber(&mut self) {
         let mut new = vec![NONE; self.origins.len()];
-        let mut order = Vec::with_capacity(self.origins.len());
+        let mut next = 0;
         for corner in &mut self.corners {
             let place = &mut new[*corner as usize];
             if *place == NONE {
-                *place = order.len() as u32;
-                order.push(*corner);
+                *place = next;
+                next += 1;
             }
             *corner = *place;
         }
-        if order.iter().enumerate().all(|(place, old)| place as u32 == *old) {
+        if new.is_sorted() {
             return;
         }
-        fn in_order<T: Copy>(values: &mut Vec<T>, order: &[u32]) {
-            if !values.is_empty() {
-                *values = order.iter().map(|old| values[*old as usize]).collect();
-            }
+        let mut moved = vec![false; new.len()];
+        move_to(&mut self.origins, &new, &mut moved);
+        move_to(&mut self.normals, &new, &mut moved);
+        move_to(&mut self.texture, &new, &mut moved);
+        move_to(&mut self.materials, &new, &mut moved);
+    }
+}
+
+/// Moves each value to its new place, one cycle of places after another, so that no second list is needed; an empty list stays so.
+fn move_to<T: Copy>(values: &mut [T], new: &[u32], moved: &mut [bool]) {
+    moved.fill(false);
+    for start in 0..values.len() {
+        let (mut value, mut at) = (values[start], start);
+        while !moved[at] {
+            moved[at] = true;
+            at = new[at] as usize;
+            std::mem::swap(&mut value, &mut values[at]);
         }
-        in_order(&mut self.origins, &order);
-        in_order(&mut self.normals, &order);
-        in_order(&mut self.texture, &order);
-        in_order(&mut self.materials, &order);
     }
 }
 
@@ -103,6 +112,9 @@ impl<'a> Splitter<'a> {
 
     /// One copy of each vertex for each face that it belongs to.
     fn push_flat(&mut self, triangles: &[u32]) {
+        let count = self.flat_count(triangles);
+        self.vertices.origins.reserve_exact(count);
+        self.vertices.normals.reserve_exact(count);
         // for each vertex of the mesh the face of its latest copy, and the copy: looking back by one face suffices
         let mut latest = vec![(NONE, NONE); self.mesh.positions.len()];
         for &triangle in triangles {
@@ -115,6 +127,20 @@ impl<'a> Splitter<'a> {
                 self.vertices.corners.push(latest[corner as usize].1);
             }
         }
+    }
+
+    /// How many vertices there are with one copy for each face.
+    fn flat_count(&self, triangles: &[u32]) -> usize {
+        let (mut latest, mut count) = (vec![NONE; self.mesh.positions.len()], 0);
+        for &triangle in triangles {
+            let face = self.mesh.triangle_faces[triangle as usize];
+            for corner in self.mesh.triangles[triangle as usize] {
+                let latest = &mut latest[corner as usize];
+                count += usize::from(*latest != face);
+                *latest = face;
+            }
+        }
+        count
     }
 
     /// One copy of each vertex for each normal, and for each way in which its texture lies.
