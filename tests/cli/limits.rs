@@ -91,3 +91,22 @@ fn chains_of_coplanar_boxes_and_tetrahedra_that_overlap_are_done() {
     let bodies = info_of_data("obj_1500tetobjects.obj").json();
     assert_eq!(bodies["model"]["brushes"], 800);
 }
+
+#[test]
+fn a_large_array_of_separate_boxes_is_built_box_by_box() {
+    let folder = folder();
+    let model = folder.path().join("array.json");
+    let text = BOX.replace(r#"{"box""#, r#"{"array": {"count": [300, 300, 1], "step": [2, 2, 1], "of": {"box""#);
+    std::fs::write(&model, text + "}}").expect("written");
+    let report = folder.path().join("report.json");
+    let name = |path: &std::path::Path| path.to_str().expect("a name").to_owned();
+    let mesh = name(&folder.path().join("array.glb"));
+    planecut(&["build", &name(&model), "-o", &mesh, "--report", &name(&report)]).expect_success();
+    let report: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(report).expect("a report")).expect("a report in JSON");
+    assert_eq!(report["mesh"]["components"], 90_000);
+    assert_eq!(report["mesh"]["triangles"], 12 * 90_000);
+    assert_eq!(report["mesh"]["manifold"], true);
+    agree(report["solid"]["volume"].as_f64().expect("a volume"), 90_000.0);
+    agree(report["solid"]["area"].as_f64().expect("an area"), 6.0 * 90_000.0);
+}

@@ -118,8 +118,8 @@ pub(crate) fn brush_extents(brushes: &[Brush], built: &BuiltBodies, size: f64) -
     let with_planes: Vec<(&Brush, &Vec<PlaneId>)> = brushes.iter().zip(&planes).collect();
     let (parts, signs) = map_chunks(&with_planes, least_of_chunk(brushes), |chunk| {
         let mut builder = ShapeBuilder::default();
-        let extent = |&(brush, planes): &(&Brush, &Vec<PlaneId>)| {
-            match &*shape_of(&table, built, brush, planes, &mut builder) {
+        let extent =
+            |&(brush, planes): &(&Brush, &Vec<PlaneId>)| match &*shape_of(&table, built, brush, planes, &mut builder) {
                 BrushShape::Bounded(shape) => BrushExtent::Bounded {
                     bounds: *shape.bounds(),
                     volume: shape.volume,
@@ -127,8 +127,7 @@ pub(crate) fn brush_extents(brushes: &[Brush], built: &BuiltBodies, size: f64) -
                 },
                 BrushShape::Empty => BrushExtent::Empty,
                 BrushShape::Unbounded => BrushExtent::Unbounded,
-            }
-        };
+            };
         chunk.iter().map(extent).collect::<Vec<BrushExtent>>()
     });
     let extents = parts.concat();

@@ -130,12 +130,14 @@ impl Default for ShapeBuilder {
 }
 
 impl ShapeBuilder {
+    /// What the next shape is compared with.
+    #[cfg(test)]
+    pub(super) fn pattern_for_tests(&self) -> &Pattern {
+        &self.pattern
+    }
+
     /// What planes bound: the coefficients of each, exact ones and the same as a half-space.
-    pub(super) fn shape<'a>(
-        &mut self,
-        count: usize,
-        plane: impl Fn(usize) -> (&'a Row, &'a HalfSpace),
-    ) -> BrushShape {
+    pub(super) fn shape<'a>(&mut self, count: usize, plane: impl Fn(usize) -> (&'a Row, &'a HalfSpace)) -> BrushShape {
         if let Some(shape) = self.pattern.shape(count, &plane) {
             return BrushShape::Bounded(shape);
         }

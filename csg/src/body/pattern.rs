@@ -118,3 +118,77 @@ impl Structure {
         Some(Shape::measured(&self.ends, corners, |idx| plane(idx.0)))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::built::{BrushShape, ShapeBuilder, shape_of_planes};
+    use super::*;
+    use crate::plane_table::half_space_of;
+    use planecut_kernel::{DVec3, IncrementalPolytope};
+
+    type Plane = (Row, HalfSpace);
+
+    fn planes(normals: &[DVec3], offsets: &[f64]) -> Vec<Plane> {
+        let plane = |(normal, offset): (&DVec3, &f64)| {
+            let row = Row::new(&HalfSpace::new(*normal, *offset).expect("a plane"));
+            (row, half_space_of(&row))
+        };
+        normals.iter().zip(offsets).map(plane).collect()
+    }
+
+    /// All that a shape says.
+    fn told(shape: &BrushShape) -> String {
+        match shape {
+            BrushShape::Bounded(Shape { faces, corners, bounds, volume }) => {
+                let Corners { different, numbers, edges, planes, .. } = &**corners;
+                format!("{faces:?} {different:?} {numbers:?} {edges:?} {planes:?} {bounds:?} {volume:?}")
+            }
+            other => format!("{other:?}"),
+        }
+    }
+
+    /// Compares what one builder makes of planes that move, one after another, with what is built from nothing; gives how often the structure
+    /// stayed, and how often it changed.
+    fn compare(normals: &[DVec3], random: &mut impl FnMut() -> f64) -> (usize, usize) {
+        let mut builder = ShapeBuilder::default();
+        let (mut stayed, mut changed) = (0, 0);
+        for step in 0..200 {
+            // short numbers, so that corners of more than three planes are frequent
+            let offsets: Vec<f64> = normals.iter().map(|_| 4.0 + (random() * 3.0).floor()).collect();
+            let planes = planes(normals, &offsets);
+            let plane = |k: usize| (&planes[k].0, &planes[k].1);
+            let made = builder.pattern_for_tests().shape(planes.len(), plane);
+            let fresh = shape_of_planes(planes.len(), plane, &mut IncrementalPolytope::with_epsilon(0.0));
+            if let Some(made) = made {
+                stayed += 1;
+                assert_eq!(told(&BrushShape::Bounded(made)), told(&fresh), "step {step}: {normals:?} {offsets:?}");
+            } else {
+                changed += 1;
+            }
+            assert_eq!(told(&builder.shape(planes.len(), plane)), told(&fresh), "step {step}: {normals:?} {offsets:?}");
+        }
+        (stayed, changed)
+    }
+
+    #[test]
+    fn shapes_of_moved_planes_are_those_that_are_built() {
+        let mut state = 1_u64;
+        let mut random = move || {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (state >> 40) as f64 / f64::from(1 << 24)
+        };
+        let cube: Vec<DVec3> = DVec3::AXES.into_iter().flat_map(|axis| [axis, -axis]).collect();
+        assert_eq!(compare(&cube, &mut random), (199, 1));
+        let (mut stayed, mut changed) = (0, 0);
+        for _ in 0..40 {
+            let mut normals = cube.clone();
+            for _ in 0..3 {
+                let normal = DVec3::new(random() - 0.5, random() - 0.5, random() - 0.5);
+                normals.push((normal * 8.0).round() + DVec3::X * 0.25);
+            }
+            let (s, c) = compare(&normals, &mut random);
+            (stayed, changed) = (stayed + s, changed + c);
+        }
+        assert!(stayed > 100 && changed > 100, "{stayed} stayed, {changed} changed");
+    }
+}

@@ -14,8 +14,7 @@ use super::totals::Totals;
 use super::{EvaluateError, Evaluation, Leaves, ModelSummary, StageTimes, UnboundedBrushes, ranks};
 use crate::base::{Bounds, Boxes, Clock, DisjointSets, map_chunks};
 use crate::body::{
-    Body, BrushExtent, BrushExtents, BuiltBodies, ShapeBuilder, brush_extents, built_or_build, kinds,
-    mark_of,
+    Body, BrushExtent, BrushExtents, BuiltBodies, ShapeBuilder, brush_extents, built_or_build, kinds, mark_of,
 };
 use crate::expression::Expression;
 use crate::ids::{Id, LeafId, number32};
@@ -278,3 +277,7 @@ fn summary_of(table: &PlaneTable, extents: &[BrushExtent]) -> ModelSummary {
     }
     summary
 }
+
+#[cfg(test)]
+#[path = "scattered_tests.rs"]
+mod tests;

@@ -55,8 +55,7 @@ impl LiveModel {
         let in_sequence = members.partition_point(|member| member.id.0 < in_base)..members.len();
         let roles = in_sequence.map(|leaf| member(LeafId::from_index(leaf)).state.role);
         let expression = Expression::new(&sequence(base.unwrap_or_default(), roles));
-        let kinds =
-            kinds(members.len(), |leaf| body(leaf).planes_and_materials(), |leaf| member(leaf).mark);
+        let kinds = kinds(members.len(), |leaf| body(leaf).planes_and_materials(), |leaf| member(leaf).mark);
         let repeated = expression.repeated_leaves(&kinds);
         let leaves: Vec<LeafId> = LeafId::all(members.len()).filter(|leaf| !repeated[leaf.index()]).collect();
         place.resize(self.operands.len(), BodyId::NONE);

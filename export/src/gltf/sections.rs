@@ -1,12 +1,15 @@
 //! The binary buffer: arrays of one kind after another, each with those of all meshes.
 
-use std::io::{self, Write};
+use std::io::{self, BufWriter, Write};
 
 use super::geometry::Geometry;
 use crate::material::material_color;
 
 /// The largest vertex number that 16-bit indices can name: 65535 is reserved by glTF for primitive restart.
 const MAX_SHORT_INDEX: usize = 65_534;
+
+/// Bytes that are handed on at a time.
+const BUFFER: usize = 1 << 16;
 
 /// Width of stored indices.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -29,7 +32,7 @@ impl Width {
         }
     }
 
-    fn write(self, index: u32, out: &mut dyn Write) -> io::Result<()> {
+    fn write(self, index: u32, out: &mut impl Write) -> io::Result<()> {
         // little-endian: the low bytes come first
         out.write_all(&index.to_le_bytes()[..self.bytes()])
     }
@@ -141,10 +144,17 @@ impl Section {
 
     /// Writes the arrays of all meshes.
     pub(super) fn write(&self, meshes: &[Geometry], out: &mut dyn Write) -> io::Result<()> {
+        // a call across `dyn` for each number takes longer than all else
+        let mut out = BufWriter::with_capacity(BUFFER, out);
+        self.write_meshes(meshes, &mut out)?;
+        out.flush()
+    }
+
+    fn write_meshes(&self, meshes: &[Geometry], out: &mut impl Write) -> io::Result<()> {
         meshes.iter().filter(|mesh| count(self.kind, mesh) > 0).try_for_each(|mesh| self.write_mesh(mesh, out))
     }
 
-    fn write_mesh(&self, mesh: &Geometry, out: &mut dyn Write) -> io::Result<()> {
+    fn write_mesh(&self, mesh: &Geometry, out: &mut impl Write) -> io::Result<()> {
         let vertices = &mesh.vertices;
         match self.kind {
             Kind::Positions => match mesh.rounding.step {
@@ -211,7 +221,7 @@ fn count(kind: Kind, mesh: &Geometry) -> usize {
     }
 }
 
-fn write_floats(values: &[f32], out: &mut dyn Write) -> io::Result<()> {
+fn write_floats(values: &[f32], out: &mut impl Write) -> io::Result<()> {
     values.iter().try_for_each(|value| out.write_all(&value.to_le_bytes()))
 }
 
