@@ -12,8 +12,11 @@ use std::ops::Range;
 
 use planecut_kernel::{DVec3, HalfSpace};
 
+use rustc_hash::FxHashMap;
+
 use super::Corner;
 use super::shape::Corners;
+use crate::base::Bounds;
 use crate::ids::{BodyFaceId, Id, holds};
 
 /// Bodies of fewer faces are asked plane by plane.
@@ -29,10 +32,50 @@ pub(crate) struct PolarDual {
     /// Where the neighbours of each face begin.
     starts: Vec<u32>,
     neighbours: Vec<BodyFaceId>,
+    /// For each face of many neighbours boxes around the duals of these, by its place.
+    runs: FxHashMap<BodyFaceId, Runs>,
     /// The largest sum of a dual's magnitudes.
     reach: f64,
     /// For each octant around the center the face in its middle.
     seeds: [BodyFaceId; 8],
+}
+
+/// Boxes around the duals of the neighbours of one face, a run of them after another: a cap has as many neighbours as a body has sides, of which
+/// few are near a point. Neighbours follow one another around the face, so that boxes are small.
+#[derive(Debug, Clone, Default)]
+struct Runs {
+    /// Of [`RUN`] neighbours each.
+    short: Vec<Bounds>,
+    /// Of as many short ones each.
+    long: Vec<Bounds>,
+}
+
+/// Number of neighbours in a short run.
+const RUN: usize = 16;
+
+/// Faces of fewer neighbours have no runs.
+const LEAST_RUNS: usize = 3 * RUN;
+
+impl Runs {
+    fn of(duals: &[DVec3], neighbours: &[BodyFaceId]) -> Self {
+        let bounds = |run: &[BodyFaceId]| {
+            let at = run.iter().map(|face| duals[face.index()]);
+            at.fold(Bounds::EMPTY, |bounds, at| bounds.union(&Bounds { min: at, max: at }))
+        };
+        let short: Vec<Bounds> = neighbours.chunks(RUN).map(bounds).collect();
+        let around = |run: &[Bounds]| run.iter().fold(Bounds::EMPTY, |all, bounds| all.union(bounds));
+        let long = short.chunks(RUN).map(around).collect();
+        Self { short, long }
+    }
+
+    /// The ranges of neighbours whose values may reach a level.
+    fn reaching(&self, at: DVec3, level: f64) -> impl Iterator<Item = Range<usize>> {
+        // of a value that is rounded otherwise than the bound nothing depends: levels leave room for the error of both
+        let reaches = move |bounds: &&Bounds| (bounds.min * at).max(bounds.max * at).element_sum() >= level;
+        let long = self.long.iter().enumerate().filter(move |(_, bounds)| reaches(bounds));
+        let short = long.flat_map(|(k, _)| (RUN * k..).zip(&self.short[RUN * k..]).take(RUN));
+        short.filter(move |(_, bounds)| reaches(bounds)).map(|(k, _)| RUN * k..RUN * (k + 1))
+    }
 }
 
 /// Where a point lies.
@@ -75,6 +118,7 @@ impl PolarDual {
             center,
             reach: duals.iter().map(|dual| dual.abs().element_sum()).fold(0.0, f64::max),
             duals,
+            runs: FxHashMap::default(),
             starts: vec![0],
             neighbours: Vec::with_capacity(corners.edges.len()),
             seeds: [BodyFaceId::from_index(0); 8],
@@ -94,6 +138,8 @@ impl PolarDual {
             dual.neighbours.extend(edges.iter().filter_map(|plane| face_of[plane.0]));
             dual.starts.push(number32(dual.neighbours.len()));
         }
+        let large = BodyFaceId::all(dual.duals.len()).filter(|face| dual.neighbours(*face).len() >= LEAST_RUNS);
+        dual.runs = large.map(|face| (face, Runs::of(&dual.duals, dual.neighbours(face)))).collect();
         for octant in 0..8_usize {
             let sign = |axis: usize| if octant >> axis & 1 == 1 { -1.0 } else { 1.0 };
             let before = dual.seeds[octant.saturating_sub(1)];
@@ -156,20 +202,33 @@ impl PolarDual {
         &self.neighbours[self.starts[face.index()] as usize..self.starts[face.index() + 1] as usize]
     }
 
+    /// Calls `visit` with the neighbours of a face and their values; some with values below a level are left out.
+    #[inline]
+    fn for_each_neighbour(&self, face: BodyFaceId, at: DVec3, level: f64, mut visit: impl FnMut(BodyFaceId, f64)) {
+        let all = self.neighbours(face);
+        let mut visit_all = |some: &[BodyFaceId]| some.iter().for_each(|next| visit(*next, self.value(*next, at)));
+        match if all.len() < LEAST_RUNS { None } else { self.runs.get(&face) } {
+            None => visit_all(all),
+            Some(runs) => {
+                runs.reaching(at, level).for_each(|range| visit_all(&all[range.start..range.end.min(all.len())]));
+            }
+        }
+    }
+
     /// The face with the largest value, and this.
     fn climb(&self, at: DVec3, from: BodyFaceId, room: f64) -> (BodyFaceId, f64) {
         let (mut best, mut value) = (from, self.value(from, at));
         loop {
             let (start, mut second) = (best, f64::NEG_INFINITY);
-            for &next in self.neighbours(start) {
-                let other = self.value(next, at);
+            let level = value - 2.0 * room * value.abs().max(1.0);
+            self.for_each_neighbour(start, at, level, |next, other| {
                 if other > value {
                     second = value;
                     (best, value) = (next, other);
                 } else {
                     second = second.max(other);
                 }
-            }
+            });
             if best != start {
                 continue;
             }
@@ -198,12 +257,50 @@ impl PolarDual {
         found.push(face);
         let mut next = 0;
         while next < found.len() {
-            for &other in self.neighbours(found[next]) {
-                if self.value(other, at) >= level && !holds(found, other) {
+            self.for_each_neighbour(found[next], at, level, |other, value| {
+                if value >= level && !holds(found, other) {
                     found.push(other);
                 }
-            }
+            });
             next += 1;
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::build_bodies;
+    use crate::model::{Brush, MaterialId};
+
+    #[test]
+    fn of_the_sides_around_a_cap_few_are_looked_at_and_none_is_missed() {
+        let sides = 1000_u32;
+        let side = |k: u32| {
+            let (y, x) = (std::f64::consts::TAU * f64::from(k) / f64::from(sides)).sin_cos();
+            HalfSpace::new(DVec3::new(x, y, 0.0), 1.0).expect("a plane")
+        };
+        let caps = [1.0, -1.0].map(|z| HalfSpace::new(DVec3::Z * z, 1.0).expect("a plane"));
+        let prism = Brush::from_half_spaces((0..sides).map(side).chain(caps), MaterialId(0));
+        let built = build_bodies(std::slice::from_ref(&prism));
+        let body = built.bodies.into_iter().next().and_then(|body| body.bounded()).expect("a prism");
+        let dual = body.polar_dual(&built.table).expect("a dual");
+        let cap = BodyFaceId::all(body.faces.len()).find(|face| dual.neighbours(*face).len() == 1000).expect("a cap");
+        let mut visited = 0;
+        for k in 0..200 {
+            let (y, x) = (0.37 * f64::from(k)).sin_cos();
+            let at = DVec3::new(x, y, 1.0) * (0.9 + 0.001 * f64::from(k));
+            let level = 1.0 - 1e-9;
+            let mut found = Vec::new();
+            dual.for_each_neighbour(cap, at, level, |face, value| {
+                visited += 1;
+                if value >= level {
+                    found.push(face);
+                }
+            });
+            let each = dual.neighbours(cap).iter().copied().filter(|face| dual.duals[face.index()].dot(at) >= level);
+            assert!(each.eq(found), "point {at}");
+        }
+        assert!(visited > 0 && visited < 200 * 100, "{visited} neighbours for 200 points");
     }
 }
