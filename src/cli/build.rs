@@ -2,7 +2,6 @@
 
 use std::time::Instant;
 
-use planecut::csg::Tree;
 use planecut::export::Part;
 use planecut::picture::Subject;
 
@@ -57,7 +56,9 @@ impl<'a> Plan<'a> {
     fn carry_out(&self, progress: &Progress) -> Result<Product, CliError> {
         let assets = &self.args.output.assets;
         let splits_by_face = assets.splits_by_face();
-        let mut solved = solve(&self.input, self.kind, &self.args.reading, splits_by_face, progress)?;
+        let writes_brushes = self.meshes.iter().any(|place| matches!(place.format, OutputFormat::Brushes(_)));
+        let needs_brushes = writes_brushes || self.args.cells || self.args.parts;
+        let mut solved = solve(&self.input, self.kind, &self.args.reading, splits_by_face, needs_brushes, progress)?;
         let pieces = if self.args.cells {
             progress.stage("cutting cells");
             Some(Pieces::cells(&self.input, self.kind, &mut solved)?)
@@ -66,10 +67,6 @@ impl<'a> Plan<'a> {
         } else {
             None
         };
-        if !self.meshes.iter().any(|place| matches!(place.format, OutputFormat::Brushes(_))) {
-            // a million brushes take as much memory as their mesh
-            solved.model.tree = Tree::default();
-        }
         let begin = Instant::now();
         progress.stage("encoding");
         let options = assets.options(self.args.output.scale);

@@ -28,7 +28,7 @@ pub(crate) fn run(args: &InfoArgs) -> Result<Done, CliError> {
     let (mut report, warnings) = on_threads(args.common.threads, || match kind {
         InputKind::Mesh(format) => report_on_mesh(&input, format, &progress),
         kind => {
-            let solved = solve(&input, kind, &args.reading, None, &progress)?;
+            let solved = solve(&input, kind, &args.reading, None, false, &progress)?;
             Ok((solved.report, solved.warnings))
         }
     })?;

@@ -4,7 +4,9 @@ use std::num::NonZeroU32;
 use std::time::{Duration, Instant};
 
 use planecut::check::check_topology;
-use planecut::csg::{Evaluation, FaceSource, Mesh, Model, ModelSummary, TextureAxes, UnboundedBrushes, evaluate_with};
+use planecut::csg::{
+    Evaluation, FaceSource, Mesh, Model, ModelSummary, TextureAxes, Tree, UnboundedBrushes, evaluate_with,
+};
 use planecut::import::Warning;
 use planecut::import::map::{MapImport, read_map};
 use planecut::import::mesh::read_solid;
@@ -19,7 +21,7 @@ use super::report::{MeshPart, Report, milliseconds};
 
 /// The solid of a model.
 pub(crate) struct Solved {
-    /// What was read; where sources are known, each face of a brush has a material of its source.
+    /// What was read, without brushes where nobody needs them; where sources are known, each face of a brush has a material of its source.
     pub(crate) model: Model,
     /// Where the faces of each material come from, where that was asked for.
     pub(crate) sources: Vec<FaceSource>,
@@ -34,7 +36,8 @@ pub(crate) struct Solved {
 }
 
 /// Reads an input and evaluates its tree on the current thread pool. Faces of different sources stay apart where that is asked for: those of each face
-/// of a brush, or those whose textures lie differently.
+/// of a brush, or those whose textures lie differently. Where nobody `needs_brushes`, the model that comes back has none: a million of them
+/// take as much memory as their mesh.
 ///
 /// # Errors
 /// [`CliError`] for unusable input, [`CliError::Evaluate`] for a solid without a mesh, [`CliError::Bug`] for a bug.
@@ -43,11 +46,13 @@ pub(crate) fn solve(
     kind: InputKind,
     reading: &ReadingArgs,
     splits_by_face: Option<bool>,
+    needs_brushes: bool,
     progress: &Progress,
 ) -> Result<Solved, CliError> {
     let begin = Instant::now();
     progress.stage("reading");
     let mut read = read(input, kind, reading)?;
+    read.drops_brushes = !needs_brushes;
     let materials = read.model.materials.len();
     let mut sources = Vec::new();
     if let Some(by_face) = splits_by_face {
@@ -78,14 +83,17 @@ pub(crate) fn solve_read(
 pub(crate) fn solved(
     input: &Input,
     kind: InputKind,
-    Read { model, mut warnings, .. }: Read,
+    Read { mut model, mut warnings, drops_brushes, .. }: Read,
     evaluation: Evaluation,
     import_time: Duration,
     progress: &Progress,
 ) -> Solved {
+    warnings.extend(solid_warnings(kind, &model, &evaluation.model, &evaluation.mesh));
+    if drops_brushes {
+        model.tree = Tree::default();
+    }
     progress.stage("checking");
     let topology = check_topology(&evaluation.mesh.positions, &evaluation.mesh.triangles);
-    warnings.extend(solid_warnings(kind, &model, &evaluation.model, &evaluation.mesh));
     let mesh = MeshPart::of_solid(&topology, evaluation.mesh.faces.len());
     let mut report = Report::of_model(input.given(), kind.name(), model.materials.len(), &evaluation, mesh);
     report.time_ms.import = milliseconds(import_time);
@@ -107,6 +115,8 @@ pub(crate) struct Read {
     pub(crate) warnings: Vec<Warning>,
     /// For each brush how the textures of its faces lie, where the input says it.
     pub(crate) textures: Vec<Vec<Option<TextureAxes>>>,
+    /// Whether brushes are dropped once they are evaluated.
+    pub(crate) drops_brushes: bool,
 }
 
 /// Reads an input.
@@ -122,7 +132,7 @@ pub(crate) fn read(input: &Input, kind: InputKind, reading: &ReadingArgs) -> Res
         }
         InputKind::Map => {
             let MapImport { model, warnings, textures, .. } = read_map(&bytes, &input.name(), &reading.map_options())?;
-            return Ok(Read { model, warnings, textures });
+            return Ok(Read { model, warnings, textures, ..Read::default() });
         }
         InputKind::Csg => {
             let import = read_scad(&bytes, &input.name(), &reading.scad_options(input))?;

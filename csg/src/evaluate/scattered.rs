@@ -56,6 +56,7 @@ pub(super) fn evaluate_scattered(
     let welding = Clock::start();
     let rank = ranks(model);
     let mut solid = Solid::with_room(model, &groups.alone, &extents);
+    drop(extents);
     let mut others = groups.several;
     for some in groups.alone.chunks(PROVEN_AT_A_TIME * 64) {
         let (parts, counted) = map_chunks(some, PROVEN_AT_A_TIME, |chunk| {

@@ -13,6 +13,9 @@ pub const NO_TWIN: u32 = u32::MAX;
 /// Up to this number of ends are compared with one another; more are sorted.
 const FEW: usize = 16;
 
+/// Vertices that one thread looks at in a row.
+const VERTICES_OF_CHUNK: u32 = 1 << 13;
+
 /// The half-edge that follows in its triangle.
 #[inline]
 #[must_use]
@@ -79,16 +82,8 @@ impl<'a> HalfEdges<'a> {
         let mut twins = vec![NO_TWIN; self.leaving.len()];
         let mut uses: Vec<(u32, u32)> = Vec::new();
         for vertex in 0..self.vertices() {
-            // what comes to a vertex comes before what leaves it; each edge is looked at from its smaller vertex
-            let out = self.leaving(vertex).iter().map(|&half_edge| (self.to(half_edge), half_edge));
-            let back = self.leaving(vertex).iter().map(|&half_edge| previous(half_edge)).map(|h| (self.from(h), h));
-            uses.clear();
-            uses.extend(out.chain(back).filter(|(other, _)| *other > vertex));
-            uses.sort_unstable();
-            for along in uses.chunk_by(|p, q| p.0 == q.0) {
-                if let &[(_, one), (_, other)] = along
-                    && self.from(one) != self.from(other)
-                {
+            for along in self.uses_at(vertex, &mut uses) {
+                if let Some([one, other]) = self.paired(along) {
                     twins[one as usize] = other;
                     twins[other as usize] = one;
                 }
@@ -100,7 +95,35 @@ impl<'a> HalfEdges<'a> {
     /// Whether every half-edge has a twin: every directed edge occurs once, and so does its opposite. True without triangles.
     #[must_use]
     pub fn are_all_paired(&self) -> bool {
-        !self.twins().contains(&NO_TWIN)
+        let chunks: Vec<u32> = (0..self.vertices()).step_by(VERTICES_OF_CHUNK as usize).collect();
+        let of_chunk = |first: &u32| {
+            let mut uses: Vec<(u32, u32)> = Vec::new();
+            let end = self.vertices().min(first.saturating_add(VERTICES_OF_CHUNK));
+            (*first..end).all(|vertex| self.uses_at(vertex, &mut uses).all(|along| self.paired(along).is_some()))
+        };
+        let are_paired: Vec<bool> = chunks.par_iter().map(of_chunk).collect();
+        // an edge from a vertex to itself is nobody's twin
+        let is_loop = |[a, b, c]: &[u32; 3]| a == b || b == c || c == a;
+        are_paired.into_iter().all(|are| are) && !self.triangles.iter().any(is_loop)
+    }
+
+    /// The half-edges between a vertex and larger ones, each with that one, by edge; each edge is looked at from its smaller vertex.
+    fn uses_at<'b>(&self, vertex: u32, uses: &'b mut Vec<(u32, u32)>) -> impl Iterator<Item = &'b [(u32, u32)]> {
+        // what comes to a vertex comes before what leaves it
+        let out = self.leaving(vertex).iter().map(|&half_edge| (self.to(half_edge), half_edge));
+        let back = self.leaving(vertex).iter().map(|&half_edge| previous(half_edge)).map(|h| (self.from(h), h));
+        uses.clear();
+        uses.extend(out.chain(back).filter(|(other, _)| *other > vertex));
+        uses.sort_unstable();
+        uses.chunk_by(|p, q| p.0 == q.0)
+    }
+
+    /// The half-edges along an edge where they are two that run opposite ways.
+    fn paired(&self, along: &[(u32, u32)]) -> Option<[u32; 2]> {
+        match *along {
+            [(_, one), (_, other)] if self.from(one) != self.from(other) => Some([one, other]),
+            _ => None,
+        }
     }
 
     /// The edges `a < b` along which more than one half-edge runs from `a` to `b`, in ascending order.

@@ -49,7 +49,7 @@ pub(super) fn subject(
         }
         _ if is_whole => {
             let splits = (args.buffers.ids.is_some() && args.buffers.id_of == IdKind::Brush).then_some(true);
-            let solved = solve(input, kind, &args.reading, splits, progress)?;
+            let solved = solve(input, kind, &args.reading, splits, false, progress)?;
             Ok(Drawn { subject: solved.mesh.into(), warnings: solved.warnings, sources: solved.sources })
         }
         _ => inside(input, kind, args, options, progress),
