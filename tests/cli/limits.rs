@@ -101,7 +101,7 @@ fn a_large_array_of_separate_boxes_is_built_box_by_box() {
     let report = folder.path().join("report.json");
     let name = |path: &std::path::Path| path.to_str().expect("a name").to_owned();
     let mesh = name(&folder.path().join("array.glb"));
-    planecut(&["build", &name(&model), "-o", &mesh, "--report", &name(&report)]).expect_quiet_success();
+    planecut(["build", &name(&model), "-o", &mesh, "--report", &name(&report)]).expect_quiet_success();
     let report: serde_json::Value =
         serde_json::from_slice(&std::fs::read(report).expect("a report")).expect("a report in JSON");
     assert_eq!(report["mesh"]["components"], 90_000);

@@ -110,7 +110,8 @@ pub fn summarize(model: &Model) -> ModelSummary {
 /// are operands like others; the solid itself must be bounded.
 ///
 /// With feature `parallel` it runs on rayon's current thread pool; the outcome does not depend on the number of threads, nor,
-/// where materials of overlapping coplanar faces agree, on the order of the brushes in a union.
+/// where materials of overlapping coplanar faces agree, on the order of the brushes in a union. Of 65,536 brushes and more those that are
+/// apart from one another are evaluated apart, in bounded memory: vertices and faces then come group by group.
 ///
 /// # Errors
 /// [`EvaluateError::Unbounded`], [`EvaluateError::UnknownMaterial`], and [`EvaluateError::Weld`] where the boundary does not

@@ -66,7 +66,7 @@ pub(super) fn evaluate_scattered(
         });
         signs += counted;
         for Alone { mesh, noise, rest } in parts.into_iter().flatten() {
-            solid.add(mesh.mesh, &mesh.totals, noise);
+            solid.add(&mesh.mesh, &mesh.totals, noise);
             others.extend(rest.into_iter().map(|leaf| vec![leaf]));
         }
     }
@@ -83,7 +83,7 @@ pub(super) fn evaluate_scattered(
             weld(&table, &edges, &rank, &model.materials)?;
         signs += counted;
         triangulate += triangulation;
-        solid.add(mesh, &Totals::of(&measures), noise);
+        solid.add(&mesh, &Totals::of(&measures), noise);
     }
     let times = StageTimes { evaluate: evaluated, weld: welding.elapsed().saturating_sub(triangulate), triangulate };
     let Solid { mesh, totals, noise } = solid;
@@ -245,7 +245,7 @@ impl Solid {
         Self { mesh, totals: Totals::default(), noise: Noise::default() }
     }
 
-    fn add(&mut self, part: Mesh, totals: &Totals, noise: Noise) {
+    fn add(&mut self, part: &Mesh, totals: &Totals, noise: Noise) {
         let (vertex, face) = (number32(self.mesh.positions.len()), number32(self.mesh.faces.len()));
         self.mesh.positions.extend_from_slice(&part.positions);
         self.mesh.triangles.extend(part.triangles.iter().map(|corners| corners.map(|corner| vertex + corner)));
