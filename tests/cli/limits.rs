@@ -110,3 +110,16 @@ fn a_large_array_of_separate_boxes_is_built_box_by_box() {
     assert!(agree(&report["solid"]["volume"], 90_000.0, 1e-12), "{report}");
     assert!(agree(&report["solid"]["area"], 6.0 * 90_000.0, 1e-12), "{report}");
 }
+
+#[test]
+fn a_mesh_of_very_many_separate_surfaces_is_read_in_the_end() {
+    let folder = folder();
+    let name = |file: &str| folder.path().join(file).to_str().expect("a name").to_owned();
+    let text = BOX.replace(r#"{"box""#, r#"{"array": {"count": [100, 100, 1], "step": [2, 2, 1], "of": {"box""#);
+    std::fs::write(name("array.json"), text + "}}").expect("written");
+    planecut(["build", &name("array.json"), "-o", &name("array.obj")]).expect_quiet_success();
+    let report = within(60, &["info", &name("array.obj")]).expect_quiet_success();
+    let report: serde_json::Value = serde_json::from_slice(&report.stdout).expect("a report in JSON");
+    assert_eq!(report["mesh"]["components"], 10_000);
+    assert!(agree(&report["solid"]["volume"], 10_000.0, 1e-12), "{report}");
+}

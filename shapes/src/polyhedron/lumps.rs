@@ -9,6 +9,7 @@
 //!   a piece of the same sheet on another plane would begin; that plane would pass through the facet's inside and cut `K`, which
 //!   lies below it. So the pieces cover the whole facet.
 
+use planecut_csg::stages::{Bounds, Boxes};
 use planecut_kernel::DVec3;
 
 use super::edges::Edges;
@@ -19,7 +20,8 @@ pub(super) fn take_convex(part: &mut Part, edges: &Edges, points: &Points<'_>) -
     if edges.sheets == 1 {
         // a closed surface without a reflex edge is convex (Tietze 1928, Nakajima 1928)
         let is_whole = points.is_closed && part.walls.is_empty();
-        let is_done = edges.reflex.is_empty() && (is_whole || PieceGroup::of(part, edges, 0).is_convex(points));
+        let is_done =
+            edges.reflex.is_empty() && (is_whole || PieceGroup::new(part.pieces.iter().collect()).is_convex(points));
         if !is_done {
             return Vec::new();
         }
@@ -32,7 +34,8 @@ pub(super) fn take_convex(part: &mut Part, edges: &Edges, points: &Points<'_>) -
     }
     let mut is_taken = vec![false; edges.sheets];
     let mut lumps = Vec::new();
-    let groups: Vec<PieceGroup> = (0..edges.sheets as u32).map(|sheet| PieceGroup::of(part, edges, sheet)).collect();
+    let groups = groups_of(part, edges);
+    let near = Near::new(part, &groups, points);
     let convex: Vec<bool> =
         groups.iter().zip(&is_folded).map(|(group, folded)| !folded && group.is_convex(points)).collect();
     // one that is taken may have stood in the way of others
@@ -43,7 +46,7 @@ pub(super) fn take_convex(part: &mut Part, edges: &Edges, points: &Points<'_>) -
             if !convex[start] || is_taken[start] {
                 continue;
             }
-            if let Some(members) = complete(&groups, &convex, &is_taken, start, points) {
+            if let Some(members) = complete(&groups, &near.to(start), &convex, &is_taken, start, points) {
                 let pieces = members.iter().flat_map(|sheet| groups[*sheet].pieces.iter().copied());
                 lumps.push(lump(part, pieces, points));
                 members.into_iter().for_each(|sheet| is_taken[sheet] = true);
@@ -55,9 +58,58 @@ pub(super) fn take_convex(part: &mut Part, edges: &Edges, points: &Points<'_>) -
     lumps
 }
 
-/// The sheets that bound a convex lump together with one of them, where nothing of other lumps lies in it.
+/// The pieces of each sheet.
+fn groups_of<'a>(part: &'a Part, edges: &Edges) -> Vec<PieceGroup<'a>> {
+    let mut pieces: Vec<Vec<&Piece>> = vec![Vec::new(); edges.sheets];
+    for (piece, sheet) in part.pieces.iter().zip(&edges.sheet_of) {
+        pieces[*sheet as usize].push(piece);
+    }
+    pieces.into_iter().map(PieceGroup::new).collect()
+}
+
+/// Which sheets may enter a lump that is bounded by one of them and others: a surface may have very many sheets, in rows and columns.
+enum Near {
+    /// Boxes around the sheets: each is a closed surface, so that a lump lies in the box of any convex sheet that bounds it.
+    Boxes(Boxes),
+    /// Walls bound lumps as well: all sheets.
+    All(usize),
+}
+
+impl Near {
+    /// Room for rounding in a box, as a share of its size.
+    const ROOM: f64 = 1e-6;
+
+    fn new(part: &Part, groups: &[PieceGroup<'_>], points: &Points<'_>) -> Self {
+        if !points.is_closed || !part.walls.is_empty() {
+            return Self::All(groups.len());
+        }
+        let bounds = |group: &PieceGroup<'_>| {
+            let at = group.vertices.iter().map(|v| points.positions[*v as usize]);
+            let Bounds { min, max } = at.fold(Bounds::EMPTY, |all, at| all.union(&Bounds { min: at, max: at }));
+            let slack = group.vertices.iter().map(|v| points.slack(*v)).fold(0.0, f64::max);
+            let room = DVec3::splat(Self::ROOM * (max - min).max_element() + slack);
+            Bounds { min: min - room, max: max + room }
+        };
+        Self::Boxes(Boxes::new(groups.iter().map(bounds).collect()))
+    }
+
+    /// The sheets near one of them, ascending.
+    fn to(&self, sheet: usize) -> Vec<usize> {
+        match self {
+            Self::All(count) => (0..*count).collect(),
+            Self::Boxes(boxes) => {
+                let mut found = Vec::new();
+                boxes.touching(boxes.get(sheet as u32), &mut found);
+                found.into_iter().map(|sheet| sheet as usize).collect()
+            }
+        }
+    }
+}
+
+/// The sheets that bound a convex lump together with one of them, where nothing of other lumps lies in it; `near` are those that may.
 fn complete(
     groups: &[PieceGroup<'_>],
+    near: &[usize],
     convex: &[bool],
     is_taken: &[bool],
     start: usize,
@@ -66,9 +118,9 @@ fn complete(
     let mut members = vec![start];
     let mut whole = groups[start].clone();
     loop {
-        let others = (0..groups.len()).filter(|other| !is_taken[*other] && !members.contains(other));
-        let Some(other) = others.into_iter().find(|other| whole.is_entered_by(&groups[*other], points)) else {
-            let mut taken = (0..groups.len()).filter(|other| is_taken[*other]);
+        let mut others = near.iter().copied().filter(|other| !is_taken[*other] && !members.contains(other));
+        let Some(other) = others.find(|other| whole.is_entered_by(&groups[*other], points)) else {
+            let mut taken = near.iter().copied().filter(|other| is_taken[*other]);
             let is_disjoint = !taken.any(|other| whole.is_entered_by(&groups[other], points));
             return is_disjoint.then_some(members);
         };
@@ -93,11 +145,6 @@ struct PieceGroup<'a> {
 }
 
 impl<'a> PieceGroup<'a> {
-    fn of(part: &'a Part, edges: &Edges, sheet: u32) -> Self {
-        let own = part.pieces.iter().zip(&edges.sheet_of).filter(|(_, of)| **of == sheet).map(|(piece, _)| piece);
-        Self::new(own.collect())
-    }
-
     fn new(pieces: Vec<&'a Piece>) -> Self {
         let mut planes = pieces.clone();
         planes.sort_unstable_by_key(|piece| (piece.plane, piece.is_reversed));
