@@ -117,7 +117,7 @@ ids! {
     /// A part of a face that another body covers.
     pub(crate) SectionId;
 
-    /// A point of a weld: equal points have one number, whichever planes meet there.
+    /// A point of a weld or an arrangement: equal points have one number, whichever planes meet there.
     pub(crate) PointId;
 
     /// A line of a weld: equal lines have one number, whichever planes meet there.
@@ -132,8 +132,14 @@ ids! {
     /// A corner in the boundary of a face that is triangulated, bridges included.
     pub(crate) NodeId;
 
-    /// A triangle of a face that is triangulated.
+    /// A triangle, of a face that is triangulated or of an operand.
     pub(crate) TriangleId;
+
+    /// A facet of an arrangement: a triangle or a cell of one.
+    pub(crate) FacetId;
+
+    /// Winding numbers of all operands in a part of space.
+    pub(crate) StateId;
 
     /// A vertex of the mesh.
     pub(crate) VertexId;

@@ -21,6 +21,7 @@
 #![deny(missing_docs)]
 #![cfg_attr(not(test), deny(clippy::cast_possible_truncation, clippy::cast_possible_wrap, clippy::cast_sign_loss))]
 
+mod arrangement;
 mod base;
 mod blocks;
 mod body;
@@ -36,6 +37,7 @@ pub mod stages;
 pub mod tolerances;
 mod weld;
 
+pub use arrangement::{ClosedMesh, ClosedMeshError, CombineError, CombinedMeshes, Inside, WindingRule, combine_meshes};
 pub use blocks::{Block, BlockOptions, BlocksError, BlocksSummary, evaluate_in_blocks};
 pub use body::BuiltBodies;
 pub use evaluate::{

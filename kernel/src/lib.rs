@@ -62,7 +62,7 @@ mod meet;
 mod polytope;
 pub mod sign;
 
-pub use arithmetic::decompose_odd;
+pub use arithmetic::{DoubleDouble, decompose, decompose_odd, round_quotient};
 pub use glam::{DMat3, DVec2, DVec3, DVec4};
 pub use half_space::{HalfSpace, HalfSpaceError, MAX_NORMAL, MAX_NORMAL_RATIO, MAX_OFFSET_RATIO, MIN_NORMAL};
 pub use hull::{HullError, MAX_COORDINATE, hull, hull_triangles};

@@ -17,7 +17,7 @@ use rustc_hash::FxHashMap;
 use crate::base::sortable;
 pub use known_planes::{KnownPlanes, compare};
 pub use morton::curve_number;
-pub(crate) use morton::renumber_planes;
+pub(crate) use morton::{renumber_planes, spread};
 pub(crate) use near::{NearCells, is_nearly_same, unit};
 use near::{NearPlanes, may_be_near};
 pub use near::{size_of, smallest_size};

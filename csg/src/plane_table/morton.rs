@@ -21,7 +21,7 @@ pub fn curve_number(place: DVec3) -> u64 {
 const BITS: u32 = 21;
 
 /// The last [`BITS`] bits of a number, two zeros after each.
-fn spread(v: u64) -> u64 {
+pub(crate) fn spread(v: u64) -> u64 {
     let mut v = v & 0x1F_FFFF;
     v = (v | v << 32) & 0x001F_0000_0000_FFFF;
     v = (v | v << 16) & 0x001F_0000_FF00_00FF;

@@ -33,14 +33,20 @@ pub(super) fn vertices(pieces: &[HalfEdge], following: &[HalfEdgeId]) -> (Vec<Ve
 }
 
 /// The half-edge behind each side of each triangle; [`Id::NONE`] for a diagonal.
-pub(super) type Labels = Vec<[HalfEdgeId; 3]>;
+pub(crate) type Labels = Vec<[HalfEdgeId; 3]>;
 
 /// A side of a triangle: its number among [`HalfEdges`].
 type TriangleSide = u32;
 
 /// Splits every edge that joins the same two vertices as another one, in both of its triangles, at a midpoint, until all
 /// directed edges are unique. Gives how many were split.
-pub(super) fn split_repeated_edges(mesh: &mut Mesh, labels: &mut Labels, pieces: &[HalfEdge]) -> usize {
+///
+/// `twin` gives the half-edge that bounds the same wedge of solid.
+pub(crate) fn split_repeated_edges(
+    mesh: &mut Mesh,
+    labels: &mut Labels,
+    twin: impl Fn(HalfEdgeId) -> HalfEdgeId,
+) -> usize {
     let mut split = 0;
     loop {
         let half_edges = HalfEdges::new(mesh.positions.len(), &mesh.triangles);
@@ -50,7 +56,7 @@ pub(super) fn split_repeated_edges(mesh: &mut Mesh, labels: &mut Labels, pieces:
         let mut additions = Vec::new();
         for sides in &repeated {
             // All but one pair of opposite sides get a midpoint of their own; a triangle is split once a round.
-            for (there, back) in match_sides(sides, &mesh.triangle_faces, labels, pieces).into_iter().skip(1) {
+            for (there, back) in match_sides(sides, &mesh.triangle_faces, labels, &twin).into_iter().skip(1) {
                 if touched.contains(&(there / 3)) || touched.contains(&(back / 3)) {
                     continue;
                 }
@@ -106,12 +112,12 @@ fn match_sides(
     [there, back]: &[Vec<TriangleSide>; 2],
     faces: &[u32],
     labels: &Labels,
-    pieces: &[HalfEdge],
+    twin: &impl Fn(HalfEdgeId) -> HalfEdgeId,
 ) -> Vec<(TriangleSide, TriangleSide)> {
     let label = |side: TriangleSide| labels[(side / 3) as usize][(side % 3) as usize];
     let is_pair = |s: TriangleSide, t: TriangleSide| match label(s) {
         HalfEdgeId::NONE => label(t) == HalfEdgeId::NONE && faces[(s / 3) as usize] == faces[(t / 3) as usize],
-        piece => label(t) == pieces[piece.index()].twin,
+        piece => label(t) == twin(piece),
     };
     let mut left = back.clone();
     let mut pairs = Vec::with_capacity(there.len());

@@ -20,13 +20,13 @@ mod crossings;
 mod lines;
 mod live;
 mod loops;
-mod manifold;
+pub(crate) mod manifold;
 mod measure;
 mod nest;
 mod pinches;
 mod points;
 mod slits;
-mod triangulate;
+pub(crate) mod triangulate;
 
 use crate::ids::number32;
 use std::ops::Range;
@@ -47,9 +47,10 @@ use cancel::{HalfEdge, Pieces, Run};
 pub use live::LiveFace;
 pub(crate) use live::LiveWeld;
 use manifold::Labels;
-use nest::{Faces, Nester, Projection};
+pub(crate) use nest::Projection;
+use nest::{Faces, Nester};
 use points::Points;
-use triangulate::{Triangles, Triangulator};
+use triangulate::{Triangles, Triangulator, WeldPoints};
 
 /// The boundary does not close: a bug in this crate, never the user's mistake. Points are numbers of the weld.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
@@ -158,7 +159,7 @@ pub(crate) fn weld(
     let mut mesh = Mesh { positions, materials: materials.to_vec(), ..Mesh::default() };
     let (mut labels, counted) = triangulate_faces(table, &regions, &points, &pieces, &nested.faces, &vertex, &mut mesh);
     signs += counted;
-    manifold::split_repeated_edges(&mut mesh, &mut labels, &pieces);
+    manifold::split_repeated_edges(&mut mesh, &mut labels, |piece| pieces[piece.index()].twin);
     let solid = nested.solid;
     let (mesh, noise) = proven(mesh, &solid)?;
     Ok(Welded { mesh, solid, noise, signs, triangulation: begin.elapsed() })
@@ -348,7 +349,8 @@ fn triangulate_faces(
     mesh: &mut Mesh,
 ) -> (Labels, Counts) {
     let (parts, counts) = map_chunks(faces, 1, |chunk| {
-        let mut triangulator = Triangulator::new(table, points);
+        let exact = WeldPoints { table, points };
+        let mut triangulator = Triangulator::new(&exact);
         let mut filled: Vec<FilledFaces> = Vec::new();
         for faces in chunk {
             let (mut triangles, mut ends) = (Triangles::default(), Vec::new());
@@ -356,7 +358,7 @@ fn triangulate_faces(
                 let normal = table.half_space(regions.planes[face.region.index()]).normal();
                 triangulator.begin(Projection::new(normal));
                 for pieces_of_loop in face.loops() {
-                    triangulator.add_loop(pieces_of_loop.iter().map(|k| (*k, &pieces[k.index()])));
+                    triangulator.add_loop(pieces_of_loop.iter().map(|k| points.corner(*k, &pieces[k.index()])));
                 }
                 triangulator.triangulate(&mut triangles);
                 ends.push((face.region, number32(triangles.corners.len())));

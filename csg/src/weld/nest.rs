@@ -60,19 +60,19 @@ impl<'a> Face<'a> {
 
 /// Drops the coordinate along which a normal is largest, so that counter-clockwise seen from outside stays so.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Projection {
-    pub(super) u: usize,
-    pub(super) v: usize,
+pub(crate) struct Projection {
+    pub(crate) u: usize,
+    pub(crate) v: usize,
 }
 
 impl Projection {
-    pub(super) fn new(normal: DVec3) -> Self {
+    pub(crate) fn new(normal: DVec3) -> Self {
         let axis = normal.abs().max_position();
         let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
         if normal[axis] > 0.0 { Self { u, v } } else { Self { u: v, v: u } }
     }
 
-    pub(super) fn of(self, p: DVec3) -> DVec2 {
+    pub(crate) fn of(self, p: DVec3) -> DVec2 {
         DVec2::new(p[self.u], p[self.v])
     }
 }

@@ -9,9 +9,10 @@ use planecut_kernel::{DVec3, compare_exactly};
 use planecut_parallel::prelude::*;
 
 use super::cancel::HalfEdge;
+use super::triangulate::LoopCorner;
 use crate::base::{Bounds, intern, map_chunks, sortable};
 use crate::boundary::BoundaryEdge;
-use crate::ids::{Id, NameId, PointId};
+use crate::ids::{HalfEdgeId, Id, NameId, PointId};
 use crate::plane_table::{PlaneId, PlaneTable, curve_number};
 
 /// The points of a weld.
@@ -115,6 +116,12 @@ impl Points {
     pub(super) fn extent(&self, piece: &HalfEdge) -> Bounds {
         let (from, to) = (self.positions[piece.from.index()], self.positions[piece.to.index()]);
         Bounds { min: from.min(to), max: from.max(to) }
+    }
+
+    /// The corner of a face at which a half-edge begins.
+    pub(super) fn corner(&self, piece: HalfEdgeId, half_edge: &HalfEdge) -> LoopCorner {
+        let HalfEdge { from: point, line, .. } = *half_edge;
+        LoopCorner { point, at: self.positions[point.index()], line, piece }
     }
 
     /// Whether two coordinates of a point are its own, not rounded.

@@ -1,5 +1,6 @@
 //! The tests of the crate, one module for each subject.
 
+mod arrangement;
 mod blocks;
 mod live;
 #[cfg(feature = "serde")]

@@ -2,14 +2,17 @@
 
 /// An unevaluated sum of two numbers, `|low| ≤ ½ ulp(high)` (Dekker 1971).
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct DoubleDouble {
-    pub(crate) high: f64,
-    pub(crate) low: f64,
+pub struct DoubleDouble {
+    /// The sum, rounded.
+    pub high: f64,
+    /// What rounding left.
+    pub low: f64,
 }
 
 impl DoubleDouble {
     /// The exact sum of two numbers.
-    pub(crate) fn sum(a: f64, b: f64) -> Self {
+    #[must_use]
+    pub fn sum(a: f64, b: f64) -> Self {
         let high = a + b;
         let t = high - a;
         Self { high, low: (a - (high - t)) + (b - t) }
@@ -21,37 +24,43 @@ impl DoubleDouble {
     }
 
     /// The exact product of two numbers.
-    pub(crate) fn product(a: f64, b: f64) -> Self {
+    #[must_use]
+    pub fn product(a: f64, b: f64) -> Self {
         let (high, low) = exact_product(a, b);
         Self { high, low }
     }
 
     /// The negated value.
-    pub(crate) fn negated(self) -> Self {
+    #[must_use]
+    pub fn negated(self) -> Self {
         Self { high: -self.high, low: -self.low }
     }
 
     /// The sum.
-    pub(crate) fn plus(self, other: Self) -> Self {
+    #[must_use]
+    pub fn plus(self, other: Self) -> Self {
         let (s, t) = (Self::sum(self.high, other.high), Self::sum(self.low, other.low));
         let v = Self::quick_sum(s.high, s.low + t.high);
         Self::quick_sum(v.high, v.low + t.low)
     }
 
     /// The product with a number.
-    pub(crate) fn times(self, factor: f64) -> Self {
+    #[must_use]
+    pub fn times(self, factor: f64) -> Self {
         let p = Self::product(self.high, factor);
         Self::quick_sum(p.high, p.low + self.low * factor)
     }
 
     /// The product of two such sums.
-    pub(crate) fn times_sum(self, other: Self) -> Self {
+    #[must_use]
+    pub fn times_sum(self, other: Self) -> Self {
         let p = Self::product(self.high, other.high);
         Self::quick_sum(p.high, p.low + (self.high * other.low + self.low * other.high))
     }
 
     /// The quotient.
-    pub(crate) fn over(self, divisor: Self) -> Self {
+    #[must_use]
+    pub fn over(self, divisor: Self) -> Self {
         let q1 = self.high / divisor.high;
         let r = self.plus(divisor.times(q1).negated());
         let q2 = r.high / divisor.high;
@@ -62,7 +71,8 @@ impl DoubleDouble {
     }
 
     /// The value rounded to one number, where an error of `±error` cannot change that.
-    pub(crate) fn rounded_with(self, error: f64) -> Option<f64> {
+    #[must_use]
+    pub fn rounded_with(self, error: f64) -> Option<f64> {
         let up = self.high + (self.low + error);
         let down = self.high + (self.low - error);
         (up == down).then_some(up + 0.0)

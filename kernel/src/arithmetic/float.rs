@@ -11,7 +11,8 @@ pub(crate) fn lowest_bit(v: f64) -> i32 {
 }
 
 /// `v = mantissa · 2^exponent` for a finite number.
-pub(crate) fn decompose(v: f64) -> (i64, i32) {
+#[must_use]
+pub fn decompose(v: f64) -> (i64, i32) {
     let bits = v.to_bits();
     let field = ((bits >> 52) & 0x7ff) as i32;
     let fraction = (bits & ((1 << 52) - 1)) as i64;

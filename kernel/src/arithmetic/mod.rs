@@ -6,7 +6,9 @@ mod float;
 mod quotient;
 
 pub(crate) use big::{big_cross, big_dot, big_integers};
-pub(crate) use double_double::{DoubleDouble, exact_product};
-pub use float::decompose_odd;
-pub(crate) use float::{decompose, exponent, ldexp, lowest_bit};
-pub(crate) use quotient::{round_quotient, square_root_of_quotient, unit_vector};
+pub use double_double::DoubleDouble;
+pub(crate) use double_double::exact_product;
+pub use float::{decompose, decompose_odd};
+pub(crate) use float::{exponent, ldexp, lowest_bit};
+pub use quotient::round_quotient;
+pub(crate) use quotient::{square_root_of_quotient, unit_vector};

@@ -8,7 +8,8 @@ use super::float::ldexp;
 /// `numerator / denominator`, rounded to nearest, ties to even.
 ///
 /// The quotient is taken to be in the range of normal numbers; below it the last bits may be lost.
-pub(crate) fn round_quotient(numerator: IBig, denominator: &IBig) -> f64 {
+#[must_use]
+pub fn round_quotient(numerator: IBig, denominator: &IBig) -> f64 {
     use dashu_int::Sign as BigSign;
     let (numerator_sign, numerator) = numerator.into_parts();
     let (denominator_sign, denominator) = denominator.clone().into_parts();

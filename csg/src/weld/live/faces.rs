@@ -12,7 +12,7 @@ use crate::model::MaterialId;
 use crate::plane_table::PlaneTable;
 use crate::weld::cancel::HalfEdge;
 use crate::weld::nest::{self, Nester, Projection};
-use crate::weld::triangulate::{Triangles, Triangulator};
+use crate::weld::triangulate::{Triangles, Triangulator, WeldPoints};
 use crate::weld::{WeldError, loops};
 
 /// A planar, connected region of the boundary of a live model, with its triangles.
@@ -207,12 +207,15 @@ impl Faces {
         }
         let new: Vec<nest::Face<'_>> = found.iter().filter(|face| !self.is_known(pieces, &order, *face)).collect();
         let triangulate = |faces: &[nest::Face<'_>]| {
-            let mut triangulator = Triangulator::new(table, &numbers.points);
+            let exact = WeldPoints { table, points: &numbers.points };
+            let mut triangulator = Triangulator::new(&exact);
             let triangles = faces.iter().map(|face| {
                 let normal = table.half_space(numbers.planes[face.region.index()]).normal();
                 triangulator.begin(Projection::new(normal));
                 for members in face.loops() {
-                    triangulator.add_loop(members.iter().map(|k| (order[k.index()], &half_edges[k.index()])));
+                    triangulator.add_loop(
+                        members.iter().map(|k| numbers.points.corner(order[k.index()], &half_edges[k.index()])),
+                    );
                 }
                 let mut triangles = Triangles::default();
                 triangulator.triangulate(&mut triangles);

@@ -10,18 +10,30 @@ mod flip;
 mod grid;
 mod turn;
 
-use planecut_kernel::DVec2;
 use planecut_kernel::sign::Sign;
+use planecut_kernel::{DVec2, DVec3};
 
-use super::cancel::HalfEdge;
 use super::manifold::Labels;
 use super::nest::Projection;
-use super::points::Points;
 use crate::ids::{HalfEdgeId, Id, LineId, NodeId, PointId};
-use crate::plane_table::PlaneTable;
 use ears::Ears;
 use flip::Flips;
 use turn::Turns;
+pub(super) use turn::WeldPoints;
+pub(crate) use turn::{ExactPoints, rounded_turn};
+
+/// A corner of a loop that is to be added.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct LoopCorner {
+    /// The exact point.
+    pub(crate) point: PointId,
+    /// Its place, correctly rounded.
+    pub(crate) at: DVec3,
+    /// The line on which the edge to the next corner lies.
+    pub(crate) line: LineId,
+    /// The half-edge to the next corner.
+    pub(crate) piece: HalfEdgeId,
+}
 
 /// A corner of a loop.
 #[derive(Debug, Clone, Copy)]
@@ -37,9 +49,9 @@ struct Corner {
 
 /// Triangles of faces: for each corner the half-edge of a loop that begins there, and for each side the half-edge it lies on.
 #[derive(Debug, Default)]
-pub(super) struct Triangles {
-    pub(super) corners: Vec<[HalfEdgeId; 3]>,
-    pub(super) labels: Labels,
+pub(crate) struct Triangles {
+    pub(crate) corners: Vec<[HalfEdgeId; 3]>,
+    pub(crate) labels: Labels,
 }
 
 /// The line of a bridge or a diagonal.
@@ -65,7 +77,7 @@ struct Boundary<'a> {
 }
 
 /// Triangulates faces, reusing its buffers.
-pub(super) struct Triangulator<'a> {
+pub(crate) struct Triangulator<'a> {
     boundary: Boundary<'a>,
     /// The first node of each loop, the outer one first.
     rings: Vec<NodeId>,
@@ -75,8 +87,8 @@ pub(super) struct Triangulator<'a> {
 }
 
 impl<'a> Triangulator<'a> {
-    pub(super) fn new(table: &'a PlaneTable, points: &'a Points) -> Self {
-        let turns = Turns { table, points, projection: Projection { u: 0, v: 1 } };
+    pub(crate) fn new(points: &'a dyn ExactPoints) -> Self {
+        let turns = Turns { points, projection: Projection { u: 0, v: 1 } };
         Self {
             boundary: Boundary { nodes: Vec::new(), turns },
             rings: Vec::new(),
@@ -87,21 +99,20 @@ impl<'a> Triangulator<'a> {
     }
 
     /// Begins a face.
-    pub(super) fn begin(&mut self, projection: Projection) {
+    pub(crate) fn begin(&mut self, projection: Projection) {
         self.boundary.turns.projection = projection;
         self.boundary.nodes.clear();
         self.rings.clear();
     }
 
-    /// Adds a loop, the outer one first, the inside to the left: half-edges with their numbers.
-    pub(super) fn add_loop<'b>(&mut self, pieces: impl ExactSizeIterator<Item = (HalfEdgeId, &'b HalfEdge)>) {
-        let Turns { points, projection, .. } = self.boundary.turns;
+    /// Adds a loop, the outer one first, the inside to the left.
+    pub(crate) fn add_loop(&mut self, corners: impl ExactSizeIterator<Item = LoopCorner>) {
+        let projection = self.boundary.turns.projection;
         let nodes = &mut self.boundary.nodes;
-        let (first, count) = (NodeId::from_index(nodes.len()), pieces.len());
+        let (first, count) = (NodeId::from_index(nodes.len()), corners.len());
         self.rings.push(first);
-        for (k, (piece, half_edge)) in pieces.enumerate() {
-            let HalfEdge { from: point, line, .. } = *half_edge;
-            let at = projection.of(points.positions[point.index()]);
+        for (k, LoopCorner { point, at, line, piece }) in corners.enumerate() {
+            let at = projection.of(at);
             let before = nodes.last().filter(|_| k > 0).map_or(NO_LINE, |node| node.corner.line);
             nodes.push(Node {
                 corner: Corner { at, point, line, piece },
@@ -116,7 +127,7 @@ impl<'a> Triangulator<'a> {
     }
 
     /// Adds the triangles of the face that was begun.
-    pub(super) fn triangulate(&mut self, out: &mut Triangles) {
+    pub(crate) fn triangulate(&mut self, out: &mut Triangles) {
         let Self { boundary, rings, ears, ahead, flips } = self;
         if let [a, b, c] = boundary.nodes[..] {
             let pieces = [a, b, c].map(|node| node.corner.piece);

@@ -6,24 +6,53 @@ use planecut_kernel::sign::Sign;
 use planecut_kernel::{DVec2, planar_turn};
 
 use super::{Corner, orient};
-use crate::ids::Id;
+use crate::ids::{Id, PointId};
 use crate::plane_table::PlaneTable;
 use crate::weld::nest::Projection;
 use crate::weld::points::Points;
 
 const U: f64 = f64::EPSILON / 2.0;
 
+/// Points that are known exactly, by their numbers.
+pub(crate) trait ExactPoints {
+    /// Which way three points of a plane turn as it is projected; positive is left. Asked for where rounded coordinates do not tell.
+    fn turn(&self, points: [PointId; 3], projection: Projection) -> Sign;
+
+    /// The order of two points from left to right, then upwards.
+    fn order(&self, a: PointId, b: PointId, projection: Projection) -> Ordering;
+}
+
+/// The points of a weld with the planes that meet there.
+pub(in crate::weld) struct WeldPoints<'a> {
+    pub(in crate::weld) table: &'a PlaneTable,
+    pub(in crate::weld) points: &'a Points,
+}
+
+impl ExactPoints for WeldPoints<'_> {
+    fn turn(&self, points: [PointId; 3], projection: Projection) -> Sign {
+        let Projection { u, v } = projection;
+        if points.iter().all(|point| self.points.are_exact(*point, u, v)) {
+            let [a, b, c] = points.map(|point| projection.of(self.points.positions[point.index()]));
+            return sign(orient(a, b, c));
+        }
+        let rows = points.map(|point| self.points.planes[point.index()].map(|plane| self.table.row(plane)));
+        planar_turn(rows, u, v)
+    }
+
+    fn order(&self, a: PointId, b: PointId, projection: Projection) -> Ordering {
+        self.points.compare(self.table, a, b, &[projection.u, projection.v])
+    }
+}
+
 /// The turns of corners on one plane.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub(super) struct Turns<'a> {
-    pub(super) table: &'a PlaneTable,
-    pub(super) points: &'a Points,
+    pub(super) points: &'a dyn ExactPoints,
     pub(super) projection: Projection,
 }
 
 impl Turns<'_> {
-    /// Positive where the exact points turn left: from the rounded coordinates where their error cannot matter or there is
-    /// none, else by big integers.
+    /// Positive where the exact points turn left: from the rounded coordinates where their error cannot matter, else exactly.
     pub(super) fn of(&self, a: &Corner, b: &Corner, c: &Corner) -> Sign {
         if a.point == b.point || b.point == c.point || c.point == a.point {
             return Sign::Zero;
@@ -32,12 +61,7 @@ impl Turns<'_> {
         if value.abs() > bound {
             return sign(value);
         }
-        let Projection { u, v } = self.projection;
-        if [a, b, c].iter().all(|corner| self.points.are_exact(corner.point, u, v)) {
-            return sign(orient(a.at, b.at, c.at));
-        }
-        let rows = [a, b, c].map(|corner| self.points.planes[corner.point.index()].map(|plane| self.table.row(plane)));
-        planar_turn(rows, u, v)
+        self.points.turn([a.point, b.point, c.point], self.projection)
     }
 
     /// Whether the exact points certainly turn right, from the rounded coordinates.
@@ -48,7 +72,7 @@ impl Turns<'_> {
 
     /// The exact order of two corners from left to right, then upwards.
     pub(super) fn order(&self, a: &Corner, b: &Corner) -> Ordering {
-        self.points.compare(self.table, a.point, b.point, &[self.projection.u, self.projection.v])
+        self.points.order(a.point, b.point, self.projection)
     }
 }
 
@@ -64,7 +88,7 @@ fn sign(value: f64) -> Sign {
 ///
 /// With all coordinates at most `m`, each is off by `u·m`, a difference by `3u·m`; the product of two differences by `3u·m` times
 /// their sum, `9u²m²`, and its own rounding. Two products are subtracted.
-fn rounded_turn(a: DVec2, b: DVec2, c: DVec2) -> (f64, f64) {
+pub(crate) fn rounded_turn(a: DVec2, b: DVec2, c: DVec2) -> (f64, f64) {
     let (p, q) = (b - a, c - a);
     let (left, right) = (p.x * q.y, p.y * q.x);
     let m = a.abs().max(b.abs()).max(c.abs()).max_element();

@@ -1,0 +1,301 @@
+//! Where two triangles touch: signs of their vertices against each other's planes tell (Guigue and Devillers 2003).
+
+use planecut_kernel::sign::Sign;
+
+use super::coplanar;
+use super::points::PointKey;
+use super::predicates::{RoundedPlane, orient};
+use super::surface::{Surface, sorted};
+use crate::ids::{Id, PointId, TriangleId, number32};
+
+/// Where in a triangle a point lies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Place {
+    Vertex(usize),
+    /// Inside the edge that begins at a corner.
+    Edge(usize),
+    Inside,
+}
+
+impl Place {
+    /// Whether a point lies on an edge, ends included.
+    pub(super) fn is_on(self, edge: usize) -> bool {
+        match self {
+            Self::Vertex(k) => k == edge || k == (edge + 1) % 3,
+            Self::Edge(k) => k == edge,
+            Self::Inside => false,
+        }
+    }
+
+    /// The edge on which two points lie.
+    pub(super) fn shared_edge(self, other: Self) -> Option<usize> {
+        (0..3).find(|edge| self.is_on(*edge) && other.is_on(*edge))
+    }
+}
+
+/// A point in which two triangles touch, and where in each it lies.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Touch {
+    pub(super) key: PointKey,
+    pub(super) places: [Place; 2],
+}
+
+/// A segment within a triangle, along which it is to be cut. Its ends are one point where the other triangle just touches this one.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Cut {
+    pub(super) triangle: TriangleId,
+    /// The triangle that it comes from.
+    pub(super) other: TriangleId,
+    /// The edge of the other triangle that it lies on.
+    pub(super) edge: Option<[PointId; 2]>,
+    pub(super) ends: [PointKey; 2],
+}
+
+/// A point inside an edge, at which it is to be cut.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct EdgeCut {
+    /// A half-edge along it.
+    pub(super) side: u32,
+    pub(super) key: PointKey,
+}
+
+/// What pairs of triangles have in common.
+#[derive(Debug, Default)]
+pub(super) struct Contacts {
+    pub(super) cuts: Vec<Cut>,
+    pub(super) edge_cuts: Vec<EdgeCut>,
+    /// Triangles whose edges other surfaces share.
+    pub(super) touched: Vec<TriangleId>,
+    /// Triangles that have more in common than vertices and edges of a mesh.
+    pub(super) pairs: Vec<[TriangleId; 2]>,
+    /// Triangles in one plane that share a part of it, at least a point.
+    pub(super) coplanar: Vec<[TriangleId; 2]>,
+    /// Those of them that share an area.
+    pub(super) overlapping: Vec<[TriangleId; 2]>,
+}
+
+impl Contacts {
+    pub(super) fn append(&mut self, other: &mut Self) {
+        self.cuts.append(&mut other.cuts);
+        self.edge_cuts.append(&mut other.edge_cuts);
+        self.touched.append(&mut other.touched);
+        self.pairs.append(&mut other.pairs);
+        self.coplanar.append(&mut other.coplanar);
+        self.overlapping.append(&mut other.overlapping);
+    }
+
+    /// Edges are cut at a point that lies inside of them.
+    pub(super) fn cut_edges(&mut self, pair: [TriangleId; 2], touch: &Touch) {
+        for (triangle, place) in pair.into_iter().zip(touch.places) {
+            if let Place::Edge(side) = place {
+                self.edge_cuts.push(EdgeCut { side: half_edge(triangle, side), key: touch.key });
+            }
+        }
+    }
+}
+
+/// The half-edge of a triangle that begins at a corner.
+pub(super) fn half_edge(triangle: TriangleId, side: usize) -> u32 {
+    3 * triangle.number() + number32(side)
+}
+
+/// How the vertices of two triangles are shared: for each of the first the place of its like in the second.
+pub(super) fn shared(one: [PointId; 3], other: [PointId; 3]) -> [Option<usize>; 3] {
+    one.map(|vertex| other.iter().position(|like| *like == vertex))
+}
+
+/// Finds what two triangles have in common.
+pub(super) fn touch(surface: &Surface, planes: [&RoundedPlane; 2], pair: [TriangleId; 2], out: &mut Contacts) {
+    let corners = pair.map(|triangle| surface.corners(triangle));
+    let like = shared(corners[0], corners[1]);
+    let count = like.iter().flatten().count();
+    if count == 3 {
+        out.coplanar.push(pair);
+        out.overlapping.push(pair);
+        out.pairs.push(pair);
+        return;
+    }
+    if count == 2 {
+        return share_edge(surface, planes[0], pair, like, out);
+    }
+    let side = |plane: usize, vertex: usize| {
+        let corner = corners[1 - plane][vertex];
+        if count > 0 && corners[plane].contains(&corner) { Sign::Zero } else { planes[plane].side(surface, corner) }
+    };
+    let of_second = [0, 1, 2].map(|k| side(0, k));
+    if all_on_one_side(of_second) {
+        return;
+    }
+    if of_second == [Sign::Zero; 3] {
+        return coplanar::touch(surface, pair, out);
+    }
+    let of_first = [0, 1, 2].map(|k| side(1, k));
+    if all_on_one_side(of_first) {
+        return;
+    }
+    let line = Line { surface, pair, corners, signs: [of_first, of_second] };
+    let Some(ends) = line.common() else { return };
+    add(surface, pair, ends, out);
+}
+
+fn all_on_one_side(signs: [Sign; 3]) -> bool {
+    signs[0] != Sign::Zero && signs[0] == signs[1] && signs[1] == signs[2]
+}
+
+/// What two triangles have in common whose planes meet in a line.
+fn add(surface: &Surface, pair: [TriangleId; 2], ends: [Touch; 2], out: &mut Contacts) {
+    let corners = pair.map(|triangle| surface.corners(triangle));
+    let is_point = ends[0].key == ends[1].key;
+    let is_shared =
+        |touch: &Touch| matches!(touch.places, [Place::Vertex(j), Place::Vertex(k)] if corners[0][j] == corners[1][k]);
+    if is_point && is_shared(&ends[0]) {
+        return;
+    }
+    out.pairs.push(pair);
+    for end in &ends[..if is_point { 1 } else { 2 }] {
+        out.cut_edges(pair, end);
+    }
+    for k in 0..2 {
+        let (triangle, other) = (pair[k], pair[1 - k]);
+        if is_point {
+            // other cuts may go through it
+            if ends[0].places[k] == Place::Inside {
+                out.cuts.push(Cut { triangle, other, edge: None, ends: [ends[0].key; 2] });
+            }
+            continue;
+        }
+        out.touched.push(triangle);
+        let shared_edge = |k: usize| ends[0].places[k].shared_edge(ends[1].places[k]);
+        if shared_edge(k).is_none() {
+            let edge = shared_edge(1 - k).map(|edge| surface.edge(other, edge));
+            out.cuts.push(Cut { triangle, other, edge, ends: ends.map(|end| end.key) });
+        }
+    }
+}
+
+/// Triangles that share an edge: nothing else, unless they are folded upon each other.
+fn share_edge(
+    surface: &Surface,
+    plane: &RoundedPlane,
+    pair: [TriangleId; 2],
+    like: [Option<usize>; 3],
+    out: &mut Contacts,
+) {
+    let apex = like.iter().position(Option::is_none).expect("two vertices are shared");
+    let side = (apex + 1) % 3;
+    let twin = surface.twins[half_edge(pair[0], side) as usize];
+    let are_neighbours = twin / 3 == pair[1].number();
+    if !are_neighbours {
+        out.touched.extend(pair);
+    }
+    let corners = surface.corners(pair[1]);
+    let other = (0..3).find(|k| !like.contains(&Some(*k))).expect("two vertices are shared");
+    if plane.side(surface, corners[other]) != Sign::Zero {
+        return;
+    }
+    coplanar::touch(surface, pair, out);
+}
+
+/// An end of what a triangle has in common with the line in which two planes meet.
+#[derive(Debug, Clone, Copy)]
+struct End {
+    place: Place,
+    /// An edge through that end that does not lie in the other plane.
+    edge: usize,
+}
+
+/// The line in which the planes of two triangles meet.
+struct Line<'a> {
+    surface: &'a Surface,
+    pair: [TriangleId; 2],
+    corners: [[PointId; 3]; 2],
+    /// On which side of the other's plane the corners of each lie.
+    signs: [[Sign; 3]; 2],
+}
+
+impl Line<'_> {
+    /// The ends of what both triangles have in common.
+    fn common(&self) -> Option<[Touch; 2]> {
+        let [low, high] = self.ends(0);
+        let [other_low, other_high] = self.ends(1);
+        let at_point = |places| Some([self.touch(places); 2]);
+        match (self.is_before(&low, &other_high), self.is_before(&high, &other_low)) {
+            (Sign::Negative, _) | (_, Sign::Positive) => return None,
+            (Sign::Zero, _) => return at_point([low.place, other_high.place]),
+            (_, Sign::Zero) => return at_point([high.place, other_low.place]),
+            _ => {}
+        }
+        let along = [0, 1]
+            .map(|k| (0..3).find(|j| self.signs[k][*j] == Sign::Zero && self.signs[k][(j + 1) % 3] == Sign::Zero));
+        let of = |k: usize, end: &End| {
+            let within = along[1 - k].map_or(Place::Inside, Place::Edge);
+            self.touch(if k == 0 { [end.place, within] } else { [within, end.place] })
+        };
+        let start = match self.is_before(&low, &other_low) {
+            Sign::Positive => of(1, &other_low),
+            Sign::Negative => of(0, &low),
+            Sign::Zero => self.touch([low.place, other_low.place]),
+        };
+        let end = match self.is_before(&high, &other_high) {
+            Sign::Positive => of(0, &high),
+            Sign::Negative => of(1, &other_high),
+            Sign::Zero => self.touch([high.place, other_high.place]),
+        };
+        Some([start, end])
+    }
+
+    /// The ends of what a triangle has in common with the line, in the direction of the cross product of both normals.
+    ///
+    /// Seen with its normal towards the viewer and the line to the right, the positive side of the first triangle is below, that of
+    /// the second above; so counter-clockwise the first goes from negative to positive on the left, the second on the right.
+    fn ends(&self, k: usize) -> [End; 2] {
+        let signs = if k == 0 { self.signs[0] } else { self.signs[1].map(Sign::flip) };
+        let mut ends: [Option<End>; 2] = [None; 2];
+        for j in 0..3 {
+            let (before, this, after) = (signs[(j + 2) % 3], signs[j], signs[(j + 1) % 3]);
+            if this == Sign::Zero {
+                let edge = if after == Sign::Zero { (j + 2) % 3 } else { j };
+                let end = Some(End { place: Place::Vertex(j), edge });
+                if after == Sign::Positive || before == Sign::Negative {
+                    ends[0] = end;
+                }
+                if before == Sign::Positive || after == Sign::Negative {
+                    ends[1] = end;
+                }
+            } else if after == this.flip() {
+                ends[usize::from(this == Sign::Positive)] = Some(End { place: Place::Edge(j), edge: j });
+            }
+        }
+        ends.map(|end| end.expect("a triangle that meets a plane has two ends there"))
+    }
+
+    /// Positive where an end of the first triangle comes before one of the second, zero where they are at one place.
+    fn is_before(&self, end: &End, other: &End) -> Sign {
+        let [e, f] = [(0, end.edge), (1, other.edge)].map(|(k, j)| {
+            let (from, to) = (j, (j + 1) % 3);
+            let ends = [self.corners[k][from], self.corners[k][to]];
+            if self.signs[k][from] < self.signs[k][to] { ends } else { [ends[1], ends[0]] }
+        });
+        if e.iter().any(|vertex| f.contains(vertex)) {
+            return Sign::Zero;
+        }
+        orient(self.surface, [e[0], e[1], f[0], f[1]])
+    }
+
+    /// The point at given places in both triangles.
+    fn touch(&self, places: [Place; 2]) -> Touch {
+        Touch { key: self.key(places), places }
+    }
+
+    fn key(&self, places: [Place; 2]) -> PointKey {
+        let edge = |k: usize, side: usize| sorted(self.corners[k][side], self.corners[k][(side + 1) % 3]);
+        match places {
+            [Place::Vertex(j), _] => PointKey::Vertex(self.corners[0][j]),
+            [_, Place::Vertex(j)] => PointKey::Vertex(self.corners[1][j]),
+            [Place::Edge(i), Place::Edge(j)] => PointKey::of_edges(edge(0, i), edge(1, j)),
+            [Place::Edge(i), Place::Inside] => PointKey::EdgePlane { edge: edge(0, i), triangle: self.pair[1] },
+            [Place::Inside, Place::Edge(j)] => PointKey::EdgePlane { edge: edge(1, j), triangle: self.pair[0] },
+            [Place::Inside, Place::Inside] => unreachable!("an end lies on an edge of one triangle"),
+        }
+    }
+}

@@ -1,0 +1,71 @@
+//! The points inside of edges, at which the triangles there are cut.
+
+use rustc_hash::FxHashMap;
+
+use super::canonical;
+use super::contact::EdgeCut;
+use super::points::Points;
+use super::surface::{Surface, sorted};
+use crate::ids::{Id, PointId, TriangleId, number32};
+use crate::mesh::connectivity::NO_TWIN;
+
+/// The points inside of edges, in order.
+#[derive(Debug, Default)]
+pub(super) struct EdgePoints {
+    /// For each edge that has any the range of its points, from its smaller end on.
+    ranges: FxHashMap<[PointId; 2], [u32; 2]>,
+    points: Vec<PointId>,
+}
+
+impl EdgePoints {
+    /// The points at which edges are cut; and the triangles at these edges.
+    pub(super) fn new(
+        surface: &Surface,
+        points: &Points,
+        planes: &[TriangleId],
+        cuts: &[EdgeCut],
+    ) -> (Self, Vec<TriangleId>) {
+        let edge = |side: u32| surface.edge(TriangleId::from_index(side as usize / 3), side as usize % 3);
+        let mut all: Vec<([PointId; 2], PointId)> =
+            cuts.iter().map(|cut| (edge(cut.side), points.of_key(&canonical(cut.key, planes)))).collect();
+        all.sort_unstable();
+        all.dedup();
+        let mut found = Self::default();
+        let mut within = Vec::new();
+        for group in all.chunk_by(|a, b| a.0 == b.0) {
+            let ends = group[0].0;
+            within.clear();
+            within.extend(group.iter().map(|(_, point)| *point).filter(|point| !ends.contains(point)));
+            points.sort_along(surface, ends[0], ends[1], &mut within);
+            let start = number32(found.points.len());
+            found.points.extend(&within);
+            found.ranges.insert(ends, [start, number32(found.points.len())]);
+        }
+        let mut triangles = Vec::new();
+        let mut has_lone_edges = false;
+        for cut in cuts {
+            triangles.push(TriangleId::from_index(cut.side as usize / 3));
+            match surface.twins[cut.side as usize] {
+                NO_TWIN => has_lone_edges = true,
+                twin => triangles.push(TriangleId::from_index(twin as usize / 3)),
+            }
+        }
+        if has_lone_edges {
+            let lone = (0..).zip(&surface.twins).filter(|(_, twin)| **twin == NO_TWIN).map(|(side, _)| side);
+            let cut = lone.filter(|side: &u32| found.ranges.contains_key(&edge(*side)));
+            triangles.extend(cut.map(|side| TriangleId::from_index(side as usize / 3)));
+        }
+        triangles.sort_unstable();
+        triangles.dedup();
+        (found, triangles)
+    }
+
+    /// The points of an edge from one end on, that one included, the other not.
+    pub(super) fn from(&self, from: PointId, to: PointId) -> impl Iterator<Item = PointId> + '_ {
+        let [start, end] = self.ranges.get(&sorted(from, to)).copied().unwrap_or([0, 0]);
+        let within = &self.points[start as usize..end as usize];
+        let is_reversed = from > to;
+        let inner = (0..within.len()).map(move |k| within[if is_reversed { within.len() - 1 - k } else { k }]);
+        std::iter::once(from).chain(inner)
+    }
+}

@@ -1,0 +1,186 @@
+//! Facets: the triangles that nothing cuts and the cells of the others; and which of them meet at an edge.
+
+use planecut_parallel::prelude::*;
+use rustc_hash::FxHashMap;
+
+use super::Arrangement;
+use super::subdivide::Cells;
+use super::surface::sorted;
+use crate::base::by_group;
+use crate::ids::{FacetId, Id, PointId, TriangleId, number32};
+use crate::mesh::connectivity::NO_TWIN;
+
+/// Facets that one thread looks at in a row.
+const CHUNK: usize = 1 << 13;
+
+/// A facet at an edge.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Side {
+    /// The ends of the edge, in ascending order.
+    pub(super) ends: [PointId; 2],
+    pub(super) facet: FacetId,
+    /// Whether the facet, as its triangle is seen, runs along the edge from the smaller end to the larger one.
+    pub(super) is_forward: bool,
+}
+
+/// Another triangle's cell at the very place of a facet.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Double {
+    pub(super) facet: FacetId,
+    /// Whether both face the same way.
+    pub(super) is_same: bool,
+}
+
+/// Facets. The first ones are the triangles, by their numbers; cells follow.
+#[derive(Debug)]
+pub(super) struct Facets {
+    triangles: usize,
+    /// Triangles that were cut into cells, or have no area, and facets that are doubles of others.
+    is_gone: Vec<bool>,
+    doubles: FxHashMap<FacetId, Vec<Double>>,
+    /// The facets at edges that are not just those of a triangle and its neighbour, by edge.
+    pub(super) sides: Vec<Side>,
+    /// Where the sides of each edge end.
+    pub(super) edge_ends: Vec<u32>,
+    /// The edges of each facet: where they begin, and they.
+    edge_starts: Vec<u32>,
+    edges: Vec<u32>,
+}
+
+impl Facets {
+    pub(super) fn new(arrangement: &Arrangement, is_split: Vec<bool>, is_doubled: &[bool]) -> Self {
+        let triangles = arrangement.surface.len();
+        let count = triangles + arrangement.cells.len();
+        let mut facets = Self {
+            triangles,
+            is_gone: is_split,
+            doubles: FxHashMap::default(),
+            sides: Vec::new(),
+            edge_ends: Vec::new(),
+            edge_starts: Vec::new(),
+            edges: Vec::new(),
+        };
+        facets.is_gone.resize(count, false);
+        facets.join_doubles(arrangement, is_doubled);
+        facets.find_sides(arrangement);
+        facets
+    }
+
+    /// The number of facets, those that are gone included.
+    pub(super) fn len(&self) -> usize {
+        self.is_gone.len()
+    }
+
+    /// Whether a facet is none any more.
+    #[inline]
+    pub(super) fn is_gone(&self, facet: FacetId) -> bool {
+        self.is_gone[facet.index()]
+    }
+
+    /// The cell that a facet is, where it is not a whole triangle.
+    #[inline]
+    pub(super) fn cell(&self, facet: FacetId) -> Option<usize> {
+        facet.index().checked_sub(self.triangles)
+    }
+
+    /// The triangle that a facet is a part of.
+    #[inline]
+    pub(super) fn triangle(&self, cells: &Cells, facet: FacetId) -> TriangleId {
+        self.cell(facet).map_or(TriangleId::from_index(facet.index().min(self.triangles)), |cell| cells.triangles[cell])
+    }
+
+    /// Facets at the very place of one.
+    pub(super) fn doubles(&self, facet: FacetId) -> &[Double] {
+        self.doubles.get(&facet).map_or(&[], Vec::as_slice)
+    }
+
+    /// Edges at which a facet is among [`sides`](Self::sides).
+    pub(super) fn edges(&self, facet: FacetId) -> &[u32] {
+        &self.edges[self.edge_starts[facet.index()] as usize..self.edge_starts[facet.index() + 1] as usize]
+    }
+
+    /// The sides at an edge.
+    pub(super) fn sides_at(&self, edge: u32) -> &[Side] {
+        let edge = edge as usize;
+        let start = if edge == 0 { 0 } else { self.edge_ends[edge - 1] as usize };
+        &self.sides[start..self.edge_ends[edge] as usize]
+    }
+
+    /// The sides at the edge between two points, if it is listed.
+    pub(super) fn edge_between(&self, ends: [PointId; 2]) -> Option<&[Side]> {
+        let start = self.sides.partition_point(|side| side.ends < ends);
+        let count = self.sides[start..].iter().take_while(|side| side.ends == ends).count();
+        (count > 0).then(|| &self.sides[start..start + count])
+    }
+
+    fn join_doubles(&mut self, arrangement: &Arrangement, is_doubled: &[bool]) {
+        let mut first: FxHashMap<Vec<PointId>, (FacetId, bool)> = FxHashMap::default();
+        for facet in FacetId::all(self.len()) {
+            let triangle = self.triangle(&arrangement.cells, facet);
+            if self.is_gone(facet) || !is_doubled[triangle.index()] {
+                continue;
+            }
+            let (key, is_reversed) = match self.cell(facet) {
+                None => canonical(&arrangement.surface.corners(triangle)),
+                Some(cell) => canonical(arrangement.cells.loops(cell).next().expect("a cell has a boundary")),
+            };
+            let (like, is_like_reversed) = *first.entry(key).or_insert((facet, is_reversed));
+            if like != facet {
+                self.is_gone[facet.index()] = true;
+                let is_same = is_reversed == is_like_reversed;
+                self.doubles.entry(like).or_default().push(Double { facet, is_same });
+            }
+        }
+    }
+
+    fn find_sides(&mut self, arrangement: &Arrangement) {
+        let (surface, cells) = (&arrangement.surface, &arrangement.cells);
+        let is_listed = |triangle: usize, k: usize| {
+            let twin = surface.twins[3 * triangle + k];
+            twin == NO_TWIN || arrangement.is_touched[triangle] || arrangement.is_touched[twin as usize / 3]
+        };
+        let of_triangle = |triangle: usize| {
+            let corners = surface.corners[triangle];
+            let count = if self.is_gone[triangle] { 0 } else { 3 };
+            let listed = (0..count).filter(move |k| is_listed(triangle, *k));
+            listed.map(move |k| side(FacetId::from_index(triangle), corners[k], corners[(k + 1) % 3]))
+        };
+        let mut sides: Vec<Side> =
+            (0..self.triangles).into_par_iter().with_min_len(CHUNK).flat_map_iter(of_triangle).collect();
+        for cell in 0..cells.len() {
+            let facet = FacetId::from_index(self.triangles + cell);
+            if !self.is_gone(facet) {
+                for points in cells.loops(cell) {
+                    sides.extend((0..points.len()).map(|k| side(facet, points[k], points[(k + 1) % points.len()])));
+                }
+            }
+        }
+        sides.par_sort_unstable();
+        let mut end = 0;
+        for group in sides.chunk_by(|a, b| a.ends == b.ends) {
+            end += group.len();
+            self.edge_ends.push(number32(end));
+        }
+        let mut edge_of = Vec::with_capacity(sides.len());
+        for (edge, group) in (0..).zip(sides.chunk_by(|a, b| a.ends == b.ends)) {
+            edge_of.extend(group.iter().map(|_| edge));
+        }
+        let (starts, edges) =
+            by_group(self.len(), sides.iter().map(|side| side.facet.index()), |k| edge_of.get(k).copied().unwrap_or(0));
+        (self.edge_starts, self.edges, self.sides) = (starts, edges, sides);
+    }
+}
+
+fn side(facet: FacetId, from: PointId, to: PointId) -> Side {
+    Side { ends: sorted(from, to), facet, is_forward: from < to }
+}
+
+/// A loop from its smallest point on, in the direction in which it is smaller; and whether that is not the direction given.
+fn canonical(points: &[PointId]) -> (Vec<PointId>, bool) {
+    let least = points.iter().min().expect("a loop has points");
+    let count = points.len();
+    let starts = (0..count).filter(|k| points[*k] == *least);
+    let forward = |start: usize| (0..count).map(|k| points[(start + k) % count]).collect::<Vec<_>>();
+    let back = |start: usize| (0..count).map(|k| points[(start + count - k) % count]).collect::<Vec<_>>();
+    starts.flat_map(|start| [(forward(start), false), (back(start), true)]).min().expect("a loop has points")
+}

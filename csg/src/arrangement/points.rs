@@ -1,0 +1,275 @@
+//! Points of the arrangement: what defines them, where they are, and which of them are one.
+
+use std::cmp::Ordering;
+
+use glam::DVec3;
+use planecut_kernel::DoubleDouble as Sum;
+use planecut_kernel::sign::Sign;
+use planecut_parallel::prelude::*;
+use rustc_hash::FxHashMap;
+
+use super::exact::{ExactPoint, turn_of_points};
+use super::predicates::{projected, sign, turn};
+use super::surface::Surface;
+use crate::ids::{Id, PointId, TriangleId};
+use crate::weld::triangulate::rounded_turn;
+
+const U: f64 = f64::EPSILON / 2.0;
+
+/// Bound on the relative error of a few operations on sums of two numbers, with plenty of room.
+const SUM_BOUND: f64 = 1.0 / (1_u128 << 98) as f64;
+
+/// What defines a point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(super) enum PointKey {
+    /// A vertex of an operand.
+    Vertex(PointId),
+    /// Where an edge crosses the plane of a triangle.
+    EdgePlane { edge: [PointId; 2], triangle: TriangleId },
+    /// Where two edges cross.
+    EdgeEdge([[PointId; 2]; 2]),
+    /// Where the planes of three triangles meet.
+    ThreePlanes([TriangleId; 3]),
+}
+
+impl PointKey {
+    /// Where two edges cross; they are given in any order.
+    pub(super) fn of_edges(one: [PointId; 2], other: [PointId; 2]) -> Self {
+        Self::EdgeEdge(if one < other { [one, other] } else { [other, one] })
+    }
+}
+
+/// The points of an arrangement. Vertices come first, with their numbers; those that are constructed from them follow.
+#[derive(Debug, Default)]
+pub(super) struct Points {
+    vertices: usize,
+    /// What defines each point that is not a vertex.
+    keys: Vec<PointKey>,
+    /// The places of these, correctly rounded.
+    positions: Vec<DVec3>,
+    number: FxHashMap<PointKey, PointId>,
+    /// The first point at a rounded place, and for each constructed point the next one at the same rounded place.
+    at_place: FxHashMap<[u64; 3], PointId>,
+    next_at_place: FxHashMap<PointId, PointId>,
+}
+
+fn place_key(place: DVec3) -> [u64; 3] {
+    place.to_array().map(|v| (v + 0.0).to_bits())
+}
+
+impl Points {
+    /// No points but the vertices. Those listed are known by their place.
+    pub(super) fn new(surface: &Surface, near: impl Iterator<Item = PointId>) -> Self {
+        let mut points = Self { vertices: surface.positions.len(), ..Self::default() };
+        points.at_place = near.map(|vertex| (place_key(surface.at(vertex)), vertex)).collect();
+        points
+    }
+
+    /// The number of points, vertices included.
+    pub(super) fn len(&self) -> usize {
+        self.vertices + self.keys.len()
+    }
+
+    /// The place of a point, correctly rounded.
+    #[inline]
+    pub(super) fn at(&self, surface: &Surface, point: PointId) -> DVec3 {
+        match point.index().checked_sub(self.vertices) {
+            None => surface.at(point),
+            Some(k) => self.positions[k],
+        }
+    }
+
+    fn is_vertex(&self, point: PointId) -> bool {
+        point.index() < self.vertices
+    }
+
+    fn key(&self, point: PointId) -> PointKey {
+        match point.index().checked_sub(self.vertices) {
+            None => PointKey::Vertex(point),
+            Some(k) => self.keys[k],
+        }
+    }
+
+    /// The exact coordinates of a point.
+    fn exact(&self, surface: &Surface, point: PointId) -> ExactPoint {
+        ExactPoint::new(surface, &self.key(point))
+    }
+
+    /// Adds points, each known by its key from then on. Points at the same place get the same number.
+    pub(super) fn add(&mut self, surface: &Surface, keys: impl Iterator<Item = PointKey>) {
+        let mut fresh: Vec<PointKey> = keys.filter(|key| !self.number.contains_key(key)).collect();
+        fresh.par_sort_unstable();
+        fresh.dedup();
+        let places: Vec<DVec3> = fresh.par_iter().with_min_len(256).map(|key| place_of(surface, key)).collect();
+        for (key, place) in fresh.into_iter().zip(places) {
+            let number = self.numbered(surface, key, place);
+            self.number.insert(key, number);
+        }
+    }
+
+    fn numbered(&mut self, surface: &Surface, key: PointKey, place: DVec3) -> PointId {
+        let fresh = PointId::from_index(self.len());
+        let first = *self.at_place.entry(place_key(place)).or_insert(fresh);
+        if first != fresh {
+            let exact = ExactPoint::new(surface, &key);
+            let mut other = first;
+            loop {
+                if self.exact(surface, other).is_at(&exact) {
+                    return other;
+                }
+                match self.next_at_place.get(&other) {
+                    Some(next) => other = *next,
+                    None => break,
+                }
+            }
+            self.next_at_place.insert(other, fresh);
+        }
+        self.keys.push(key);
+        self.positions.push(place);
+        fresh
+    }
+
+    /// The number of a point that was added, or is a vertex.
+    pub(super) fn of_key(&self, key: &PointKey) -> PointId {
+        match key {
+            PointKey::Vertex(vertex) => *vertex,
+            key => self.number[key],
+        }
+    }
+
+    /// The turn of three points of a plane, seen along an axis.
+    pub(super) fn turn(&self, surface: &Surface, [a, b, c]: [PointId; 3], axis: usize) -> Sign {
+        if a == b || b == c || c == a {
+            return Sign::Zero;
+        }
+        let [p, q, r] = [a, b, c].map(|point| projected(self.at(surface, point), axis));
+        let (value, bound) = rounded_turn(p, q, r);
+        if surface.is_safe && value.abs() > bound {
+            return sign(value);
+        }
+        if [a, b, c].iter().all(|point| self.is_vertex(*point)) {
+            return turn(surface, [a, b, c], axis);
+        }
+        let [a, b, c] = [a, b, c].map(|point| self.exact(surface, point));
+        turn_of_points([&a, &b, &c], axis)
+    }
+
+    /// The order of two points along an axis: correct rounding keeps it unless it makes them equal.
+    pub(super) fn compare(&self, surface: &Surface, a: PointId, b: PointId, axis: usize) -> Ordering {
+        let (p, q) = (self.at(surface, a)[axis], self.at(surface, b)[axis]);
+        match p.partial_cmp(&q) {
+            Some(Ordering::Equal) | None if a != b && !(self.is_vertex(a) && self.is_vertex(b)) => {
+                self.exact(surface, a).compare(&self.exact(surface, b), axis)
+            }
+            order => order.unwrap_or(Ordering::Equal),
+        }
+    }
+
+    /// The order of two points by their coordinates along two axes.
+    pub(super) fn compare_along(&self, surface: &Surface, a: PointId, b: PointId, axes: [usize; 2]) -> Ordering {
+        self.compare(surface, a, b, axes[0]).then_with(|| self.compare(surface, a, b, axes[1]))
+    }
+
+    /// An axis along which two points differ, the one along which they differ most where rounding does not hide that, and their order
+    /// along it.
+    pub(super) fn axis_between(&self, surface: &Surface, from: PointId, to: PointId) -> (usize, Ordering) {
+        let along = (self.at(surface, to) - self.at(surface, from)).abs();
+        let longest = along.max_position();
+        let order = |axis: usize| (axis, self.compare(surface, from, to, axis));
+        [longest, (longest + 1) % 3, (longest + 2) % 3]
+            .into_iter()
+            .map(order)
+            .find(|(_, order)| order.is_ne())
+            .unwrap_or((longest, Ordering::Equal))
+    }
+
+    /// Whether a point of the line through two others lies between them.
+    pub(super) fn is_between(&self, surface: &Surface, from: PointId, to: PointId, point: PointId) -> bool {
+        let (axis, _) = self.axis_between(surface, from, to);
+        let order = |a, b| self.compare(surface, a, b, axis);
+        point != from && point != to && order(from, point) == order(point, to)
+    }
+
+    /// Sorts points of a line from `from` on, an end of all of them.
+    pub(super) fn sort_along(&self, surface: &Surface, from: PointId, to: PointId, points: &mut Vec<PointId>) {
+        let (axis, ascending) = self.axis_between(surface, from, to);
+        points.sort_unstable();
+        points.dedup();
+        points.sort_by(|a, b| {
+            let order = self.compare(surface, *a, *b, axis);
+            if ascending.is_gt() { order.reverse() } else { order }
+        });
+    }
+}
+
+/// The place of a point, correctly rounded.
+fn place_of(surface: &Surface, key: &PointKey) -> DVec3 {
+    let between = if surface.is_safe {
+        match *key {
+            PointKey::Vertex(vertex) => return surface.at(vertex),
+            PointKey::EdgePlane { edge, triangle } => through_plane(surface, edge, triangle),
+            PointKey::EdgeEdge([one, other]) => through_edge(surface, one, other),
+            PointKey::ThreePlanes(_) => None,
+        }
+    } else {
+        None
+    };
+    between.unwrap_or_else(|| ExactPoint::new(surface, key).rounded(surface))
+}
+
+/// A vector of sums of two numbers.
+type Sums = [Sum; 3];
+
+fn difference(a: DVec3, b: DVec3) -> Sums {
+    [0, 1, 2].map(|k| Sum::sum(a[k], -b[k]))
+}
+
+/// A component of the cross product of two vectors, and the sum of the magnitudes of its terms.
+fn cross_component(a: &Sums, b: &Sums, axis: usize) -> (Sum, f64) {
+    let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+    let (left, right) = (a[u].times_sum(b[v]), a[v].times_sum(b[u]));
+    (left.plus(right.negated()), left.high.abs() + right.high.abs())
+}
+
+/// Where an edge crosses the plane of a triangle, where sums of two numbers are enough to round it.
+fn through_plane(surface: &Surface, edge: [PointId; 2], triangle: TriangleId) -> Option<DVec3> {
+    let [p, q] = edge.map(|end| surface.at(end));
+    let [a, b, c] = surface.places(triangle);
+    let (ab, ac) = (difference(b, a), difference(c, a));
+    let normal = [0, 1, 2].map(|axis| cross_component(&ab, &ac, axis));
+    let distance = |end: DVec3| {
+        let along = difference(end, a);
+        let terms = [0, 1, 2].map(|k| normal[k].0.times_sum(along[k]));
+        let magnitude: f64 = (0..3).map(|k| normal[k].1 * along[k].high.abs()).sum();
+        (terms[0].plus(terms[1]).plus(terms[2]), magnitude)
+    };
+    let ((from_p, magnitude_p), (from_q, magnitude_q)) = (distance(p), distance(q));
+    between(p, q, from_p, from_p.plus(from_q.negated()), magnitude_p + magnitude_q)
+}
+
+/// Where two edges cross, where sums of two numbers are enough to round it.
+fn through_edge(surface: &Surface, one: [PointId; 2], other: [PointId; 2]) -> Option<DVec3> {
+    let ([p, q], [r, s]) = (one.map(|end| surface.at(end)), other.map(|end| surface.at(end)));
+    let (along, across, offset) = (difference(q, p), difference(s, r), difference(r, p));
+    let wholes = [0, 1, 2].map(|axis| cross_component(&along, &across, axis));
+    let axis = (0..3).max_by(|a, b| wholes[*a].0.high.abs().total_cmp(&wholes[*b].0.high.abs()))?;
+    let (share, magnitude) = cross_component(&offset, &across, axis);
+    between(p, q, share, wholes[axis].0, magnitude + wholes[axis].1)
+}
+
+/// The point a share of the way from `p` to `q`; share and whole are off by a bound times `magnitude`.
+fn between(p: DVec3, q: DVec3, share: Sum, whole: Sum, magnitude: f64) -> Option<DVec3> {
+    let error = 2.0 * SUM_BOUND * magnitude / whole.high.abs() + SUM_BOUND;
+    // also where the whole is not known to differ from zero
+    if error.is_nan() || error > U {
+        return None;
+    }
+    let t = share.over(whole);
+    let coordinate = |k: usize| {
+        let along = Sum::sum(q[k], -p[k]);
+        let value = along.times_sum(t).plus(Sum::sum(p[k], 0.0));
+        let slack = along.high.abs() * error + SUM_BOUND * (p[k].abs() + q[k].abs());
+        value.rounded_with(slack)
+    };
+    Some(DVec3::new(coordinate(0)?, coordinate(1)?, coordinate(2)?))
+}

@@ -1,0 +1,115 @@
+//! Single cases: what is refused, winding rules, what passes through.
+
+use glam::DVec3;
+use planecut_csg::{ClosedMesh, ClosedMeshError, WindingRule, combine_meshes};
+use planecut_csg::{Material, MaterialId, Mesh};
+use planecut_testkit::meshes::box_mesh;
+
+fn closed(mesh: &Mesh) -> ClosedMesh {
+    ClosedMesh::new(&mesh.positions, &mesh.triangles, |_| MaterialId(0)).expect("a box is closed")
+}
+
+fn cube(corner: f64) -> Mesh {
+    box_mesh(DVec3::splat(corner), DVec3::splat(corner + 1.0), "stone")
+}
+
+#[test]
+fn open_edges_are_named() {
+    let mut mesh = cube(2.0);
+    let [a, b, c] = mesh.triangles.remove(5).map(|vertex| mesh.positions[vertex as usize]);
+    let error =
+        ClosedMesh::new(&mesh.positions, &mesh.triangles, |_| MaterialId(0)).expect_err("a triangle is missing");
+    let ClosedMeshError::Open { from, to, count } = error else { panic!("{error}") };
+    assert_eq!(count, 3);
+    // what is left runs the other way
+    assert!([(b, a), (c, b), (a, c)].contains(&(from, to)), "{from} to {to}");
+}
+
+#[test]
+fn what_is_no_mesh_is_refused() {
+    let mesh = cube(0.0);
+    let mut positions = mesh.positions.clone();
+    positions[3].y = f64::NAN;
+    let error = ClosedMesh::new(&positions, &mesh.triangles, |_| MaterialId(0)).expect_err("not a number");
+    assert!(matches!(error, ClosedMeshError::NotFinite { vertex: 3, .. }));
+    let error = ClosedMesh::new(&mesh.positions, &[[0, 1, 99]], |_| MaterialId(0)).expect_err("no such vertex");
+    assert!(matches!(error, ClosedMeshError::NoVertex { triangle: 0, vertex: 99, .. }));
+}
+
+/// Two boxes in one mesh, one turned inside out or not, under each rule.
+#[test]
+fn rules_tell_what_is_inside() {
+    let volume = |rule: WindingRule, corner: f64, is_inside_out: bool| {
+        let (mut mesh, mut other) = (cube(0.0), cube(corner));
+        let first = u32::try_from(mesh.positions.len()).expect("few vertices");
+        if is_inside_out {
+            other.triangles.iter_mut().for_each(|triangle| triangle.swap(0, 1));
+        }
+        mesh.positions.extend(other.positions);
+        mesh.triangles.extend(other.triangles.iter().map(|triangle| triangle.map(|vertex| vertex + first)));
+        combine_meshes(&[&closed(&mesh)], rule, Vec::new(), |inside| inside.of(0)).expect("it is closed").solid.volume
+    };
+    use WindingRule::{NonZero, Odd, Positive};
+    for (rule, same, against) in [(Positive, 1.875, 0.875), (NonZero, 1.875, 1.75), (Odd, 1.75, 1.75)] {
+        assert!((volume(rule, 0.5, false) - same).abs() < 1e-15, "{rule:?}");
+        assert!((volume(rule, 0.5, true) - against).abs() < 1e-15, "{rule:?}");
+    }
+    assert_eq!([Positive, NonZero, Odd].map(|rule| volume(rule, 0.0, false)), [1.0, 1.0, 0.0]);
+    assert_eq!([Positive, NonZero, Odd].map(|rule| volume(rule, 0.0, true)), [0.0, 0.0, 0.0]);
+}
+
+/// Boxes that touch in a corner, along an edge, over a face, or not at all.
+#[test]
+fn boxes_that_touch() {
+    for shift in [DVec3::ONE, DVec3::new(1.0, 1.0, 0.0), DVec3::new(1.0, 0.0, 0.0), DVec3::new(3.0, 0.0, 0.0)] {
+        let mesh = box_mesh(shift, shift + 1.0, "stone");
+        let union =
+            combine_meshes(&[&closed(&cube(0.0)), &closed(&mesh)], WindingRule::Positive, Vec::new(), |inside| {
+                inside.of(0) || inside.of(1)
+            });
+        let union = union.expect("both are closed");
+        assert_eq!(union.solid.volume, 2.0, "{shift}");
+        let faces = if shift == DVec3::X { 10.0 } else { 12.0 };
+        assert_eq!(union.solid.area, faces, "{shift}");
+    }
+}
+
+/// Triangles that nothing touches come out as they went in.
+#[test]
+fn what_nothing_touches_passes_through() {
+    let mut first = cube(0.0);
+    let far = cube(10.0);
+    let offset = u32::try_from(first.positions.len()).expect("few vertices");
+    first.positions.extend(&far.positions);
+    first.triangles.extend(far.triangles.iter().map(|triangle| triangle.map(|vertex| vertex + offset)));
+    let cutter = cube(0.5);
+    let difference =
+        combine_meshes(&[&closed(&first), &closed(&cutter)], WindingRule::Positive, Vec::new(), |inside| {
+            inside.of(0) && !inside.of(1)
+        });
+    let mesh = difference.expect("both are closed").mesh;
+    let triangles = |mesh: &Mesh| -> Vec<[[u64; 3]; 3]> {
+        let place = |vertex: u32| mesh.positions[vertex as usize].to_array().map(f64::to_bits);
+        mesh.triangles.iter().map(|triangle| triangle.map(place)).collect()
+    };
+    let out = triangles(&mesh);
+    assert!(triangles(&far).iter().all(|triangle| out.contains(triangle)));
+}
+
+/// Faces of the cut have the material of the tool; where faces lie upon each other a tool that just touches gives none.
+#[test]
+fn materials_are_those_of_the_triangles() {
+    let with = |mesh: &Mesh, material: u32| {
+        ClosedMesh::new(&mesh.positions, &mesh.triangles, |_| MaterialId(material)).expect("a box is closed")
+    };
+    let materials = vec![Material::named("stone"), Material::named("steel")];
+    let solid = with(&box_mesh(DVec3::ZERO, DVec3::splat(2.0), "stone"), 0);
+    let tool = with(&box_mesh(DVec3::new(1.0, -1.0, -1.0), DVec3::splat(3.0), "steel"), 1);
+    let difference =
+        combine_meshes(&[&solid, &tool], WindingRule::Positive, materials, |inside| inside.of(0) && !inside.of(1));
+    let mesh = difference.expect("both are closed").mesh;
+    for face in &mesh.faces {
+        assert_eq!(face.material == MaterialId(1), face.normal == DVec3::X, "{face:?}");
+    }
+    assert!(mesh.faces.iter().any(|face| face.normal == DVec3::X));
+}

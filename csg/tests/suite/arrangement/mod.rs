@@ -1,0 +1,6 @@
+//! Combinations of closed meshes.
+
+mod cases;
+mod random;
+mod soup;
+mod winding;
