@@ -1,5 +1,6 @@
 //! Where two triangles touch: signs of their vertices against each other's planes tell (Guigue and Devillers 2003).
 
+use planecut_kernel::DVec3;
 use planecut_kernel::sign::Sign;
 
 use super::coplanar;
@@ -118,6 +119,9 @@ pub(super) fn touch(surface: &Surface, planes: [&RoundedPlane; 2], pair: [Triang
     if count == 2 {
         return share_edge(surface, planes[0], pair, like, out);
     }
+    if count == 1 && are_apart(surface, corners, like) {
+        return;
+    }
     let side = |plane: usize, vertex: usize| {
         let corner = corners[1 - plane][vertex];
         if count > 0 && corners[plane].contains(&corner) { Sign::Zero } else { planes[plane].side(surface, corner) }
@@ -140,6 +144,20 @@ pub(super) fn touch(surface: &Surface, planes: [&RoundedPlane; 2], pair: [Triang
 
 fn all_on_one_side(signs: [Sign; 3]) -> bool {
     signs[0] != Sign::Zero && signs[0] == signs[1] && signs[1] == signs[2]
+}
+
+/// Whether triangles that share a vertex are sure to lie on different sides of a plane through it, perpendicular to the difference of
+/// their directions from there.
+fn are_apart(surface: &Surface, corners: [[PointId; 3]; 2], like: [Option<usize>; 3]) -> bool {
+    let Some(first) = like.iter().position(Option::is_some) else { return false };
+    let places = [first, like[first].unwrap_or(0)];
+    let at = surface.at(corners[0][first]);
+    let along = [0, 1].map(|k| [1, 2].map(|j| surface.at(corners[k][(places[k] + j) % 3]) - at));
+    let direction = |[p, q]: [DVec3; 2]| (p / p.abs().max_element() + q / q.abs().max_element()).normalize_or_zero();
+    let across = direction(along[0]) - direction(along[1]);
+    // the shared vertex is exact, each difference off by half a unit in the last place, as is each product
+    let height = |p: DVec3| across.dot(p) / (across.abs().dot(p.abs()) * 8.0 * f64::EPSILON);
+    surface.is_safe && along[0].iter().all(|p| height(*p) > 1.0) && along[1].iter().all(|p| height(*p) < -1.0)
 }
 
 /// What two triangles have in common whose planes meet in a line.
@@ -187,6 +205,9 @@ fn share_edge(
     let are_neighbours = twin / 3 == pair[1].number();
     if !are_neighbours {
         out.touched.extend(pair);
+    }
+    if plane.tells_apart(surface, side, surface.corners(pair[1]), like) {
+        return;
     }
     let corners = surface.corners(pair[1]);
     let other = (0..3).find(|k| !like.contains(&Some(*k))).expect("two vertices are shared");

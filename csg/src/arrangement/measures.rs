@@ -31,7 +31,8 @@ pub(super) fn of_facets(arranged: &Arranged, kept: &[Kept]) -> SolidMeasures {
             .fold(Bounds::EMPTY, |all, at| all.union(&Bounds { min: at, max: at }))
     };
     let of_chunk = |chunk: &[Kept]| chunk.iter().map(bounds).fold(Bounds::EMPTY, |all, one| all.union(&one));
-    let Bounds { min, max } = chunks().map(of_chunk).reduce(|| Bounds::EMPTY, |a, b| a.union(&b));
+    let of_chunks: Vec<Bounds> = chunks().map(of_chunk).collect();
+    let Bounds { min, max } = of_chunks.iter().fold(Bounds::EMPTY, |all, one| all.union(one));
     if kept.is_empty() {
         return SolidMeasures::default();
     }

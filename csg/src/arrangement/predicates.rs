@@ -54,6 +54,29 @@ impl RoundedPlane {
         if vertex == a || vertex == b || vertex == c { Sign::Zero } else { orient(surface, [a, b, c, vertex]) }
     }
 
+    /// Whether the triangle is sure to lie on the other side of one of its edges than the one corner of another triangle there that it
+    /// does not share. `side` is the corner at which the edge begins, `like` the place of each corner among `others`, if it has one.
+    ///
+    /// A plane through the edge, along the rounded normal: the edge lies in it exactly, whatever the rounding.
+    pub(super) fn tells_apart(
+        &self,
+        surface: &Surface,
+        side: usize,
+        others: [PointId; 3],
+        like: [Option<usize>; 3],
+    ) -> bool {
+        let Some(other) = (0..3).find(|k| !like.contains(&Some(*k))) else { return false };
+        let corners = surface.corners(self.triangle);
+        let [a, b, c] = [0, 1, 2].map(|k| surface.at(corners[(side + k) % 3]));
+        let height = |p: DVec3| {
+            let (along, across) = (b - a, p - a);
+            let (left, right) = (along.yzx() * across.zxy(), along.zxy() * across.yzx());
+            let bound = ORIENT_BOUND * self.normal.abs().dot(left.abs() + right.abs());
+            self.normal.dot(left - right) / bound
+        };
+        surface.is_safe && height(c) > 1.0 && height(surface.at(others[other])) < -1.0
+    }
+
     /// Whether the plane is sure to miss a box, given by its middle and half of its extent.
     #[inline]
     pub(super) fn misses(&self, middle: DVec3, half: DVec3) -> bool {

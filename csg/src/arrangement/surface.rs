@@ -12,6 +12,9 @@ use crate::model::MaterialId;
 /// Coordinates, other than zero, of which products of five are computed without overflow and without loss of their last bits.
 const SAFE: std::ops::RangeInclusive<f64> = 1e-40..=1e50;
 
+/// Vertices that one thread looks at in a row.
+const CHUNK: usize = 1 << 14;
+
 /// The triangles of all operands. Vertices are joined: two of them are never at the same place where operands come near each other.
 #[derive(Debug, Default)]
 pub(super) struct Surface {
@@ -35,7 +38,7 @@ pub(super) struct Surface {
 /// Whether floating-point filters and expansions hold for these coordinates.
 pub(super) fn are_safe(positions: &[DVec3]) -> bool {
     let is_safe = |v: f64| v == 0.0 || SAFE.contains(&v.abs());
-    positions.par_iter().with_min_len(1 << 14).all(|p| is_safe(p.x) && is_safe(p.y) && is_safe(p.z))
+    positions.par_iter().with_min_len(CHUNK).all(|p| is_safe(p.x) && is_safe(p.y) && is_safe(p.z))
 }
 
 impl Surface {
@@ -79,7 +82,9 @@ impl Surface {
         *self.lowest.get_or_init(|| {
             let unit = |v: f64| if v == 0.0 { i32::MAX } else { decompose(v).1 };
             let of_place = |p: &DVec3| unit(p.x).min(unit(p.y)).min(unit(p.z));
-            let lowest = self.positions.par_iter().with_min_len(1 << 14).map(of_place).reduce(|| i32::MAX, i32::min);
+            let of_chunk = |chunk: &[DVec3]| chunk.iter().map(of_place).min();
+            let of_chunks: Vec<Option<i32>> = self.positions.par_chunks(CHUNK).map(of_chunk).collect();
+            let lowest = of_chunks.into_iter().flatten().min().unwrap_or(i32::MAX);
             if lowest == i32::MAX { 0 } else { lowest }
         })
     }

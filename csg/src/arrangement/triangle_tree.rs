@@ -42,7 +42,8 @@ impl TriangleTree {
             return Self::default();
         }
         let all = |chunk: &[u32]| chunk.iter().fold(Bounds::EMPTY, |all, t| all.union(&bounds_of(places(*t))));
-        let bounds = triangles.par_chunks(CHUNK).map(all).reduce(|| Bounds::EMPTY, |a, b| a.union(&b));
+        let of_chunks: Vec<Bounds> = triangles.par_chunks(CHUNK).map(all).collect();
+        let bounds = of_chunks.iter().fold(Bounds::EMPTY, |all, one| all.union(one));
         let scale = f64::from(1 << 21) * 0.999_999 / (bounds.max - bounds.min).max(DVec3::splat(f64::MIN_POSITIVE));
         let number = |triangle: &u32| {
             let bounds_here = bounds_of(places(*triangle));
