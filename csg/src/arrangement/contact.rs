@@ -122,6 +122,13 @@ pub(super) fn touch(surface: &Surface, planes: [&RoundedPlane; 2], pair: [Triang
     if count == 1 && are_apart(surface, corners, like) {
         return;
     }
+    // triangles of nearly one plane, of which large flat faces have many: most lie side by side
+    let is_uncertain = |vertex: &PointId| !corners[0].contains(vertex) && !planes[0].is_sure_of(surface, *vertex);
+    if corners[1].iter().any(is_uncertain)
+        && (planes[0].has_beyond_an_edge(surface, corners[1]) || planes[1].has_beyond_an_edge(surface, corners[0]))
+    {
+        return;
+    }
     let side = |plane: usize, vertex: usize| {
         let corner = corners[1 - plane][vertex];
         if count > 0 && corners[plane].contains(&corner) { Sign::Zero } else { planes[plane].side(surface, corner) }

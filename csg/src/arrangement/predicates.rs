@@ -54,10 +54,25 @@ impl RoundedPlane {
         if vertex == a || vertex == b || vertex == c { Sign::Zero } else { orient(surface, [a, b, c, vertex]) }
     }
 
+    /// Whether rounded numbers tell on which side of the plane a vertex lies.
+    #[inline]
+    pub(super) fn is_sure_of(&self, surface: &Surface, vertex: PointId) -> bool {
+        let along = surface.at(vertex) - self.at;
+        self.normal.dot(along).abs() > ORIENT_BOUND * self.permanent.dot(along.abs())
+    }
+
+    /// On which side of an edge a place lies, positive within: of the plane through the edge along the rounded normal, in which the edge
+    /// lies exactly, whatever the rounding. In units of what rounding may do.
+    #[inline]
+    fn height_over_edge(&self, [a, b]: [DVec3; 2], place: DVec3) -> f64 {
+        let (along, across) = (b - a, place - a);
+        let (left, right) = (along.yzx() * across.zxy(), along.zxy() * across.yzx());
+        let bound = ORIENT_BOUND * self.normal.abs().dot(left.abs() + right.abs());
+        self.normal.dot(left - right) / bound
+    }
+
     /// Whether the triangle is sure to lie on the other side of one of its edges than the one corner of another triangle there that it
     /// does not share. `side` is the corner at which the edge begins, `like` the place of each corner among `others`, if it has one.
-    ///
-    /// A plane through the edge, along the rounded normal: the edge lies in it exactly, whatever the rounding.
     pub(super) fn tells_apart(
         &self,
         surface: &Surface,
@@ -68,13 +83,22 @@ impl RoundedPlane {
         let Some(other) = (0..3).find(|k| !like.contains(&Some(*k))) else { return false };
         let corners = surface.corners(self.triangle);
         let [a, b, c] = [0, 1, 2].map(|k| surface.at(corners[(side + k) % 3]));
-        let height = |p: DVec3| {
-            let (along, across) = (b - a, p - a);
-            let (left, right) = (along.yzx() * across.zxy(), along.zxy() * across.yzx());
-            let bound = ORIENT_BOUND * self.normal.abs().dot(left.abs() + right.abs());
-            self.normal.dot(left - right) / bound
-        };
+        let height = |place: DVec3| self.height_over_edge([a, b], place);
         surface.is_safe && height(c) > 1.0 && height(surface.at(others[other])) < -1.0
+    }
+
+    /// Whether another triangle is sure to lie beyond one of the edges, but for a vertex that both may share.
+    pub(super) fn has_beyond_an_edge(&self, surface: &Surface, others: [PointId; 3]) -> bool {
+        let corners = surface.corners(self.triangle);
+        let is_beyond = |side: usize| {
+            let [a, b, c] = [0, 1, 2].map(|k| corners[(side + k) % 3]);
+            let ends = [surface.at(a), surface.at(b)];
+            self.height_over_edge(ends, surface.at(c)) > 1.0
+                && others
+                    .iter()
+                    .all(|other| *other == a || *other == b || self.height_over_edge(ends, surface.at(*other)) < -1.0)
+        };
+        surface.is_safe && (0..3).any(is_beyond)
     }
 
     /// Whether the plane is sure to miss a box, given by its middle and half of its extent.
