@@ -7,6 +7,7 @@ use rustc_hash::FxHashMap;
 
 use super::around::Around;
 use super::facets::Side;
+use super::merge::Face;
 use super::predicates::best_axis;
 use super::surface::sorted;
 use super::winding::Windings;
@@ -26,7 +27,7 @@ pub(super) struct Kept {
     pub(super) facet: FacetId,
     /// Whether the solid is above it, so that the triangle it is a part of faces inwards.
     pub(super) is_flipped: bool,
-    material: MaterialId,
+    pub(super) material: MaterialId,
 }
 
 /// The triangles of facets, one facet after the other.
@@ -57,21 +58,23 @@ impl Arranged {
         let values: Vec<bool> = self.sheets.states.windings.iter().map(&is_solid).collect();
         let kept = self.kept(&values, &is_solid);
         let solid = measures::of_facets(self, &kept);
-        let (parts, _): (Vec<FilledFacets>, Counts) = map_chunks(&kept, 1 << 10, |kept| self.filled(kept));
+        let faces = self.faces(&kept);
+        drop(kept);
+        let (parts, _): (Vec<FilledFacets>, Counts) = map_chunks(&faces, 1 << 10, |faces| self.filled(faces));
         let triangles: Vec<[u32; 3]> = parts.iter().flat_map(|part| &part.triangles).copied().collect();
         let counts = parts.iter().flat_map(|part| &part.counts);
         let mut triangle_faces = Vec::with_capacity(triangles.len());
         for (face, count) in (0..).zip(counts) {
             triangle_faces.extend(std::iter::repeat_n(face, *count as usize));
         }
-        let twins = self.twins(&values, &kept, &triangles, &triangle_faces);
+        let twins = self.twins(&values, &faces, &triangles, &triangle_faces);
         let (vertices, points) = fans(&triangles, &twins);
         let Arrangement { surface, points: all, .. } = &self.arrangement;
         let mut mesh = Mesh {
             positions: points.iter().map(|point| all.at(surface, *point)).collect(),
             triangles: vertices,
             triangle_faces,
-            faces: kept.iter().map(|kept| self.face(kept)).collect(),
+            faces: faces.iter().map(|face| self.mesh_face(&face.kept)).collect(),
             materials: Vec::new(),
         };
         let side = |half_edge: u32| HalfEdgeId::from_index(half_edge as usize);
@@ -136,7 +139,7 @@ impl Arranged {
         Some(if is_upright { Projection { u, v } } else { Projection { u: v, v: u } })
     }
 
-    fn face(&self, kept: &Kept) -> MeshFace {
+    fn mesh_face(&self, kept: &Kept) -> MeshFace {
         let [a, b, c] = self.arrangement.surface.places(self.facets.triangle(&self.arrangement.cells, kept.facet));
         // lengths whose products neither overflow nor vanish
         let (p, q) = (b - a, c - a);
@@ -160,20 +163,19 @@ impl Arranged {
         loops
     }
 
-    fn filled(&self, kept: &[Kept]) -> FilledFacets {
+    fn filled(&self, faces: &[Face]) -> FilledFacets {
         let exact = ArrangementPoints(&self.arrangement);
         let mut triangulator = Triangulator::new(&exact);
         let mut filled = FilledFacets::default();
-        for kept in kept {
+        for Face { kept, loops } in faces {
             let before = filled.triangles.len();
-            if self.facets.cell(kept.facet).is_none() {
+            if loops.is_empty() {
                 let [a, b, c] = self.arrangement.surface.corners[kept.facet.index()].map(|point| point.number());
                 filled.triangles.push(if kept.is_flipped { [a, c, b] } else { [a, b, c] });
             } else if let Some(projection) = self.projection(kept) {
-                let loops = self.loops(kept);
                 triangulator.begin(projection);
                 let mut first = 0;
-                for points in &loops {
+                for points in loops {
                     triangulator.add_loop(points.iter().enumerate().map(|(k, point)| LoopCorner {
                         point: *point,
                         at: self.arrangement.points.at(&self.arrangement.surface, *point),
@@ -195,7 +197,7 @@ impl Arranged {
     }
 
     /// For each half-edge of the boundary the one that bounds the same wedge of the solid.
-    fn twins(&self, values: &[bool], kept: &[Kept], triangles: &[[u32; 3]], faces: &[u32]) -> Vec<u32> {
+    fn twins(&self, values: &[bool], faces: &[Face], triangles: &[[u32; 3]], face_of: &[u32]) -> Vec<u32> {
         let mut twins = HalfEdges::new(self.arrangement.points.len(), triangles).twins();
         let ends = |half_edge: u32| {
             let corners = triangles[half_edge as usize / 3];
@@ -210,7 +212,7 @@ impl Arranged {
         for group in lone.chunk_by(|a, b| a.0 == b.0) {
             sides.clear();
             sides.extend(group.iter().map(|(along, half_edge)| {
-                let kept = &kept[faces[*half_edge as usize / 3] as usize];
+                let kept = &faces[face_of[*half_edge as usize / 3] as usize].kept;
                 let is_forward = (ends(*half_edge)[0] == along[0]) != kept.is_flipped;
                 (Side { ends: *along, facet: kept.facet, is_forward }, *half_edge)
             }));
@@ -304,11 +306,13 @@ fn without_slits(points: &[PointId], at: impl Fn(PointId) -> DVec3) -> Vec<Vec<P
             loops.push(members);
         }
     }
-    let area = |members: &Vec<PointId>| {
-        let origin = at(members[0]);
-        let fan = members.windows(2).map(|ends| (at(ends[0]) - origin).cross(at(ends[1]) - origin));
-        fan.sum::<DVec3>().length()
-    };
-    loops.sort_by(|a, b| area(b).total_cmp(&area(a)));
+    loops.sort_by(|a, b| area(b, &at).total_cmp(&area(a, &at)));
     loops
+}
+
+/// Twice the area within a loop.
+pub(super) fn area(points: &[PointId], at: impl Fn(PointId) -> DVec3) -> f64 {
+    let origin = at(points[0]);
+    let fan = points.windows(2).map(|ends| (at(ends[0]) - origin).cross(at(ends[1]) - origin));
+    fan.sum::<DVec3>().length()
 }

@@ -7,7 +7,8 @@
 //! 3. [`points`] gives each point one number, whichever edges and planes meet there.
 //! 4. [`crossings`] finds where cuts of one triangle cross, and [`subdivide`] makes cells of it.
 //! 5. [`facets`] joins cells that lie upon each other, [`around`] sorts facets around edges, and [`winding`] goes from one to the next.
-//! 6. [`boundary`] keeps the facets that have the solid on one side alone, and makes a mesh of them; [`combine`] asks for it.
+//! 6. [`boundary`] keeps the facets that have the solid on one side alone, [`merge`] makes
+//!    faces of them, which become a mesh; [`combine`] asks for it.
 
 mod around;
 mod boundary;
@@ -19,6 +20,7 @@ mod edge_points;
 mod exact;
 mod facets;
 mod measures;
+mod merge;
 mod operand;
 mod pairs;
 mod points;
