@@ -26,6 +26,7 @@ mod base;
 mod blocks;
 mod body;
 mod boundary;
+mod closed_mesh;
 mod evaluate;
 mod expression;
 mod ids;
@@ -37,9 +38,10 @@ pub mod stages;
 pub mod tolerances;
 mod weld;
 
-pub use arrangement::{ClosedMesh, ClosedMeshError, CombineError, CombinedMeshes, Inside, WindingRule, combine_meshes};
+pub use arrangement::{CombineError, CombinedMeshes, Inside, combine_meshes};
 pub use blocks::{Block, BlockOptions, BlocksError, BlocksSummary, evaluate_in_blocks};
 pub use body::BuiltBodies;
+pub use closed_mesh::{ClosedMesh, ClosedMeshError, WindingRule};
 pub use evaluate::{
     EvaluateError, Evaluation, ModelSummary, StageTimes, UnboundedBrushes, evaluate, evaluate_built, evaluate_with,
     summarize,
@@ -47,7 +49,7 @@ pub use evaluate::{
 pub use live::{BrushId, Change, Edit, EditError, Edited, FaceId, LiveFace, LiveModel, Role};
 pub use mesh::{Mesh, MeshFace, Noise, SolidMeasures, contract_edges, contract_short_edges};
 pub use model::{
-    Brush, BrushFace, CutMaterial, Cutaway, FaceSource, Material, MaterialId, Model, Operation, TextureAxes,
+    Brush, BrushFace, CutMaterial, Cutaway, FaceSource, Material, MaterialId, MeshBody, Model, Operation, TextureAxes,
     TextureUnit, Transform, TransformError, Tree, TreeNode, sine_and_cosine,
 };
 pub use plane_table::{PlaneId, PlaneTable};

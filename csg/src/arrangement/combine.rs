@@ -1,40 +1,17 @@
 //! Combinations of closed meshes.
 
 use super::Arranged;
-use super::operand::{ClosedMesh, surface, trees};
+use super::operand::{Operand, surface, trees};
 use super::triangle_tree::TriangleTree;
 use super::winding::Windings;
+use crate::closed_mesh::WindingRule;
 use crate::mesh::{Flaw, Mesh, Noise, SolidMeasures};
-use crate::model::Material;
-
-/// Which winding numbers are inside.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum WindingRule {
-    /// Those above zero.
-    #[default]
-    Positive,
-    /// All but zero.
-    NonZero,
-    /// Odd ones.
-    Odd,
-}
-
-impl WindingRule {
-    /// Whether a winding number is inside.
-    #[must_use]
-    pub fn is_inside(self, winding: i32) -> bool {
-        match self {
-            Self::Positive => winding > 0,
-            Self::NonZero => winding != 0,
-            Self::Odd => winding % 2 != 0,
-        }
-    }
-}
+use crate::model::{Material, MeshBody};
 
 /// In which of some meshes a point lies, given by their places in a list.
 pub struct Inside<'a> {
     windings: &'a [(u32, i32)],
-    rule: WindingRule,
+    rules: &'a [WindingRule],
 }
 
 impl Inside<'_> {
@@ -42,7 +19,13 @@ impl Inside<'_> {
     #[must_use]
     pub fn of(&self, mesh: usize) -> bool {
         let found = self.windings.binary_search_by_key(&mesh, |(operand, _)| *operand as usize);
-        self.rule.is_inside(found.map_or(0, |k| self.windings[k].1))
+        self.rules[mesh].is_inside(found.map_or(0, |k| self.windings[k].1))
+    }
+
+    /// The meshes in which it lies, ascending.
+    pub fn all(&self) -> impl Iterator<Item = usize> {
+        let is_inside = |(operand, winding): &&(u32, i32)| self.rules[*operand as usize].is_inside(*winding);
+        self.windings.iter().filter(is_inside).map(|(operand, _)| *operand as usize)
     }
 }
 
@@ -71,17 +54,19 @@ pub struct CombineError(&'static str);
 /// # Errors
 /// None that the input can cause.
 pub fn combine_meshes(
-    meshes: &[&ClosedMesh],
-    rule: WindingRule,
+    meshes: &[MeshBody],
     materials: Vec<Material>,
     is_solid: impl Fn(&Inside<'_>) -> bool,
 ) -> Result<CombinedMeshes, CombineError> {
-    let (all, is_flat) = surface(meshes);
-    let trees = trees(meshes);
+    let operands: Vec<Operand> = meshes.iter().map(Operand::new).collect();
+    let rules: Vec<WindingRule> = operands.iter().map(|operand| operand.rule).collect();
+    let operands: Vec<&Operand> = operands.iter().collect();
+    let (all, is_flat) = surface(&operands);
+    let trees = trees(&operands);
     let trees: Vec<&TriangleTree> = trees.iter().collect();
     let arranged = Arranged::new(all, &trees, &vec![false; meshes.len()], is_flat)
         .map_err(|_| CombineError("winding numbers contradict one another"))?;
-    let value = |windings: &Windings| !windings.is_empty() && is_solid(&Inside { windings, rule });
+    let value = |windings: &Windings| !windings.is_empty() && is_solid(&Inside { windings, rules: &rules });
     let (mesh, solid, noise) = arranged.boundary(value).map_err(|flaw| {
         CombineError(match flaw {
             Flaw::Open => "the mesh is not closed",

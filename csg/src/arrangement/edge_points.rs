@@ -6,8 +6,8 @@ use super::canonical;
 use super::contact::EdgeCut;
 use super::points::Points;
 use super::surface::{Surface, sorted};
+use crate::closed_mesh::connectivity::NO_TWIN;
 use crate::ids::{Id, PointId, TriangleId, number32};
-use crate::mesh::connectivity::NO_TWIN;
 
 /// The points inside of edges, in order.
 #[derive(Debug, Default)]

@@ -7,8 +7,8 @@ use super::Arrangement;
 use super::subdivide::Cells;
 use super::surface::sorted;
 use crate::base::by_group;
+use crate::closed_mesh::connectivity::NO_TWIN;
 use crate::ids::{FacetId, Id, PointId, TriangleId, number32};
-use crate::mesh::connectivity::NO_TWIN;
 
 /// Facets that one thread looks at in a row.
 const CHUNK: usize = 1 << 13;

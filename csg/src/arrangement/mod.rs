@@ -35,12 +35,11 @@ use planecut_kernel::sign::Counts;
 
 use crate::base::{DisjointSets, map_chunks};
 use crate::ids::{Id, PointId, TriangleId, number32};
-pub use combine::{CombineError, CombinedMeshes, Inside, WindingRule, combine_meshes};
+pub use combine::{CombineError, CombinedMeshes, Inside, combine_meshes};
 use contact::Contacts;
 use crossings::{CutLine, Neighbours, crossings};
 use edge_points::EdgePoints;
 use facets::Facets;
-pub use operand::{ClosedMesh, ClosedMeshError};
 use points::{PointKey, Points};
 use predicates::best_axis;
 use subdivide::{Cells, View, subdivide};

@@ -22,7 +22,7 @@ pub(super) struct Surface {
     pub(super) positions: Vec<DVec3>,
     /// The vertices of each triangle, counter-clockwise seen from outside.
     pub(super) corners: Vec<[PointId; 3]>,
-    /// For each half-edge, numbered as in [`crate::mesh::connectivity`], the one that runs back along the same edge; none where
+    /// For each half-edge, numbered as in [`crate::closed_mesh::connectivity`], the one that runs back along the same edge; none where
     /// there is not exactly one of both.
     pub(super) twins: Vec<u32>,
     /// The operand of each triangle.

@@ -13,8 +13,8 @@ use super::predicates::{RoundedPlane, projected, sign, turn};
 use super::surface::sorted;
 use super::triangle_tree::TriangleTree;
 use crate::base::DisjointSets;
+use crate::closed_mesh::connectivity::NO_TWIN;
 use crate::ids::{FacetId, Id, PointId, StateId, TriangleId, number32};
-use crate::mesh::connectivity::NO_TWIN;
 
 /// Winding numbers of operands, ascending; those that are zero are left out.
 pub(super) type Windings = Vec<(u32, i32)>;

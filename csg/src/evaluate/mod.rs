@@ -1,6 +1,7 @@
 //! From a model to its solid's mesh, stage by stage, with what each stage counted.
 
 mod convex;
+mod meshes;
 mod scattered;
 mod totals;
 
@@ -10,6 +11,7 @@ use std::time::Duration;
 use planecut_kernel::sign::Counts;
 use thiserror::Error;
 
+use crate::arrangement::CombineError;
 use crate::base::Clock;
 use crate::body::{
     Body, BrushBodies, BrushBody, BuiltBodies, OuterBox, build_bodies, build_other_bodies, kinds, mark_of,
@@ -97,6 +99,9 @@ pub enum EvaluateError {
     /// The boundary does not close.
     #[error(transparent)]
     Weld(#[from] WeldError),
+    /// The boundary of meshes does not close, or contradicts itself.
+    #[error(transparent)]
+    Combine(#[from] CombineError),
 }
 
 /// Counts planes and brushes and finds empty and unbounded ones, without evaluating the tree.
@@ -145,7 +150,8 @@ pub fn evaluate_built(
     unbounded: UnboundedBrushes,
     built: &BuiltBodies,
 ) -> Result<Evaluation, EvaluateError> {
-    let size = smallest_size(model.tree.brushes().iter().map(Brush::half_spaces));
+    let convex = model.tree.brushes().iter().filter(|brush| !brush.is_mesh());
+    let size = smallest_size(convex.map(Brush::half_spaces));
     evaluate_among(model, unbounded, built, size)
 }
 
@@ -157,8 +163,10 @@ pub(crate) fn evaluate_among(
     size: f64,
 ) -> Result<Evaluation, EvaluateError> {
     let begin = Clock::start();
-    let used = model.tree.brushes().iter().flat_map(|brush| &brush.faces).map(|face| face.material);
-    check_materials(used, model.materials.len())?;
+    check_materials(model.tree.brushes().iter().flat_map(Brush::materials), model.materials.len())?;
+    if model.tree.has_meshes() {
+        return meshes::evaluate_meshes(model, unbounded, built, size);
+    }
     if model.tree.brushes().len() >= scattered::LEAST
         && let Some(evaluation) = scattered::evaluate_scattered(model, unbounded, built, size)?
     {

@@ -360,6 +360,6 @@ impl LiveModel {
     }
 
     fn check_materials(&self, brush: &Brush) -> Result<(), EvaluateError> {
-        check_materials(brush.faces.iter().map(|face| face.material), self.materials.len())
+        check_materials(brush.materials(), self.materials.len())
     }
 }

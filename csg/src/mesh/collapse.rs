@@ -9,9 +9,9 @@ use crate::ids::number32;
 use rustc_hash::FxHashMap;
 
 use super::Mesh;
-use super::connectivity::{HalfEdges, NO_TWIN, next};
 use super::noise::{Noise, noise_edges};
 use crate::base::DisjointSets;
+use crate::closed_mesh::connectivity::{HalfEdges, NO_TWIN, next};
 
 /// No half-edge or vertex yet.
 const NONE: u32 = u32::MAX;

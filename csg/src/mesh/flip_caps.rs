@@ -8,8 +8,8 @@ use crate::ids::number32;
 use planecut_parallel::prelude::*;
 
 use super::Mesh;
-use super::connectivity::{HalfEdges, NO_TWIN, next, previous};
 use super::noise::noise_height;
+use crate::closed_mesh::connectivity::{HalfEdges, NO_TWIN, next, previous};
 
 /// Flips away triangles whose height is rounding noise, where that makes no edge that is there already. Faces that lose all their
 /// triangles are dropped. Nothing of a mesh that is not closed.

@@ -1,7 +1,6 @@
 //! The welded, triangulated boundary of a solid.
 
 mod collapse;
-pub(crate) mod connectivity;
 mod contract;
 mod flip_caps;
 mod measures;

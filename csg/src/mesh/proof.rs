@@ -6,8 +6,8 @@
 use glam::DVec3;
 use planecut_parallel::prelude::*;
 
-use super::connectivity::HalfEdges;
 use super::{Mesh, Noise, SolidMeasures, without_noise};
+use crate::closed_mesh::connectivity::HalfEdges;
 use crate::tolerances::PROOF;
 
 /// Triangles that are summed one after the other, so that sums do not depend on the number of threads.

@@ -1,9 +1,9 @@
-//! Convex bodies with a material on each face.
+//! Leaves of a tree: convex bodies with a material on each face, and closed meshes.
 
 use glam::DVec3;
 use planecut_kernel::HalfSpace;
 
-use super::MaterialId;
+use super::{MaterialId, MeshBody, Transform, TransformError};
 
 /// One bounding plane of a [`Brush`] and what its face is made of.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,7 +16,7 @@ pub struct BrushFace {
     pub material: MaterialId,
 }
 
-/// A convex body: the intersection of the half-spaces of its faces.
+/// A leaf of a tree: a convex body, which is the intersection of the half-spaces of its faces; or a closed mesh, which has no such faces.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -25,6 +25,9 @@ pub struct Brush {
     pub faces: Vec<BrushFace>,
     /// A name, where the input gives one.
     pub name: Option<String>,
+    /// The closed mesh that it is, where it is no convex body; then `faces` is empty and says nothing.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub mesh: Option<MeshBody>,
 }
 
 impl Brush {
@@ -35,7 +38,43 @@ impl Brush {
         Self { faces, ..Self::default() }
     }
 
-    /// The half-spaces whose intersection the brush is, in the order of its faces.
+    /// A closed mesh as a leaf.
+    #[must_use]
+    pub fn of_mesh(mesh: MeshBody) -> Self {
+        Self { mesh: Some(mesh), ..Self::default() }
+    }
+
+    /// Whether it is a closed mesh, no convex body.
+    #[must_use]
+    pub fn is_mesh(&self) -> bool {
+        self.mesh.is_some()
+    }
+
+    /// The materials of its faces, or of the surfaces of its mesh.
+    pub fn materials(&self) -> impl Iterator<Item = MaterialId> {
+        let of_mesh = self.mesh.iter().flat_map(MeshBody::materials).copied();
+        self.faces.iter().map(|face| face.material).chain(of_mesh)
+    }
+
+    /// The same, to be changed one by one.
+    pub fn materials_mut(&mut self) -> impl Iterator<Item = &mut MaterialId> {
+        let of_mesh = self.mesh.iter_mut().flat_map(MeshBody::materials_mut);
+        self.faces.iter_mut().map(|face| &mut face.material).chain(of_mesh)
+    }
+
+    /// It moved by an affine map.
+    ///
+    /// # Errors
+    /// [`TransformError`] where a plane, or the map of a mesh, leaves the accepted range.
+    pub fn transformed(mut self, transform: &Transform) -> Result<Self, TransformError> {
+        for face in &mut self.faces {
+            face.half_space = transform.half_space(&face.half_space)?;
+        }
+        self.mesh = self.mesh.map(|mesh| mesh.transformed(transform)).transpose()?;
+        Ok(self)
+    }
+
+    /// The half-spaces whose intersection the brush is, in the order of its faces; none for a mesh.
     pub fn half_spaces(&self) -> impl Iterator<Item = &HalfSpace> + Clone {
         self.faces.iter().map(|face| &face.half_space)
     }

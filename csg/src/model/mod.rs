@@ -3,6 +3,7 @@
 mod brush;
 mod cutaway;
 mod material;
+mod mesh_body;
 mod parts;
 #[cfg(feature = "serde")]
 mod saved;
@@ -13,6 +14,7 @@ mod tree;
 pub use brush::{Brush, BrushFace};
 pub use cutaway::{CutMaterial, Cutaway};
 pub use material::{Material, MaterialId};
+pub use mesh_body::MeshBody;
 pub use source::{FaceSource, TextureAxes, TextureUnit};
 pub use transform::{Transform, TransformError, sine_and_cosine};
 #[cfg(test)]

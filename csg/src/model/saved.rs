@@ -2,11 +2,13 @@
 
 use std::num::NonZeroU32;
 
+use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::tree::known_lines;
-use super::{Brush, Transform, TransformError, Tree, TreeNode};
+use super::{Brush, MaterialId, MeshBody, Transform, TransformError, Tree, TreeNode};
+use crate::closed_mesh::{ClosedMesh, ClosedMeshError, WindingRule};
 
 /// What is read of a [`Tree`], which is written as it is.
 #[derive(Deserialize)]
@@ -82,5 +84,61 @@ impl TryFrom<SavedTransform> for Transform {
     fn try_from(saved: SavedTransform) -> Result<Self, TransformError> {
         let [x, y, z] = saved.linear;
         Self::from_columns([x, y, z, saved.translation])
+    }
+}
+
+/// What is written of a [`MeshBody`].
+#[derive(Serialize, Deserialize)]
+#[serde(rename = "MeshBody", deny_unknown_fields)]
+pub(super) struct SavedMeshBody {
+    positions: Vec<DVec3>,
+    triangles: Vec<[u32; 3]>,
+    /// The surface of each triangle.
+    surfaces: Vec<u32>,
+    /// The material of each surface.
+    materials: Vec<MaterialId>,
+    transform: Transform,
+    rule: WindingRule,
+}
+
+/// Why data is no mesh.
+#[derive(Debug, Error)]
+pub(super) enum MeshDataError {
+    #[error(transparent)]
+    Mesh(#[from] ClosedMeshError),
+    #[error("the mesh has {surfaces} surfaces, but {triangles} triangles")]
+    Surfaces { surfaces: usize, triangles: usize },
+    #[error("a triangle has surface {surface}, expected a number below {materials}, as many as there are materials")]
+    NoMaterial { surface: u32, materials: usize },
+    #[error(transparent)]
+    Transform(#[from] TransformError),
+}
+
+impl From<MeshBody> for SavedMeshBody {
+    fn from(body: MeshBody) -> Self {
+        Self {
+            positions: body.mesh().positions().to_vec(),
+            triangles: body.mesh().triangles().to_vec(),
+            surfaces: body.mesh().surfaces().to_vec(),
+            materials: body.materials().to_vec(),
+            transform: *body.transform(),
+            rule: body.rule(),
+        }
+    }
+}
+
+impl TryFrom<SavedMeshBody> for MeshBody {
+    type Error = MeshDataError;
+
+    fn try_from(saved: SavedMeshBody) -> Result<Self, MeshDataError> {
+        let SavedMeshBody { positions, triangles, surfaces, materials, transform, rule } = saved;
+        if surfaces.len() != triangles.len() {
+            return Err(MeshDataError::Surfaces { surfaces: surfaces.len(), triangles: triangles.len() });
+        }
+        if let Some(surface) = surfaces.iter().copied().find(|surface| *surface as usize >= materials.len()) {
+            return Err(MeshDataError::NoMaterial { surface, materials: materials.len() });
+        }
+        let mesh = ClosedMesh::new(&positions, &triangles, |triangle| surfaces[triangle])?;
+        Ok(Self::new(mesh, materials).with_rule(rule).transformed(&transform)?)
     }
 }

@@ -3,7 +3,7 @@
 use std::num::NonZeroU32;
 use std::ops::{BitAnd, BitOr, BitXor, Not, Sub};
 
-use super::{Brush, MaterialId, Transform, TransformError};
+use super::{Brush, MaterialId, MeshBody, Transform, TransformError};
 
 /// A regularised set operation: what is left of a result without interior is nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -71,6 +71,12 @@ impl Default for Tree {
     /// Nothing.
     fn default() -> Self {
         Self::empty()
+    }
+}
+
+impl From<MeshBody> for Tree {
+    fn from(mesh: MeshBody) -> Self {
+        Brush::of_mesh(mesh).into()
     }
 }
 
@@ -163,7 +169,13 @@ impl Tree {
         tree
     }
 
-    /// The brushes, in the order of the leaves.
+    /// Whether a leaf is a closed mesh.
+    #[must_use]
+    pub fn has_meshes(&self) -> bool {
+        self.brushes.iter().any(Brush::is_mesh)
+    }
+
+    /// The brushes, in the order of the leaves; some may be closed meshes.
     #[must_use]
     pub fn brushes(&self) -> &[Brush] {
         &self.brushes
@@ -271,9 +283,7 @@ impl Tree {
     /// [`TransformError::OutOfRange`] where a plane leaves the accepted range.
     pub fn transformed(mut self, transform: &Transform) -> Result<Self, TransformError> {
         for brush in &mut self.brushes {
-            for face in &mut brush.faces {
-                face.half_space = transform.half_space(&face.half_space)?;
-            }
+            *brush = std::mem::take(brush).transformed(transform)?;
         }
         Ok(self)
     }
@@ -281,9 +291,7 @@ impl Tree {
     /// The tree with all faces of one material.
     #[must_use]
     pub fn with_material(mut self, material: MaterialId) -> Self {
-        for face in self.brushes.iter_mut().flat_map(|brush| &mut brush.faces) {
-            face.material = material;
-        }
+        self.brushes.iter_mut().flat_map(Brush::materials_mut).for_each(|own| *own = material);
         self
     }
 

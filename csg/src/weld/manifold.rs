@@ -8,9 +8,9 @@ use crate::ids::number32;
 use rustc_hash::FxHashSet;
 
 use super::cancel::HalfEdge;
+use crate::closed_mesh::connectivity::HalfEdges;
 use crate::ids::{HalfEdgeId, Id, PointId, VertexId};
 use crate::mesh::Mesh;
-use crate::mesh::connectivity::HalfEdges;
 
 /// The vertex at the start of each half-edge; and for each vertex the point it lies on.
 pub(super) fn vertices(pieces: &[HalfEdge], following: &[HalfEdgeId]) -> (Vec<VertexId>, Vec<PointId>) {

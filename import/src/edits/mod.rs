@@ -260,7 +260,7 @@ fn brush(
     };
     let face = |(plane, material): (&[f64; 4], MaterialId)| Ok(BrushFace { half_space: half_space(*plane)?, material });
     let faces = planes.iter().zip(materials).map(face).collect::<Result<_, Fault>>()?;
-    Ok(Brush { faces, name })
+    Ok(Brush { faces, name, mesh: None })
 }
 
 /// The names of the materials of a brush, as short as may be.

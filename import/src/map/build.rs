@@ -105,7 +105,7 @@ impl<'a> Builder<'a> {
             self.brushes_left_out.add(line);
         } else {
             self.import.textures.push(textures);
-            self.brushes.push(Brush { faces, name: name.map(str::to_owned) });
+            self.brushes.push(Brush { faces, name: name.map(str::to_owned), mesh: None });
             self.brush_lines.push(NonZeroU32::new(line));
         }
         Ok(())

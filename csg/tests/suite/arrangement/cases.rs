@@ -1,12 +1,17 @@
 //! Single cases: what is refused, winding rules, what passes through.
 
 use glam::DVec3;
-use planecut_csg::{ClosedMesh, ClosedMeshError, WindingRule, combine_meshes};
+use planecut_csg::{ClosedMesh, ClosedMeshError, MeshBody, WindingRule, combine_meshes};
 use planecut_csg::{Material, MaterialId, Mesh};
 use planecut_testkit::meshes::box_mesh;
 
-fn closed(mesh: &Mesh) -> ClosedMesh {
-    ClosedMesh::new(&mesh.positions, &mesh.triangles, |_| MaterialId(0)).expect("a box is closed")
+fn closed(mesh: &Mesh) -> MeshBody {
+    of_material(mesh, 0)
+}
+
+fn of_material(mesh: &Mesh, material: u32) -> MeshBody {
+    let closed = ClosedMesh::new(&mesh.positions, &mesh.triangles, |_| 0).expect("a box is closed");
+    MeshBody::new(closed, vec![MaterialId(material)])
 }
 
 fn cube(corner: f64) -> Mesh {
@@ -17,9 +22,8 @@ fn cube(corner: f64) -> Mesh {
 fn open_edges_are_named() {
     let mut mesh = cube(2.0);
     let [a, b, c] = mesh.triangles.remove(5).map(|vertex| mesh.positions[vertex as usize]);
-    let error =
-        ClosedMesh::new(&mesh.positions, &mesh.triangles, |_| MaterialId(0)).expect_err("a triangle is missing");
-    let ClosedMeshError::Open { from, to, count } = error else { panic!("{error}") };
+    let error = ClosedMesh::new(&mesh.positions, &mesh.triangles, |_| 0).expect_err("a triangle is missing");
+    let ClosedMeshError::Open { from, to, count, .. } = error else { panic!("{error}") };
     assert_eq!(count, 3);
     // what is left runs the other way
     assert!([(b, a), (c, b), (a, c)].contains(&(from, to)), "{from} to {to}");
@@ -30,9 +34,9 @@ fn what_is_no_mesh_is_refused() {
     let mesh = cube(0.0);
     let mut positions = mesh.positions.clone();
     positions[3].y = f64::NAN;
-    let error = ClosedMesh::new(&positions, &mesh.triangles, |_| MaterialId(0)).expect_err("not a number");
+    let error = ClosedMesh::new(&positions, &mesh.triangles, |_| 0).expect_err("not a number");
     assert!(matches!(error, ClosedMeshError::NotFinite { vertex: 3, .. }));
-    let error = ClosedMesh::new(&mesh.positions, &[[0, 1, 99]], |_| MaterialId(0)).expect_err("no such vertex");
+    let error = ClosedMesh::new(&mesh.positions, &[[0, 1, 99]], |_| 0).expect_err("no such vertex");
     assert!(matches!(error, ClosedMeshError::NoVertex { triangle: 0, vertex: 99, .. }));
 }
 
@@ -47,7 +51,10 @@ fn rules_tell_what_is_inside() {
         }
         mesh.positions.extend(other.positions);
         mesh.triangles.extend(other.triangles.iter().map(|triangle| triangle.map(|vertex| vertex + first)));
-        combine_meshes(&[&closed(&mesh)], rule, Vec::new(), |inside| inside.of(0)).expect("it is closed").solid.volume
+        combine_meshes(&[closed(&mesh).with_rule(rule)], Vec::new(), |inside| inside.of(0))
+            .expect("it is closed")
+            .solid
+            .volume
     };
     use WindingRule::{NonZero, Odd, Positive};
     for (rule, same, against) in [(Positive, 1.875, 0.875), (NonZero, 1.875, 1.75), (Odd, 1.75, 1.75)] {
@@ -64,9 +71,7 @@ fn boxes_that_touch() {
     for shift in [DVec3::ONE, DVec3::new(1.0, 1.0, 0.0), DVec3::new(1.0, 0.0, 0.0), DVec3::new(3.0, 0.0, 0.0)] {
         let mesh = box_mesh(shift, shift + 1.0, "stone");
         let union =
-            combine_meshes(&[&closed(&cube(0.0)), &closed(&mesh)], WindingRule::Positive, Vec::new(), |inside| {
-                inside.of(0) || inside.of(1)
-            });
+            combine_meshes(&[closed(&cube(0.0)), closed(&mesh)], Vec::new(), |inside| inside.of(0) || inside.of(1));
         let union = union.expect("both are closed");
         assert_eq!(union.solid.volume, 2.0, "{shift}");
         let faces = if shift == DVec3::X { 10.0 } else { 12.0 };
@@ -84,9 +89,7 @@ fn what_nothing_touches_passes_through() {
     first.triangles.extend(far.triangles.iter().map(|triangle| triangle.map(|vertex| vertex + offset)));
     let cutter = cube(0.5);
     let difference =
-        combine_meshes(&[&closed(&first), &closed(&cutter)], WindingRule::Positive, Vec::new(), |inside| {
-            inside.of(0) && !inside.of(1)
-        });
+        combine_meshes(&[closed(&first), closed(&cutter)], Vec::new(), |inside| inside.of(0) && !inside.of(1));
     let mesh = difference.expect("both are closed").mesh;
     let triangles = |mesh: &Mesh| -> Vec<[[u64; 3]; 3]> {
         let place = |vertex: u32| mesh.positions[vertex as usize].to_array().map(f64::to_bits);
@@ -99,14 +102,10 @@ fn what_nothing_touches_passes_through() {
 /// Faces of the cut have the material of the tool; where faces lie upon each other a tool that just touches gives none.
 #[test]
 fn materials_are_those_of_the_triangles() {
-    let with = |mesh: &Mesh, material: u32| {
-        ClosedMesh::new(&mesh.positions, &mesh.triangles, |_| MaterialId(material)).expect("a box is closed")
-    };
     let materials = vec![Material::named("stone"), Material::named("steel")];
-    let solid = with(&box_mesh(DVec3::ZERO, DVec3::splat(2.0), "stone"), 0);
-    let tool = with(&box_mesh(DVec3::new(1.0, -1.0, -1.0), DVec3::splat(3.0), "steel"), 1);
-    let difference =
-        combine_meshes(&[&solid, &tool], WindingRule::Positive, materials, |inside| inside.of(0) && !inside.of(1));
+    let solid = of_material(&box_mesh(DVec3::ZERO, DVec3::splat(2.0), "stone"), 0);
+    let tool = of_material(&box_mesh(DVec3::new(1.0, -1.0, -1.0), DVec3::splat(3.0), "steel"), 1);
+    let difference = combine_meshes(&[solid, tool], materials, |inside| inside.of(0) && !inside.of(1));
     let mesh = difference.expect("both are closed").mesh;
     for face in &mesh.faces {
         assert_eq!(face.material == MaterialId(1), face.normal == DVec3::X, "{face:?}");

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use planecut_check::{CheckOptions, check_mesh};
-use planecut_csg::{ClosedMesh, CombinedMeshes, Inside, WindingRule, combine_meshes};
+use planecut_csg::{CombinedMeshes, Inside, MeshBody, combine_meshes};
 use planecut_testkit::random::Rng;
 
 use super::soup::Soup;
@@ -11,10 +11,8 @@ use super::winding::winding;
 /// How far from a triangle points are taken: far more than rounding, far less than what is told apart on the grid.
 const STEP: f64 = 1.0 / (1 << 20) as f64;
 
-fn combined(seed: u64, meshes: &[ClosedMesh], is_solid: impl Fn(&Inside<'_>) -> bool) -> CombinedMeshes {
-    let meshes: Vec<&ClosedMesh> = meshes.iter().collect();
-    combine_meshes(&meshes, WindingRule::Positive, Vec::new(), is_solid)
-        .unwrap_or_else(|error| panic!("seed {seed}: {error}"))
+fn combined(seed: u64, meshes: &[MeshBody], is_solid: impl Fn(&Inside<'_>) -> bool) -> CombinedMeshes {
+    combine_meshes(meshes, Vec::new(), is_solid).unwrap_or_else(|error| panic!("seed {seed}: {error}"))
 }
 
 /// Meshes of which some share tetrahedra with the one before.
@@ -47,7 +45,7 @@ fn points_beside_triangles_are_where_winding_numbers_say() {
         let mut rng = Rng::spread(seed);
         let soups = soups(&mut rng);
         let table = u32::try_from(rng.bits() >> 40).expect("24 bits") & !1;
-        let meshes: Vec<ClosedMesh> = soups.iter().map(Soup::mesh).collect();
+        let meshes: Vec<MeshBody> = soups.iter().map(Soup::mesh).collect();
         let CombinedMeshes { mesh, solid, .. } = combined(seed, &meshes, by_table(table, soups.len()));
         let is_in = |point: DVec3| {
             let windings: Option<Vec<i32>> = soups.iter().map(|soup| winding(soup, point)).collect();
@@ -98,7 +96,7 @@ fn volumes_follow_inclusion_and_exclusion() {
             };
             soup.positions.iter_mut().for_each(move_point);
         }
-        let meshes: Vec<ClosedMesh> = soups[..2].iter().map(Soup::mesh).collect();
+        let meshes: Vec<MeshBody> = soups[..2].iter().map(Soup::mesh).collect();
         let volume =
             |is_solid: &dyn Fn(&Inside<'_>) -> bool| combined(seed, &meshes, is_solid).solid.volume / scale.powi(3);
         let [either, both, first, second, difference] = [

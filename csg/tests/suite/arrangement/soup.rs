@@ -1,8 +1,7 @@
 //! Random closed meshes of few triangles with corners on a small grid, so that most of them coincide somewhere.
 
 use glam::DVec3;
-use planecut_csg::ClosedMesh;
-use planecut_csg::MaterialId;
+use planecut_csg::{ClosedMesh, MaterialId, MeshBody};
 use planecut_testkit::random::Rng;
 
 /// Triangles of a closed mesh, perhaps one that crosses itself.
@@ -29,8 +28,9 @@ impl Soup {
         self.triangles.extend(other.triangles.iter().map(|triangle| triangle.map(|vertex| vertex + first)));
     }
 
-    pub(super) fn mesh(&self) -> ClosedMesh {
-        ClosedMesh::new(&self.positions, &self.triangles, |_| MaterialId(0)).expect("the mesh is closed")
+    pub(super) fn mesh(&self) -> MeshBody {
+        let mesh = ClosedMesh::new(&self.positions, &self.triangles, |_| 0).expect("the mesh is closed");
+        MeshBody::new(mesh, vec![MaterialId(0)])
     }
 
     fn push_tetrahedron(&mut self, rng: &mut Rng, size: usize) {
