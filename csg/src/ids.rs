@@ -132,10 +132,19 @@ ids! {
     /// A corner in the boundary of a face that is triangulated, bridges included.
     pub(crate) NodeId;
 
-    /// A triangle, of a face that is triangulated or of an operand.
+    /// A triangle, of a face that is triangulated or among those of an arrangement.
     pub(crate) TriangleId;
 
-    /// A facet of an arrangement: a triangle or a cell of one.
+    /// A vertex of an operand of an arrangement, by its place among those of all operands, one operand after another.
+    pub(crate) InputVertexId;
+
+    /// A triangle of an operand of an arrangement, likewise.
+    pub(crate) InputTriangleId;
+
+    /// A connected part of an operand that nothing touches.
+    pub(crate) PatchId;
+
+    /// A facet of an arrangement: a triangle, a cell of one, or a patch.
     pub(crate) FacetId;
 
     /// Winding numbers of all operands in a part of space.

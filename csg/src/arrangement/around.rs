@@ -1,4 +1,4 @@
-//! The order of facets around an edge.
+//! The order of half-planes around an edge.
 
 use std::cmp::Ordering;
 
@@ -6,57 +6,65 @@ use planecut_kernel::sign::Sign;
 
 use super::Arrangement;
 use super::facets::{Facets, Side};
-use super::predicates::{best_axis, cross_of_normals, normal_component};
+use super::input::Input;
+use super::predicates::{Triangle, best_axis, cross_of_normals, normal_component};
 use crate::ids::{Id, TriangleId};
 
-/// Facets around an edge, counter-clockwise as seen against the direction from its smaller end to its larger one.
+/// What lies around an edge is sorted counter-clockwise as seen against the direction from its first end to its second one.
+#[derive(Clone, Copy)]
 pub(super) struct Around<'a> {
-    arrangement: &'a Arrangement,
+    input: &'a Input<'a>,
     /// An axis to which the edge is not perpendicular, and its direction along it.
     axis: usize,
     direction: Sign,
 }
 
-/// A half-plane that begins at the edge: that of a triangle, and whether its normal, with the edge, points counter-clockwise.
-type HalfPlane = (TriangleId, bool);
+/// A half-plane that begins at the edge: that of a triangle.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct HalfPlane {
+    pub(super) triangle: Triangle,
+    /// The first triangle of its plane, where that is known.
+    pub(super) plane: Option<TriangleId>,
+    /// Whether the triangle runs along the edge from its first end to its second one, so that its normal, with the edge, points counter-clockwise.
+    pub(super) is_forward: bool,
+}
 
 impl<'a> Around<'a> {
-    pub(super) fn new(arrangement: &'a Arrangement, side: &Side) -> Self {
-        let Arrangement { surface, points, .. } = arrangement;
-        let [a, b] = side.ends;
-        let (axis, order) = points.axis_between(surface, a, b);
+    /// Around an edge whose ends are in some order along an axis.
+    pub(super) fn new(input: &'a Input<'a>, axis: usize, order: Ordering) -> Self {
         let direction = match order {
             Ordering::Less => Sign::Positive,
             Ordering::Equal => Sign::Zero,
             Ordering::Greater => Sign::Negative,
         };
-        Self { arrangement, axis, direction }
+        Self { input, axis, direction }
     }
 
-    fn half_plane(&self, facets: &Facets, side: &Side) -> HalfPlane {
-        (facets.triangle(&self.arrangement.cells, side.facet), side.is_forward)
+    /// Around the edge at which a facet is.
+    pub(super) fn of_side(arrangement: &'a Arrangement<'a>, side: &Side) -> Self {
+        let Arrangement { surface, points, .. } = arrangement;
+        let (axis, order) = points.axis_between(surface, side.ends[0], side.ends[1]);
+        Self::new(surface.input, axis, order)
     }
 
     /// Whether the second half-plane is less than half a turn ahead of the first, positive, or behind it, negative; zero where both are in
     /// one plane.
-    fn ahead(&self, one: HalfPlane, other: HalfPlane) -> Sign {
-        let Arrangement { surface, planes, .. } = self.arrangement;
-        if planes[one.0.index()] == planes[other.0.index()] {
+    fn ahead(&self, one: &HalfPlane, other: &HalfPlane) -> Sign {
+        if one.plane.is_some() && one.plane == other.plane {
             return Sign::Zero;
         }
-        let sign = cross_of_normals(surface, one.0, other.0, self.axis).times(self.direction);
-        if one.1 == other.1 { sign } else { sign.flip() }
+        let sign = cross_of_normals(self.input, &one.triangle, &other.triangle, self.axis).times(self.direction);
+        if one.is_forward == other.is_forward { sign } else { sign.flip() }
     }
 
     /// Whether two half-planes in one plane are the same.
-    fn are_one(&self, one: HalfPlane, other: HalfPlane) -> bool {
-        let surface = &self.arrangement.surface;
-        let Some((axis, sign)) = best_axis(surface, one.0) else { return false };
-        (normal_component(surface, other.0, axis) == sign) == (one.1 == other.1)
+    fn are_one(&self, one: &HalfPlane, other: &HalfPlane) -> bool {
+        let Some((axis, sign)) = best_axis(self.input, &one.triangle) else { return false };
+        (normal_component(self.input, &other.triangle, axis) == sign) == (one.is_forward == other.is_forward)
     }
 
     /// Which part of a turn it is from one half-plane to another: none, less than half, half, more.
-    fn quarter(&self, one: HalfPlane, other: HalfPlane) -> u8 {
+    fn quarter(&self, one: &HalfPlane, other: &HalfPlane) -> u8 {
         match self.ahead(one, other) {
             Sign::Positive => 1,
             Sign::Zero if self.are_one(one, other) => 0,
@@ -65,35 +73,30 @@ impl<'a> Around<'a> {
         }
     }
 
-    /// Sorts the sides at the edge counter-clockwise, from the first one on.
-    pub(super) fn sort(&self, facets: &Facets, sides: &mut [Side]) {
-        let Some((first, rest)) = sides.split_first_mut() else { return };
-        let first = self.half_plane(facets, first);
+    /// Sorts what has half-planes counter-clockwise, from the first one on; in one half-plane as it is ordered.
+    pub(super) fn sort<T: Copy + Ord>(&self, members: &mut [(HalfPlane, T)]) {
+        let Some(((first, _), rest)) = members.split_first_mut() else { return };
         if rest.len() < 2 {
             return;
         }
-        let quarter = |side: &Side| self.quarter(first, self.half_plane(facets, side));
-        rest.sort_by(|a, b| {
-            quarter(a).cmp(&quarter(b)).then_with(|| {
-                match self.ahead(self.half_plane(facets, a), self.half_plane(facets, b)) {
-                    Sign::Positive => Ordering::Less,
-                    Sign::Zero => a.facet.cmp(&b.facet),
-                    Sign::Negative => Ordering::Greater,
-                }
+        rest.sort_by(|(a, one), (b, other)| {
+            self.quarter(first, a).cmp(&self.quarter(first, b)).then_with(|| match self.ahead(a, b) {
+                Sign::Positive => Ordering::Less,
+                Sign::Zero => one.cmp(other),
+                Sign::Negative => Ordering::Greater,
             })
         });
     }
 
-    /// The place, among sorted sides, of the first one after the direction `(ε, ε², ε³)` from the edge.
-    pub(super) fn after_direction(&self, facets: &Facets, sides: &[Side]) -> usize {
-        let surface = &self.arrangement.surface;
-        let is_ahead = |half_plane: HalfPlane| {
-            let sign =
-                (0..3).map(|axis| normal_component(surface, half_plane.0, axis)).find(|sign| *sign != Sign::Zero);
-            (sign == Some(Sign::Positive)) == half_plane.1
+    /// The place, among sorted members, of the first one after the direction `(ε, ε², ε³)` from the edge.
+    pub(super) fn after_direction<T>(&self, members: &[(HalfPlane, T)]) -> usize {
+        let is_ahead = |half_plane: &HalfPlane| {
+            let component = |axis: usize| normal_component(self.input, &half_plane.triangle, axis);
+            let sign = (0..3).map(component).find(|sign| *sign != Sign::Zero);
+            (sign == Some(Sign::Positive)) == half_plane.is_forward
         };
         let is_in_gap = |k: usize| {
-            let [one, other] = [k, (k + 1) % sides.len()].map(|k| self.half_plane(facets, &sides[k]));
+            let [one, other] = [k, (k + 1) % members.len()].map(|k| &members[k].0);
             match self.quarter(one, other) {
                 0 => false,
                 1 => is_ahead(one) && !is_ahead(other),
@@ -102,6 +105,17 @@ impl<'a> Around<'a> {
             }
         };
         // without a gap all are in one half-plane
-        (0..sides.len()).find(|k| is_in_gap(*k)).map_or(0, |k| (k + 1) % sides.len())
+        (0..members.len()).find(|k| is_in_gap(*k)).map_or(0, |k| (k + 1) % members.len())
     }
+}
+
+/// Facets at an edge, none of them a patch, with their half-planes.
+pub(super) fn half_planes(arrangement: &Arrangement<'_>, facets: &Facets, sides: &[Side]) -> Vec<(HalfPlane, Side)> {
+    let Arrangement { surface, planes, cells, .. } = arrangement;
+    let half_plane = |side: &Side| {
+        let triangle = facets.triangle(cells, side.facet);
+        let plane = Some(planes[triangle.index()]);
+        (HalfPlane { triangle: surface.triangle(triangle), plane, is_forward: side.is_forward }, *side)
+    };
+    sides.iter().map(half_plane).collect()
 }

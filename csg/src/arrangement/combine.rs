@@ -1,12 +1,15 @@
 //! Combinations of closed meshes.
 
 use super::Arranged;
-use super::operand::{Operand, surface, trees};
-use super::triangle_tree::TriangleTree;
+use super::input::Input;
+use super::operand::Operand;
 use super::winding::Windings;
+use crate::body::Body;
 use crate::closed_mesh::WindingRule;
 use crate::mesh::{Flaw, Mesh, Noise, SolidMeasures};
 use crate::model::{Material, MeshBody};
+use crate::plane_table::PlaneTable;
+use planecut_parallel::prelude::*;
 
 /// In which of some meshes a point lies, given by their places in a list.
 pub struct Inside<'a> {
@@ -58,14 +61,31 @@ pub fn combine_meshes(
     materials: Vec<Material>,
     is_solid: impl Fn(&Inside<'_>) -> bool,
 ) -> Result<CombinedMeshes, CombineError> {
-    let operands: Vec<Operand> = meshes.iter().map(Operand::new).collect();
-    let rules: Vec<WindingRule> = operands.iter().map(|operand| operand.rule).collect();
-    let operands: Vec<&Operand> = operands.iter().collect();
-    let (all, is_flat) = surface(&operands);
-    let trees = trees(&operands);
-    let trees: Vec<&TriangleTree> = trees.iter().collect();
-    let arranged = Arranged::new(all, &trees, &vec![false; meshes.len()], is_flat)
-        .map_err(|_| CombineError("winding numbers contradict one another"))?;
+    let leaves: Vec<Leaf<'_>> = meshes.iter().map(Leaf::Mesh).collect();
+    combine_leaves(&leaves, None, materials, is_solid)
+}
+
+/// A leaf of a tree.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Leaf<'a> {
+    /// A closed mesh.
+    Mesh(&'a MeshBody),
+    /// A convex body whose planes are in a table.
+    Body(&'a Body),
+    /// Nothing.
+    Empty,
+}
+
+/// The boundary of a combination of leaves; `table` has the planes of those that are convex bodies. Otherwise as [`combine_meshes`].
+pub(crate) fn combine_leaves(
+    leaves: &[Leaf<'_>],
+    table: Option<&PlaneTable>,
+    materials: Vec<Material>,
+    is_solid: impl Fn(&Inside<'_>) -> bool,
+) -> Result<CombinedMeshes, CombineError> {
+    let input = Input::new(leaves.par_iter().map(|leaf| operand_of(*leaf, table)).collect(), table);
+    let rules: Vec<WindingRule> = input.operands.iter().map(Operand::rule).collect();
+    let arranged = Arranged::new(&input).map_err(|_| CombineError("winding numbers contradict one another"))?;
     let value = |windings: &Windings| !windings.is_empty() && is_solid(&Inside { windings, rules: &rules });
     let (mesh, solid, noise) = arranged.boundary(value).map_err(|flaw| {
         CombineError(match flaw {
@@ -75,4 +95,12 @@ pub fn combine_meshes(
         })
     })?;
     Ok(CombinedMeshes { mesh: Mesh { materials, ..mesh }, solid, noise })
+}
+
+fn operand_of<'a>(leaf: Leaf<'a>, table: Option<&PlaneTable>) -> Operand<'a> {
+    match (leaf, table) {
+        (Leaf::Mesh(mesh), _) => Operand::of_mesh(mesh),
+        (Leaf::Body(body), Some(table)) => Operand::of_body(table, body),
+        (Leaf::Body(_), None) | (Leaf::Empty, _) => Operand::default(),
+    }
 }

@@ -4,10 +4,16 @@ use planecut_kernel::DVec3;
 use planecut_kernel::sign::Sign;
 
 use super::coplanar;
-use super::points::PointKey;
-use super::predicates::{RoundedPlane, orient};
-use super::surface::{Surface, sorted};
-use crate::ids::{Id, PointId, TriangleId, number32};
+use super::exact::are_one;
+use super::input::Input;
+use super::pairs::Probe;
+use super::points::Key;
+use super::predicates::{Corner, orient};
+use super::surface::sorted;
+use crate::ids::{Id, InputTriangleId, InputVertexId, number32};
+
+/// What defines a point, in numbers of the input.
+pub(super) type InputKey = Key<InputVertexId, InputTriangleId>;
 
 /// Where in a triangle a point lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -37,19 +43,19 @@ impl Place {
 /// A point in which two triangles touch, and where in each it lies.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Touch {
-    pub(super) key: PointKey,
+    pub(super) key: InputKey,
     pub(super) places: [Place; 2],
 }
 
 /// A segment within a triangle, along which it is to be cut. Its ends are one point where the other triangle just touches this one.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Cut {
-    pub(super) triangle: TriangleId,
+    pub(super) triangle: InputTriangleId,
     /// The triangle that it comes from.
-    pub(super) other: TriangleId,
+    pub(super) other: InputTriangleId,
     /// The edge of the other triangle that it lies on.
-    pub(super) edge: Option<[PointId; 2]>,
-    pub(super) ends: [PointKey; 2],
+    pub(super) edge: Option<[InputVertexId; 2]>,
+    pub(super) ends: [InputKey; 2],
 }
 
 /// A point inside an edge, at which it is to be cut.
@@ -57,7 +63,7 @@ pub(super) struct Cut {
 pub(super) struct EdgeCut {
     /// A half-edge along it.
     pub(super) side: u32,
-    pub(super) key: PointKey,
+    pub(super) key: InputKey,
 }
 
 /// What pairs of triangles have in common.
@@ -66,13 +72,13 @@ pub(super) struct Contacts {
     pub(super) cuts: Vec<Cut>,
     pub(super) edge_cuts: Vec<EdgeCut>,
     /// Triangles whose edges other surfaces share.
-    pub(super) touched: Vec<TriangleId>,
+    pub(super) touched: Vec<InputTriangleId>,
     /// Triangles that have more in common than vertices and edges of a mesh.
-    pub(super) pairs: Vec<[TriangleId; 2]>,
+    pub(super) pairs: Vec<[InputTriangleId; 2]>,
     /// Triangles in one plane that share a part of it, at least a point.
-    pub(super) coplanar: Vec<[TriangleId; 2]>,
+    pub(super) coplanar: Vec<[InputTriangleId; 2]>,
     /// Those of them that share an area.
-    pub(super) overlapping: Vec<[TriangleId; 2]>,
+    pub(super) overlapping: Vec<[InputTriangleId; 2]>,
 }
 
 impl Contacts {
@@ -86,102 +92,154 @@ impl Contacts {
     }
 
     /// Edges are cut at a point that lies inside of them.
-    pub(super) fn cut_edges(&mut self, pair: [TriangleId; 2], touch: &Touch) {
-        for (triangle, place) in pair.into_iter().zip(touch.places) {
+    pub(super) fn cut_edges(&mut self, pair: &Pair<'_>, touch: &Touch) {
+        for (k, place) in touch.places.into_iter().enumerate() {
             if let Place::Edge(side) = place {
-                self.edge_cuts.push(EdgeCut { side: half_edge(triangle, side), key: touch.key });
+                self.edge_cuts.push(EdgeCut { side: half_edge(pair.number(k), side), key: touch.key });
             }
         }
     }
 }
 
 /// The half-edge of a triangle that begins at a corner.
-pub(super) fn half_edge(triangle: TriangleId, side: usize) -> u32 {
+pub(super) fn half_edge(triangle: InputTriangleId, side: usize) -> u32 {
     3 * triangle.number() + number32(side)
 }
 
-/// How the vertices of two triangles are shared: for each of the first the place of its like in the second.
-pub(super) fn shared(one: [PointId; 3], other: [PointId; 3]) -> [Option<usize>; 3] {
-    one.map(|vertex| other.iter().position(|like| *like == vertex))
+/// Two triangles that are compared.
+pub(super) struct Pair<'a> {
+    pub(super) input: &'a Input<'a>,
+    probes: [&'a Probe; 2],
+    /// The corners of each; those at the same place have the number of the first triangle's.
+    pub(super) corners: [[Corner; 3]; 2],
+    /// For each corner of the first the place of its like in the second.
+    like: [Option<usize>; 3],
+}
+
+impl<'a> Pair<'a> {
+    fn new(input: &'a Input<'a>, probes: [&'a Probe; 2]) -> Self {
+        let mut corners = probes.map(|probe| probe.triangle.corners);
+        let [first, second] = &mut corners;
+        let is_one = |a: &Corner, b: &Corner| {
+            a.vertex == b.vertex || a.at == b.at && (!input.has_bodies || are_at_one_place(input, a, b))
+        };
+        let like = first.map(|corner| second.iter().position(|other| is_one(&corner, other)));
+        for (corner, like) in first.iter().zip(like) {
+            if let Some(like) = like {
+                second[like] = *corner;
+            }
+        }
+        Self { input, probes, corners, like }
+    }
+
+    /// The number of a triangle.
+    pub(super) fn number(&self, k: usize) -> InputTriangleId {
+        self.probes[k].triangle.number
+    }
+
+    pub(super) fn numbers(&self) -> [InputTriangleId; 2] {
+        [0, 1].map(|k| self.number(k))
+    }
+
+    /// The ends of an edge of a triangle, the smaller one first.
+    pub(super) fn edge(&self, k: usize, side: usize) -> [InputVertexId; 2] {
+        sorted(self.corners[k][side].vertex, self.corners[k][(side + 1) % 3].vertex)
+    }
+
+    /// Whether a vertex is a corner of a triangle.
+    fn has(&self, k: usize, corner: &Corner) -> bool {
+        self.corners[k].iter().any(|own| own.vertex == corner.vertex)
+    }
+
+    /// On which side of the plane of a triangle a corner of the other one lies.
+    fn side(&self, plane: usize, corner: usize) -> Sign {
+        let corner = &self.corners[1 - plane][corner];
+        if self.has(plane, corner) { Sign::Zero } else { self.probes[plane].plane.side(self.input, corner) }
+    }
+
+    /// Whether triangles that share a vertex are sure to lie on different sides of a plane through it, perpendicular to the difference of
+    /// their directions from there.
+    fn are_apart(&self) -> bool {
+        let Some(first) = self.like.iter().position(Option::is_some) else { return false };
+        let places = [first, self.like[first].unwrap_or(0)];
+        let at = self.corners[0][first].at;
+        let along = [0, 1].map(|k| [1, 2].map(|j| self.corners[k][(places[k] + j) % 3].at - at));
+        let direction =
+            |[p, q]: [DVec3; 2]| (p / p.abs().max_element() + q / q.abs().max_element()).normalize_or_zero();
+        let across = direction(along[0]) - direction(along[1]);
+        // the shared vertex is exact, each difference off by half a unit in the last place, as is each product
+        let height = |p: DVec3| across.dot(p) / (across.abs().dot(p.abs()) * 8.0 * f64::EPSILON);
+        let is_known = self.input.is_safe && !self.input.has_bodies;
+        is_known && along[0].iter().all(|p| height(*p) > 1.0) && along[1].iter().all(|p| height(*p) < -1.0)
+    }
+
+    /// Whether triangles of nearly one plane, of which large flat faces have many, are sure to lie side by side.
+    fn are_side_by_side(&self) -> bool {
+        let [one, other] = self.probes;
+        let is_uncertain = |corner: &Corner| !self.has(0, corner) && !one.plane.is_sure_of(self.input, corner);
+        self.corners[1].iter().any(is_uncertain)
+            && (one.plane.has_beyond_an_edge(self.input, &self.corners[1])
+                || other.plane.has_beyond_an_edge(self.input, &self.corners[0]))
+    }
+}
+
+#[cold]
+fn are_at_one_place(input: &Input<'_>, a: &Corner, b: &Corner) -> bool {
+    let is_there = |corner: &Corner| input.is_where_it_is_said(corner.vertex);
+    is_there(a) && is_there(b) || are_one(input, a.vertex, b.vertex)
 }
 
 /// Finds what two triangles have in common.
-pub(super) fn touch(surface: &Surface, planes: [&RoundedPlane; 2], pair: [TriangleId; 2], out: &mut Contacts) {
-    let corners = pair.map(|triangle| surface.corners(triangle));
-    let like = shared(corners[0], corners[1]);
-    let count = like.iter().flatten().count();
-    if count == 3 {
-        out.coplanar.push(pair);
-        out.overlapping.push(pair);
-        out.pairs.push(pair);
+pub(super) fn touch(input: &Input<'_>, probes: [&Probe; 2], out: &mut Contacts) {
+    let pair = Pair::new(input, probes);
+    match pair.like.iter().flatten().count() {
+        3 => {
+            out.coplanar.push(pair.numbers());
+            out.overlapping.push(pair.numbers());
+            out.pairs.push(pair.numbers());
+            return;
+        }
+        2 => return share_edge(&pair, out),
+        1 if pair.are_apart() => return,
+        _ => {}
+    }
+    if pair.are_side_by_side() {
         return;
     }
-    if count == 2 {
-        return share_edge(surface, planes[0], pair, like, out);
-    }
-    if count == 1 && are_apart(surface, corners, like) {
-        return;
-    }
-    // triangles of nearly one plane, of which large flat faces have many: most lie side by side
-    let is_uncertain = |vertex: &PointId| !corners[0].contains(vertex) && !planes[0].is_sure_of(surface, *vertex);
-    if corners[1].iter().any(is_uncertain)
-        && (planes[0].has_beyond_an_edge(surface, corners[1]) || planes[1].has_beyond_an_edge(surface, corners[0]))
-    {
-        return;
-    }
-    let side = |plane: usize, vertex: usize| {
-        let corner = corners[1 - plane][vertex];
-        if count > 0 && corners[plane].contains(&corner) { Sign::Zero } else { planes[plane].side(surface, corner) }
-    };
-    let of_second = [0, 1, 2].map(|k| side(0, k));
+    let of_second = [0, 1, 2].map(|k| pair.side(0, k));
     if all_on_one_side(of_second) {
         return;
     }
     if of_second == [Sign::Zero; 3] {
-        return coplanar::touch(surface, pair, out);
+        return coplanar::touch(&pair, out);
     }
-    let of_first = [0, 1, 2].map(|k| side(1, k));
+    let of_first = [0, 1, 2].map(|k| pair.side(1, k));
     if all_on_one_side(of_first) {
         return;
     }
-    let line = Line { surface, pair, corners, signs: [of_first, of_second] };
+    let line = Line { pair: &pair, signs: [of_first, of_second] };
     let Some(ends) = line.common() else { return };
-    add(surface, pair, ends, out);
+    add(&pair, ends, out);
 }
 
 fn all_on_one_side(signs: [Sign; 3]) -> bool {
     signs[0] != Sign::Zero && signs[0] == signs[1] && signs[1] == signs[2]
 }
 
-/// Whether triangles that share a vertex are sure to lie on different sides of a plane through it, perpendicular to the difference of
-/// their directions from there.
-fn are_apart(surface: &Surface, corners: [[PointId; 3]; 2], like: [Option<usize>; 3]) -> bool {
-    let Some(first) = like.iter().position(Option::is_some) else { return false };
-    let places = [first, like[first].unwrap_or(0)];
-    let at = surface.at(corners[0][first]);
-    let along = [0, 1].map(|k| [1, 2].map(|j| surface.at(corners[k][(places[k] + j) % 3]) - at));
-    let direction = |[p, q]: [DVec3; 2]| (p / p.abs().max_element() + q / q.abs().max_element()).normalize_or_zero();
-    let across = direction(along[0]) - direction(along[1]);
-    // the shared vertex is exact, each difference off by half a unit in the last place, as is each product
-    let height = |p: DVec3| across.dot(p) / (across.abs().dot(p.abs()) * 8.0 * f64::EPSILON);
-    surface.is_safe && along[0].iter().all(|p| height(*p) > 1.0) && along[1].iter().all(|p| height(*p) < -1.0)
-}
-
 /// What two triangles have in common whose planes meet in a line.
-fn add(surface: &Surface, pair: [TriangleId; 2], ends: [Touch; 2], out: &mut Contacts) {
-    let corners = pair.map(|triangle| surface.corners(triangle));
+fn add(pair: &Pair<'_>, ends: [Touch; 2], out: &mut Contacts) {
+    let corners = &pair.corners;
     let is_point = ends[0].key == ends[1].key;
-    let is_shared =
-        |touch: &Touch| matches!(touch.places, [Place::Vertex(j), Place::Vertex(k)] if corners[0][j] == corners[1][k]);
+    let is_shared = |touch: &Touch| matches!(touch.places, [Place::Vertex(j), Place::Vertex(k)] if corners[0][j].vertex == corners[1][k].vertex);
     if is_point && is_shared(&ends[0]) {
         return;
     }
-    out.pairs.push(pair);
+    out.pairs.push(pair.numbers());
     for end in &ends[..if is_point { 1 } else { 2 }] {
         out.cut_edges(pair, end);
     }
     for k in 0..2 {
-        let (triangle, other) = (pair[k], pair[1 - k]);
+        let (triangle, other) = (pair.number(k), pair.number(1 - k));
         if is_point {
             // other cuts may go through it
             if ends[0].places[k] == Place::Inside {
@@ -192,36 +250,25 @@ fn add(surface: &Surface, pair: [TriangleId; 2], ends: [Touch; 2], out: &mut Con
         out.touched.push(triangle);
         let shared_edge = |k: usize| ends[0].places[k].shared_edge(ends[1].places[k]);
         if shared_edge(k).is_none() {
-            let edge = shared_edge(1 - k).map(|edge| surface.edge(other, edge));
+            let edge = shared_edge(1 - k).map(|edge| pair.edge(1 - k, edge));
             out.cuts.push(Cut { triangle, other, edge, ends: ends.map(|end| end.key) });
         }
     }
 }
 
 /// Triangles that share an edge: nothing else, unless they are folded upon each other.
-fn share_edge(
-    surface: &Surface,
-    plane: &RoundedPlane,
-    pair: [TriangleId; 2],
-    like: [Option<usize>; 3],
-    out: &mut Contacts,
-) {
-    let apex = like.iter().position(Option::is_none).expect("two vertices are shared");
+fn share_edge(pair: &Pair<'_>, out: &mut Contacts) {
+    let apex = pair.like.iter().position(Option::is_none).expect("two vertices are shared");
     let side = (apex + 1) % 3;
-    let twin = surface.twins[half_edge(pair[0], side) as usize];
-    let are_neighbours = twin / 3 == pair[1].number();
-    if !are_neighbours {
-        out.touched.extend(pair);
+    if !pair.probes[0].is_neighbour(side, pair.probes[1]) {
+        out.touched.extend(pair.numbers());
     }
-    if plane.tells_apart(surface, side, surface.corners(pair[1]), like) {
+    let other = (0..3).find(|k| !pair.like.contains(&Some(*k))).expect("two vertices are shared");
+    let plane = &pair.probes[0].plane;
+    if plane.tells_apart(pair.input, side, pair.corners[1][other].at) || pair.side(0, other) != Sign::Zero {
         return;
     }
-    let corners = surface.corners(pair[1]);
-    let other = (0..3).find(|k| !like.contains(&Some(*k))).expect("two vertices are shared");
-    if plane.side(surface, corners[other]) != Sign::Zero {
-        return;
-    }
-    coplanar::touch(surface, pair, out);
+    coplanar::touch(pair, out);
 }
 
 /// An end of what a triangle has in common with the line in which two planes meet.
@@ -234,9 +281,7 @@ struct End {
 
 /// The line in which the planes of two triangles meet.
 struct Line<'a> {
-    surface: &'a Surface,
-    pair: [TriangleId; 2],
-    corners: [[PointId; 3]; 2],
+    pair: &'a Pair<'a>,
     /// On which side of the other's plane the corners of each lie.
     signs: [[Sign; 3]; 2],
 }
@@ -301,13 +346,13 @@ impl Line<'_> {
     fn is_before(&self, end: &End, other: &End) -> Sign {
         let [e, f] = [(0, end.edge), (1, other.edge)].map(|(k, j)| {
             let (from, to) = (j, (j + 1) % 3);
-            let ends = [self.corners[k][from], self.corners[k][to]];
+            let ends = [self.pair.corners[k][from], self.pair.corners[k][to]];
             if self.signs[k][from] < self.signs[k][to] { ends } else { [ends[1], ends[0]] }
         });
-        if e.iter().any(|vertex| f.contains(vertex)) {
+        if e.iter().any(|corner| f.iter().any(|other| other.vertex == corner.vertex)) {
             return Sign::Zero;
         }
-        orient(self.surface, [e[0], e[1], f[0], f[1]])
+        orient(self.pair.input, [e[0], e[1], f[0], f[1]])
     }
 
     /// The point at given places in both triangles.
@@ -315,14 +360,15 @@ impl Line<'_> {
         Touch { key: self.key(places), places }
     }
 
-    fn key(&self, places: [Place; 2]) -> PointKey {
-        let edge = |k: usize, side: usize| sorted(self.corners[k][side], self.corners[k][(side + 1) % 3]);
+    fn key(&self, places: [Place; 2]) -> InputKey {
+        let Pair { corners, .. } = self.pair;
+        let edge = |k: usize, side: usize| self.pair.edge(k, side);
         match places {
-            [Place::Vertex(j), _] => PointKey::Vertex(self.corners[0][j]),
-            [_, Place::Vertex(j)] => PointKey::Vertex(self.corners[1][j]),
-            [Place::Edge(i), Place::Edge(j)] => PointKey::of_edges(edge(0, i), edge(1, j)),
-            [Place::Edge(i), Place::Inside] => PointKey::EdgePlane { edge: edge(0, i), triangle: self.pair[1] },
-            [Place::Inside, Place::Edge(j)] => PointKey::EdgePlane { edge: edge(1, j), triangle: self.pair[0] },
+            [Place::Vertex(j), _] => Key::Vertex(corners[0][j].vertex),
+            [_, Place::Vertex(j)] => Key::Vertex(corners[1][j].vertex),
+            [Place::Edge(i), Place::Edge(j)] => Key::of_edges(edge(0, i), edge(1, j)),
+            [Place::Edge(i), Place::Inside] => Key::EdgePlane { edge: edge(0, i), triangle: self.pair.number(1) },
+            [Place::Inside, Place::Edge(j)] => Key::EdgePlane { edge: edge(1, j), triangle: self.pair.number(0) },
             [Place::Inside, Place::Inside] => unreachable!("an end lies on an edge of one triangle"),
         }
     }

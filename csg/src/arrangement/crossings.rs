@@ -60,7 +60,7 @@ pub(super) type PointOnCut = (u32, PointKey);
 
 /// The points at which cuts, sorted, cross or touch others.
 pub(super) fn crossings(
-    surface: &Surface,
+    surface: &Surface<'_>,
     points: &Points,
     planes: &[TriangleId],
     cuts: &[CutLine],
@@ -89,7 +89,7 @@ fn place_in(cuts: &[CutLine], group: &[CutLine]) -> u32 {
 }
 
 struct Within<'a> {
-    surface: &'a Surface,
+    surface: &'a Surface<'a>,
     points: &'a Points,
     planes: &'a [TriangleId],
     group: &'a [CutLine],
@@ -97,7 +97,9 @@ struct Within<'a> {
 
 impl Within<'_> {
     fn find(&self, neighbours: &Neighbours, mut add: impl FnMut(u32, PointKey)) {
-        let Some((axis, _)) = best_axis(self.surface, self.group[0].triangle) else { return };
+        let Some((axis, _)) = best_axis(self.surface.input, &self.surface.triangle(self.group[0].triangle)) else {
+            return;
+        };
         let mut others: Vec<TriangleId> = self.group.iter().map(|cut| cut.other).collect();
         others.dedup();
         for &one in &others {

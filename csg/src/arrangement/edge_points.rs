@@ -2,12 +2,18 @@
 
 use rustc_hash::FxHashMap;
 
-use super::canonical;
-use super::contact::EdgeCut;
-use super::points::Points;
+use super::points::{PointKey, Points};
 use super::surface::{Surface, sorted};
 use crate::closed_mesh::connectivity::NO_TWIN;
 use crate::ids::{Id, PointId, TriangleId, number32};
+
+/// A point inside an edge.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct PointOnEdge {
+    /// A half-edge along it.
+    pub(super) side: u32,
+    pub(super) key: PointKey,
+}
 
 /// The points inside of edges, in order.
 #[derive(Debug, Default)]
@@ -19,15 +25,10 @@ pub(super) struct EdgePoints {
 
 impl EdgePoints {
     /// The points at which edges are cut; and the triangles at these edges.
-    pub(super) fn new(
-        surface: &Surface,
-        points: &Points,
-        planes: &[TriangleId],
-        cuts: &[EdgeCut],
-    ) -> (Self, Vec<TriangleId>) {
+    pub(super) fn new(surface: &Surface<'_>, points: &Points, cuts: &[PointOnEdge]) -> (Self, Vec<TriangleId>) {
         let edge = |side: u32| surface.edge(TriangleId::from_index(side as usize / 3), side as usize % 3);
         let mut all: Vec<([PointId; 2], PointId)> =
-            cuts.iter().map(|cut| (edge(cut.side), points.of_key(&canonical(cut.key, planes)))).collect();
+            cuts.iter().map(|cut| (edge(cut.side), points.of_key(&cut.key))).collect();
         all.sort_unstable();
         all.dedup();
         let mut found = Self::default();

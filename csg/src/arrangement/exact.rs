@@ -1,4 +1,4 @@
-//! Points in big integers: homogeneous coordinates, exact.
+//! Points and planes in big integers: homogeneous coordinates, exact.
 //!
 //! All coordinates of the input are integers in one unit, so points that were constructed from them have rational coordinates with a
 //! common denominator.
@@ -8,11 +8,13 @@ use std::cmp::Ordering;
 use dashu_int::IBig;
 use glam::DVec3;
 use planecut_kernel::sign::Sign;
-use planecut_kernel::{decompose, round_quotient};
+use planecut_kernel::{HalfSpace, decompose, round_quotient};
 
+use super::input::Input;
 use super::points::PointKey;
+use super::predicates::Corner;
 use super::surface::Surface;
-use crate::ids::{PointId, TriangleId};
+use crate::ids::{InputTriangleId, InputVertexId, PointId, TriangleId};
 
 /// A vector of big integers.
 type Vector = [IBig; 3];
@@ -24,9 +26,11 @@ pub(super) struct ExactPoint {
     weight: IBig,
 }
 
-/// The place of a vertex in units of the input.
-pub(super) fn vertex(surface: &Surface, vertex: PointId) -> Vector {
-    integers(surface.at(vertex), surface.lowest())
+/// A plane: all points `x`, in units of the input, with `normal · x = offset`.
+#[derive(Debug, Clone)]
+struct ExactPlane {
+    normal: Vector,
+    offset: IBig,
 }
 
 fn integers(place: DVec3, lowest: i32) -> Vector {
@@ -41,6 +45,10 @@ fn integers(place: DVec3, lowest: i32) -> Vector {
 
 fn minus(a: &Vector, b: &Vector) -> Vector {
     [&a[0] - &b[0], &a[1] - &b[1], &a[2] - &b[2]]
+}
+
+fn times(a: &Vector, factor: &IBig) -> Vector {
+    [&a[0] * factor, &a[1] * factor, &a[2] * factor]
 }
 
 fn cross(a: &Vector, b: &Vector) -> Vector {
@@ -60,72 +68,89 @@ fn sign_of(value: &IBig) -> Sign {
     }
 }
 
-/// A normal of a triangle, as long as twice its area.
-fn normal(surface: &Surface, triangle: TriangleId) -> Vector {
-    let [a, b, c] = surface.corners(triangle).map(|corner| vertex(surface, corner));
-    cross(&minus(&b, &a), &minus(&c, &a))
-}
+impl ExactPlane {
+    /// The plane of a half-space, its normal pointing out of that.
+    fn of_half_space(half_space: &HalfSpace, lowest: i32) -> Self {
+        let [x, y, z] = half_space.normal().to_array();
+        // in units of the input the offset has another exponent
+        let parts = [(x, 0), (y, 0), (z, 0), (half_space.offset(), lowest)]
+            .map(|(v, unit)| if v == 0.0 { None } else { Some(decompose(v)).map(|(m, e)| (m, e - unit)) });
+        let least = parts.iter().flatten().map(|(_, exponent)| *exponent).min().unwrap_or(0);
+        let [x, y, z, offset] = parts.map(|part| match part {
+            None => IBig::ZERO,
+            Some((m, e)) => IBig::from(m) << usize::try_from(e - least).expect("the least exponent is no larger"),
+        });
+        Self { normal: [x, y, z], offset }
+    }
 
-/// `det(b − a, c − a, d − a)` of four vertices.
-pub(super) fn orient(surface: &Surface, [a, b, c, d]: [PointId; 4]) -> Sign {
-    let [a, b, c, d] = [a, b, c, d].map(|corner| vertex(surface, corner));
-    sign_of(&dot(&minus(&b, &a), &cross(&minus(&c, &a), &minus(&d, &a))))
-}
+    /// The plane of a triangle, its normal on the side from which it is counter-clockwise.
+    fn of_triangle(input: &Input<'_>, triangle: InputTriangleId) -> Self {
+        if let Some(half_space) = input.half_space(triangle) {
+            return Self::of_half_space(half_space, input.lowest());
+        }
+        let (operand, number) = input.of_triangle(triangle);
+        let [a, b, c] = input.triangle(operand, number).places().map(|place| integers(place, input.lowest()));
+        let normal = cross(&minus(&b, &a), &minus(&c, &a));
+        let offset = dot(&normal, &a);
+        Self { normal, offset }
+    }
 
-/// The turn of three vertices, seen along an axis.
-pub(super) fn turn(surface: &Surface, [a, b, c]: [PointId; 3], axis: usize) -> Sign {
-    let [a, b, c] = [a, b, c].map(|corner| vertex(surface, corner));
-    sign_of(&cross(&minus(&b, &a), &minus(&c, &a))[axis])
-}
-
-/// A component of the cross product of two triangles' normals.
-pub(super) fn cross_of_normals(surface: &Surface, one: TriangleId, other: TriangleId, axis: usize) -> Sign {
-    sign_of(&cross(&normal(surface, one), &normal(surface, other))[axis])
-}
-
-/// A component of a triangle's normal.
-pub(super) fn normal_component(surface: &Surface, triangle: TriangleId, axis: usize) -> Sign {
-    sign_of(&normal(surface, triangle)[axis])
+    /// How far a point lies above the plane, times its weight.
+    fn height(&self, point: &ExactPoint) -> IBig {
+        dot(&self.normal, &point.scaled) - &self.offset * &point.weight
+    }
 }
 
 impl ExactPoint {
-    /// A point from what defines it.
-    pub(super) fn new(surface: &Surface, key: &PointKey) -> Self {
-        let at = |corner: PointId| vertex(surface, corner);
-        match *key {
-            PointKey::Vertex(corner) => Self { scaled: at(corner), weight: IBig::ONE },
-            PointKey::EdgePlane { edge, triangle } => {
-                let [p, q] = edge.map(at);
-                let (normal, a) = (normal(surface, triangle), at(surface.corners(triangle)[0]));
-                let [from_p, from_q] = [&p, &q].map(|end| dot(&normal, &minus(end, &a)));
-                Self::between(&p, &q, &from_p, &from_p - from_q)
-            }
-            PointKey::EdgeEdge([one, other]) => {
-                let ([p, q], [r, s]) = (one.map(at), other.map(at));
-                let (along, across) = (minus(&q, &p), minus(&s, &r));
-                let weights = cross(&along, &across);
-                let axis = (0..3).find(|k| weights[*k] != IBig::ZERO).expect("crossing edges are not parallel");
-                let share = &cross(&minus(&r, &p), &across)[axis];
-                Self::between(&p, &q, share, weights[axis].clone())
-            }
-            PointKey::ThreePlanes(triangles) => {
-                let normals = triangles.map(|triangle| normal(surface, triangle));
-                let offset = |k: usize| dot(&normals[k], &at(surface.corners(triangles[k])[0]));
-                let crosses = [(1, 2), (2, 0), (0, 1)].map(|(j, k)| cross(&normals[j], &normals[k]));
-                let offsets = [0, 1, 2].map(offset);
-                let scaled = [0, 1, 2].map(|axis| {
-                    &offsets[0] * &crosses[0][axis] + &offsets[1] * &crosses[1][axis] + &offsets[2] * &crosses[2][axis]
-                });
-                Self::positive(scaled, dot(&normals[0], &crosses[0]))
-            }
+    /// A vertex of an operand.
+    fn of_vertex(input: &Input<'_>, vertex: InputVertexId) -> Self {
+        match input.meeting_at(vertex) {
+            None => Self { scaled: integers(input.at(vertex), input.lowest()), weight: IBig::ONE },
+            Some(planes) => Self::meet(&planes.map(|plane| ExactPlane::of_half_space(plane, input.lowest()))),
         }
     }
 
-    /// The point a share of the way from `p` to `q`.
-    fn between(p: &Vector, q: &Vector, share: &IBig, whole: IBig) -> Self {
-        let rest = &whole - share;
-        let scaled = [0, 1, 2].map(|k| &p[k] * &rest + &q[k] * share);
-        Self::positive(scaled, whole)
+    /// The point where three planes meet.
+    fn meet(planes: &[ExactPlane; 3]) -> Self {
+        let crosses = [(1, 2), (2, 0), (0, 1)].map(|(j, k)| cross(&planes[j].normal, &planes[k].normal));
+        let scaled = [0, 1, 2].map(|axis| {
+            &planes[0].offset * &crosses[0][axis]
+                + &planes[1].offset * &crosses[1][axis]
+                + &planes[2].offset * &crosses[2][axis]
+        });
+        Self::positive(scaled, dot(&planes[0].normal, &crosses[0]))
+    }
+
+    /// A point from what defines it.
+    pub(super) fn new(surface: &Surface<'_>, key: &PointKey) -> Self {
+        let at = |point: PointId| Self::of_vertex(surface.input, surface.origins[point_index(point)]);
+        let plane = |triangle: TriangleId| ExactPlane::of_triangle(surface.input, surface.number(triangle));
+        match *key {
+            PointKey::Vertex(point) => at(point),
+            PointKey::EdgePlane { edge, triangle } => {
+                let plane = plane(triangle);
+                let [p, q] = edge.map(at);
+                let heights = [&p, &q].map(|end| plane.height(end));
+                Self::between(&p, &q, &heights)
+            }
+            PointKey::EdgeEdge([one, other]) => {
+                let ([p, q], [r, s]) = (one.map(at), other.map(at));
+                // a plane through the other edge along an axis, which the first one crosses
+                let heights = |axis: usize| {
+                    let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+                    [&p, &q].map(|point| turn_value([&r, &s, point], u, v))
+                };
+                let crossing = (0..3).map(heights).find(|[p, q]| sign_of(p) != sign_of(q));
+                Self::between(&p, &q, &crossing.expect("edges that cross are not parallel"))
+            }
+            PointKey::ThreePlanes(triangles) => Self::meet(&triangles.map(plane)),
+        }
+    }
+
+    /// The point between two others at which heights, times their weights, come to zero.
+    fn between(p: &Self, q: &Self, [from_p, from_q]: &[IBig; 2]) -> Self {
+        let (ahead, back) = (times(&q.scaled, from_p), times(&p.scaled, from_q));
+        Self::positive(minus(&ahead, &back), from_p * &q.weight - from_q * &p.weight)
     }
 
     fn positive(scaled: Vector, weight: IBig) -> Self {
@@ -133,8 +158,8 @@ impl ExactPoint {
     }
 
     /// The coordinates, correctly rounded.
-    pub(super) fn rounded(&self, surface: &Surface) -> DVec3 {
-        let lowest = surface.lowest();
+    pub(super) fn rounded(&self, input: &Input<'_>) -> DVec3 {
+        let lowest = input.lowest();
         let coordinate = |v: &IBig| {
             let shift = usize::try_from(lowest.unsigned_abs()).expect("an exponent is small");
             let (numerator, denominator) =
@@ -156,9 +181,56 @@ impl ExactPoint {
     }
 }
 
-/// The turn of three points, seen along an axis.
-pub(super) fn turn_of_points([a, b, c]: [&ExactPoint; 3], axis: usize) -> Sign {
-    let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+fn point_index(point: PointId) -> usize {
+    crate::ids::Id::index(point)
+}
+
+/// The determinant of three points of a plane by two of their coordinates, times their weights.
+fn turn_value([a, b, c]: [&ExactPoint; 3], u: usize, v: usize) -> IBig {
     let minor = |p: &ExactPoint, q: &ExactPoint| &p.scaled[u] * &q.scaled[v] - &p.scaled[v] * &q.scaled[u];
-    sign_of(&(&a.weight * minor(b, c) + &b.weight * minor(c, a) + &c.weight * minor(a, b)))
+    &a.weight * minor(b, c) + &b.weight * minor(c, a) + &c.weight * minor(a, b)
+}
+
+/// The turn of three points, seen along an axis.
+pub(super) fn turn_of_points(points: [&ExactPoint; 3], axis: usize) -> Sign {
+    sign_of(&turn_value(points, (axis + 1) % 3, (axis + 2) % 3))
+}
+
+/// Whether two vertices are at the same place.
+pub(super) fn are_one(input: &Input<'_>, one: InputVertexId, other: InputVertexId) -> bool {
+    ExactPoint::of_vertex(input, one).is_at(&ExactPoint::of_vertex(input, other))
+}
+
+/// The sign of the difference of one vertex and another along an axis.
+pub(super) fn compare_vertices(input: &Input<'_>, one: InputVertexId, other: InputVertexId, axis: usize) -> Sign {
+    match ExactPoint::of_vertex(input, one).compare(&ExactPoint::of_vertex(input, other), axis) {
+        Ordering::Less => Sign::Negative,
+        Ordering::Equal => Sign::Zero,
+        Ordering::Greater => Sign::Positive,
+    }
+}
+
+/// On which side of the plane of a triangle a vertex lies.
+pub(super) fn side(input: &Input<'_>, triangle: InputTriangleId, vertex: InputVertexId) -> Sign {
+    sign_of(&ExactPlane::of_triangle(input, triangle).height(&ExactPoint::of_vertex(input, vertex)))
+}
+
+/// `det(b − a, c − a, d − a)` of four vertices.
+pub(super) fn orient(input: &Input<'_>, corners: [Corner; 4]) -> Sign {
+    let [a, b, c, d] = corners.map(|corner| ExactPoint::of_vertex(input, corner.vertex));
+    // differences times both weights, which are above zero
+    let from_a = |p: &ExactPoint| minus(&times(&p.scaled, &a.weight), &times(&a.scaled, &p.weight));
+    sign_of(&dot(&from_a(&b), &cross(&from_a(&c), &from_a(&d))))
+}
+
+/// The turn of three vertices, seen along an axis.
+pub(super) fn turn(input: &Input<'_>, corners: [Corner; 3], axis: usize) -> Sign {
+    let [a, b, c] = corners.map(|corner| ExactPoint::of_vertex(input, corner.vertex));
+    turn_of_points([&a, &b, &c], axis)
+}
+
+/// A component of the cross product of two triangles' normals.
+pub(super) fn cross_of_normals(input: &Input<'_>, one: InputTriangleId, other: InputTriangleId, axis: usize) -> Sign {
+    let [p, q] = [one, other].map(|triangle| ExactPlane::of_triangle(input, triangle).normal);
+    sign_of(&cross(&p, &q)[axis])
 }

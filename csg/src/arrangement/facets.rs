@@ -1,4 +1,4 @@
-//! Facets: the triangles that nothing cuts and the cells of the others; and which of them meet at an edge.
+//! Facets: the triangles that nothing cuts, the cells of the others, and the patches that nothing touches; and which of them meet at an edge.
 
 use planecut_parallel::prelude::*;
 use rustc_hash::FxHashMap;
@@ -7,14 +7,24 @@ use super::Arrangement;
 use super::subdivide::Cells;
 use super::surface::sorted;
 use crate::base::by_group;
-use crate::closed_mesh::connectivity::NO_TWIN;
-use crate::ids::{FacetId, Id, PointId, TriangleId, number32};
+use crate::ids::{FacetId, Id, InputTriangleId, PatchId, PointId, TriangleId, number32};
 
 /// Facets that one thread looks at in a row.
 const CHUNK: usize = 1 << 13;
 
+/// What a facet is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum FacetKind {
+    /// A triangle of the surface.
+    Triangle(TriangleId),
+    /// A cell of a triangle, by its number.
+    Cell(usize),
+    /// A part of an operand that nothing touches.
+    Patch(PatchId),
+}
+
 /// A facet at an edge.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(super) struct Side {
     /// The ends of the edge, in ascending order.
     pub(super) ends: [PointId; 2],
@@ -31,14 +41,15 @@ pub(super) struct Double {
     pub(super) is_same: bool,
 }
 
-/// Facets. The first ones are the triangles, by their numbers; cells follow.
+/// Facets. The first ones are the triangles, by their numbers; cells follow, then patches.
 #[derive(Debug)]
 pub(super) struct Facets {
     triangles: usize,
+    cells: usize,
     /// Triangles that were cut into cells, or have no area, and facets that are doubles of others.
     is_gone: Vec<bool>,
     doubles: FxHashMap<FacetId, Vec<Double>>,
-    /// The facets at edges that are not just those of a triangle and its neighbour, by edge.
+    /// The facets at edges, by edge; of edges within patches there are none.
     pub(super) sides: Vec<Side>,
     /// Where the sides of each edge end.
     pub(super) edge_ends: Vec<u32>,
@@ -48,11 +59,12 @@ pub(super) struct Facets {
 }
 
 impl Facets {
-    pub(super) fn new(arrangement: &Arrangement, is_split: Vec<bool>, is_doubled: &[bool]) -> Self {
-        let triangles = arrangement.surface.len();
-        let count = triangles + arrangement.cells.len();
+    pub(super) fn new(arrangement: &Arrangement<'_>, is_split: Vec<bool>, is_doubled: &[bool]) -> Self {
+        let (triangles, cells) = (arrangement.surface.len(), arrangement.cells.len());
+        let count = triangles + cells + arrangement.patches.all.len();
         let mut facets = Self {
             triangles,
+            cells,
             is_gone: is_split,
             doubles: FxHashMap::default(),
             sides: Vec::new(),
@@ -77,16 +89,42 @@ impl Facets {
         self.is_gone[facet.index()]
     }
 
-    /// The cell that a facet is, where it is not a whole triangle.
+    /// What a facet is.
     #[inline]
-    pub(super) fn cell(&self, facet: FacetId) -> Option<usize> {
-        facet.index().checked_sub(self.triangles)
+    pub(super) fn kind(&self, facet: FacetId) -> FacetKind {
+        let k = facet.index();
+        if k < self.triangles {
+            FacetKind::Triangle(TriangleId::from_index(k))
+        } else if k < self.triangles + self.cells {
+            FacetKind::Cell(k - self.triangles)
+        } else {
+            FacetKind::Patch(PatchId::from_index(k - self.triangles - self.cells))
+        }
     }
 
-    /// The triangle that a facet is a part of.
+    /// A cell as a facet.
+    fn of_cell(&self, cell: usize) -> FacetId {
+        FacetId::from_index(self.triangles + cell)
+    }
+
+    /// A patch as a facet.
+    pub(super) fn of_patch(&self, patch: PatchId) -> FacetId {
+        FacetId::from_index(self.triangles + self.cells + patch.index())
+    }
+
+    /// The triangles and cells.
+    pub(super) fn flat_ones(&self) -> impl Iterator<Item = FacetId> + '_ {
+        FacetId::all(self.triangles + self.cells).filter(|facet| !self.is_gone(*facet))
+    }
+
+    /// The triangle that a facet is a part of, which is no patch.
     #[inline]
     pub(super) fn triangle(&self, cells: &Cells, facet: FacetId) -> TriangleId {
-        self.cell(facet).map_or(TriangleId::from_index(facet.index().min(self.triangles)), |cell| cells.triangles[cell])
+        match self.kind(facet) {
+            FacetKind::Triangle(triangle) => triangle,
+            FacetKind::Cell(cell) => cells.triangles[cell],
+            FacetKind::Patch(_) => unreachable!("a patch is part of no triangle"),
+        }
     }
 
     /// Facets at the very place of one.
@@ -113,16 +151,18 @@ impl Facets {
         (count > 0).then(|| &self.sides[start..start + count])
     }
 
-    fn join_doubles(&mut self, arrangement: &Arrangement, is_doubled: &[bool]) {
+    fn join_doubles(&mut self, arrangement: &Arrangement<'_>, is_doubled: &[bool]) {
         let mut first: FxHashMap<Vec<PointId>, (FacetId, bool)> = FxHashMap::default();
-        for facet in FacetId::all(self.len()) {
+        for facet in FacetId::all(self.triangles + self.cells) {
             let triangle = self.triangle(&arrangement.cells, facet);
             if self.is_gone(facet) || !is_doubled[triangle.index()] {
                 continue;
             }
-            let (key, is_reversed) = match self.cell(facet) {
-                None => canonical(&arrangement.surface.corners(triangle)),
-                Some(cell) => canonical(arrangement.cells.loops(cell).next().expect("a cell has a boundary")),
+            let (key, is_reversed) = match self.kind(facet) {
+                FacetKind::Cell(cell) => {
+                    canonical(arrangement.cells.loops(cell).next().expect("a cell has a boundary"))
+                }
+                _ => canonical(&arrangement.surface.corners(triangle)),
             };
             let (like, is_like_reversed) = *first.entry(key).or_insert((facet, is_reversed));
             if like != facet {
@@ -133,27 +173,29 @@ impl Facets {
         }
     }
 
-    fn find_sides(&mut self, arrangement: &Arrangement) {
-        let (surface, cells) = (&arrangement.surface, &arrangement.cells);
-        let is_listed = |triangle: usize, k: usize| {
-            let twin = surface.twins[3 * triangle + k];
-            twin == NO_TWIN || arrangement.is_touched[triangle] || arrangement.is_touched[twin as usize / 3]
-        };
+    fn find_sides(&mut self, arrangement: &Arrangement<'_>) {
+        let Arrangement { surface, cells, patches, .. } = arrangement;
         let of_triangle = |triangle: usize| {
             let corners = surface.corners[triangle];
             let count = if self.is_gone[triangle] { 0 } else { 3 };
-            let listed = (0..count).filter(move |k| is_listed(triangle, *k));
-            listed.map(move |k| side(FacetId::from_index(triangle), corners[k], corners[(k + 1) % 3]))
+            (0..count).map(move |k| side(FacetId::from_index(triangle), corners[k], corners[(k + 1) % 3]))
         };
         let mut sides: Vec<Side> =
             (0..self.triangles).into_par_iter().with_min_len(CHUNK).flat_map_iter(of_triangle).collect();
         for cell in 0..cells.len() {
-            let facet = FacetId::from_index(self.triangles + cell);
+            let facet = self.of_cell(cell);
             if !self.is_gone(facet) {
                 for points in cells.loops(cell) {
                     sides.extend((0..points.len()).map(|k| side(facet, points[k], points[(k + 1) % points.len()])));
                 }
             }
+        }
+        for &(half_edge, twin) in &surface.seams {
+            let (operand, triangle) = surface.input.of_triangle(InputTriangleId::from_index(twin as usize / 3));
+            let patch = patches.of(operand, triangle).expect("what is not touched belongs to a patch");
+            let corners = surface.corners[half_edge as usize / 3];
+            let [from, to] = [half_edge as usize % 3, (half_edge as usize + 1) % 3].map(|k| corners[k]);
+            sides.push(side(self.of_patch(patch), to, from));
         }
         sides.par_sort_unstable();
         let mut end = 0;

@@ -6,10 +6,12 @@
 use planecut_kernel::sign::Sign;
 use rustc_hash::FxHashMap;
 
-use super::Arranged;
-use super::boundary::{Kept, area};
+use super::facets::FacetKind;
+use super::fill::area;
+use super::kept::Kept;
 use super::predicates::{RoundedPlane, best_axis, normal_component};
 use super::surface::sorted;
+use super::{Arranged, Arrangement};
 use crate::base::DisjointSets;
 use crate::ids::{Id, PointId, TriangleId, number32};
 
@@ -33,10 +35,10 @@ struct CellEdge {
     next: u32,
 }
 
-impl Arranged {
+impl Arranged<'_> {
     /// The faces of the boundary: whole triangles first, in their order, then those that cells make up.
     pub(super) fn faces(&self, kept: &[Kept]) -> Vec<Face> {
-        let is_cell = |kept: &&Kept| self.facets.cell(kept.facet).is_some();
+        let is_cell = |kept: &&Kept| matches!(self.facets.kind(kept.facet), FacetKind::Cell(_));
         let cells: Vec<Kept> = kept.iter().filter(is_cell).copied().collect();
         let whole = kept.iter().filter(|kept| !is_cell(kept));
         let mut faces: Vec<Face> = whole.map(|kept| Face { kept: *kept, loops: Vec::new() }).collect();
@@ -108,7 +110,7 @@ impl Arranged {
             uses.entry(sorted(edge.from, edge.to)).or_default().push(k);
         }
         // of whole triangles, too: where more than two facets meet, they are told apart by the wedges between them
-        for face in whole.iter().filter(|face| self.arrangement.is_touched[face.kept.facet.index()]) {
+        for face in whole {
             let corners = self.arrangement.surface.corners[face.kept.facet.index()];
             for k in 0..3 {
                 if let Some(uses) = uses.get_mut(&sorted(corners[k], corners[(k + 1) % 3])) {
@@ -137,18 +139,26 @@ impl Arranged {
     fn are_one_face(&self, one: &Kept, other: &Kept) -> bool {
         let [p, q] = [one, other].map(|kept| self.facets.triangle(&self.arrangement.cells, kept.facet));
         one.material == other.material && (p == q || self.are_coplanar(p, q)) && {
-            let surface = &self.arrangement.surface;
-            best_axis(surface, p).is_some_and(|(axis, sign)| {
-                (normal_component(surface, q, axis) == sign) == (one.is_flipped == other.is_flipped)
+            let (input, [p, q]) =
+                (self.arrangement.surface.input, [p, q].map(|k| self.arrangement.surface.triangle(k)));
+            best_axis(input, &p).is_some_and(|(axis, sign)| {
+                (normal_component(input, &q, axis) == sign) == (one.is_flipped == other.is_flipped)
             })
         }
     }
 
+    /// Whether triangles lie in one plane; those of one operand also where they did before it was moved and rounded.
     fn are_coplanar(&self, one: TriangleId, other: TriangleId) -> bool {
-        let surface = &self.arrangement.surface;
-        let plane = RoundedPlane::new(surface, one);
-        self.arrangement.planes[one.index()] == self.arrangement.planes[other.index()]
-            || surface.corners(other).iter().all(|corner| plane.side(surface, *corner) == Sign::Zero)
+        let Arrangement { surface, planes, .. } = &self.arrangement;
+        if planes[one.index()] == planes[other.index()] {
+            return true;
+        }
+        let (p, q) = (surface.triangle(one), surface.triangle(other));
+        if surface.operands[one.index()] == surface.operands[other.index()] {
+            return surface.input.were_coplanar(p.number, q.number);
+        }
+        let plane = RoundedPlane::new(surface.input, &p);
+        q.corners.iter().all(|corner| plane.side(surface.input, corner) == Sign::Zero)
     }
 
     /// Takes points out of polygons at which two faces alone meet, along a straight edge.
@@ -170,7 +180,7 @@ impl Arranged {
         let mut straight: FxHashMap<PointId, u32> = FxHashMap::default();
         for face in &faces[first..] {
             let triangle = self.facets.triangle(&self.arrangement.cells, face.kept.facet);
-            let Some((axis, _)) = best_axis(surface, triangle) else { continue };
+            let Some((axis, _)) = best_axis(surface.input, &surface.triangle(triangle)) else { continue };
             for points in &face.loops {
                 let count = points.len();
                 for k in 0..count {

@@ -1,17 +1,19 @@
 //! The arrangement of triangle meshes: where all triangles meet, and the winding numbers of each mesh on both sides of every facet.
 //!
-//! Every decision is the sign of a polynomial in the coordinates that were given. Steps:
+//! Every decision is the sign of a polynomial in the numbers that were given: coordinates of vertices, coefficients of planes. Steps:
 //!
-//! 1. [`operand`] joins vertices and makes sure that each mesh is closed; [`triangle_tree`] puts boxes around its triangles.
+//! 1. [`operand`] makes closed meshes and convex bodies ready, [`input`] numbers what they have; [`triangle_tree`] puts boxes around triangles,
+//!    and [`stars`] knows neighbours that need not be compared.
 //! 2. [`pairs`] walks down the boxes, and [`contact`] and [`coplanar`] find what two triangles have in common.
-//! 3. [`points`] gives each point one number, whichever edges and planes meet there.
-//! 4. [`crossings`] finds where cuts of one triangle cross, and [`subdivide`] makes cells of it.
-//! 5. [`facets`] joins cells that lie upon each other, [`around`] sorts facets around edges, and [`winding`] goes from one to the next.
-//! 6. [`boundary`] keeps the facets that have the solid on one side alone, [`merge`] makes
-//!    faces of them, which become a mesh; [`combine`] asks for it.
+//! 3. [`surface`] takes the triangles that touch others; [`patches`] are what is left: they pass through as they are, or go.
+//! 4. [`points`] gives each point one number, whichever edges and planes meet there.
+//! 5. [`crossings`] finds where cuts of one triangle cross, and [`subdivide`] makes cells of it.
+//! 6. [`facets`] joins cells that lie upon each other, [`around`] sorts facets around edges, and [`winding`] goes from one to the next.
+//! 7. [`kept`] keeps the facets that have the solid on one side alone, [`merge`] makes faces of them, [`fill`] triangles of those,
+//!    [`pairing`] tells which of these are neighbours, and [`assemble`] puts them beside what passes through; [`combine`] asks for it.
 
 mod around;
-mod boundary;
+mod assemble;
 mod combine;
 mod contact;
 mod coplanar;
@@ -19,109 +21,112 @@ mod crossings;
 mod edge_points;
 mod exact;
 mod facets;
+mod fill;
+mod flat;
+mod input;
+mod kept;
 mod measures;
 mod merge;
 mod operand;
+mod pairing;
 mod pairs;
+mod patches;
 mod points;
 mod predicates;
-
+mod stars;
 mod subdivide;
 mod surface;
 mod triangle_tree;
 mod winding;
 
 use planecut_kernel::sign::Counts;
+use rustc_hash::FxHashMap;
 
 use crate::base::{DisjointSets, map_chunks};
 use crate::ids::{Id, PointId, TriangleId, number32};
 pub use combine::{CombineError, CombinedMeshes, Inside, combine_meshes};
-use contact::Contacts;
+pub(crate) use combine::{Leaf, combine_leaves};
+use contact::{Contacts, InputKey};
 use crossings::{CutLine, Neighbours, crossings};
-use edge_points::EdgePoints;
+use edge_points::{EdgePoints, PointOnEdge};
 use facets::Facets;
+use input::Input;
+use patches::Patches;
 use points::{PointKey, Points};
 use predicates::best_axis;
 use subdivide::{Cells, View, subdivide};
 use surface::{Surface, sorted};
-use triangle_tree::TriangleTree;
 use winding::{Contradiction, Sheets, sheets};
 
 /// The triangles of all operands with the points and cells that they cut out of one another.
 #[derive(Debug)]
-struct Arrangement {
-    surface: Surface,
+struct Arrangement<'a> {
+    surface: Surface<'a>,
+    patches: Patches,
     points: Points,
     /// For each triangle the first one that is known to lie in the same plane.
     planes: Vec<TriangleId>,
     edge_points: EdgePoints,
     cells: Cells,
-    /// Triangles that are cut, or whose edges other surfaces share, or that have no area.
-    is_touched: Vec<bool>,
 }
 
 /// An arrangement with the winding numbers on both sides of its facets.
 #[derive(Debug)]
-struct Arranged {
-    arrangement: Arrangement,
+struct Arranged<'a> {
+    arrangement: Arrangement<'a>,
     facets: Facets,
     sheets: Sheets,
 }
 
-impl Arranged {
-    /// Arranges the triangles of operands; `trees` has those of each that have an area.
-    fn new(
-        surface: Surface,
-        trees: &[&TriangleTree],
-        is_clean: &[bool],
-        is_flat: Vec<bool>,
-    ) -> Result<Self, Contradiction> {
-        let contacts = pairs::contacts(&surface, trees, is_clean);
-        let (arrangement, is_split, is_doubled) = Arrangement::new(surface, contacts, is_flat);
+impl<'a> Arranged<'a> {
+    /// Arranges the triangles of operands.
+    fn new(input: &'a Input<'a>) -> Result<Self, Contradiction> {
+        let contacts = pairs::contacts(input);
+        let surface = Surface::new(input, &contacts);
+        let (arrangement, is_split, is_doubled) = Arrangement::new(surface, &contacts);
+        drop(contacts);
         let facets = Facets::new(&arrangement, is_split, &is_doubled);
-        let sheets = sheets(&arrangement, &facets, trees)?;
+        let sheets = sheets(&arrangement, &facets)?;
         Ok(Self { arrangement, facets, sheets })
     }
 }
 
-impl Arrangement {
+impl<'a> Arrangement<'a> {
     /// Cuts triangles along what they have in common. Also tells which of them are not whole any more, and which may have doubles.
-    fn new(surface: Surface, mut contacts: Contacts, is_flat: Vec<bool>) -> (Self, Vec<bool>, Vec<bool>) {
-        let planes = planes(surface.len(), &contacts);
-        let mut points = points_of(&surface, &contacts, &planes);
-        let (edge_points, cut_sides) = EdgePoints::new(&surface, &points, &planes, &contacts.edge_cuts);
-        let mut cuts: Vec<CutLine> = contacts
-            .cuts
+    fn new(surface: Surface<'a>, contacts: &Contacts) -> (Self, Vec<bool>, Vec<bool>) {
+        let patches = Patches::new(&surface);
+        let planes = planes(&surface, contacts);
+        let key = |key: InputKey| canonical(&surface, &planes, key);
+        let on_edges: Vec<PointOnEdge> = contacts
+            .edge_cuts
             .iter()
-            .map(|cut| {
-                let ends = cut.ends.map(|key| points.of_key(&canonical(key, &planes)));
-                CutLine { triangle: cut.triangle, other: cut.other, ends: sorted(ends[0], ends[1]), edge: cut.edge }
-            })
+            .map(|cut| PointOnEdge { side: surface.half_edge_of(cut.side), key: key(cut.key) })
             .collect();
-        cuts.sort_unstable();
-        cuts.dedup();
-        contacts.pairs.sort_unstable();
-        contacts.pairs.dedup();
-        let neighbours = Neighbours::new(surface.len(), &contacts.pairs);
+        let ends: Vec<[PointKey; 2]> = contacts.cuts.iter().map(|cut| cut.ends.map(key)).collect();
+        let mut points = Points::new(&surface);
+        let keys = ends.as_flattened().iter().chain(on_edges.iter().map(|point| &point.key)).copied();
+        points.add(&surface, keys.filter(|key| !matches!(key, PointKey::Vertex(_))));
+        let (edge_points, cut_sides) = EdgePoints::new(&surface, &points, &on_edges);
+        let cuts = cut_lines(&surface, &points, contacts, &ends);
+        let neighbours = Neighbours::new(surface.len(), &pairs_of(&surface, contacts));
         let found = crossings(&surface, &points, &planes, &cuts, &neighbours);
         points.add(&surface, found.iter().map(|(_, key)| *key).filter(|key| !matches!(key, PointKey::Vertex(_))));
-        let mut is_touched = is_flat.clone();
-        let of_overlaps = contacts.overlapping.as_flattened().iter();
-        for triangle in contacts.touched.iter().chain(of_overlaps).chain(&cut_sides) {
-            is_touched[triangle.index()] = true;
-        }
-        for cut in cuts.iter().filter(|cut| !cut.is_point()) {
-            is_touched[cut.triangle.index()] = true;
-        }
         let mut is_doubled = vec![false; surface.len()];
-        contacts.overlapping.as_flattened().iter().for_each(|triangle| is_doubled[triangle.index()] = true);
-        let mut arrangement = Self { surface, points, planes, edge_points, cells: Cells::default(), is_touched };
-        let mut is_split = is_flat;
+        for triangle in contacts.overlapping.as_flattened() {
+            is_doubled[surface.triangle_of(*triangle).index()] = true;
+        }
+        let mut is_split = vec![false; surface.len()];
+        for (operand, own) in surface.input.operands.iter().enumerate() {
+            for triangle in own.flat() {
+                is_split[surface.triangle_of(surface.input.number(operand, *triangle)).index()] = true;
+            }
+        }
         let mut split: Vec<TriangleId> =
             cuts.iter().filter(|cut| !cut.is_point()).map(|cut| cut.triangle).chain(cut_sides).collect();
         split.sort_unstable();
         split.dedup();
         split.retain(|triangle| !is_split[triangle.index()]);
+        let mut arrangement = Self { surface, patches, points, planes, edge_points, cells: Cells::default() };
         arrangement.cells = arrangement.subdivided(&split, &cuts, &found);
         split.iter().for_each(|triangle| is_split[triangle.index()] = true);
         (arrangement, is_split, is_doubled)
@@ -144,7 +149,7 @@ impl Arrangement {
 
     fn subdivide(&self, triangle: TriangleId, cuts: &[CutLine], found: &[(u32, PointKey)], cells: &mut Cells) {
         let Self { surface, points, .. } = self;
-        let Some((axis, facing)) = best_axis(surface, triangle) else { return };
+        let Some((axis, facing)) = best_axis(surface.input, &surface.triangle(triangle)) else { return };
         let mut pieces = Vec::new();
         let first = cuts.partition_point(|cut| cut.triangle < triangle);
         let mut between = Vec::new();
@@ -173,34 +178,55 @@ impl Arrangement {
             (0..3).flat_map(|k| self.edge_points.from(corners[k], corners[(k + 1) % 3])).collect();
         subdivide(View { surface, points, axis, facing }, triangle, &border, &mut pieces, cells);
     }
-
-    /// The point next to a vertex on an edge.
-    fn next_on_edge(&self, vertex: PointId, end: PointId) -> PointId {
-        self.edge_points.from(vertex, end).nth(1).unwrap_or(end)
-    }
 }
 
 /// For each triangle the first one that is known to lie in the same plane.
-fn planes(triangles: usize, contacts: &Contacts) -> Vec<TriangleId> {
-    let mut sets = DisjointSets::new(triangles);
-    contacts.coplanar.iter().for_each(|[a, b]| sets.join(a.number(), b.number()));
-    (0..number32(triangles)).map(|triangle| TriangleId::from_index(sets.root(triangle) as usize)).collect()
-}
-
-/// A key that names planes by the first triangle in them.
-fn canonical(key: PointKey, planes: &[TriangleId]) -> PointKey {
-    match key {
-        PointKey::EdgePlane { edge, triangle } => PointKey::EdgePlane { edge, triangle: planes[triangle.index()] },
-        key => key,
+fn planes(surface: &Surface<'_>, contacts: &Contacts) -> Vec<TriangleId> {
+    let mut sets = DisjointSets::new(surface.len());
+    for pair in &contacts.coplanar {
+        let [a, b] = pair.map(|triangle| surface.triangle_of(triangle).number());
+        sets.join(a, b);
     }
+    // triangles of convex bodies know their planes
+    if surface.input.has_bodies {
+        let mut first_on: FxHashMap<u32, u32> = FxHashMap::default();
+        for triangle in TriangleId::all(surface.len()) {
+            if let Some(plane) = surface.input.plane(surface.number(triangle)) {
+                let first = *first_on.entry(plane.index()).or_insert(triangle.number());
+                sets.join(first, triangle.number());
+            }
+        }
+    }
+    (0..number32(surface.len())).map(|triangle| TriangleId::from_index(sets.root(triangle) as usize)).collect()
 }
 
-/// The points at which triangles touch.
-fn points_of(surface: &Surface, contacts: &Contacts, planes: &[TriangleId]) -> Points {
-    let near = contacts.pairs.as_flattened().iter().flat_map(|triangle| surface.corners(*triangle));
-    let mut points = Points::new(surface, near);
-    let keys = contacts.cuts.iter().flat_map(|cut| cut.ends).chain(contacts.edge_cuts.iter().map(|cut| cut.key));
-    let constructed = keys.map(|key| canonical(key, planes)).filter(|key| !matches!(key, PointKey::Vertex(_)));
-    points.add(surface, constructed);
-    points
+/// A key in numbers of the surface, with planes named by the first triangle in them.
+fn canonical(surface: &Surface<'_>, planes: &[TriangleId], key: InputKey) -> PointKey {
+    key.renumbered(|vertex| surface.vertex_of(vertex), |triangle| planes[surface.triangle_of(triangle).index()])
+}
+
+/// The cuts of triangles, sorted, each once.
+fn cut_lines(surface: &Surface<'_>, points: &Points, contacts: &Contacts, ends: &[[PointKey; 2]]) -> Vec<CutLine> {
+    let cut_line = |(cut, ends): (&contact::Cut, &[PointKey; 2])| {
+        let [from, to] = ends.map(|key| points.of_key(&key));
+        CutLine {
+            triangle: surface.triangle_of(cut.triangle),
+            other: surface.triangle_of(cut.other),
+            ends: sorted(from, to),
+            edge: cut.edge.map(|[a, b]| sorted(surface.vertex_of(a), surface.vertex_of(b))),
+        }
+    };
+    let mut cuts: Vec<CutLine> = contacts.cuts.iter().zip(ends).map(cut_line).collect();
+    cuts.sort_unstable();
+    cuts.dedup();
+    cuts
+}
+
+/// Pairs of triangles that touch, each once.
+fn pairs_of(surface: &Surface<'_>, contacts: &Contacts) -> Vec<[TriangleId; 2]> {
+    let of = |pair: &[crate::ids::InputTriangleId; 2]| pair.map(|triangle| surface.triangle_of(triangle));
+    let mut pairs: Vec<[TriangleId; 2]> = contacts.pairs.iter().map(of).collect();
+    pairs.sort_unstable();
+    pairs.dedup();
+    pairs
 }

@@ -1,106 +1,296 @@
-//! Closed meshes made ready for the arrangement.
+//! Leaves of a tree made ready for the arrangement: closed meshes where they lie, and convex bodies as triangles.
 
+use std::borrow::Cow;
+
+use glam::DVec3;
 use planecut_parallel::prelude::*;
 use rustc_hash::FxHashMap;
 
-use super::predicates::best_axis;
-use super::surface::{Surface, are_safe};
-use super::triangle_tree::TriangleTree;
-use crate::closed_mesh::WindingRule;
-use crate::closed_mesh::connectivity::NO_TWIN;
-use crate::ids::{Id, PointId, TriangleId, number32};
+use super::flat::{are_collinear, is_surely_not_flat};
+use super::stars::simple_stars;
+use super::triangle_tree::{TriangleTree, bounds_of};
+use crate::base::Bounds;
+use crate::body::Body;
+use crate::closed_mesh::connectivity::{HalfEdges, NO_TWIN, next, previous};
+use crate::closed_mesh::{Star, WindingRule};
+use crate::ids::number32;
 use crate::model::{MaterialId, MeshBody};
-use glam::DVec3;
+use crate::plane_table::{PlaneId, PlaneTable};
 
-/// A closed mesh where it lies, made ready for the arrangement.
+/// Coordinates, other than zero, of which products of five are computed without overflow and without loss of their last bits.
+const SAFE: std::ops::RangeInclusive<f64> = 1e-40..=1e50;
+
+/// Vertices or triangles that one thread looks at in a row.
+const CHUNK: usize = 1 << 13;
+
+/// A closed mesh where it lies, or a convex body as triangles.
 #[derive(Debug, Default)]
-pub(super) struct Operand {
-    positions: Vec<DVec3>,
-    triangles: Vec<[u32; 3]>,
-    materials: Vec<MaterialId>,
-    twins: Vec<u32>,
+pub(super) struct Operand<'a> {
+    positions: Cow<'a, [DVec3]>,
+    /// Counter-clockwise seen from outside.
+    triangles: Cow<'a, [[u32; 3]]>,
+    twins: Cow<'a, [u32]>,
+    source: Source<'a>,
     tree: TriangleTree,
-    is_flat: Vec<bool>,
+    /// The triangles without an area.
+    flat: Vec<u32>,
+    /// Whether the triangles around each vertex have nothing in common but their edges; empty where that holds for all triangles.
+    simple: Vec<bool>,
+    /// The vertices around which triangles are not one fan.
+    pinched: Vec<u32>,
     is_safe: bool,
-    pub(super) rule: WindingRule,
 }
 
-impl Operand {
-    pub(super) fn new(body: &MeshBody) -> Self {
-        let materials = (0..body.mesh().triangles().len()).map(|triangle| body.material(triangle)).collect();
-        let positions = body.positions().into_owned();
+/// What an operand is made of.
+#[derive(Debug, Default)]
+enum Source<'a> {
+    #[default]
+    Nothing,
+    Mesh(&'a MeshBody),
+    Body(BodyPlanes),
+}
+
+/// The planes of a convex body.
+#[derive(Debug)]
+struct BodyPlanes {
+    /// The plane and material of each triangle.
+    of_triangle: Vec<(PlaneId, MaterialId)>,
+    /// The planes that meet in each vertex that is not at its rounded place.
+    at_vertex: Vec<Option<[PlaneId; 3]>>,
+}
+
+/// Whether floating-point filters and expansions hold for these coordinates.
+fn are_safe(positions: &[DVec3]) -> bool {
+    let is_safe = |v: f64| v == 0.0 || SAFE.contains(&v.abs());
+    positions.par_iter().with_min_len(CHUNK).all(|p| is_safe(p.x) && is_safe(p.y) && is_safe(p.z))
+}
+
+impl<'a> Operand<'a> {
+    /// A closed mesh where it lies.
+    pub(super) fn of_mesh(body: &'a MeshBody) -> Self {
+        let mesh = body.mesh();
+        let (positions, triangles) = (body.positions(), body.triangles());
+        let twins =
+            if body.is_mirrored() { Cow::Owned(mirrored_twins(mesh.twins())) } else { Cow::Borrowed(mesh.twins()) };
         let is_safe = are_safe(&positions);
-        let twins = if body.is_mirrored() { mirrored_twins(body.mesh().twins()) } else { body.mesh().twins().to_vec() };
-        let triangles = body.triangles().into_owned();
-        let mut mesh = Self { positions, triangles, materials, twins, is_safe, rule: body.rule(), ..Self::default() };
-        mesh.find_flat();
-        let with_area: Vec<u32> = (0..number32(mesh.triangles.len())).filter(|t| !mesh.is_flat[*t as usize]).collect();
-        mesh.tree = TriangleTree::new(&with_area, |t| mesh.triangles[t as usize].map(|v| mesh.positions[v as usize]));
-        mesh
+        let places = |triangle: u32| triangles[triangle as usize].map(|vertex| positions[vertex as usize]);
+        let count = number32(triangles.len());
+        let all = (0..count).into_par_iter().with_min_len(CHUNK);
+        let flat: Vec<u32> =
+            all.filter(|t| !(is_safe && is_surely_not_flat(places(*t))) && are_collinear(places(*t))).collect();
+        let with_area: Vec<u32> = if flat.is_empty() {
+            (0..count).collect()
+        } else {
+            (0..count).filter(|triangle| flat.binary_search(triangle).is_err()).collect()
+        };
+        let tree = TriangleTree::new(&with_area, |triangle| bounds_of(places(triangle)));
+        let stars = stars_of(body);
+        let simple =
+            if is_safe { simple_stars(&positions, &triangles, &twins, &stars) } else { vec![false; positions.len()] };
+        let is_pinched = |vertex: &u32| {
+            let k = *vertex as usize;
+            !simple[k] && !is_one_fan(&twins, &stars[k])
+        };
+        let pinched = (0..number32(positions.len())).into_par_iter().with_min_len(CHUNK).filter(is_pinched).collect();
+        Self { positions, triangles, twins, source: Source::Mesh(body), tree, flat, simple, pinched, is_safe }
     }
 
-    fn find_flat(&mut self) {
-        let surface = surface(&[&*self]).0;
-        let is_flat = |k: usize| best_axis(&surface, TriangleId::from_index(k)).is_none();
-        self.is_flat = (0..self.triangles.len()).into_par_iter().with_min_len(1 << 12).map(is_flat).collect();
+    /// A convex body whose planes are in a table.
+    pub(super) fn of_body(table: &PlaneTable, body: &Body) -> Self {
+        let mut number: FxHashMap<crate::ids::CornerId, u32> = FxHashMap::default();
+        let (mut positions, mut at_vertex) = (Vec::new(), Vec::new());
+        let (mut triangles, mut of_triangle) = (Vec::new(), Vec::new());
+        let mut ring = Vec::new();
+        for face in &body.faces {
+            let edges = body.edges(face);
+            ring.clear();
+            for (k, corner) in body.corners(face).enumerate() {
+                let planes = [face.plane, edges[k], edges[(k + 1) % edges.len()]];
+                ring.push(*number.entry(corner.number).or_insert_with(|| {
+                    let at = table.position(planes).unwrap_or(corner.at);
+                    let is_there = planes.iter().all(|plane| is_surely_on(table, *plane, at));
+                    positions.push(at);
+                    at_vertex.push((!is_there).then_some(planes));
+                    number32(positions.len()) - 1
+                }));
+            }
+            for k in 1..ring.len().saturating_sub(1) {
+                triangles.push([ring[0], ring[k], ring[k + 1]]);
+                of_triangle.push((face.plane, face.material));
+            }
+        }
+        let twins = HalfEdges::new(positions.len(), &triangles).twins();
+        let all: Vec<u32> = (0..number32(triangles.len())).collect();
+        let tree = TriangleTree::new(&all, |t| {
+            grown(bounds_of(triangles[t as usize].map(|vertex| positions[vertex as usize])))
+        });
+        let is_safe = are_safe(&positions);
+        Self {
+            positions: positions.into(),
+            triangles: triangles.into(),
+            twins: twins.into(),
+            source: Source::Body(BodyPlanes { of_triangle, at_vertex }),
+            tree,
+            flat: Vec::new(),
+            simple: Vec::new(),
+            pinched: Vec::new(),
+            is_safe,
+        }
     }
+
+    pub(super) fn positions(&self) -> &[DVec3] {
+        &self.positions
+    }
+
+    pub(super) fn triangles(&self) -> &[[u32; 3]] {
+        &self.triangles
+    }
+
+    /// For each half-edge the one that runs back along the same edge, where there is exactly one of both.
+    pub(super) fn twins(&self) -> &[u32] {
+        &self.twins
+    }
+
+    /// A box that holds a triangle.
+    #[inline]
+    pub(super) fn bounds(&self, triangle: u32) -> Bounds {
+        let bounds = bounds_of(self.triangles[triangle as usize].map(|vertex| self.positions[vertex as usize]));
+        if self.is_body() { grown(bounds) } else { bounds }
+    }
+
+    /// The boxes around its triangles, but for those without an area.
+    pub(super) fn tree(&self) -> &TriangleTree {
+        &self.tree
+    }
+
+    /// The triangles without an area.
+    pub(super) fn flat(&self) -> &[u32] {
+        &self.flat
+    }
+
+    /// The vertices around which triangles are not one fan.
+    pub(super) fn pinched(&self) -> &[u32] {
+        &self.pinched
+    }
+
+    /// Whether floating-point filters and expansions hold for all coordinates.
+    pub(super) fn is_safe(&self) -> bool {
+        self.is_safe
+    }
+
+    /// Whether it is a convex body: then its triangles have nothing in common but vertices and edges.
+    pub(super) fn is_body(&self) -> bool {
+        matches!(self.source, Source::Body(_))
+    }
+
+    /// Whether two triangles share a vertex around which triangles have nothing in common but their edges.
+    #[inline]
+    pub(super) fn are_known_apart(&self, one: u32, other: u32) -> bool {
+        let [p, q] = [one, other].map(|triangle| self.triangles[triangle as usize]);
+        p.iter().any(|vertex| q.contains(vertex) && self.simple[*vertex as usize])
+    }
+
+    /// The material of a triangle.
+    pub(super) fn material(&self, triangle: u32) -> MaterialId {
+        match &self.source {
+            Source::Mesh(body) => body.material(triangle as usize),
+            Source::Body(planes) => planes.of_triangle[triangle as usize].1,
+            Source::Nothing => MaterialId(0),
+        }
+    }
+
+    /// What of it is inside.
+    pub(super) fn rule(&self) -> WindingRule {
+        match &self.source {
+            Source::Mesh(body) => body.rule(),
+            Source::Nothing | Source::Body(_) => WindingRule::Positive,
+        }
+    }
+
+    /// The plane of a triangle, of a convex body.
+    #[inline]
+    pub(super) fn plane(&self, triangle: u32) -> Option<PlaneId> {
+        match &self.source {
+            Source::Nothing | Source::Mesh(_) => None,
+            Source::Body(planes) => Some(planes.of_triangle[triangle as usize].0),
+        }
+    }
+
+    /// The planes that meet in a vertex, where it is not at its rounded place.
+    #[inline]
+    pub(super) fn meeting_at(&self, vertex: u32) -> Option<[PlaneId; 3]> {
+        match &self.source {
+            Source::Nothing | Source::Mesh(_) => None,
+            Source::Body(planes) => planes.at_vertex[vertex as usize],
+        }
+    }
+
+    /// The places of a triangle's corners as they were given, before they were moved.
+    pub(super) fn places_before(&self, triangle: u32) -> [DVec3; 3] {
+        let positions = match &self.source {
+            Source::Mesh(body) => body.mesh().positions(),
+            Source::Nothing | Source::Body(_) => &self.positions,
+        };
+        self.triangles[triangle as usize].map(|vertex| positions[vertex as usize])
+    }
+}
+
+/// A box that holds corners whose rounded places another one holds.
+fn grown(bounds: Bounds) -> Bounds {
+    Bounds {
+        min: DVec3::from_array(bounds.min.to_array().map(f64::next_down)),
+        max: DVec3::from_array(bounds.max.to_array().map(f64::next_up)),
+    }
+}
+
+/// Whether plain numbers show that a plane goes through a place: none of the products and sums is rounded.
+fn is_surely_on(table: &PlaneTable, plane: PlaneId, at: DVec3) -> bool {
+    let half_space = table.half_space(plane);
+    let products = half_space.normal() * at;
+    let is_exact = |k: usize| half_space.normal()[k].mul_add(at[k], -products[k]) == 0.0;
+    let sum = |a: f64, b: f64| {
+        let sum = a + b;
+        let rest = (a - (sum - (sum - a))) + (b - (sum - a));
+        (rest == 0.0).then_some(sum)
+    };
+    let total = sum(products.x, products.y).and_then(|sum_of_two| sum(sum_of_two, products.z));
+    (0..3).all(is_exact) && total == Some(half_space.offset())
+}
+
+/// The triangles around each vertex of a mesh where it lies.
+fn stars_of(body: &MeshBody) -> Cow<'_, [Star]> {
+    let stars = body.mesh().stars();
+    if !body.is_mirrored() {
+        return Cow::Borrowed(stars);
+    }
+    let first = |star: &Star| if star.first == NO_TWIN { NO_TWIN } else { next(mirrored(star.first)) };
+    Cow::Owned(stars.iter().map(|star| Star { first: first(star), ..*star }).collect())
+}
+
+/// Whether a walk from triangle to triangle around a vertex comes by all of them.
+fn is_one_fan(twins: &[u32], star: &Star) -> bool {
+    let mut half_edge = star.first;
+    for steps in 1..=star.degree {
+        match twins[previous(half_edge) as usize] {
+            NO_TWIN => return false,
+            twin if twin == star.first => return steps == star.degree,
+            twin => half_edge = twin,
+        }
+    }
+    star.degree == 0
+}
+
+/// Where a half-edge comes to lie as the second and third corner of each triangle change places.
+fn mirrored(half_edge: u32) -> u32 {
+    // half-edges 0, 1, 2 run between corners 0-1, 1-2, 2-0; afterwards these are 2, 1, 0
+    3 * (half_edge / 3) + 2 - half_edge % 3
 }
 
 /// The twins of half-edges where the second and third corner of each triangle have changed places.
 fn mirrored_twins(twins: &[u32]) -> Vec<u32> {
-    // half-edges 0, 1, 2 run between corners 0-1, 1-2, 2-0; afterwards these are 2, 1, 0
-    let moved = |half_edge: u32| 3 * (half_edge / 3) + 2 - half_edge % 3;
-    let of = |half_edge: u32| {
-        let twin = twins[moved(half_edge) as usize];
-        if twin == NO_TWIN { NO_TWIN } else { moved(twin) }
+    let of = |half_edge: u32| match twins[mirrored(half_edge) as usize] {
+        NO_TWIN => NO_TWIN,
+        twin => mirrored(twin),
     };
     (0..number32(twins.len())).map(of).collect()
-}
-
-/// All triangles of operands, with vertices joined between operands whose boxes touch; and which of them have no area.
-pub(super) fn surface(meshes: &[&Operand]) -> (Surface, Vec<bool>) {
-    let mut all = Surface { is_safe: meshes.iter().all(|mesh| mesh.is_safe), ..Surface::default() };
-    let mut is_flat = Vec::new();
-    let boxes: Vec<crate::base::Bounds> = meshes.iter().map(|mesh| mesh.tree.all_bounds()).collect();
-    let tree = crate::base::Boxes::new(boxes);
-    let mut near = Vec::new();
-    let mut known: FxHashMap<[u64; 3], PointId> = FxHashMap::default();
-    for (operand, mesh) in (0..).zip(meshes) {
-        let mut number: Vec<PointId> = Vec::with_capacity(mesh.positions.len());
-        let bounds = mesh.tree.all_bounds();
-        tree.touching(&bounds, &mut near);
-        let common: Vec<crate::base::Bounds> =
-            near.iter().filter(|k| **k != operand).map(|k| tree.get(*k).intersection(&bounds)).collect();
-        let is_common = |p: &DVec3| common.iter().any(|b| b.min.cmple(*p).all() && p.cmple(b.max).all());
-        for position in &mesh.positions {
-            let fresh = PointId::from_index(all.positions.len());
-            let joined = if is_common(position) {
-                *known.entry(position.to_array().map(f64::to_bits)).or_insert(fresh)
-            } else {
-                fresh
-            };
-            if joined == fresh {
-                all.positions.push(*position);
-            }
-            number.push(joined);
-        }
-        let sides = 3 * number32(all.corners.len());
-        all.corners.extend(mesh.triangles.iter().map(|triangle| triangle.map(|v| number[v as usize])));
-        all.twins.extend(mesh.twins.iter().map(|twin| if *twin == NO_TWIN { NO_TWIN } else { twin + sides }));
-        all.operands.extend(std::iter::repeat_n(operand, mesh.triangles.len()));
-        all.materials.extend(&mesh.materials);
-        is_flat.extend(&mesh.is_flat);
-    }
-    (all, is_flat)
-}
-
-/// The hierarchies of boxes of operands, with triangles numbered as in their common surface.
-pub(super) fn trees(meshes: &[&Operand]) -> Vec<TriangleTree> {
-    let mut first = 0;
-    let of = |mesh: &&Operand| {
-        let tree = mesh.tree.renumbered(first);
-        first += number32(mesh.triangles.len());
-        tree
-    };
-    meshes.iter().map(of).collect()
 }

@@ -5,11 +5,10 @@
 use planecut_kernel::sign::Counts;
 
 use super::contact::{Contacts, touch};
-use super::predicates::RoundedPlane;
-use super::surface::Surface;
-use super::triangle_tree::{TreeNode, TriangleTree, bounds_of};
+use super::input::Input;
+use super::predicates::{RoundedPlane, Triangle};
+use super::triangle_tree::{TreeNode, TriangleTree};
 use crate::base::{Bounds, Boxes, map_chunks};
-use crate::ids::{Id, TriangleId};
 
 /// The walk is split into at least this many parts, where there is enough to do.
 const PARTS: usize = 512;
@@ -20,30 +19,33 @@ const SMALL: u32 = 4;
 /// Two nodes whose triangles are to be compared.
 #[derive(Debug, Clone, Copy)]
 struct Task {
-    trees: [u32; 2],
+    operands: [u32; 2],
     nodes: [TreeNode; 2],
 }
 
-/// What the triangles of some trees have in common: of different trees, and of each one that is not known to have nothing.
-pub(super) fn contacts(surface: &Surface, trees: &[&TriangleTree], is_clean: &[bool]) -> Contacts {
+/// What the triangles of all operands have in common: of different ones, and of each one that is no convex body.
+pub(super) fn contacts(input: &Input<'_>) -> Contacts {
+    let trees: Vec<&TriangleTree> = input.operands.iter().map(|operand| operand.tree()).collect();
     let boxes = Boxes::new(trees.iter().map(|tree| tree.all_bounds()).collect());
     let (mut tasks, mut near) = (Vec::new(), Vec::new());
-    for (k, tree) in (0..).zip(trees) {
+    for (k, tree) in (0..).zip(&trees) {
         let Some(root) = tree.root() else { continue };
-        if !is_clean[k as usize] {
-            tasks.push(Task { trees: [k, k], nodes: [root, root] });
+        if !input.operands[k as usize].is_body() {
+            tasks.push(Task { operands: [k, k], nodes: [root, root] });
         }
         boxes.touching(&tree.all_bounds(), &mut near);
         let later = near.iter().copied().filter(|other| *other > k);
         let root_of = |other: u32| trees[other as usize].root().map(|other_root| (other, other_root));
         tasks.extend(
-            later.filter_map(root_of).map(|(other, other_root)| Task { trees: [k, other], nodes: [root, other_root] }),
+            later
+                .filter_map(root_of)
+                .map(|(other, other_root)| Task { operands: [k, other], nodes: [root, other_root] }),
         );
     }
     // a function of the trees alone, so that the order of contacts does not depend on the number of threads
     while tasks.len() < PARTS {
         let before = tasks.len();
-        tasks = tasks.iter().flat_map(|task| split(trees, task)).collect();
+        tasks = tasks.iter().flat_map(|task| split(&trees, task)).collect();
         if tasks.len() == before {
             break;
         }
@@ -51,9 +53,9 @@ pub(super) fn contacts(surface: &Surface, trees: &[&TriangleTree], is_clean: &[b
     let work = |tasks: &[Task]| {
         let mut out = Contacts::default();
         for task in tasks {
-            let [one, other] = task.trees.map(|k| trees[k as usize]);
-            let mut walk = Walk { surface, one, other, out: &mut out };
-            if task.trees[0] == task.trees[1] && task.nodes[0] == task.nodes[1] {
+            let [one, other] = task.operands.map(|k| trees[k as usize]);
+            let mut walk = Walk { input, operands: task.operands.map(|k| k as usize), one, other, out: &mut out };
+            if task.operands[0] == task.operands[1] && task.nodes[0] == task.nodes[1] {
                 walk.within(task.nodes[0]);
             } else {
                 walk.between(task.nodes[0], task.nodes[1]);
@@ -71,13 +73,13 @@ pub(super) fn contacts(surface: &Surface, trees: &[&TriangleTree], is_clean: &[b
 
 /// Parts of a task; the task itself where it is small.
 fn split(trees: &[&TriangleTree], task: &Task) -> Vec<Task> {
-    let [one, other] = task.trees.map(|k| trees[k as usize]);
+    let [one, other] = task.operands.map(|k| trees[k as usize]);
     let [a, b] = task.nodes;
     let of = |a: TreeNode, b: TreeNode| Task { nodes: [a, b], ..*task };
     if a.level.max(b.level) < SMALL {
         return vec![*task];
     }
-    if task.trees[0] == task.trees[1] && a == b {
+    if task.operands[0] == task.operands[1] && a == b {
         let (first, second) = one.children(a);
         return match second {
             None => vec![of(first, first)],
@@ -96,25 +98,55 @@ fn split(trees: &[&TriangleTree], task: &Task) -> Vec<Task> {
     }
 }
 
+/// A triangle with what is asked about it over and over.
+#[derive(Debug)]
+pub(super) struct Probe {
+    pub(super) triangle: Triangle,
+    pub(super) plane: RoundedPlane,
+    bounds: Bounds,
+    operand: usize,
+    /// Its number in its operand, and the twins of its sides there.
+    own: u32,
+    twins: [u32; 3],
+}
+
+impl Probe {
+    fn new(input: &Input<'_>, operand: usize, own: u32) -> Self {
+        let triangle = input.triangle(operand, own);
+        let plane = RoundedPlane::new(input, &triangle);
+        let first = 3 * own as usize;
+        let twins = &input.operands[operand].twins()[first..first + 3];
+        let twins = [twins[0], twins[1], twins[2]];
+        Self { triangle, plane, bounds: input.operands[operand].bounds(own), operand, own, twins }
+    }
+
+    /// Whether another triangle is the one on the other side of an edge.
+    pub(super) fn is_neighbour(&self, side: usize, other: &Self) -> bool {
+        self.operand == other.operand && self.twins[side] / 3 == other.own
+    }
+}
+
 struct Walk<'a> {
-    surface: &'a Surface,
+    input: &'a Input<'a>,
+    operands: [usize; 2],
     one: &'a TriangleTree,
     other: &'a TriangleTree,
     out: &'a mut Contacts,
 }
 
-/// A triangle with what is asked about it over and over.
-struct Probe {
-    triangle: TriangleId,
-    bounds: Bounds,
-    plane: RoundedPlane,
-}
-
 impl Walk<'_> {
-    fn probe(&self, triangle: u32) -> Probe {
-        let triangle = TriangleId::from_index(triangle as usize);
-        let bounds = bounds_of(self.surface.places(triangle));
-        Probe { triangle, bounds, plane: RoundedPlane::new(self.surface, triangle) }
+    fn probe(&self, k: usize, triangle: u32) -> Probe {
+        Probe::new(self.input, self.operands[k], triangle)
+    }
+
+    fn bounds(&self, k: usize, triangle: u32) -> Bounds {
+        self.input.operands[self.operands[k]].bounds(triangle)
+    }
+
+    /// Whether two triangles of one operand are known to have nothing in common but edges.
+    fn are_known_apart(&self, one: u32, other: u32) -> bool {
+        let [p, q] = self.operands;
+        p == q && self.input.operands[p].are_known_apart(one, other)
     }
 
     /// Compares the triangles of a node with one another.
@@ -129,10 +161,12 @@ impl Walk<'_> {
             return;
         }
         let triangles = self.one.triangles(node);
-        let probes: Vec<Probe> = triangles.iter().map(|triangle| self.probe(*triangle)).collect();
-        for (k, probe) in probes.iter().enumerate() {
-            for other in &probes[k + 1..] {
-                self.compare(probe, other);
+        for (k, one) in triangles.iter().enumerate() {
+            for other in &triangles[k + 1..] {
+                if !self.are_known_apart(*one, *other) {
+                    let probes = [self.probe(0, *one), self.probe(0, *other)];
+                    self.compare(&probes[0], &probes[1]);
+                }
             }
         }
     }
@@ -145,14 +179,7 @@ impl Walk<'_> {
         }
         let opens_first = b.level == 0 || (of_a.max - of_a.min).element_sum() >= (of_b.max - of_b.min).element_sum();
         match (a.level, b.level) {
-            (0, 0) => {
-                for &triangle in self.one.triangles(a) {
-                    if bounds_of(self.places(triangle)).touches(&of_b) {
-                        let probe = self.probe(triangle);
-                        self.below(&probe, b, true);
-                    }
-                }
-            }
+            (0, 0) => self.leaves(a, b),
             (0, _) if opens_first => self.for_triangles(a, b, true),
             (_, 0) if !opens_first => self.for_triangles(b, a, false),
             (0, _) => self.open(a, b, false),
@@ -161,8 +188,39 @@ impl Walk<'_> {
         }
     }
 
-    fn places(&self, triangle: u32) -> [glam::DVec3; 3] {
-        self.surface.places(TriangleId::from_index(triangle as usize))
+    /// Compares the triangles of two leaves.
+    fn leaves(&mut self, a: TreeNode, b: TreeNode) {
+        let (of_a, of_b) = (*self.one.bounds(a), *self.other.bounds(b));
+        let near = |walk: &Self, k: usize, triangles: &[u32], other: &Bounds| {
+            let mut near = [(0, Bounds::EMPTY); super::triangle_tree::LEAF];
+            let mut count = 0;
+            for triangle in triangles {
+                let bounds = walk.bounds(k, *triangle);
+                if bounds.touches(other) {
+                    near[count] = (*triangle, bounds);
+                    count += 1;
+                }
+            }
+            (near, count)
+        };
+        let (ones, count) = near(self, 0, self.one.triangles(a), &of_b);
+        if count == 0 {
+            return;
+        }
+        let (others, other_count) = near(self, 1, self.other.triangles(b), &of_a);
+        for (one, bounds) in &ones[..count] {
+            let mut probe = None;
+            for (other, other_bounds) in &others[..other_count] {
+                if bounds.touches(other_bounds) && !self.are_known_apart(*one, *other) {
+                    let probe = probe.get_or_insert_with(|| self.probe(0, *one));
+                    if misses(self.input, probe, other_bounds) {
+                        continue;
+                    }
+                    let other = self.probe(1, *other);
+                    self.compare(probe, &other);
+                }
+            }
+        }
     }
 
     fn open(&mut self, a: TreeNode, b: TreeNode, first: bool) {
@@ -175,9 +233,10 @@ impl Walk<'_> {
     /// Compares each triangle of a leaf with those below a node of the other tree.
     fn for_triangles(&mut self, leaf: TreeNode, node: TreeNode, is_first: bool) {
         let (tree, other) = if is_first { (self.one, self.other) } else { (self.other, self.one) };
+        let k = usize::from(!is_first);
         for &triangle in tree.triangles(leaf) {
-            if bounds_of(self.places(triangle)).touches(other.bounds(node)) {
-                let probe = self.probe(triangle);
+            if self.bounds(k, triangle).touches(other.bounds(node)) {
+                let probe = self.probe(k, triangle);
                 self.below(&probe, node, is_first);
             }
         }
@@ -187,7 +246,7 @@ impl Walk<'_> {
     fn below(&mut self, probe: &Probe, node: TreeNode, is_first: bool) {
         let tree = if is_first { self.other } else { self.one };
         let bounds = tree.bounds(node);
-        if !bounds.touches(&probe.bounds) || self.misses(probe, bounds) {
+        if !bounds.touches(&probe.bounds) || misses(self.input, probe, bounds) {
             return;
         }
         if node.level > 0 {
@@ -198,25 +257,26 @@ impl Walk<'_> {
             }
             return;
         }
+        let k = usize::from(is_first);
         for &triangle in tree.triangles(node) {
-            let bounds = bounds_of(self.places(triangle));
-            if bounds.touches(&probe.bounds) {
-                let other = self.probe(triangle);
+            if self.bounds(k, triangle).touches(&probe.bounds) && !self.are_known_apart(probe.own, triangle) {
+                let other = self.probe(k, triangle);
                 if is_first { self.compare(probe, &other) } else { self.compare(&other, probe) }
             }
         }
     }
 
-    fn misses(&self, probe: &Probe, bounds: &Bounds) -> bool {
-        // far from the origin the middle is rounded by more than it is off the plane: the half is taken from where it is
-        let middle = 0.5 * bounds.min + 0.5 * bounds.max;
-        let half = (bounds.max - middle).max(middle - bounds.min);
-        self.surface.is_safe && probe.plane.misses(middle, half)
-    }
-
     fn compare(&mut self, one: &Probe, other: &Probe) {
         if one.bounds.touches(&other.bounds) {
-            touch(self.surface, [&one.plane, &other.plane], [one.triangle, other.triangle], self.out);
+            touch(self.input, [one, other], self.out);
         }
     }
+}
+
+/// Whether the plane of a triangle is sure to miss a box.
+fn misses(input: &Input<'_>, probe: &Probe, bounds: &Bounds) -> bool {
+    // far from the origin the middle is rounded by more than it is off the plane: the half is taken from where it is
+    let middle = 0.5 * bounds.min + 0.5 * bounds.max;
+    let half = (bounds.max - middle).max(middle - bounds.min);
+    input.is_safe && probe.plane.misses(middle, half)
 }

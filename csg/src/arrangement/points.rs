@@ -10,7 +10,7 @@ use rustc_hash::FxHashMap;
 
 use super::exact::{ExactPoint, turn_of_points};
 use super::predicates::{projected, sign, turn};
-use super::surface::Surface;
+use super::surface::{Surface, sorted};
 use crate::ids::{Id, PointId, TriangleId};
 use crate::weld::triangulate::rounded_turn;
 
@@ -19,23 +19,45 @@ const U: f64 = f64::EPSILON / 2.0;
 /// Bound on the relative error of a few operations on sums of two numbers, with plenty of room.
 const SUM_BOUND: f64 = 1.0 / (1_u128 << 98) as f64;
 
-/// What defines a point.
+/// What defines a point, by the numbers of vertices and triangles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub(super) enum PointKey {
+pub(super) enum Key<V, T> {
     /// A vertex of an operand.
-    Vertex(PointId),
+    Vertex(V),
     /// Where an edge crosses the plane of a triangle.
-    EdgePlane { edge: [PointId; 2], triangle: TriangleId },
+    EdgePlane { edge: [V; 2], triangle: T },
     /// Where two edges cross.
-    EdgeEdge([[PointId; 2]; 2]),
+    EdgeEdge([[V; 2]; 2]),
     /// Where the planes of three triangles meet.
-    ThreePlanes([TriangleId; 3]),
+    ThreePlanes([T; 3]),
 }
 
-impl PointKey {
+/// What defines a point of an arrangement.
+pub(super) type PointKey = Key<PointId, TriangleId>;
+
+impl<V: Copy + Ord, T: Copy + Ord> Key<V, T> {
     /// Where two edges cross; they are given in any order.
-    pub(super) fn of_edges(one: [PointId; 2], other: [PointId; 2]) -> Self {
+    pub(super) fn of_edges(one: [V; 2], other: [V; 2]) -> Self {
         Self::EdgeEdge(if one < other { [one, other] } else { [other, one] })
+    }
+
+    /// The same with other numbers.
+    pub(super) fn renumbered<W: Copy + Ord, U: Copy + Ord>(
+        self,
+        vertex: impl Fn(V) -> W,
+        triangle: impl Fn(T) -> U,
+    ) -> Key<W, U> {
+        let edge = |[a, b]: [V; 2]| sorted(vertex(a), vertex(b));
+        match self {
+            Self::Vertex(v) => Key::Vertex(vertex(v)),
+            Self::EdgePlane { edge: ends, triangle: of } => Key::EdgePlane { edge: edge(ends), triangle: triangle(of) },
+            Self::EdgeEdge([one, other]) => Key::of_edges(edge(one), edge(other)),
+            Self::ThreePlanes(of) => {
+                let mut triangles = of.map(triangle);
+                triangles.sort_unstable();
+                Key::ThreePlanes(triangles)
+            }
+        }
     }
 }
 
@@ -58,11 +80,27 @@ fn place_key(place: DVec3) -> [u64; 3] {
 }
 
 impl Points {
-    /// No points but the vertices. Those listed are known by their place.
-    pub(super) fn new(surface: &Surface, near: impl Iterator<Item = PointId>) -> Self {
+    /// No points but the vertices, each known by its place.
+    pub(super) fn new(surface: &Surface<'_>) -> Self {
         let mut points = Self { vertices: surface.positions.len(), ..Self::default() };
-        points.at_place = near.map(|vertex| (place_key(surface.at(vertex)), vertex)).collect();
+        points.at_place.reserve(2 * points.vertices);
+        for vertex in PointId::all(points.vertices) {
+            // several corners of bodies may be at one place when rounded
+            let first = *points.at_place.entry(place_key(surface.at(vertex))).or_insert(vertex);
+            if first != vertex {
+                let last = points.last_at(first);
+                points.next_at_place.insert(last, vertex);
+            }
+        }
         points
+    }
+
+    /// The last of the points with the rounded place of one.
+    fn last_at(&self, mut point: PointId) -> PointId {
+        while let Some(next) = self.next_at_place.get(&point) {
+            point = *next;
+        }
+        point
     }
 
     /// The number of points, vertices included.
@@ -72,15 +110,16 @@ impl Points {
 
     /// The place of a point, correctly rounded.
     #[inline]
-    pub(super) fn at(&self, surface: &Surface, point: PointId) -> DVec3 {
+    pub(super) fn at(&self, surface: &Surface<'_>, point: PointId) -> DVec3 {
         match point.index().checked_sub(self.vertices) {
             None => surface.at(point),
             Some(k) => self.positions[k],
         }
     }
 
-    fn is_vertex(&self, point: PointId) -> bool {
-        point.index() < self.vertices
+    /// Whether a point is at its place, not just near it: a vertex that is not a corner of a body.
+    fn is_there(&self, surface: &Surface<'_>, point: PointId) -> bool {
+        point.index() < self.vertices && surface.is_where_it_is_said(point)
     }
 
     fn key(&self, point: PointId) -> PointKey {
@@ -91,12 +130,12 @@ impl Points {
     }
 
     /// The exact coordinates of a point.
-    fn exact(&self, surface: &Surface, point: PointId) -> ExactPoint {
+    fn exact(&self, surface: &Surface<'_>, point: PointId) -> ExactPoint {
         ExactPoint::new(surface, &self.key(point))
     }
 
     /// Adds points, each known by its key from then on. Points at the same place get the same number.
-    pub(super) fn add(&mut self, surface: &Surface, keys: impl Iterator<Item = PointKey>) {
+    pub(super) fn add(&mut self, surface: &Surface<'_>, keys: impl Iterator<Item = PointKey>) {
         let mut fresh: Vec<PointKey> = keys.filter(|key| !self.number.contains_key(key)).collect();
         fresh.par_sort_unstable();
         fresh.dedup();
@@ -107,7 +146,7 @@ impl Points {
         }
     }
 
-    fn numbered(&mut self, surface: &Surface, key: PointKey, place: DVec3) -> PointId {
+    fn numbered(&mut self, surface: &Surface<'_>, key: PointKey, place: DVec3) -> PointId {
         let fresh = PointId::from_index(self.len());
         let first = *self.at_place.entry(place_key(place)).or_insert(fresh);
         if first != fresh {
@@ -138,7 +177,7 @@ impl Points {
     }
 
     /// The turn of three points of a plane, seen along an axis.
-    pub(super) fn turn(&self, surface: &Surface, [a, b, c]: [PointId; 3], axis: usize) -> Sign {
+    pub(super) fn turn(&self, surface: &Surface<'_>, [a, b, c]: [PointId; 3], axis: usize) -> Sign {
         if a == b || b == c || c == a {
             return Sign::Zero;
         }
@@ -147,18 +186,18 @@ impl Points {
         if surface.is_safe && value.abs() > bound {
             return sign(value);
         }
-        if [a, b, c].iter().all(|point| self.is_vertex(*point)) {
-            return turn(surface, [a, b, c], axis);
+        if [a, b, c].iter().all(|point| self.is_there(surface, *point)) {
+            return turn(surface.input, [a, b, c].map(|point| surface.corner(point)), axis);
         }
         let [a, b, c] = [a, b, c].map(|point| self.exact(surface, point));
         turn_of_points([&a, &b, &c], axis)
     }
 
     /// The order of two points along an axis: correct rounding keeps it unless it makes them equal.
-    pub(super) fn compare(&self, surface: &Surface, a: PointId, b: PointId, axis: usize) -> Ordering {
+    pub(super) fn compare(&self, surface: &Surface<'_>, a: PointId, b: PointId, axis: usize) -> Ordering {
         let (p, q) = (self.at(surface, a)[axis], self.at(surface, b)[axis]);
         match p.partial_cmp(&q) {
-            Some(Ordering::Equal) | None if a != b && !(self.is_vertex(a) && self.is_vertex(b)) => {
+            Some(Ordering::Equal) | None if a != b && !(self.is_there(surface, a) && self.is_there(surface, b)) => {
                 self.exact(surface, a).compare(&self.exact(surface, b), axis)
             }
             order => order.unwrap_or(Ordering::Equal),
@@ -166,13 +205,13 @@ impl Points {
     }
 
     /// The order of two points by their coordinates along two axes.
-    pub(super) fn compare_along(&self, surface: &Surface, a: PointId, b: PointId, axes: [usize; 2]) -> Ordering {
+    pub(super) fn compare_along(&self, surface: &Surface<'_>, a: PointId, b: PointId, axes: [usize; 2]) -> Ordering {
         self.compare(surface, a, b, axes[0]).then_with(|| self.compare(surface, a, b, axes[1]))
     }
 
     /// An axis along which two points differ, the one along which they differ most where rounding does not hide that, and their order
     /// along it.
-    pub(super) fn axis_between(&self, surface: &Surface, from: PointId, to: PointId) -> (usize, Ordering) {
+    pub(super) fn axis_between(&self, surface: &Surface<'_>, from: PointId, to: PointId) -> (usize, Ordering) {
         let along = (self.at(surface, to) - self.at(surface, from)).abs();
         let longest = along.max_position();
         let order = |axis: usize| (axis, self.compare(surface, from, to, axis));
@@ -184,14 +223,14 @@ impl Points {
     }
 
     /// Whether a point of the line through two others lies between them.
-    pub(super) fn is_between(&self, surface: &Surface, from: PointId, to: PointId, point: PointId) -> bool {
+    pub(super) fn is_between(&self, surface: &Surface<'_>, from: PointId, to: PointId, point: PointId) -> bool {
         let (axis, _) = self.axis_between(surface, from, to);
         let order = |a, b| self.compare(surface, a, b, axis);
         point != from && point != to && order(from, point) == order(point, to)
     }
 
     /// Sorts points of a line from `from` on, an end of all of them.
-    pub(super) fn sort_along(&self, surface: &Surface, from: PointId, to: PointId, points: &mut Vec<PointId>) {
+    pub(super) fn sort_along(&self, surface: &Surface<'_>, from: PointId, to: PointId, points: &mut Vec<PointId>) {
         let (axis, ascending) = self.axis_between(surface, from, to);
         points.sort_unstable();
         points.dedup();
@@ -203,8 +242,8 @@ impl Points {
 }
 
 /// The place of a point, correctly rounded.
-fn place_of(surface: &Surface, key: &PointKey) -> DVec3 {
-    let between = if surface.is_safe {
+fn place_of(surface: &Surface<'_>, key: &PointKey) -> DVec3 {
+    let between = if surface.is_safe && !surface.input.has_bodies {
         match *key {
             PointKey::Vertex(vertex) => return surface.at(vertex),
             PointKey::EdgePlane { edge, triangle } => through_plane(surface, edge, triangle),
@@ -214,7 +253,7 @@ fn place_of(surface: &Surface, key: &PointKey) -> DVec3 {
     } else {
         None
     };
-    between.unwrap_or_else(|| ExactPoint::new(surface, key).rounded(surface))
+    between.unwrap_or_else(|| ExactPoint::new(surface, key).rounded(surface.input))
 }
 
 /// A vector of sums of two numbers.
@@ -232,9 +271,9 @@ fn cross_component(a: &Sums, b: &Sums, axis: usize) -> (Sum, f64) {
 }
 
 /// Where an edge crosses the plane of a triangle, where sums of two numbers are enough to round it.
-fn through_plane(surface: &Surface, edge: [PointId; 2], triangle: TriangleId) -> Option<DVec3> {
+fn through_plane(surface: &Surface<'_>, edge: [PointId; 2], triangle: TriangleId) -> Option<DVec3> {
     let [p, q] = edge.map(|end| surface.at(end));
-    let [a, b, c] = surface.places(triangle);
+    let [a, b, c] = surface.triangle(triangle).places();
     let (ab, ac) = (difference(b, a), difference(c, a));
     let normal = [0, 1, 2].map(|axis| cross_component(&ab, &ac, axis));
     let distance = |end: DVec3| {
@@ -248,7 +287,7 @@ fn through_plane(surface: &Surface, edge: [PointId; 2], triangle: TriangleId) ->
 }
 
 /// Where two edges cross, where sums of two numbers are enough to round it.
-fn through_edge(surface: &Surface, one: [PointId; 2], other: [PointId; 2]) -> Option<DVec3> {
+fn through_edge(surface: &Surface<'_>, one: [PointId; 2], other: [PointId; 2]) -> Option<DVec3> {
     let ([p, q], [r, s]) = (one.map(|end| surface.at(end)), other.map(|end| surface.at(end)));
     let (along, across, offset) = (difference(q, p), difference(s, r), difference(r, p));
     let wholes = [0, 1, 2].map(|axis| cross_component(&along, &across, axis));

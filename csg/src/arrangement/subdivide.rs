@@ -56,7 +56,7 @@ impl Cells {
 /// A triangle seen from where it is counter-clockwise.
 #[derive(Clone, Copy)]
 pub(super) struct View<'a> {
-    pub(super) surface: &'a Surface,
+    pub(super) surface: &'a Surface<'a>,
     pub(super) points: &'a Points,
     pub(super) axis: usize,
     /// The sign of the triangle's normal along the axis.

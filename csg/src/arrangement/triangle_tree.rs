@@ -10,6 +10,9 @@ use crate::plane_table::spread;
 /// Leaves hold at most this many triangles.
 pub(super) const LEAF: usize = 4;
 
+/// Bits of each coordinate of a place on the curve.
+const BITS: u32 = 10;
+
 /// Triangles that one thread looks at in a row.
 const CHUNK: usize = 1 << 13;
 
@@ -36,35 +39,31 @@ pub(super) fn bounds_of([a, b, c]: [DVec3; 3]) -> Bounds {
 }
 
 impl TriangleTree {
-    /// A hierarchy around the triangles of a list, with the place of each one's vertices. No triangle: no node.
-    pub(super) fn new(triangles: &[u32], places: impl Fn(u32) -> [DVec3; 3] + Sync) -> Self {
+    /// A hierarchy around the triangles of a list, with a box around each. No triangle: no node.
+    pub(super) fn new(triangles: &[u32], bounds_of: impl Fn(u32) -> Bounds + Sync) -> Self {
         if triangles.is_empty() {
             return Self::default();
         }
-        let all = |chunk: &[u32]| chunk.iter().fold(Bounds::EMPTY, |all, t| all.union(&bounds_of(places(*t))));
+        let all = |chunk: &[u32]| chunk.iter().fold(Bounds::EMPTY, |all, t| all.union(&bounds_of(*t)));
         let of_chunks: Vec<Bounds> = triangles.par_chunks(CHUNK).map(all).collect();
         let bounds = of_chunks.iter().fold(Bounds::EMPTY, |all, one| all.union(one));
-        let scale = f64::from(1 << 21) * 0.999_999 / (bounds.max - bounds.min).max(DVec3::splat(f64::MIN_POSITIVE));
+        let scale = f64::from(1 << BITS) * 0.999_999 / (bounds.max - bounds.min).max(DVec3::splat(f64::MIN_POSITIVE));
         let number = |triangle: &u32| {
-            let bounds_here = bounds_of(places(*triangle));
+            let bounds_here = bounds_of(*triangle);
             let middle = 0.5 * bounds_here.min + 0.5 * bounds_here.max;
             let [x, y, z] = ((middle - bounds.min) * scale).to_array().map(|v| spread(cell(v)));
-            (x | y << 1 | z << 2, *triangle)
+            // the place on the curve, and the triangle in the other half of the number
+            (x | y << 1 | z << 2) << 32 | u64::from(*triangle)
         };
-        let mut sorted: Vec<(u64, u32)> = triangles.par_iter().with_min_len(CHUNK).map(number).collect();
+        let mut sorted: Vec<u64> = triangles.par_iter().with_min_len(CHUNK).map(number).collect();
         sorted.par_sort_unstable();
-        let order: Vec<u32> = sorted.par_iter().with_min_len(CHUNK).map(|(_, triangle)| *triangle).collect();
+        let order: Vec<u32> = sorted.par_iter().with_min_len(CHUNK).map(|number| low_half(*number)).collect();
         let mut levels: Vec<Vec<Bounds>> = vec![order.par_chunks(LEAF).with_min_len(CHUNK / LEAF).map(all).collect()];
         while let Some(last) = levels.last().filter(|last| last.len() > 1) {
             let union = |pair: &[Bounds]| pair.iter().fold(Bounds::EMPTY, |all, bounds| all.union(bounds));
             levels.push(last.chunks(2).map(union).collect());
         }
         Self { order, levels }
-    }
-
-    /// The same with numbers of triangles that are larger by `first`.
-    pub(super) fn renumbered(&self, first: u32) -> Self {
-        Self { order: self.order.iter().map(|triangle| triangle + first).collect(), levels: self.levels.clone() }
     }
 
     /// The node around all triangles.
@@ -118,7 +117,12 @@ impl TriangleTree {
     }
 }
 
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "below 2²¹; casts saturate")]
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "below 2¹⁰; casts saturate")]
 fn cell(v: f64) -> u64 {
     v as u64
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "the rest is meant to go")]
+fn low_half(number: u64) -> u32 {
+    number as u32
 }

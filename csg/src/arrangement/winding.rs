@@ -3,18 +3,21 @@
 //! Facets that meet at an edge are sorted around it; crossing one changes the winding number of its operand by one. One ray for each
 //! connected part tells the numbers beside an edge of it.
 
+use std::cmp::Ordering;
+
 use planecut_kernel::sign::Sign;
 use rustc_hash::FxHashMap;
 
 use super::Arrangement;
-use super::around::Around;
-use super::facets::{Facets, Side};
-use super::predicates::{RoundedPlane, projected, sign, turn};
+use super::around::{Around, HalfPlane, half_planes};
+use super::exact::compare_vertices;
+use super::facets::{FacetKind, Facets, Side};
+use super::input::Input;
+use super::patches::Patch;
+use super::predicates::{Corner, RoundedPlane, Triangle, sign, turn};
 use super::surface::sorted;
-use super::triangle_tree::TriangleTree;
-use crate::base::DisjointSets;
-use crate::closed_mesh::connectivity::NO_TWIN;
-use crate::ids::{FacetId, Id, PointId, StateId, TriangleId, number32};
+use crate::base::{Bounds, DisjointSets};
+use crate::ids::{FacetId, Id, InputTriangleId, PointId, StateId, TriangleId, number32};
 
 /// Winding numbers of operands, ascending; those that are zero are left out.
 pub(super) type Windings = Vec<(u32, i32)>;
@@ -71,25 +74,20 @@ pub(super) struct Sheets {
 pub(super) struct Contradiction;
 
 /// The winding numbers on both sides of each facet.
-pub(super) fn sheets(
-    arrangement: &Arrangement,
-    facets: &Facets,
-    trees: &[&TriangleTree],
-) -> Result<Sheets, Contradiction> {
+pub(super) fn sheets(arrangement: &Arrangement<'_>, facets: &Facets) -> Result<Sheets, Contradiction> {
     let unknown = vec![StateId::NONE; facets.len()];
     let sheets = Sheets { states: States::default(), above: unknown.clone(), below: unknown };
     let mut spread =
         Spread { arrangement, facets, sheets, waiting: Vec::new(), is_done: vec![false; facets.edge_ends.len()] };
-    for edge in spread.seeds() {
-        let windings = beside(arrangement, trees, edge);
-        spread.begin(edge, windings)?;
+    for facet in spread.seeds() {
+        spread.begin(facet)?;
         spread.run()?;
     }
     Ok(spread.sheets)
 }
 
 struct Spread<'a> {
-    arrangement: &'a Arrangement,
+    arrangement: &'a Arrangement<'a>,
     facets: &'a Facets,
     sheets: Sheets,
     waiting: Vec<FacetId>,
@@ -98,27 +96,12 @@ struct Spread<'a> {
 }
 
 impl Spread<'_> {
-    /// An edge of a triangle in each connected part.
-    fn seeds(&self) -> Vec<[PointId; 2]> {
-        let Arrangement { surface, .. } = self.arrangement;
-        let triangle = |facet: FacetId| self.facets.triangle(&self.arrangement.cells, facet);
+    /// A facet of each connected part.
+    fn seeds(&self) -> Vec<FacetId> {
         let mut sets = DisjointSets::new(self.facets.len());
-        for facet in FacetId::all(self.facets.len()) {
-            let part_of = triangle(facet);
-            if self.facets.is_gone(facet) {
-                continue;
-            }
-            if part_of.index() != facet.index() {
-                sets.join(facet.number(), part_of.number());
-                continue;
-            }
-            if !self.arrangement.is_touched[facet.index()] {
-                for twin in &surface.twins[3 * facet.index()..3 * facet.index() + 3] {
-                    if *twin != NO_TWIN && !self.arrangement.is_touched[*twin as usize / 3] {
-                        sets.join(facet.number(), twin / 3);
-                    }
-                }
-            }
+        for facet in self.facets.flat_ones() {
+            let triangle = self.facets.triangle(&self.arrangement.cells, facet);
+            sets.join(facet.number(), triangle.number());
         }
         for edge in 0..number32(self.facets.edge_ends.len()) {
             let sides = self.facets.sides_at(edge);
@@ -127,75 +110,100 @@ impl Spread<'_> {
         let (part, count) = sets.numbered();
         let mut seeds = vec![None; count];
         for facet in FacetId::all(self.facets.len()).filter(|facet| !self.facets.is_gone(*facet)) {
-            let [a, b, _] = surface.corners(triangle(facet));
-            seeds[part[facet.index()] as usize].get_or_insert([a, b]);
+            seeds[part[facet.index()] as usize].get_or_insert(facet);
         }
         seeds.into_iter().flatten().collect()
     }
 
-    /// Begins with the facets around the first piece of an edge, beside which the winding numbers are known.
-    fn begin(&mut self, edge: [PointId; 2], windings: Windings) -> Result<(), Contradiction> {
+    /// Begins with a facet beside an edge of its triangle, or of one of its triangles: one ray tells the winding numbers there.
+    fn begin(&mut self, facet: FacetId) -> Result<(), Contradiction> {
+        let input = self.arrangement.surface.input;
+        if let FacetKind::Patch(patch) = self.facets.kind(facet) {
+            let Patch { operand, first } = self.arrangement.patches.all[patch.index()];
+            return self.begin_with_patch(facet, operand as usize, first);
+        }
+        let triangle = self.facets.triangle(&self.arrangement.cells, facet);
+        let Arrangement { surface, edge_points, .. } = self.arrangement;
+        let [a, b, _] = surface.corners(triangle);
+        let windings = beside(input, [a, b].map(|point| surface.corner(point)));
+        let next = edge_points.from(a, b).nth(1).unwrap_or(b);
+        let sides = self.facets.edge_between(sorted(a, next)).expect("the edge of a facet is listed");
+        let is_patch = |side: &&Side| matches!(self.facets.kind(side.facet), FacetKind::Patch(_));
+        let sides: Vec<Side> = sides.iter().filter(|side| !is_patch(side)).copied().collect();
+        let around = Around::of_side(self.arrangement, &sides[0]);
+        let mut members = half_planes(self.arrangement, self.facets, &sides);
+        // a patch beside a seam is a triangle of the input
+        let seam = self.seam_at(triangle, a, b);
+        members.extend(seam);
+        around.sort(&mut members);
+        let (_, side) = members[around.after_direction(&members)];
         let state = self.sheets.states.number(windings);
-        let first = self.arrangement.next_on_edge(edge[0], edge[1]);
-        let mut sides: Vec<Side> = match self.facets.edge_between(sorted(edge[0], first)) {
-            Some(sides) => sides.to_vec(),
-            None => self.untouched_sides(edge),
-        };
-        let around = Around::new(self.arrangement, &sides[0]);
-        around.sort(self.facets, &mut sides);
-        let side = sides[around.after_direction(self.facets, &sides)];
         self.set(side.facet, !side.is_forward, state)
     }
 
-    /// The triangles at an edge that nothing touches.
-    fn untouched_sides(&self, edge: [PointId; 2]) -> Vec<Side> {
-        let surface = &self.arrangement.surface;
-        let ends = sorted(edge[0], edge[1]);
-        let mut sides = Vec::new();
-        for facet in FacetId::all(surface.len()).filter(|facet| !self.facets.is_gone(*facet)) {
-            let corners = surface.corners[facet.index()];
-            for k in 0..3 {
-                if sorted(corners[k], corners[(k + 1) % 3]) == ends {
-                    sides.push(Side { ends, facet, is_forward: corners[k] == ends[0] });
-                }
-            }
-        }
-        sides
+    /// Begins beside the first edge of a triangle of a patch.
+    fn begin_with_patch(&mut self, facet: FacetId, operand: usize, first: u32) -> Result<(), Contradiction> {
+        let input = self.arrangement.surface.input;
+        let triangle = input.triangle(operand, first);
+        let twin = input.operands[operand].twins()[3 * first as usize];
+        let [a, b, _] = triangle.corners;
+        let windings = beside(input, [a, b]);
+        let (axis, order) = axis_between(input, &a, &b);
+        let half_plane = |triangle: Triangle, is_forward: bool| HalfPlane { triangle, plane: None, is_forward };
+        let members =
+            [(half_plane(triangle, true), true), (half_plane(input.triangle(operand, twin / 3), false), false)];
+        let around = Around::new(input, axis, order);
+        let (_, is_forward) = members[around.after_direction(&members)];
+        let state = self.sheets.states.number(windings);
+        self.set(facet, !is_forward, state)
+    }
+
+    /// The triangle of a patch at the edge of a triangle between two of its corners.
+    fn seam_at(&self, triangle: TriangleId, a: PointId, b: PointId) -> Option<(HalfPlane, Side)> {
+        let Arrangement { surface, patches, .. } = self.arrangement;
+        let first = 3 * triangle.number();
+        let seam = surface.seams.binary_search_by_key(&first, |(half_edge, _)| *half_edge).ok()?;
+        let (operand, number) =
+            surface.input.of_triangle(InputTriangleId::from_index(surface.seams[seam].1 as usize / 3));
+        let facet = self.facets.of_patch(patches.of(operand, number)?);
+        let is_forward = b < a;
+        let half_plane = HalfPlane { triangle: surface.input.triangle(operand, number), plane: None, is_forward };
+        Some((half_plane, Side { ends: sorted(a, b), facet, is_forward }))
     }
 
     /// Notes what is above a facet, or below.
     fn set(&mut self, facet: FacetId, is_above: bool, state: StateId) -> Result<(), Contradiction> {
+        let operand = self.operand(facet);
         let Sheets { states, above, below } = &mut self.sheets;
         let k = facet.index();
         let known = if is_above { above[k] } else { below[k] };
         if known != StateId::NONE {
             return if known == state { Ok(()) } else { Err(Contradiction) };
         }
-        let mut other = state;
-        let surface = &self.arrangement.surface;
-        let operand = |facet| surface.operands[self.facets.triangle(&self.arrangement.cells, facet).index()];
-        other = states.step(other, operand(facet), is_above);
+        let mut other = states.step(state, operand, is_above);
         for double in self.facets.doubles(facet) {
-            other = states.step(other, operand(double.facet), is_above == double.is_same);
+            let triangle = self.facets.triangle(&self.arrangement.cells, double.facet);
+            let operand = self.arrangement.surface.operands[triangle.index()];
+            other = states.step(other, operand, is_above == double.is_same);
         }
         (above[k], below[k]) = if is_above { (state, other) } else { (other, state) };
         self.waiting.push(facet);
         Ok(())
     }
 
-    fn run(&mut self) -> Result<(), Contradiction> {
-        let surface = &self.arrangement.surface;
-        let is_touched = &self.arrangement.is_touched;
-        while let Some(facet) = self.waiting.pop() {
-            let above = self.sheets.above[facet.index()];
-            if self.facets.cell(facet).is_none() && !is_touched[facet.index()] {
-                for side in 0..3 {
-                    let twin = surface.twins[3 * facet.index() + side];
-                    if twin != NO_TWIN && !is_touched[twin as usize / 3] {
-                        self.set(FacetId::from_index(twin as usize / 3), true, above)?;
-                    }
-                }
+    /// The operand that a facet belongs to.
+    fn operand(&self, facet: FacetId) -> u32 {
+        match self.facets.kind(facet) {
+            FacetKind::Patch(patch) => self.arrangement.patches.all[patch.index()].operand,
+            _ => {
+                let triangle = self.facets.triangle(&self.arrangement.cells, facet);
+                self.arrangement.surface.operands[triangle.index()]
             }
+        }
+    }
+
+    fn run(&mut self) -> Result<(), Contradiction> {
+        while let Some(facet) = self.waiting.pop() {
             let facets = self.facets;
             for &edge in facets.edges(facet) {
                 if !std::mem::replace(&mut self.is_done[edge as usize], true) {
@@ -210,7 +218,9 @@ impl Spread<'_> {
     fn go_around(&mut self, known: FacetId, edge: u32) -> Result<(), Contradiction> {
         let mut sides = self.facets.sides_at(edge).to_vec();
         if sides.len() > 2 {
-            Around::new(self.arrangement, &sides[0]).sort(self.facets, &mut sides);
+            let mut members = half_planes(self.arrangement, self.facets, &sides);
+            Around::of_side(self.arrangement, &sides[0]).sort(&mut members);
+            sides = members.into_iter().map(|(_, side)| side).collect();
         }
         let start = sides.iter().position(|side| side.facet == known).expect("a facet is at its edges");
         let state = |sheets: &Sheets, side: &Side, is_above: bool| {
@@ -228,24 +238,23 @@ impl Spread<'_> {
 
 /// The winding numbers of operands at the first of two vertices, moved by `δ` towards the second and by `(ε, ε², ε³)`: both are as small
 /// as need be, `ε` far smaller than `δ`. What touches in the vertex alone is told apart by that.
-fn beside(arrangement: &Arrangement, trees: &[&TriangleTree], from: [PointId; 2]) -> Windings {
-    let surface = &arrangement.surface;
-    let at = surface.at(from[0]);
+fn beside(input: &Input<'_>, from: [Corner; 2]) -> Windings {
+    let at = from[0].at;
     let mut windings = Windings::new();
-    for (operand, tree) in (0..).zip(trees) {
+    // corners of bodies may be a little away
+    let (low, high) = (at.to_array().map(f64::next_down), at.to_array().map(f64::next_up));
+    let passes = |bounds: &Bounds| {
+        bounds.max.x >= low[0]
+            && bounds.min.y <= high[1]
+            && bounds.max.y >= low[1]
+            && bounds.min.z <= high[2]
+            && bounds.max.z >= low[2]
+    };
+    for (operand, own) in input.operands.iter().enumerate() {
         let mut winding = 0;
-        let passes = |bounds: &crate::base::Bounds| {
-            bounds.max.x >= at.x
-                && bounds.min.y <= at.y
-                && bounds.max.y >= at.y
-                && bounds.min.z <= at.z
-                && bounds.max.z >= at.z
-        };
-        tree.for_each(passes, |triangle| {
-            winding += crossing(arrangement, TriangleId::from_index(triangle as usize), from);
-        });
+        own.tree().for_each(passes, |triangle| winding += crossing(input, &input.triangle(operand, triangle), &from));
         if winding != 0 {
-            windings.push((operand, winding));
+            windings.push((number32(operand), winding));
         }
     }
     windings
@@ -253,26 +262,51 @@ fn beside(arrangement: &Arrangement, trees: &[&TriangleTree], from: [PointId; 2]
 
 /// How a ray along x crosses a triangle, from the first of two vertices, moved towards the second and by `(ε, ε², ε³)`: 1 from below,
 /// −1 from above, 0 not at all.
-fn crossing(arrangement: &Arrangement, triangle: TriangleId, start: [PointId; 2]) -> i32 {
-    let surface = &arrangement.surface;
-    let corners = surface.corners(triangle);
+fn crossing(input: &Input<'_>, triangle: &Triangle, start: &[Corner; 2]) -> i32 {
     let first = |signs: [Sign; 2]| signs.into_iter().find(|sign| *sign != Sign::Zero);
-    let turn = |from: PointId, to: PointId| {
-        first(start.map(|point| turn(surface, [from, to, point], 0))).unwrap_or_else(|| {
-            let along = projected(surface.at(to), 0) - projected(surface.at(from), 0);
-            if along.y == 0.0 { sign(along.x) } else { sign(-along.y) }
+    let turn = |from: Corner, to: Corner| {
+        first(start.map(|point| turn(input, [from, to, point], 0))).unwrap_or_else(|| {
+            // which way the edge runs, along y and then along z
+            let along = [1, 2].map(|axis| order_along(input, &from, &to, axis));
+            if along[1] == Sign::Zero { along[0] } else { along[1].flip() }
         })
     };
+    let corners = triangle.corners;
     let facing = turn(corners[0], corners[1]);
     if facing == Sign::Zero || turn(corners[1], corners[2]) != facing || turn(corners[2], corners[0]) != facing {
         return 0;
     }
-    let plane = RoundedPlane::new(surface, triangle);
+    let plane = RoundedPlane::new(input, triangle);
     // one whose plane the whole edge lies in is left behind
-    let is_ahead = first(start.map(|point| plane.side(surface, point))) == Some(facing.flip());
+    let is_ahead = first(start.map(|point| plane.side(input, &point))) == Some(facing.flip());
     match (is_ahead, facing) {
         (false, _) => 0,
         (true, Sign::Positive) => 1,
         (true, _) => -1,
     }
+}
+
+/// An axis along which two vertices differ, and their order along it.
+fn axis_between(input: &Input<'_>, from: &Corner, to: &Corner) -> (usize, Ordering) {
+    let longest = (to.at - from.at).abs().max_position();
+    let order = |axis: usize| match order_along(input, from, to, axis) {
+        Sign::Positive => Ordering::Less,
+        Sign::Zero => Ordering::Equal,
+        Sign::Negative => Ordering::Greater,
+    };
+    let axes = [longest, (longest + 1) % 3, (longest + 2) % 3];
+    axes.map(|axis| (axis, order(axis)))
+        .into_iter()
+        .find(|(_, order)| order.is_ne())
+        .unwrap_or((longest, Ordering::Equal))
+}
+
+/// The sign of the difference of two vertices along an axis.
+fn order_along(input: &Input<'_>, from: &Corner, to: &Corner, axis: usize) -> Sign {
+    let difference = sign(to.at[axis] - from.at[axis]);
+    let is_there = |corner: &Corner| input.is_where_it_is_said(corner.vertex);
+    if difference != Sign::Zero || is_there(from) && is_there(to) {
+        return difference;
+    }
+    compare_vertices(input, to.vertex, from.vertex, axis)
 }

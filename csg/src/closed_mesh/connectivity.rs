@@ -76,20 +76,34 @@ impl<'a> HalfEdges<'a> {
 
     /// The twin of each half-edge: the one in the opposite direction, where no other joins the same two vertices; otherwise [`NO_TWIN`].
     ///
-    /// Linear for vertices of bounded degree.
+    /// Each is sought around that end which has fewer half-edges.
     #[must_use]
     pub fn twins(&self) -> Vec<u32> {
-        let mut twins = vec![NO_TWIN; self.leaving.len()];
-        let mut uses: Vec<(u32, u32)> = Vec::new();
-        for vertex in 0..self.vertices() {
-            for along in self.uses_at(vertex, &mut uses) {
-                if let Some([one, other]) = self.paired(along) {
-                    twins[one as usize] = other;
-                    twins[other as usize] = one;
+        let all = (0..number32(self.leaving.len())).into_par_iter().with_min_len(1 << 13);
+        all.map(|half_edge| self.twin(half_edge)).collect()
+    }
+
+    fn twin(&self, half_edge: u32) -> u32 {
+        let (from, to) = (self.from(half_edge), self.to(half_edge));
+        let (vertex, other) = if self.degree(from) <= self.degree(to) { (from, to) } else { (to, from) };
+        let (mut out, mut back) = (NO_TWIN, NO_TWIN);
+        for &leaving in self.leaving(vertex) {
+            let coming = previous(leaving);
+            for (found, half_edge, end) in
+                [(&mut out, leaving, self.to(leaving)), (&mut back, coming, self.from(coming))]
+            {
+                if end == other && std::mem::replace(found, half_edge) != NO_TWIN {
+                    return NO_TWIN;
                 }
             }
         }
-        twins
+        if vertex == from { back } else { out }
+    }
+
+    /// How many half-edges start at a vertex.
+    #[inline]
+    pub(crate) fn degree(&self, vertex: u32) -> u32 {
+        self.starts[vertex as usize + 1] - self.starts[vertex as usize]
     }
 
     /// Whether every half-edge has a twin: every directed edge occurs once, and so does its opposite. True without triangles.

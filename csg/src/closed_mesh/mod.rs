@@ -1,10 +1,11 @@
-//! Closed triangle meshes: vertices joined, every edge closed.
+//! Closed triangle meshes: every edge closed, vertices joined where that takes it.
 
 pub(crate) mod connectivity;
 mod error;
 mod rule;
 
 use glam::DVec3;
+use planecut_parallel::prelude::*;
 use rustc_hash::FxHashMap;
 
 use crate::ids::number32;
@@ -12,23 +13,32 @@ use connectivity::{HalfEdges, NO_TWIN, next};
 pub use error::ClosedMeshError;
 pub use rule::WindingRule;
 
+/// Vertices or triangles that one thread looks at in a row.
+const CHUNK: usize = 1 << 13;
+
 /// A closed mesh: along every edge as many triangles run one way as the other. It may cross itself, lie upon itself, and be nested in itself.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ClosedMesh {
-    /// The places of vertices; no two are the same.
     positions: Vec<DVec3>,
-    /// The vertices of each triangle, counter-clockwise seen from outside.
     triangles: Vec<[u32; 3]>,
-    /// What the surface of each triangle is made of, as a place in a list that whoever uses the mesh has.
     surfaces: Vec<u32>,
-    /// For each half-edge the one that runs back along the same edge, where there is exactly one of both.
     twins: Vec<u32>,
+    stars: Vec<Star>,
+}
+
+/// The triangles around a vertex.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Star {
+    /// A half-edge that starts there; [`NO_TWIN`] where none does.
+    pub(crate) first: u32,
+    /// How many do.
+    pub(crate) degree: u32,
 }
 
 impl ClosedMesh {
-    /// Joins vertices that are at the same place, to the bit, and makes sure that the mesh is closed. Triangles two of whose vertices
-    /// are joined are left out. `surface` gives, from the place of a triangle in the list, the place of what it is made of in another list,
-    /// the one of [`MeshBody`](crate::MeshBody).
+    /// Makes sure that a mesh is closed. Where it is not by its indices, vertices are joined that are at the same place, to the bit, and
+    /// triangles two of whose vertices are joined are left out. `surface` gives, from the place of a triangle in the list, the place
+    /// of what it is made of in another list, the one of [`MeshBody`](crate::MeshBody).
     ///
     /// # Errors
     /// Where a coordinate is not finite, a vertex is missing, or an edge is open.
@@ -37,43 +47,52 @@ impl ClosedMesh {
         triangles: &[[u32; 3]],
         surface: impl Fn(usize) -> u32,
     ) -> Result<Self, ClosedMeshError> {
-        if let Some(vertex) = positions.iter().position(|position| !position.is_finite()) {
-            return Err(ClosedMeshError::NotFinite { vertex, position: positions[vertex] });
-        }
-        let vertices = positions.len();
-        let is_missing = |triangle: &[u32; 3]| triangle.iter().any(|vertex| *vertex as usize >= vertices);
-        if let Some(triangle) = triangles.iter().position(is_missing) {
-            let vertex = triangles[triangle].into_iter().max().unwrap_or(0);
-            return Err(ClosedMeshError::NoVertex { triangle, vertex, vertices });
-        }
-        let (joined, places) = join(positions);
-        let mut kept = Vec::with_capacity(triangles.len());
-        let mut surfaces = Vec::with_capacity(triangles.len());
-        for (source, triangle) in triangles.iter().enumerate() {
-            let [a, b, c] = triangle.map(|vertex| joined[vertex as usize]);
-            if a != b && b != c && c != a {
-                kept.push([a, b, c]);
-                surfaces.push(surface(source));
+        check(positions, triangles)?;
+        if !triangles.par_iter().with_min_len(CHUNK).any(is_collapsed) {
+            let half_edges = HalfEdges::new(positions.len(), triangles);
+            let twins = half_edges.twins();
+            if !twins.par_iter().with_min_len(CHUNK).any(|twin| *twin == NO_TWIN) {
+                let surfaces = (0..triangles.len()).map(surface).collect();
+                let stars = stars(positions.len(), &half_edges);
+                return Ok(Self {
+                    positions: positions.to_vec(),
+                    triangles: triangles.to_vec(),
+                    surfaces,
+                    twins,
+                    stars,
+                });
             }
         }
-        match closed_twins(&places, &kept) {
-            Ok(twins) => Ok(Self { positions: places, triangles: kept, surfaces, twins }),
-            Err((half_edge, count)) => {
-                let corners = kept[half_edge / 3];
-                let [from, to] = [half_edge % 3, (half_edge + 1) % 3].map(|k| corners[k]);
-                let is_whole = |triangle: &[u32; 3]| {
-                    let [a, b, c] = triangle.map(|vertex| joined[vertex as usize]);
-                    a != b && b != c && c != a
-                };
-                let whole = triangles.iter().enumerate().filter(|(_, triangle)| is_whole(triangle));
-                let triangle = whole.map(|(source, _)| source).nth(half_edge / 3).unwrap_or(0);
-                let [from, to] = [from, to].map(|vertex| places[vertex as usize]);
-                Err(ClosedMeshError::Open { triangle, from, to, count })
-            }
-        }
+        Self::joined(positions, triangles, surface)
     }
 
-    /// The places of vertices; no two are the same.
+    /// The same with vertices joined.
+    fn joined(
+        positions: &[DVec3],
+        triangles: &[[u32; 3]],
+        surface: impl Fn(usize) -> u32,
+    ) -> Result<Self, ClosedMeshError> {
+        let (joined, positions) = join(positions);
+        let mut sources = Vec::with_capacity(triangles.len());
+        let mut kept = Vec::with_capacity(triangles.len());
+        for (source, triangle) in triangles.iter().enumerate() {
+            let triangle = triangle.map(|vertex| joined[vertex as usize]);
+            if !is_collapsed(&triangle) {
+                kept.push(triangle);
+                sources.push(source);
+            }
+        }
+        let half_edges = HalfEdges::new(positions.len(), &kept);
+        let twins = half_edges.twins();
+        if let Some((first, count)) = open_edges(&half_edges, &twins) {
+            let [from, to] = [first, next(first)].map(|half_edge| positions[half_edges.from(half_edge) as usize]);
+            return Err(ClosedMeshError::Open { triangle: sources[first as usize / 3], from, to, count });
+        }
+        let stars = stars(positions.len(), &half_edges);
+        Ok(Self { positions, triangles: kept, surfaces: sources.into_iter().map(surface).collect(), twins, stars })
+    }
+
+    /// The places of vertices.
     #[must_use]
     pub fn positions(&self) -> &[DVec3] {
         &self.positions
@@ -95,6 +114,41 @@ impl ClosedMesh {
     pub(crate) fn twins(&self) -> &[u32] {
         &self.twins
     }
+
+    /// The triangles around each vertex.
+    pub(crate) fn stars(&self) -> &[Star] {
+        &self.stars
+    }
+}
+
+/// Refuses coordinates that are not finite, and numbers of vertices that there are not.
+fn check(positions: &[DVec3], triangles: &[[u32; 3]]) -> Result<(), ClosedMeshError> {
+    if !positions.par_iter().with_min_len(CHUNK).all(|position| position.is_finite())
+        && let Some(vertex) = positions.iter().position(|position| !position.is_finite())
+    {
+        return Err(ClosedMeshError::NotFinite { vertex, position: positions[vertex] });
+    }
+    let vertices = positions.len();
+    let is_there = |triangle: &[u32; 3]| triangle.iter().all(|vertex| (*vertex as usize) < vertices);
+    if !triangles.par_iter().with_min_len(CHUNK).all(is_there)
+        && let Some(triangle) = triangles.iter().position(|triangle| !is_there(triangle))
+    {
+        let vertex = triangles[triangle].into_iter().max().unwrap_or(0);
+        return Err(ClosedMeshError::NoVertex { triangle, vertex, vertices });
+    }
+    Ok(())
+}
+
+fn is_collapsed([a, b, c]: &[u32; 3]) -> bool {
+    a == b || b == c || c == a
+}
+
+fn stars(vertices: usize, half_edges: &HalfEdges<'_>) -> Vec<Star> {
+    let star = |vertex: u32| Star {
+        first: half_edges.leaving(vertex).first().copied().unwrap_or(NO_TWIN),
+        degree: half_edges.degree(vertex),
+    };
+    (0..number32(vertices)).into_par_iter().with_min_len(CHUNK).map(star).collect()
 }
 
 /// For each vertex the number of its place, and the places.
@@ -112,21 +166,16 @@ fn join(positions: &[DVec3]) -> (Vec<u32>, Vec<DVec3>) {
     (joined, places)
 }
 
-/// The twins of half-edges, where every edge is closed; otherwise the first open half-edge, and how many open edges there are.
-fn closed_twins(positions: &[DVec3], triangles: &[[u32; 3]]) -> Result<Vec<u32>, (usize, usize)> {
-    let half_edges = HalfEdges::new(positions.len(), triangles);
-    let twins = half_edges.twins();
-    // edges of more than two triangles are closed where as many run one way as the other
+/// The first of the half-edges along open edges, and how many of these edges there are. Edges of more than two triangles are closed where
+/// as many run one way as the other.
+fn open_edges(half_edges: &HalfEdges<'_>, twins: &[u32]) -> Option<(u32, usize)> {
     let lone = (0..number32(twins.len())).filter(|h| twins[*h as usize] == NO_TWIN);
     let mut uses: FxHashMap<[u32; 2], (i32, u32)> = FxHashMap::default();
     for half_edge in lone {
-        let (a, b) = (half_edges.from(half_edge), half_edges.from(next(half_edge)));
+        let (a, b) = (half_edges.from(half_edge), half_edges.to(half_edge));
         let entry = uses.entry([a.min(b), a.max(b)]).or_insert((0, half_edge));
         entry.0 += if a < b { 1 } else { -1 };
     }
-    let open = uses.values().filter(|(sum, _)| *sum != 0).map(|(_, half_edge)| *half_edge as usize);
-    match open.clone().min() {
-        None => Ok(twins),
-        Some(first) => Err((first, open.count())),
-    }
+    let open = uses.values().filter(|(sum, _)| *sum != 0).map(|(_, half_edge)| *half_edge);
+    open.clone().min().map(|first| (first, open.count()))
 }

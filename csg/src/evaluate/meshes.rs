@@ -1,12 +1,18 @@
 //! Trees some of whose leaves are closed meshes: no leaf is cut into convex cells.
 
-use super::{EvaluateError, Evaluation, ModelSummary, StageTimes, UnboundedBrushes, evaluate_among};
-use crate::arrangement::{CombinedMeshes, Inside, combine_meshes};
-use crate::base::Clock;
-use crate::body::BuiltBodies;
-use crate::closed_mesh::ClosedMesh;
-use crate::model::{Brush, MeshBody, Model, Operation, Tree, TreeNode};
+use std::cell::RefCell;
+
 use planecut_kernel::sign::Counts;
+
+use super::{EvaluateError, Evaluation, ModelSummary, StageTimes, UnboundedBrushes, summary_of};
+use crate::arrangement::{CombinedMeshes, Inside, Leaf, combine_leaves};
+use crate::base::Clock;
+use crate::body::{Body, BrushBodies, BrushBody, BuiltBodies, OuterBox, build_other_bodies};
+use crate::expression::{Expression, Restriction};
+use crate::ids::{Id, KeptLeafId, LeafId};
+use crate::mesh::Mesh;
+use crate::model::{Brush, MaterialId, Model};
+use crate::plane_table::PlaneTable;
 
 /// The solid of a tree some of whose leaves are closed meshes.
 pub(super) fn evaluate_meshes(
@@ -16,55 +22,73 @@ pub(super) fn evaluate_meshes(
     size: f64,
 ) -> Result<Evaluation, EvaluateError> {
     let begin = Clock::start();
-    let mut meshes = Vec::new();
-    for brush in model.tree.brushes() {
-        meshes.push(match &brush.mesh {
-            Some(mesh) => mesh.clone(),
-            None => of_brush(model, brush, unbounded, built, size)?,
-        });
+    let brushes = model.tree.brushes();
+    let convex: Vec<Brush> = brushes.iter().filter(|brush| !brush.is_mesh()).cloned().collect();
+    let places: Vec<usize> = (0..brushes.len()).filter(|k| !brushes[*k].is_mesh()).collect();
+    let BrushBodies { mut table, planes, bodies, signs } = build_other_bodies(&convex, built, size);
+    let summary = summary_among(&table, &bodies, brushes, &places);
+    let expression = Expression::new(model.tree.nodes());
+    if expression.base() {
+        return Err(EvaluateError::Unbounded);
     }
-    let holds = |inside: &Inside<'_>| holds(model.tree.nodes(), |leaf| inside.of(leaf));
-    let CombinedMeshes { mesh, solid, noise } = combine_meshes(&meshes, model.materials.clone(), holds)?;
-    let summary = ModelSummary { brushes: meshes.len(), ..ModelSummary::default() };
-    let times = StageTimes { evaluate: begin.elapsed(), ..StageTimes::default() };
-    Ok(Evaluation { mesh, solid, noise, model: summary, signs: Counts::default(), times })
-}
-
-fn of_brush(
-    model: &Model,
-    brush: &Brush,
-    unbounded: UnboundedBrushes,
-    built: &BuiltBodies,
-    size: f64,
-) -> Result<MeshBody, EvaluateError> {
-    let model = Model { materials: model.materials.clone(), tree: Tree::from(brush.clone()) };
-    let mesh = evaluate_among(&model, unbounded, built, size)?.mesh;
-    let closed =
-        ClosedMesh::new(&mesh.positions, &mesh.triangles, |t| mesh.faces[mesh.triangle_faces[t] as usize].material.0);
-    let materials = (0..).map(crate::model::MaterialId).take(model.materials.len()).collect();
-    Ok(MeshBody::new(closed.expect("the boundary of a body is closed"), materials))
-}
-
-/// Whether a tree holds a point that lies in some of its leaves.
-fn holds(nodes: &[TreeNode], is_in: impl Fn(usize) -> bool) -> bool {
-    let mut values: Vec<bool> = Vec::new();
-    let mut leaf = 0;
-    for node in nodes {
-        let TreeNode::Operation { operation, operands } = node else {
-            values.push(is_in(leaf));
-            leaf += 1;
-            continue;
-        };
-        let operands = values.split_off(values.len() - *operands as usize);
-        values.push(match operation {
-            Operation::Union => operands.contains(&true),
-            Operation::Intersection => !operands.contains(&false),
-            Operation::Difference => {
-                operands.split_first().is_some_and(|(first, others)| *first && !others.contains(&true))
+    let keeps = unbounded == UnboundedBrushes::Keep && !summary.unbounded.is_empty();
+    let outer = keeps.then(|| OuterBox::new(&mut table));
+    let bodies: Vec<Option<Body>> = bodies
+        .into_iter()
+        .enumerate()
+        .map(|(k, body)| match (body, &outer) {
+            (BrushBody::Unbounded, Some(outer)) => {
+                let materials: Vec<MaterialId> = convex[k].materials().collect();
+                outer.cut(&table, &planes[k], &materials).bounded()
             }
-            Operation::Xor => operands.iter().filter(|value| **value).count() % 2 == 1,
-            Operation::Complement => !operands.contains(&true),
-        });
+            (body, _) => body.bounded(),
+        })
+        .collect();
+    let mut leaves = vec![Leaf::Empty; brushes.len()];
+    for (k, brush) in brushes.iter().enumerate() {
+        if let Some(mesh) = &brush.mesh {
+            leaves[k] = Leaf::Mesh(mesh);
+        }
     }
-    values.pop().expect("a root")
+    for (place, body) in places.iter().zip(&bodies) {
+        if let Some(body) = body {
+            leaves[*place] = Leaf::Body(body);
+        }
+    }
+    let restriction = RefCell::new(Restriction::default());
+    let holds = |inside: &Inside<'_>| holds(&mut restriction.borrow_mut(), &expression, inside);
+    let combined = combine_leaves(&leaves, Some(&table), model.materials.clone(), holds)?;
+    let CombinedMeshes { mesh, solid, noise } = combined;
+    if outer.is_some_and(|outer| reaches(&mesh, &table, &outer)) {
+        return Err(EvaluateError::Unbounded);
+    }
+    let times = StageTimes { evaluate: begin.elapsed(), ..StageTimes::default() };
+    let signs: Counts = signs;
+    Ok(Evaluation { mesh, solid, noise, model: summary, signs, times })
+}
+
+/// What a model holds, brushes numbered among all leaves.
+fn summary_among(table: &PlaneTable, bodies: &[BrushBody], brushes: &[Brush], places: &[usize]) -> ModelSummary {
+    let mut summary = summary_of(table, bodies);
+    summary.brushes = brushes.len();
+    for numbers in [&mut summary.empty, &mut summary.unbounded] {
+        numbers.iter_mut().for_each(|number| *number = places[*number]);
+    }
+    summary
+}
+
+/// Whether the tree holds the points that lie in some of its leaves.
+fn holds(restriction: &mut Restriction, expression: &Expression, inside: &Inside<'_>) -> bool {
+    let leaves: Vec<LeafId> = inside.all().map(LeafId::from_index).collect();
+    restriction.restrict(expression, &leaves);
+    for leaf in KeptLeafId::all(leaves.len()) {
+        restriction.set(expression, leaf, 0, true);
+    }
+    restriction.root(0)
+}
+
+/// Whether a mesh reaches the box that stands for infinity.
+fn reaches(mesh: &Mesh, table: &PlaneTable, outer: &OuterBox) -> bool {
+    let far = table.half_space(outer.planes()[0]).offset();
+    mesh.positions.iter().any(|position| position.abs().max_element() >= far)
 }

@@ -45,7 +45,7 @@ pub(super) fn flat_triangles(mesh: &Mesh) -> Vec<u32> {
 }
 
 /// Whether the height of a triangle is noise.
-fn is_flat(mesh: &Mesh, triangle: u32) -> bool {
+pub(super) fn is_flat(mesh: &Mesh, triangle: u32) -> bool {
     let corners = mesh.triangles[triangle as usize].map(|v| mesh.positions[v as usize]);
     let (height, [a, b, c]) = (noise_height(corners), corners);
     let (p, q) = (b - a, c - a);

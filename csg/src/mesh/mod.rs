@@ -14,8 +14,9 @@ use crate::model::{Material, MaterialId};
 pub use contract::{contract_edges, contract_short_edges};
 pub use measures::SolidMeasures;
 pub use noise::Noise;
+pub(crate) use noise::may_be_noise;
 use noise::without_noise;
-pub(crate) use proof::{Flaw, proven};
+pub(crate) use proof::{Flaw, prove_part, proven};
 
 /// One planar, connected region of a [`Mesh`] with one material.
 #[derive(Debug, Clone, Copy, PartialEq)]

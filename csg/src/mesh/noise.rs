@@ -11,7 +11,8 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use super::Mesh;
 use super::collapse::collapse_thin;
 use super::contract::contract_noise;
-use super::flip_caps::{flat_triangles, flip_caps};
+use super::flip_caps::{flat_triangles, flip_caps, is_flat};
+use crate::ids::number32;
 use crate::tolerances::CONTRACTION;
 
 /// An edge that is short enough to be noise.
@@ -24,7 +25,7 @@ pub(super) struct NoiseEdge {
 }
 
 /// The largest coordinate of some points, whatever its sign.
-fn largest_coordinate(points: impl Iterator<Item = DVec3>) -> f64 {
+pub(super) fn largest_coordinate(points: impl Iterator<Item = DVec3>) -> f64 {
     points.map(|point| point.abs().max_element()).fold(0.0, f64::max)
 }
 
@@ -107,6 +108,17 @@ impl Noise {
         self.collapsed += collapsed;
         self.thickest = self.thickest.max(moved);
     }
+}
+
+/// Whether a triangle of a part of a mesh may be noise, or have an edge that is.
+pub(crate) fn may_be_noise(part: &Mesh) -> bool {
+    let longest = CONTRACTION * largest_coordinate(part.positions.iter().copied());
+    let is_suspicious = |triangle: u32| {
+        let [a, b, c] = part.triangles[triangle as usize].map(|v| part.positions[v as usize]);
+        let shortest = a.distance_squared(b).min(b.distance_squared(c)).min(c.distance_squared(a));
+        shortest.sqrt() <= longest || is_flat(part, triangle)
+    };
+    (0..number32(part.triangles.len())).into_par_iter().with_min_len(4096).any(is_suspicious)
 }
 
 /// The height up to which a triangle is noise, by its own coordinates.

@@ -6,6 +6,7 @@
 use glam::DVec3;
 use planecut_parallel::prelude::*;
 
+use super::noise::largest_coordinate;
 use super::{Mesh, Noise, SolidMeasures, without_noise};
 use crate::closed_mesh::connectivity::HalfEdges;
 use crate::tolerances::PROOF;
@@ -86,6 +87,20 @@ fn prove_cleared(mesh: &Mesh, solid: &SolidMeasures, before: &Mesh, noise: Noise
     let area_slack = PROOF * solid.area + 4.0 * off * moved.perimeter;
     let volume_slack = (PROOF * solid.area.sqrt() + 4.0 * off) * solid.area + 4.0 * f64::EPSILON * moved.cubes;
     let is_same = (area - solid.area).abs() <= area_slack && (volume - solid.volume).abs() <= volume_slack;
+    if is_same { Ok(()) } else { Err(Flaw::Measures) }
+}
+
+/// Checks a part of a mesh against the volume and area of what it was made of, seen from a point near the middle of a solid of some area.
+pub(crate) fn prove_part(part: &Mesh, middle: DVec3, [volume, area]: [f64; 2], area_of_all: f64) -> Result<(), Flaw> {
+    let off = f64::EPSILON * largest_coordinate(part.positions.iter().copied());
+    let sums = sums_of(part, middle, off);
+    if sums.folded > 0.0 {
+        return Err(Flaw::Folded);
+    }
+    let area_slack = PROOF * area_of_all + 4.0 * off * sums.perimeter;
+    let volume_slack = (PROOF * area_of_all.sqrt() + 4.0 * off) * area_of_all + 4.0 * f64::EPSILON * sums.cubes;
+    let (found_volume, found_area) = (sums.six_volume / 6.0, 0.5 * sums.twice_area);
+    let is_same = (found_area - area).abs() <= area_slack && (found_volume - volume).abs() <= volume_slack;
     if is_same { Ok(()) } else { Err(Flaw::Measures) }
 }
 

@@ -1,0 +1,150 @@
+//! Faces cut into triangles.
+
+use planecut_kernel::sign::{Counts, Sign};
+use rustc_hash::FxHashMap;
+
+use super::facets::FacetKind;
+use super::kept::Kept;
+use super::merge::Face;
+use super::predicates::best_axis;
+use super::{Arranged, Arrangement};
+use crate::base::map_chunks;
+use crate::ids::{HalfEdgeId, Id, LineId, PointId, number32};
+use crate::weld::Projection;
+use crate::weld::triangulate::{ExactPoints, LoopCorner, Triangles, Triangulator};
+use glam::DVec3;
+
+/// The triangles of faces, one face after the other.
+#[derive(Debug, Default)]
+pub(super) struct FilledFaces {
+    pub(super) triangles: Vec<[u32; 3]>,
+    /// The number of triangles of each face.
+    pub(super) counts: Vec<u32>,
+}
+
+/// Points of an arrangement, seen along an axis.
+struct ArrangementPoints<'a>(&'a Arrangement<'a>);
+
+impl ExactPoints for ArrangementPoints<'_> {
+    fn turn(&self, points: [PointId; 3], Projection { u, v }: Projection) -> Sign {
+        let turn = self.0.points.turn(&self.0.surface, points, 3 - u - v);
+        if (u + 1) % 3 == v { turn } else { turn.flip() }
+    }
+
+    fn order(&self, a: PointId, b: PointId, Projection { u, v }: Projection) -> std::cmp::Ordering {
+        self.0.points.compare_along(&self.0.surface, a, b, [u, v])
+    }
+}
+
+impl Arranged<'_> {
+    /// The triangles of faces, by the numbers of points.
+    pub(super) fn filled(&self, faces: &[Face]) -> FilledFaces {
+        let (parts, _): (Vec<FilledFaces>, Counts) = map_chunks(faces, 1 << 8, |faces| self.filled_in_a_row(faces));
+        let mut all = FilledFaces::default();
+        for part in parts {
+            all.triangles.extend(part.triangles);
+            all.counts.extend(part.counts);
+        }
+        all
+    }
+
+    /// How a facet is seen from outside the solid.
+    fn projection(&self, kept: &Kept) -> Option<Projection> {
+        let triangle = self.facets.triangle(&self.arrangement.cells, kept.facet);
+        let (axis, sign) = best_axis(self.arrangement.surface.input, &self.arrangement.surface.triangle(triangle))?;
+        let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+        let is_upright = (sign == Sign::Positive) != kept.is_flipped;
+        Some(if is_upright { Projection { u, v } } else { Projection { u: v, v: u } })
+    }
+
+    /// The loops of a facet, as seen from outside the solid, without segments that run both ways along it.
+    pub(super) fn loops(&self, kept: &Kept) -> Vec<Vec<PointId>> {
+        let Arrangement { surface, cells, points: all, .. } = &self.arrangement;
+        let mut loops: Vec<Vec<PointId>> = match self.facets.kind(kept.facet) {
+            FacetKind::Cell(cell) => {
+                cells.loops(cell).flat_map(|points| without_slits(points, |point| all.at(surface, point))).collect()
+            }
+            _ => vec![surface.corners[kept.facet.index()].to_vec()],
+        };
+        if kept.is_flipped {
+            loops.iter_mut().for_each(|points| points.reverse());
+        }
+        loops
+    }
+
+    fn filled_in_a_row(&self, faces: &[Face]) -> FilledFaces {
+        let exact = ArrangementPoints(&self.arrangement);
+        let mut triangulator = Triangulator::new(&exact);
+        let mut filled = FilledFaces::default();
+        for Face { kept, loops } in faces {
+            let before = filled.triangles.len();
+            if loops.is_empty() {
+                let [a, b, c] = self.arrangement.surface.corners[kept.facet.index()].map(|point| point.number());
+                filled.triangles.push(if kept.is_flipped { [a, c, b] } else { [a, b, c] });
+            } else if let Some(projection) = self.projection(kept) {
+                triangulator.begin(projection);
+                let mut first = 0;
+                for points in loops {
+                    triangulator.add_loop(points.iter().enumerate().map(|(k, point)| LoopCorner {
+                        point: *point,
+                        at: self.arrangement.points.at(&self.arrangement.surface, *point),
+                        line: LineId::from_index(first + k),
+                        piece: HalfEdgeId::from_index(first + k),
+                    }));
+                    first += points.len();
+                }
+                let mut triangles = Triangles::default();
+                triangulator.triangulate(&mut triangles);
+                let all: Vec<PointId> = loops.concat();
+                filled
+                    .triangles
+                    .extend(triangles.corners.iter().map(|corners| corners.map(|k| all[k.index()].number())));
+            }
+            filled.counts.push(number32(filled.triangles.len() - before));
+        }
+        filled
+    }
+}
+
+/// The loops that are left of one without the segments that it runs along both ways; the one around the others first.
+fn without_slits(points: &[PointId], at: impl Fn(PointId) -> DVec3) -> Vec<Vec<PointId>> {
+    let count = points.len();
+    let to = |k: usize| points[(k + 1) % count];
+    let mut place: FxHashMap<(PointId, PointId), usize> = FxHashMap::default();
+    place.extend((0..count).map(|k| ((points[k], to(k)), k)));
+    let back: Vec<Option<usize>> = (0..count).map(|k| place.get(&(to(k), points[k])).copied()).collect();
+    if back.iter().all(Option::is_none) {
+        return vec![points.to_vec()];
+    }
+    let mut next: Vec<usize> = (0..count).map(|k| (k + 1) % count).collect();
+    let mut previous: Vec<usize> = (0..count).map(|k| (k + count - 1) % count).collect();
+    for (k, back) in back.iter().enumerate() {
+        let Some(back) = back.filter(|back| *back > k) else { continue };
+        for (one, other) in [(k, back), (back, k)] {
+            let (before, after) = (previous[one], next[other]);
+            (next[before], previous[after]) = (after, before);
+        }
+    }
+    let mut is_done: Vec<bool> = back.iter().map(Option::is_some).collect();
+    let mut loops = Vec::new();
+    for start in 0..count {
+        let mut members = Vec::new();
+        let mut k = start;
+        while !std::mem::replace(&mut is_done[k], true) {
+            members.push(points[k]);
+            k = next[k];
+        }
+        if !members.is_empty() {
+            loops.push(members);
+        }
+    }
+    loops.sort_by(|a, b| area(b, &at).total_cmp(&area(a, &at)));
+    loops
+}
+
+/// Twice the area within a loop.
+pub(super) fn area(points: &[PointId], at: impl Fn(PointId) -> DVec3) -> f64 {
+    let origin = at(points[0]);
+    let fan = points.windows(2).map(|ends| (at(ends[0]) - origin).cross(at(ends[1]) - origin));
+    fan.sum::<DVec3>().length()
+}

@@ -1,0 +1,55 @@
+//! Places on one line, or on one plane.
+
+use dashu_int::IBig;
+use glam::{DVec3, Vec3Swizzles};
+use planecut_kernel::decompose;
+
+/// Bound on the rounding of a component of a triangle's normal, in units of the magnitudes that it is a difference of.
+const BOUND: f64 = 4.0 * f64::EPSILON;
+
+/// Whether plain numbers show that three places are not on one line.
+#[inline]
+pub(super) fn is_surely_not_flat([a, b, c]: [DVec3; 3]) -> bool {
+    let (p, q) = (b - a, c - a);
+    let (left, right) = (p.yzx() * q.zxy(), p.zxy() * q.yzx());
+    (left - right).abs().cmpgt(BOUND * (left.abs() + right.abs())).any()
+}
+
+/// Whether three places are on one line, exactly.
+pub(super) fn are_collinear(places: [DVec3; 3]) -> bool {
+    let [a, b, c] = integers(places);
+    let (p, q) = (minus(&b, &a), minus(&c, &a));
+    [(1, 2), (2, 0), (0, 1)].iter().all(|(u, v)| &p[*u] * &q[*v] == &p[*v] * &q[*u])
+}
+
+/// Whether four places are on one plane, exactly.
+pub(super) fn are_coplanar(places: [DVec3; 4]) -> bool {
+    let [p, q, r] = [1, 2, 3].map(|k| places[k] - places[0]);
+    let (left, right) = (q.yzx() * r.zxy(), q.zxy() * r.yzx());
+    if p.dot(left - right).abs() > BOUND * p.abs().dot(left.abs() + right.abs()) {
+        return false;
+    }
+    let [a, b, c, d] = integers(places);
+    let [p, q, r] = [b, c, d].map(|place| minus(&place, &a));
+    let minor = |u: usize, v: usize| &q[u] * &r[v] - &q[v] * &r[u];
+    &p[0] * minor(1, 2) + &p[1] * minor(2, 0) + &p[2] * minor(0, 1) == IBig::ZERO
+}
+
+/// Places as integers in one unit.
+fn integers<const N: usize>(places: [DVec3; N]) -> [[IBig; 3]; N] {
+    let all = places.map(|place| place.to_array());
+    let exponent = |v: &f64| if *v == 0.0 { None } else { Some(decompose(*v).1) };
+    let lowest = all.as_flattened().iter().filter_map(exponent).min().unwrap_or(0);
+    let integer = |v: f64| {
+        if v == 0.0 {
+            return IBig::ZERO;
+        }
+        let (mantissa, exponent) = decompose(v);
+        IBig::from(mantissa) << usize::try_from(exponent - lowest).expect("the lowest exponent is no larger")
+    };
+    all.map(|place| place.map(integer))
+}
+
+fn minus(a: &[IBig; 3], b: &[IBig; 3]) -> [IBig; 3] {
+    [&a[0] - &b[0], &a[1] - &b[1], &a[2] - &b[2]]
+}
