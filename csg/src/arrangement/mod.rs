@@ -4,7 +4,7 @@
 //!
 //! 1. [`operand`] makes closed meshes and convex bodies ready, [`input`] numbers what they have; [`triangle_tree`] puts boxes around triangles,
 //!    and [`stars`] knows neighbours that need not be compared.
-//! 2. [`pairs`] walks down the boxes, and [`contact`] and [`coplanar`] find what two triangles have in common.
+//! 2. [`pairs`] walks down the boxes, [`self_walk`] does within one operand, and [`contact`] and [`coplanar`] find what two triangles have in common.
 //! 3. [`surface`] takes the triangles that touch others; [`patches`] are what is left: they pass through as they are, or go.
 //! 4. [`points`] gives each point one number, whichever edges and planes meet there.
 //! 5. [`crossings`] finds where cuts of one triangle cross, and [`subdivide`] makes cells of it.
@@ -33,6 +33,7 @@ mod pairs;
 mod patches;
 mod points;
 mod predicates;
+mod self_walk;
 mod stars;
 mod subdivide;
 mod surface;

@@ -3,12 +3,17 @@
 //! Slivers make boxes alone useless, so planes of triangles are tested against boxes, too, and the larger box is opened first.
 
 use planecut_kernel::sign::Counts;
+use planecut_parallel::prelude::*;
 
 use super::contact::{Contacts, touch};
 use super::input::Input;
 use super::predicates::{RoundedPlane, Triangle};
+use super::self_walk::{Node, SelfTree};
 use super::triangle_tree::{TreeNode, TriangleTree};
 use crate::base::{Bounds, Boxes, map_chunks};
+
+/// Operands of at most this many triangles are compared with themselves on one thread each.
+const ALONE: usize = 1 << 12;
 
 /// The walk is split into at least this many parts, where there is enough to do.
 const PARTS: usize = 512;
@@ -25,14 +30,48 @@ struct Task {
 
 /// What the triangles of all operands have in common: of different ones, and of each one that is no convex body.
 pub(super) fn contacts(input: &Input<'_>) -> Contacts {
+    let mut all = contacts_between(input);
+    for operand in (0..input.operands.len()).filter(|k| !input.operands[*k].is_body()) {
+        if input.operands[operand].triangles().len() > ALONE {
+            contacts_within(input, operand).iter_mut().for_each(|part| all.append(part));
+        }
+    }
+    // small ones side by side
+    let small: Vec<usize> = (0..input.operands.len())
+        .filter(|k| !input.operands[*k].is_body() && input.operands[*k].triangles().len() <= ALONE)
+        .collect();
+    let parts: Vec<Vec<Contacts>> = small.par_iter().map(|operand| contacts_within(input, *operand)).collect();
+    parts.into_iter().flatten().for_each(|mut part| all.append(&mut part));
+    all
+}
+
+/// What the triangles of an operand have in common.
+fn contacts_within(input: &Input<'_>, operand: usize) -> Vec<Contacts> {
+    let own = &input.operands[operand];
+    let tree = SelfTree::new(own);
+    let work = |tasks: &[[Node; 2]]| {
+        let mut out = Contacts::default();
+        for task in tasks {
+            tree.walk(*task, &mut |one, other| {
+                let [one, other] = [one, other].map(|triangle| Probe::new(input, operand, triangle));
+                if one.bounds.touches(&other.bounds) {
+                    touch(input, [&one, &other], &mut out);
+                }
+            });
+        }
+        out
+    };
+    let tasks = tree.tasks(if own.triangles().len() > ALONE { PARTS } else { 1 });
+    map_chunks(&tasks, 1, work).0
+}
+
+/// What triangles of different operands have in common.
+fn contacts_between(input: &Input<'_>) -> Contacts {
     let trees: Vec<&TriangleTree> = input.operands.iter().map(|operand| operand.tree()).collect();
     let boxes = Boxes::new(trees.iter().map(|tree| tree.all_bounds()).collect());
     let (mut tasks, mut near) = (Vec::new(), Vec::new());
     for (k, tree) in (0..).zip(&trees) {
         let Some(root) = tree.root() else { continue };
-        if !input.operands[k as usize].is_body() {
-            tasks.push(Task { operands: [k, k], nodes: [root, root] });
-        }
         boxes.touching(&tree.all_bounds(), &mut near);
         let later = near.iter().copied().filter(|other| *other > k);
         let root_of = |other: u32| trees[other as usize].root().map(|other_root| (other, other_root));
@@ -55,11 +94,7 @@ pub(super) fn contacts(input: &Input<'_>) -> Contacts {
         for task in tasks {
             let [one, other] = task.operands.map(|k| trees[k as usize]);
             let mut walk = Walk { input, operands: task.operands.map(|k| k as usize), one, other, out: &mut out };
-            if task.operands[0] == task.operands[1] && task.nodes[0] == task.nodes[1] {
-                walk.within(task.nodes[0]);
-            } else {
-                walk.between(task.nodes[0], task.nodes[1]);
-            }
+            walk.between(task.nodes[0], task.nodes[1]);
         }
         out
     };
@@ -78,13 +113,6 @@ fn split(trees: &[&TriangleTree], task: &Task) -> Vec<Task> {
     let of = |a: TreeNode, b: TreeNode| Task { nodes: [a, b], ..*task };
     if a.level.max(b.level) < SMALL {
         return vec![*task];
-    }
-    if task.operands[0] == task.operands[1] && a == b {
-        let (first, second) = one.children(a);
-        return match second {
-            None => vec![of(first, first)],
-            Some(second) => vec![of(first, first), of(second, second), of(first, second)],
-        };
     }
     if !one.bounds(a).touches(other.bounds(b)) {
         return Vec::new();
@@ -143,35 +171,7 @@ impl Walk<'_> {
         self.input.operands[self.operands[k]].bounds(triangle)
     }
 
-    /// Whether two triangles of one operand are known to have nothing in common but edges.
-    fn are_known_apart(&self, one: u32, other: u32) -> bool {
-        let [p, q] = self.operands;
-        p == q && self.input.operands[p].are_known_apart(one, other)
-    }
-
-    /// Compares the triangles of a node with one another.
-    fn within(&mut self, node: TreeNode) {
-        if node.level > 0 {
-            let (first, second) = self.one.children(node);
-            self.within(first);
-            if let Some(second) = second {
-                self.within(second);
-                self.between(first, second);
-            }
-            return;
-        }
-        let triangles = self.one.triangles(node);
-        for (k, one) in triangles.iter().enumerate() {
-            for other in &triangles[k + 1..] {
-                if !self.are_known_apart(*one, *other) {
-                    let probes = [self.probe(0, *one), self.probe(0, *other)];
-                    self.compare(&probes[0], &probes[1]);
-                }
-            }
-        }
-    }
-
-    /// Compares the triangles of a node with those of a node that has none of them.
+    /// Compares the triangles of a node with those of a node of the other tree.
     fn between(&mut self, a: TreeNode, b: TreeNode) {
         let (of_a, of_b) = (*self.one.bounds(a), *self.other.bounds(b));
         if !of_a.touches(&of_b) {
@@ -211,7 +211,7 @@ impl Walk<'_> {
         for (one, bounds) in &ones[..count] {
             let mut probe = None;
             for (other, other_bounds) in &others[..other_count] {
-                if bounds.touches(other_bounds) && !self.are_known_apart(*one, *other) {
+                if bounds.touches(other_bounds) {
                     let probe = probe.get_or_insert_with(|| self.probe(0, *one));
                     if misses(self.input, probe, other_bounds) {
                         continue;
@@ -259,7 +259,7 @@ impl Walk<'_> {
         }
         let k = usize::from(is_first);
         for &triangle in tree.triangles(node) {
-            if self.bounds(k, triangle).touches(&probe.bounds) && !self.are_known_apart(probe.own, triangle) {
+            if self.bounds(k, triangle).touches(&probe.bounds) {
                 let other = self.probe(k, triangle);
                 if is_first { self.compare(probe, &other) } else { self.compare(&other, probe) }
             }

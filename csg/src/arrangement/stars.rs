@@ -14,8 +14,8 @@ use crate::ids::number32;
 /// Vertices that one thread looks at in a row.
 const CHUNK: usize = 1 << 12;
 
-/// Stars of more triangles are not looked at.
-const MOST: usize = 64;
+/// Stars of more triangles take memory of their own.
+const FEW: usize = 32;
 
 /// Bound on what is rounded in a component of a normal, in units of the magnitudes that it is a difference of.
 const NORMAL_BOUND: f64 = 8.0 * f64::EPSILON;
@@ -31,13 +31,20 @@ pub(super) fn simple_stars(positions: &[DVec3], triangles: &[[u32; 3]], twins: &
 
 fn is_simple(positions: &[DVec3], triangles: &[[u32; 3]], twins: &[u32], star: &Star) -> bool {
     let degree = star.degree as usize;
-    if star.first == NO_TWIN || degree > MOST {
+    if star.first == NO_TWIN {
         return false;
     }
     let corner = |half_edge: u32| triangles[half_edge as usize / 3][half_edge as usize % 3];
     let middle = positions[corner(star.first) as usize];
     // the other ends of edges around the vertex, seen from it
-    let mut spokes = [DVec3::ZERO; MOST + 1];
+    let (mut few, mut many);
+    let spokes = if degree <= FEW {
+        few = [DVec3::ZERO; FEW + 1];
+        &mut few[..=degree]
+    } else {
+        many = vec![DVec3::ZERO; degree + 1];
+        &mut many[..]
+    };
     let mut half_edge = star.first;
     for spoke in &mut spokes[..degree] {
         *spoke = positions[corner(next(half_edge)) as usize] - middle;
@@ -51,7 +58,7 @@ fn is_simple(positions: &[DVec3], triangles: &[[u32; 3]], twins: &[u32], star: &
         return false;
     }
     spokes[degree] = spokes[0];
-    let spokes = &spokes[..=degree];
+    let spokes = &*spokes;
     let normal = |pair: &[DVec3]| {
         let (left, right) = (pair[0].yzx() * pair[1].zxy(), pair[0].zxy() * pair[1].yzx());
         (left - right, left.abs() + right.abs())

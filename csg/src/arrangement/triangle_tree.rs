@@ -66,6 +66,11 @@ impl TriangleTree {
         Self { order, levels }
     }
 
+    /// The triangles, those that are near each other in a row.
+    pub(super) fn order(&self) -> &[u32] {
+        &self.order
+    }
+
     /// The node around all triangles.
     pub(super) fn root(&self) -> Option<TreeNode> {
         self.levels.len().checked_sub(1).map(|level| TreeNode { level: number32(level), index: 0 })

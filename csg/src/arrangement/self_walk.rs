@@ -1,0 +1,327 @@
+//! Which triangles of one operand may touch each other.
+//!
+//! Every triangle is near its neighbours, so this is most of the work where meshes are large. Boxes are in single precision, and in a
+//! frame in which large flat faces and their edges are likely to be parallel to the axes: those around slivers are thin there. Boxes are
+//! grown by far more than rounding, so frame and precision decide nothing.
+
+use glam::{DMat3, DVec3};
+use planecut_parallel::prelude::*;
+use rustc_hash::FxHashMap;
+
+use super::operand::Operand;
+use super::triangle_tree::LEAF;
+use crate::ids::number32;
+
+/// Triangles that are looked at to choose the frame.
+const SAMPLES: usize = 4096;
+
+/// Directions whose components differ by less than this share of their length are counted as one.
+const STEP: f64 = 1.0 / 256.0;
+
+/// Triangles that one thread looks at in a row.
+const CHUNK: usize = 1 << 12;
+
+/// Levels below which a pair of nodes is not split into parts.
+const SMALL: u32 = 5;
+
+/// What rounding to single precision, and turning before that, may do to a coordinate, as a share of the largest one.
+const SLACK: f32 = 4.0 * f32::EPSILON;
+
+/// A box in the frame.
+#[derive(Debug, Clone, Copy)]
+struct SmallBox {
+    min: [f32; 3],
+    max: [f32; 3],
+}
+
+impl SmallBox {
+    #[inline]
+    fn touches(&self, other: &Self) -> bool {
+        (self.min[0] <= other.max[0])
+            & (other.min[0] <= self.max[0])
+            & (self.min[1] <= other.max[1])
+            & (other.min[1] <= self.max[1])
+            & (self.min[2] <= other.max[2])
+            & (other.min[2] <= self.max[2])
+    }
+
+    fn union(&self, other: &Self) -> Self {
+        let pick = |f: fn(f32, f32) -> f32, a: [f32; 3], b: [f32; 3]| [f(a[0], b[0]), f(a[1], b[1]), f(a[2], b[2])];
+        Self { min: pick(f32::min, self.min, other.min), max: pick(f32::max, self.max, other.max) }
+    }
+
+    fn extent(&self) -> f32 {
+        (self.max[0] - self.min[0]) + (self.max[1] - self.min[1]) + (self.max[2] - self.min[2])
+    }
+}
+
+/// A node: its level, 0 for leaves, and its place there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Node {
+    level: u32,
+    index: u32,
+}
+
+/// Boxes around the triangles of an operand.
+pub(super) struct SelfTree<'a> {
+    operand: &'a Operand<'a>,
+    frame: DMat3,
+    origin: DVec3,
+    /// By how much boxes are grown.
+    slack: f32,
+    order: &'a [u32],
+    /// The boxes of triangles in that order, and of nodes, leaves first.
+    triangles: Vec<SmallBox>,
+    levels: Vec<Vec<SmallBox>>,
+}
+
+/// A triangle in the frame.
+struct Tile {
+    places: [DVec3; 3],
+    /// The normal of its plane, and those of planes through its edges along that, pointing away from it.
+    normals: [DVec3; 4],
+    slack: f64,
+}
+
+impl Tile {
+    fn new(tree: &SelfTree<'_>, triangle: u32) -> Self {
+        let places = tree.places(triangle);
+        let [a, b, c] = places;
+        let normal = (b - a).cross(c - a);
+        let across = |from: DVec3, to: DVec3| (to - from).cross(normal).normalize_or_zero();
+        let normals = [normal.normalize_or_zero(), across(a, b), across(b, c), across(c, a)];
+        Self { places, normals, slack: 8.0 * f64::from(tree.slack) }
+    }
+
+    /// Whether it is sure to be apart from a box.
+    fn misses(&self, bounds: &SmallBox) -> bool {
+        let [min, max] = [bounds.min, bounds.max].map(|v| DVec3::from_array(v.map(f64::from)));
+        let (middle, half) = (0.5 * (min + max), 0.5 * (max - min));
+        let [a, b, c] = self.places;
+        let height =
+            |k: usize, at: DVec3| (self.normals[k].dot(middle - at), self.normals[k].abs().dot(half) + self.slack);
+        let (over, reach) = height(0, a);
+        over.abs() > reach
+            || [(1, a), (2, b), (3, c)].iter().any(|(k, at)| {
+                let (beyond, reach) = height(*k, *at);
+                beyond > reach
+            })
+    }
+}
+
+impl<'a> SelfTree<'a> {
+    pub(super) fn new(operand: &'a Operand<'a>) -> Self {
+        let order = operand.tree().order();
+        let bounds = operand.tree().all_bounds();
+        let origin = if order.is_empty() { DVec3::ZERO } else { 0.5 * bounds.min + 0.5 * bounds.max };
+        let size = (bounds.max - origin).length();
+        let mut tree = Self {
+            operand,
+            frame: frame(operand, order),
+            origin,
+            slack: SLACK * narrowed(size),
+            order,
+            triangles: Vec::new(),
+            levels: Vec::new(),
+        };
+        let own = &tree;
+        tree.triangles = order.par_iter().with_min_len(CHUNK).map(|triangle| own.small_box(*triangle)).collect();
+        let union = |boxes: &[SmallBox]| boxes[1..].iter().fold(boxes[0], |all, one| all.union(one));
+        if !order.is_empty() {
+            tree.levels.push(tree.triangles.par_chunks(LEAF).with_min_len(CHUNK).map(union).collect());
+        }
+        while let Some(last) = tree.levels.last().filter(|last| last.len() > 1) {
+            let next = last.chunks(2).map(union).collect();
+            tree.levels.push(next);
+        }
+        tree
+    }
+
+    fn places(&self, triangle: u32) -> [DVec3; 3] {
+        let corners = self.operand.triangles()[triangle as usize];
+        corners.map(|vertex| self.frame * (self.operand.positions()[vertex as usize] - self.origin))
+    }
+
+    fn small_box(&self, triangle: u32) -> SmallBox {
+        let [a, b, c] = self.places(triangle);
+        let (min, max) = (a.min(b).min(c), a.max(b).max(c));
+        SmallBox {
+            min: min.to_array().map(|v| narrowed(v) - self.slack),
+            max: max.to_array().map(|v| narrowed(v) + self.slack),
+        }
+    }
+
+    fn bounds(&self, node: Node) -> &SmallBox {
+        &self.levels[node.level as usize][node.index as usize]
+    }
+
+    fn children(&self, node: Node) -> (Node, Option<Node>) {
+        let level = node.level - 1;
+        let second = Node { level, index: 2 * node.index + 1 };
+        let is_there = (second.index as usize) < self.levels[level as usize].len();
+        (Node { level, index: 2 * node.index }, is_there.then_some(second))
+    }
+
+    /// The places of the triangles of a leaf in the order.
+    fn leaf(&self, leaf: Node) -> std::ops::Range<usize> {
+        let start = leaf.index as usize * LEAF;
+        start..(start + LEAF).min(self.order.len())
+    }
+
+    /// Pairs of nodes that hold all pairs of triangles that may touch, at least `least` where there are as many.
+    pub(super) fn tasks(&self, least: usize) -> Vec<[Node; 2]> {
+        let Some(top) = self.levels.len().checked_sub(1) else { return Vec::new() };
+        let root = Node { level: number32(top), index: 0 };
+        let mut tasks = vec![[root, root]];
+        while tasks.len() < least {
+            let before = tasks.len();
+            tasks = tasks.iter().flat_map(|task| self.split(*task)).collect();
+            if tasks.len() == before {
+                break;
+            }
+        }
+        tasks
+    }
+
+    fn split(&self, [a, b]: [Node; 2]) -> Vec<[Node; 2]> {
+        if a.level.max(b.level) < SMALL {
+            return vec![[a, b]];
+        }
+        if a == b {
+            let (first, second) = self.children(a);
+            let other = second.map_or(Vec::new(), |second| vec![[second, second], [first, second]]);
+            return std::iter::once([first, first]).chain(other).collect();
+        }
+        if !self.bounds(a).touches(self.bounds(b)) {
+            return Vec::new();
+        }
+        let is_first = a.level >= b.level;
+        let (first, second) = self.children(if is_first { a } else { b });
+        let of = |child: Node| if is_first { [child, b] } else { [a, child] };
+        std::iter::once(first).chain(second).map(of).collect()
+    }
+
+    /// Calls for each pair of triangles of two nodes that may touch.
+    pub(super) fn walk(&self, [a, b]: [Node; 2], visit: &mut impl FnMut(u32, u32)) {
+        if a != b {
+            return self.between(a, b, visit);
+        }
+        if a.level > 0 {
+            let (first, second) = self.children(a);
+            self.walk([first, first], visit);
+            if let Some(second) = second {
+                self.walk([second, second], visit);
+                self.between(first, second, visit);
+            }
+            return;
+        }
+        let leaf = self.leaf(a);
+        for i in leaf.clone() {
+            self.compare(i, i + 1..leaf.end, visit);
+        }
+    }
+
+    fn between(&self, a: Node, b: Node, visit: &mut impl FnMut(u32, u32)) {
+        let (of_a, of_b) = (self.bounds(a), self.bounds(b));
+        if !of_a.touches(of_b) {
+            return;
+        }
+        let is_first_larger = of_a.extent() >= of_b.extent();
+        match (a.level, b.level) {
+            (0, 0) => {
+                let (first, second) = (self.leaf(a), self.leaf(b));
+                for i in first {
+                    if self.triangles[i].touches(of_b) {
+                        self.compare(i, second.clone(), visit);
+                    }
+                }
+            }
+            // the larger one is a leaf: its triangles one by one
+            (0, _) if is_first_larger => self.leaf(a).for_each(|i| self.below(i, b, visit)),
+            (_, 0) if !is_first_larger => self.leaf(b).for_each(|i| self.below(i, a, visit)),
+            (0, _) => self.open(b, |child| self.between(a, child, visit)),
+            (_, 0) => self.open(a, |child| self.between(child, b, visit)),
+            _ if is_first_larger => self.open(a, |child| self.between(child, b, visit)),
+            _ => self.open(b, |child| self.between(a, child, visit)),
+        }
+    }
+
+    fn open(&self, node: Node, mut visit: impl FnMut(Node)) {
+        let (first, second) = self.children(node);
+        visit(first);
+        second.into_iter().for_each(visit);
+    }
+
+    /// Compares a triangle with those below a node that are near it.
+    fn below(&self, i: usize, node: Node, visit: &mut impl FnMut(u32, u32)) {
+        if self.triangles[i].touches(self.bounds(node)) {
+            let tile = Tile::new(self, self.order[i]);
+            self.below_tile(i, &tile, node, visit);
+        }
+    }
+
+    fn below_tile(&self, i: usize, tile: &Tile, node: Node, visit: &mut impl FnMut(u32, u32)) {
+        let bounds = self.bounds(node);
+        if !self.triangles[i].touches(bounds) || tile.misses(bounds) {
+            return;
+        }
+        if node.level == 0 {
+            return self.compare(i, self.leaf(node), visit);
+        }
+        self.open(node, |child| self.below_tile(i, tile, child, visit));
+    }
+
+    /// Calls for those of some triangles that may touch one.
+    fn compare(&self, i: usize, others: std::ops::Range<usize>, visit: &mut impl FnMut(u32, u32)) {
+        let mut tile = None;
+        for j in others {
+            if !self.triangles[i].touches(&self.triangles[j]) {
+                continue;
+            }
+            let (one, other) = (self.order[i], self.order[j]);
+            if self.operand.are_known_apart(one, other) {
+                continue;
+            }
+            let tile = tile.get_or_insert_with(|| Tile::new(self, one));
+            if !tile.misses(&self.triangles[j]) && !Tile::new(self, other).misses(&self.triangles[i]) {
+                visit(one, other);
+            }
+        }
+    }
+}
+
+/// A turn after which the plane in which most of the surface lies is perpendicular to an axis, and most edges in it parallel to one.
+fn frame(operand: &Operand<'_>, order: &[u32]) -> DMat3 {
+    let places = |triangle: u32| operand.triangles()[triangle as usize].map(|v| operand.positions()[v as usize]);
+    let step = order.len().div_ceil(SAMPLES).max(1);
+    let sample = || order.iter().step_by(step).map(|triangle| places(*triangle));
+    let normals = sample().map(|[a, b, c]| (b - a).cross(c - a));
+    let Some(normal) = most_common(normals) else { return DMat3::IDENTITY };
+    let is_across =
+        |[a, b, c]: &[DVec3; 3]| (*b - *a).cross(*c - *a).normalize_or_zero().dot(normal).abs() > 1.0 - STEP * STEP;
+    let edges = sample().filter(is_across).flat_map(|[a, b, c]| [b - a, c - b, a - c]);
+    let Some(along) = most_common(edges) else { return DMat3::IDENTITY };
+    let along = (along - normal * along.dot(normal)).normalize_or_zero();
+    let frame = DMat3::from_cols(along, normal.cross(along), normal).transpose();
+    if frame.is_finite() && (frame.determinant().abs() - 1.0).abs() < 1e-6 { frame } else { DMat3::IDENTITY }
+}
+
+/// The direction, whichever way, in which the most length lies.
+fn most_common(vectors: impl Iterator<Item = DVec3>) -> Option<DVec3> {
+    let mut sums: FxHashMap<[i32; 3], (f64, DVec3)> = FxHashMap::default();
+    for vector in vectors {
+        let Some(unit) = vector.try_normalize() else { continue };
+        // of opposite directions the one whose largest component is positive
+        let unit = unit * unit[unit.abs().max_position()].signum();
+        let entry = sums.entry((unit / STEP).round().as_ivec3().to_array()).or_insert((0.0, DVec3::ZERO));
+        entry.0 += vector.length();
+        entry.1 += unit * vector.length();
+    }
+    let largest = sums.into_iter().max_by(|(p, a), (q, b)| a.0.total_cmp(&b.0).then(p.cmp(q)))?;
+    largest.1.1.try_normalize()
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "boxes are grown by more than that rounds")]
+fn narrowed(v: f64) -> f32 {
+    v as f32
+}
