@@ -23,9 +23,10 @@ use glam::DVec3;
 use planecut_csg::Material;
 
 pub use error::{MeshError, Place};
+pub use planecut_csg::WindingRule;
 pub use planecut_shapes::polyhedron::Precision;
 pub(crate) use solid::joined_message;
-pub use solid::{MeshImport, PartsImport, SolidError, read_parts, read_solid, solid_of_mesh};
+pub use solid::{MeshImport, PartsImport, SolidError, SolidOptions, read_parts, read_solid, solid_of_mesh};
 
 use error::Fault;
 
