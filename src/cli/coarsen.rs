@@ -116,7 +116,8 @@ impl<'a> Plan<'a> {
     /// The model, and the points that its cells must hold.
     fn read(&self) -> Result<(Read, Vec<DVec3>), CliError> {
         if let InputKind::Mesh(format) = self.kind {
-            let parts = read_parts(&self.input.read()?, format, &self.input.name())?;
+            let parts =
+                read_parts(&self.input.read()?, format, &self.input.name(), &self.args.reading.solid_options())?;
             let MeshImport { model, warnings, .. } = parts.import;
             return Ok((Read { model, warnings, ..Read::default() }, parts.points));
         }

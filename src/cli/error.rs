@@ -102,7 +102,7 @@ pub(crate) enum CliError {
     #[error(transparent)]
     Mesh(#[from] MeshError),
     /// The input is no closed mesh.
-    #[error(transparent)]
+    #[error("{error}{advice}", error = .0, advice = advice(.0))]
     Solid(#[from] SolidError),
     /// The edits are none.
     #[error(transparent)]
@@ -226,6 +226,11 @@ impl CliError {
             | Self::Threads(_) => FAILED,
         }
     }
+}
+
+/// What would make a solid of a mesh that is none.
+pub(crate) fn advice(error: &SolidError) -> &'static str {
+    if error.is_open() { " (--close EPS joins vertices that are no farther apart than EPS)" } else { "" }
 }
 
 /// A line after the name of a file; nothing for line 0.

@@ -127,7 +127,7 @@ pub(crate) fn bounded_tree_of<'a>(kind: InputKind, model: &'a Model, unbounded: 
 }
 
 /// The union of a map's brushes but for those that are not bounded.
-fn without(model: &Model, unbounded: &[usize]) -> Tree {
+pub(crate) fn without(model: &Model, unbounded: &[usize]) -> Tree {
     let brushes = model.tree.brushes().iter().zip(model.tree.source_lines()).enumerate();
     let bounded =
         brushes.filter(|(number, _)| !unbounded.contains(number)).map(|(_, (brush, line))| (brush.clone(), line));

@@ -104,10 +104,7 @@ fn check_points(points: &[DVec3]) -> Result<(), PolyhedronError> {
 }
 
 /// Facets as triangles, and the facet of each.
-fn triangles_of<F: AsRef<[u32]>>(
-    points: &[DVec3],
-    facets: &[F],
-) -> Result<(Vec<[u32; 3]>, Vec<u32>), PolyhedronError> {
+fn triangles_of<F: AsRef<[u32]>>(points: &[DVec3], facets: &[F]) -> Result<(Vec<[u32; 3]>, Vec<u32>), PolyhedronError> {
     let (mut triangles, mut facet_of) = (Vec::with_capacity(facets.len()), Vec::with_capacity(facets.len()));
     for (number, facet) in (0..).zip(facets) {
         let corners = facet.as_ref();

@@ -25,11 +25,12 @@ pub(super) fn may_be_convex(points: &[DVec3], triangles: &[[u32; 3]], precision:
     let twins = half_edges.twins();
     (0..).zip(&twins).all(|(half_edge, &twin): (u32, &u32)| {
         let is_paired = twin != NO_TWIN;
-        is_paired && (twin > half_edge || {
-            let apex = points[half_edges.from(previous(twin)) as usize];
-            debug_assert_eq!(half_edges.from(next(twin)), half_edges.from(half_edge));
-            !reaches(&triangles[half_edge as usize / 3], apex)
-        })
+        is_paired
+            && (twin > half_edge || {
+                let apex = points[half_edges.from(previous(twin)) as usize];
+                debug_assert_eq!(half_edges.from(next(twin)), half_edges.from(half_edge));
+                !reaches(&triangles[half_edge as usize / 3], apex)
+            })
     })
 }
 
@@ -50,7 +51,8 @@ mod tests {
             (0..8).map(|k| DVec3::new(f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2))).collect();
         points.push(DVec3::new(0.5, 0.5, height));
         let quads = [[0, 2, 3, 1], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
-        let mut triangles: Vec<[u32; 3]> = quads.iter().flat_map(|q| [[q[0], q[1], q[2]], [q[0], q[2], q[3]]]).collect();
+        let mut triangles: Vec<[u32; 3]> =
+            quads.iter().flat_map(|q| [[q[0], q[1], q[2]], [q[0], q[2], q[3]]]).collect();
         triangles.extend([[4, 5, 8], [5, 7, 8], [7, 6, 8], [6, 4, 8]]);
         (points, triangles)
     }

@@ -4,7 +4,7 @@ use planecut::csg::{
     Cutaway, FaceSource, Material, MaterialId, Mesh, MeshFace, Model, Solid, Tree, evaluate, summarize,
 };
 use planecut::import::Warning;
-use planecut::import::mesh::{IndexedMesh, MeshFormat, read_mesh};
+use planecut::import::mesh::{IndexedMesh, MeshFormat, SolidOptions, read_mesh};
 use planecut::kernel::DVec3;
 use planecut::picture::{PreviewOptions, Subject};
 
@@ -41,9 +41,10 @@ pub(super) fn subject(
     progress: &Progress,
 ) -> Result<Drawn, CliError> {
     let is_whole = args.section().is_none() && args.spread().is_none();
+    let takes_as_it_is = args.reading.solid_options() == SolidOptions::default();
     match kind {
         // A mesh is drawn as it is, whether it bounds a solid or not.
-        InputKind::Mesh(format) if is_whole && args.buffers.id_of != IdKind::Brush => {
+        InputKind::Mesh(format) if is_whole && args.buffers.id_of != IdKind::Brush && takes_as_it_is => {
             progress.stage("reading");
             mesh_as_it_is(input, format)
         }
