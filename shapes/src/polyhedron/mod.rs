@@ -15,6 +15,7 @@
 mod body;
 mod cells;
 mod choice;
+mod convex_tree;
 mod convexity;
 mod edges;
 mod error;
@@ -37,6 +38,7 @@ use planecut_csg::{Brush, MaterialId, Tree};
 use planecut_kernel::DVec3;
 
 pub use body::{MAX_CONVEX_TRIANGLES, SurfaceBody, SurfaceOptions, surface_body};
+pub use convex_tree::{ConvexTreeError, convex_tree};
 pub use error::PolyhedronError;
 pub use joining::join_near;
 pub use polygon::{MAX_CONCAVE_CORNERS, triangulate};
