@@ -10,7 +10,7 @@ use super::combine::Inputs;
 use super::error::{CliError, Done};
 use super::input::InputKind;
 use super::output::{MeshTarget, OutputFormat, Target, check_targets};
-use super::pieces::{Pieces, brushes};
+use super::pieces::{Pieces, bounded_tree, brushes};
 use super::product::{Contents, Product, draw, encode, first_written, produce};
 use super::progress::Progress;
 use super::report::milliseconds;
@@ -79,7 +79,7 @@ impl<'a> Plan<'a> {
         let options = assets.options(self.args.output.scale);
         let solid = Part { name: "solid", mesh: &solved.mesh, sources: &solved.sources };
         let parts = pieces.as_ref().map_or_else(|| vec![solid], |pieces| pieces.as_parts(&solved.sources));
-        let brushes = || brushes(self.kind, &solved);
+        let brushes = || brushes(&input.path, &bounded_tree(self.kind, &solved));
         let contents = Contents { parts: &parts, materials: &solved.model.materials, brushes: &brushes };
         let mut outputs = encode(&contents, &self.meshes, &options)?;
         let encoding = begin.elapsed();

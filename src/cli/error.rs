@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use planecut::check::MeshProblem;
 use planecut::csg::coarsen::CoarsenError;
+use planecut::csg::polyhedron::ConvexTreeError;
 use planecut::csg::{EditError, EvaluateError};
 use planecut::export::ExportError;
 use planecut::import::Warning;
@@ -125,6 +126,14 @@ pub(crate) enum CliError {
         /// The line, counted from 1; 0 for all.
         line: u32,
     },
+    /// A closed mesh has no convex cells that could be found.
+    #[error("{}: found {source}, expected one that convex cells can fill", .path.display())]
+    Cells {
+        /// The input.
+        path: PathBuf,
+        /// Why.
+        source: ConvexTreeError,
+    },
     /// The cells cannot be coarsened so.
     #[error("{}: {source}", .path.display())]
     Coarsen {
@@ -217,6 +226,7 @@ impl CliError {
             | Self::Edit { .. }
             | Self::NotFresh { .. }
             | Self::Evaluate { .. }
+            | Self::Cells { .. }
             | Self::Coarsen { .. }
             | Self::Bug { .. }
             | Self::Draw { .. }

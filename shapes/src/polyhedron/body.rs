@@ -31,6 +31,8 @@ pub struct SurfaceBody {
     pub brush: Brush,
     /// Whether all facets were turned over: they were clockwise seen from outside.
     pub is_turned: bool,
+    /// How many facets of a convex body were cut into triangles as their corners lie on no plane; those of a closed mesh always are.
+    pub bent_facets: usize,
     /// How many places of corners went because the surface was not closed without joining them to others, as near as rounding.
     pub joined_corners: usize,
 }
@@ -90,8 +92,9 @@ pub fn surface_body<F: AsRef<[u32]>>(
     let is_tried = mesh.triangles().len() <= MAX_CONVEX_TRIANGLES
         && may_be_convex(mesh.positions(), mesh.triangles(), options.precision);
     let convex = if is_tried { convex_body(points, facets, materials, options.precision) } else { None };
-    let brush = convex.unwrap_or_else(|| Brush::of_mesh(MeshBody::new(mesh, of_surface).with_rule(options.rule)));
-    Ok(SurfaceBody { brush, is_turned, joined_corners })
+    let of_mesh = || (Brush::of_mesh(MeshBody::new(mesh, of_surface).with_rule(options.rule)), 0);
+    let (brush, bent_facets) = convex.unwrap_or_else(of_mesh);
+    Ok(SurfaceBody { brush, is_turned, bent_facets, joined_corners })
 }
 
 fn check_points(points: &[DVec3]) -> Result<(), PolyhedronError> {
@@ -162,10 +165,10 @@ fn convex_body<F: AsRef<[u32]>>(
     facets: &[F],
     materials: &[MaterialId],
     precision: Precision,
-) -> Option<Brush> {
+) -> Option<(Brush, usize)> {
     let solid = polyhedron(points, facets, materials, &PolyhedronOptions { precision }).ok()?;
     let mut cells = solid.cells;
-    if cells.len() == 1 { cells.pop() } else { None }
+    if cells.len() == 1 { cells.pop().map(|cell| (cell, solid.bent_facets)) } else { None }
 }
 
 /// What is wrong with the mesh of facets, said of these.

@@ -11,7 +11,7 @@ use planecut::picture::{PreviewOptions, Subject};
 use super::args::{IdKind, RenderArgs};
 use crate::cli::error::CliError;
 use crate::cli::input::{Input, InputKind};
-use crate::cli::pieces::{bounded_tree_of, brush_meshes};
+use crate::cli::pieces::{bounded_tree_of, brush_meshes, of_cells};
 use crate::cli::progress::Progress;
 use crate::cli::solve::{read, solve};
 
@@ -107,6 +107,7 @@ fn inside(
         let mesh = evaluate(&model).map_err(failed)?.mesh;
         return Ok(Drawn::new(Subject::from(mesh).hatching(&cuts), read.warnings));
     };
+    model.tree = of_cells(&input.path, &model.tree)?.into_owned();
     let cells = if matches!(kind, InputKind::Mesh(_)) && is_union(&model.tree) {
         // A file of convex bodies: they are the cells, even where they overlap.
         brush_meshes(model.tree.brushes(), &model.materials)
