@@ -294,9 +294,10 @@ pub(crate) struct ReadingArgs {
 }
 
 impl ReadingArgs {
-    /// The options for model files.
-    pub(crate) fn model_options(&self) -> ModelOptions {
-        ModelOptions { parameters: self.model.set.clone(), max_pieces: self.max_pieces }
+    /// The options for model files; meshes that `input` names lie beside it.
+    pub(crate) fn model_options(&self, input: &Input) -> ModelOptions {
+        let (parameters, folder) = (self.model.set.clone(), folder_of(input));
+        ModelOptions { parameters, max_pieces: self.max_pieces, folder }
     }
 
     /// The options for maps.
@@ -306,9 +307,8 @@ impl ReadingArgs {
 
     /// The options for OpenSCAD's trees; files that `input` names lie beside it.
     pub(crate) fn scad_options(&self, input: &Input) -> ScadOptions {
-        let folder = input.file().and_then(Path::parent).map(Path::to_owned).unwrap_or_default();
         let ScadArgs { keep_going, keep_touching } = self.scad;
-        ScadOptions { folder, keep_going, keep_touching, max_pieces: self.max_pieces }
+        ScadOptions { folder: folder_of(input), keep_going, keep_touching, max_pieces: self.max_pieces }
     }
 
     /// The options for meshes.
@@ -364,6 +364,11 @@ impl ReadingArgs {
         }
         Ok(())
     }
+}
+
+/// The folder of an input: the working folder for standard input.
+fn folder_of(input: &Input) -> PathBuf {
+    input.file().and_then(Path::parent).map(Path::to_owned).unwrap_or_default()
 }
 
 /// What to change in a model file.

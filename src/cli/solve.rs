@@ -145,7 +145,7 @@ pub(crate) fn read(input: &Input, kind: InputKind, reading: &ReadingArgs) -> Res
     let bytes = input.read()?;
     let (model, warnings) = match kind {
         InputKind::Json => {
-            let import = read_model(&bytes, &input.name(), &reading.model_options())?;
+            let import = read_model(&bytes, &input.name(), &reading.model_options(input))?;
             (import.model, import.warnings)
         }
         InputKind::Map => {

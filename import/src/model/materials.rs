@@ -14,7 +14,7 @@ use crate::source::shorten;
 /// Stands for a material on faces that have none yet.
 pub(super) const NO_MATERIAL: MaterialId = MaterialId(u32::MAX);
 /// The material of faces that no node gives one.
-const DEFAULT: &str = "default";
+pub(super) const DEFAULT: &str = "default";
 
 /// The materials, by their numbers.
 ///

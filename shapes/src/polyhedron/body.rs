@@ -15,6 +15,9 @@ use super::{PolyhedronOptions, material_of_facet, polyhedron};
 /// Surfaces of more triangles are not tried as one convex body: that takes longer than to combine them as they are.
 pub const MAX_CONVEX_TRIANGLES: usize = 1 << 13;
 
+/// Surfaces with more volume than this share of their size have more than two-sided sheets: for those, sums are zero but for rounding.
+const NO_VOLUME: f64 = 1e-9;
+
 /// How a surface becomes a leaf.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SurfaceOptions {
@@ -43,7 +46,7 @@ pub struct SurfaceBody {
 /// A surface that as a whole encloses a negative volume is turned over.
 ///
 /// # Errors
-/// [`PolyhedronError`] where the surface is not closed, or encloses nothing at all.
+/// [`PolyhedronError`] where the surface is not closed, or is a sheet with two sides.
 ///
 /// ```
 /// use planecut_csg::{Material, MaterialId, Model, WindingRule, evaluate};
@@ -85,7 +88,7 @@ pub fn surface_body<F: AsRef<[u32]>>(
         mesh => mesh.map(|mesh| (mesh, 0)),
     }
     .map_err(|error| fault(&error, &facet_of))?;
-    if six_volumes == 0.0 {
+    if is_two_sided(&mesh, six_volumes) {
         return Err(PolyhedronError::NoVolume);
     }
     let is_turned = six_volumes < 0.0;
@@ -95,6 +98,25 @@ pub fn surface_body<F: AsRef<[u32]>>(
     let of_mesh = || (Brush::of_mesh(MeshBody::new(mesh, of_surface).with_rule(options.rule)), 0);
     let (brush, bent_facets) = convex.unwrap_or_else(of_mesh);
     Ok(SurfaceBody { brush, is_turned, bent_facets, joined_corners })
+}
+
+/// Whether each triangle lies on its own mirror image: a sheet of two sides, which winds around nothing.
+fn is_two_sided(mesh: &ClosedMesh, six_volumes: f64) -> bool {
+    let nowhere = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    let (low, high) = mesh.positions().iter().fold(nowhere, |(low, high), p| (low.min(*p), high.max(*p)));
+    let size = if mesh.positions().is_empty() { DVec3::ZERO } else { high - low };
+    if six_volumes.abs() > NO_VOLUME * size.max_element().powi(3) {
+        return false;
+    }
+    let mut sides: FxHashMap<[u32; 3], i32> = FxHashMap::default();
+    for triangle in mesh.triangles() {
+        let mut corners = *triangle;
+        corners.sort_unstable();
+        let first = triangle.iter().position(|corner| *corner == corners[0]).unwrap_or(0);
+        let is_ascending = triangle[(first + 1) % 3] == corners[1];
+        *sides.entry(corners).or_default() += if is_ascending { 1 } else { -1 };
+    }
+    sides.values().all(|sum| *sum == 0)
 }
 
 fn check_points(points: &[DVec3]) -> Result<(), PolyhedronError> {
