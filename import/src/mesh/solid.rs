@@ -173,7 +173,8 @@ fn import(
         SolidError::Surface { name: name.to_owned(), place, object: object.name.clone(), source: Box::new(source) }
     })?;
     if joined > 0 {
-        let message = format!("joined {joined} vertices with others no farther than {}", options.close);
+        let vertices = if joined == 1 { "vertex" } else { "vertices" };
+        let message = format!("joined {joined} {vertices} with others that are no farther than {}", options.close);
         import.warnings.insert(0, Warning::note(0, message));
     }
     Ok(import)

@@ -4,6 +4,7 @@ mod damaged;
 mod files;
 mod formats;
 mod gltf;
+mod leaves;
 #[cfg(feature = "meshopt")]
 mod packed;
 mod solid;
