@@ -98,15 +98,13 @@ pub fn read_solid(
 /// # Errors
 /// [`SolidError::Surface`] where an object's surface is not closed or encloses nothing.
 pub fn solid_of_mesh(
-    mut mesh: IndexedMesh,
+    mesh: IndexedMesh,
     format: MeshFormat,
     name: &str,
     options: &SolidOptions,
 ) -> Result<MeshImport, SolidError> {
-    if format == MeshFormat::Gltf {
-        turn_up(&mut mesh);
-    }
-    import(&mut mesh, name, options, ConvexObjects::AsStated)
+    let (mesh, notes) = prepared(mesh, format, options);
+    import(&mesh, name, ConvexObjects::AsStated, options.rule, &notes)
 }
 
 /// The convex parts of a mesh, as they are to be coarsened, and its points.
@@ -130,11 +128,8 @@ pub fn read_parts(
     name: &str,
     options: &SolidOptions,
 ) -> Result<PartsImport, SolidError> {
-    let mut mesh = read_mesh(bytes, format, name)?;
-    if format == MeshFormat::Gltf {
-        turn_up(&mut mesh);
-    }
-    let import = import(&mut mesh, name, options, ConvexObjects::AsHulls)?;
+    let (mesh, notes) = prepared(read_mesh(bytes, format, name)?, format, options);
+    let import = import(&mesh, name, ConvexObjects::AsHulls, options.rule, &notes)?;
     let mut used: Vec<u32> = mesh.triangles.iter().flatten().copied().collect();
     used.sort_unstable();
     used.dedup();
@@ -142,9 +137,22 @@ pub fn read_parts(
     Ok(PartsImport { import, points })
 }
 
-/// From glTF's axes, in which y points up, to those in which z does.
-fn turn_up(mesh: &mut IndexedMesh) {
-    mesh.positions.iter_mut().for_each(|p| *p = DVec3::new(p.x, 0.0 - p.z, p.y));
+/// A mesh with z up, with materials for colours, and with vertices joined as the options say; and what is to be said of that.
+fn prepared(mesh: IndexedMesh, format: MeshFormat, options: &SolidOptions) -> (IndexedMesh, Vec<String>) {
+    let (mut mesh, rounded) = mesh.painted();
+    let mut notes: Vec<String> = rounded.into_iter().collect();
+    if format == MeshFormat::Gltf {
+        mesh.positions.iter_mut().for_each(|p| *p = DVec3::new(p.x, 0.0 - p.z, p.y));
+    }
+    if options.close > 0.0 {
+        let (positions, joined) = join_near(&mesh.positions, options.close);
+        mesh.positions = positions;
+        let vertices = if joined == 1 { "vertex" } else { "vertices" };
+        if joined > 0 {
+            notes.push(format!("joined {joined} {vertices} with others that are no farther than {}", options.close));
+        }
+    }
+    (mesh, notes)
 }
 
 /// What becomes of objects that are convex bodies.
@@ -157,26 +165,19 @@ enum ConvexObjects {
 }
 
 fn import(
-    mesh: &mut IndexedMesh,
+    mesh: &IndexedMesh,
     name: &str,
-    options: &SolidOptions,
     convex: ConvexObjects,
+    rule: WindingRule,
+    notes: &[String],
 ) -> Result<MeshImport, SolidError> {
-    let mut joined = 0;
-    if options.close > 0.0 {
-        (mesh.positions, joined) = join_near(&mesh.positions, options.close);
-    }
-    let reader = Reader { mesh, rule: options.rule, convex };
+    let reader = Reader { mesh, rule, convex };
     let mut import = reader.solid().map_err(|(object, source)| {
         let triangle = source.facet().map(|facet| object.triangles.start + facet);
         let place = triangle.and_then(|triangle| mesh.places.get(triangle)).cloned().unwrap_or(Place::End);
         SolidError::Surface { name: name.to_owned(), place, object: object.name.clone(), source: Box::new(source) }
     })?;
-    if joined > 0 {
-        let vertices = if joined == 1 { "vertex" } else { "vertices" };
-        let message = format!("joined {joined} {vertices} with others that are no farther than {}", options.close);
-        import.warnings.insert(0, Warning::note(0, message));
-    }
+    import.warnings.splice(0..0, notes.iter().map(|note| Warning::note(0, note.as_str())));
     Ok(import)
 }
 

@@ -64,6 +64,7 @@ fn mesh_as_it_is(input: &Input, format: MeshFormat) -> Result<Drawn, CliError> {
 
 /// A mesh with a face for each of its triangles. Those without an area have no normal and are left out.
 fn drawable(read: IndexedMesh) -> Mesh {
+    let (read, _) = read.painted();
     let plain = read.materials.len() as u32;
     let mut mesh = Mesh { positions: read.positions, materials: read.materials, ..Mesh::default() };
     mesh.materials.push(Material::named("mesh"));

@@ -1,5 +1,6 @@
 //! Triangle meshes: OBJ, STL, PLY and glTF.
 
+mod colors;
 mod damaged;
 mod files;
 mod formats;
