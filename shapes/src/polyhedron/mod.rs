@@ -51,6 +51,9 @@ use joining::closed_surface;
 use planes::Planes;
 use surface::Surface;
 
+/// Most convex cells of a surface.
+pub const MAX_CELLS: u64 = 4_194_304;
+
 /// How a surface is taken.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PolyhedronOptions {
