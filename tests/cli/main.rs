@@ -13,6 +13,7 @@ mod examples;
 mod interrupt;
 mod limits;
 mod losses;
+mod mesh_data;
 mod meshes;
 mod model;
 mod outputs;
