@@ -37,7 +37,7 @@ const SUFFIX: &str = "(cut)";
 impl Model {
     /// Cuts the model open along the plane of a half-space. Where it goes through a brush that is made of one material, the face of the cut has that
     /// material's own for cuts, of the same looks; brushes whose faces differ, as the textures of a map do, share one without a name.
-    /// Faces that lie on the plane already stay what they are.
+    /// Faces that lie on the plane already stay what they are, but for those of closed meshes among leaves of several materials.
     ///
     /// ```
     /// use planecut_csg::{Brush, Material, MaterialId, Model, Tree, evaluate};
