@@ -86,7 +86,7 @@ impl Inputs {
             let brushes = trees.iter().map(|tree| tree.brushes().len()).sum();
             all.textures.resize(brushes, Vec::new());
             all.textures.extend(other.textures);
-            all.warnings.extend(other.warnings.into_iter().map(|warning| in_file(input, warning)));
+            all.warnings.extend(other.warnings.iter().map(|warning| in_file(input, warning)));
             // lines are those of the first one
             trees.push(other.model.tree.without_source_lines());
         }
@@ -107,9 +107,9 @@ impl From<Combine> for Operation {
 }
 
 /// A warning about another file than the first.
-fn in_file(input: &Input, warning: Warning) -> Warning {
+fn in_file(input: &Input, warning: &Warning) -> Warning {
     let line = if warning.line > 0 { format!(":{}", warning.line) } else { String::new() };
-    Warning { line: 0, message: format!("{}{line}: {}", input.name(), warning.message), ..warning }
+    Warning::loss(0, format!("{}{line}: {}", input.name(), warning.message), warning.left_out)
 }
 
 /// What was read of a map without brushes that are not bounded, which are named in warnings; anything else as it is.

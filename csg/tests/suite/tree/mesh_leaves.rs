@@ -72,7 +72,7 @@ fn surfaces_of_meshes_are_sources_as_faces_of_brushes_are() {
 fn leaves_are_replaced_in_place() {
     let moved = Transform::translation(DVec3::new(0.0, 0.0, 3.0)).expect("a map");
     let block = |x: f64| Brush::cuboid([x, 0.0, 0.0], [x + 1.0, 1.0, 1.0], MaterialId(0));
-    let tree = Tree::from(l_shape([0, 1])).with_name("L") - block(0.0).into() | block(7.0).into();
+    let tree = (Tree::from(l_shape([0, 1])).with_name("L") - block(0.0).into()) | block(7.0).into();
     let tree = tree.transformed(&moved).expect("in range").with_source_line(std::num::NonZeroU32::new(3));
     let both = tree.clone().try_replace_leaves(|leaf| match leaf.mesh {
         Some(_) => Ok::<_, ()>(vec![block(0.0), block(1.0), block(2.0)]),

@@ -68,14 +68,12 @@ fn material(document: &Document, primitive: &Primitive) -> Option<u32> {
     if number < document.materials.len() { u32::try_from(number).ok() } else { None }
 }
 
+/// The material and the colour of each triangle.
+type Looks = (Vec<Option<u32>>, Vec<Option<Color>>);
+
 /// The materials and colours of a manifold primitive's triangles, which are those of the mesh's primitives one after another; none where
 /// they are not as many.
-fn materials_in_order(
-    document: &Document,
-    buffers: &Buffers<'_>,
-    mesh: usize,
-    count: usize,
-) -> Result<(Vec<Option<u32>>, Vec<Option<Color>>), Fault> {
+fn materials_in_order(document: &Document, buffers: &Buffers<'_>, mesh: usize, count: usize) -> Result<Looks, Fault> {
     let primitives = &document.meshes[mesh].primitives;
     let none = || (vec![None; count], vec![None; count]);
     let is_plain = |primitive: &Primitive| material(document, primitive).is_none() && color_of(primitive).is_none();
