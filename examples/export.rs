@@ -7,6 +7,7 @@
 use std::error::Error;
 use std::path::PathBuf;
 
+use planecut::csg::polyhedron::convex_tree;
 use planecut::csg::{Solid, evaluate};
 use planecut::export::{ExportOptions, Format, Part, encode, encode_parts, write_atomic};
 use planecut::import::model::{ModelOptions, read_model};
@@ -34,7 +35,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
 
     // The cells: convex, disjoint, as physics engines like them.
-    let solid = Solid::from_tree(&import.model.tree);
+    let solid = Solid::from_tree(&*convex_tree(&import.model.tree)?);
     let meshes = solid.cell_meshes(&import.model.materials)?;
     let names: Vec<String> = (0..meshes.len()).map(|number| format!("cell {number}")).collect();
     let parts: Vec<Part<'_>> = names.iter().zip(&meshes).map(|(name, mesh)| Part::new(name, mesh)).collect();

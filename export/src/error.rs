@@ -19,6 +19,12 @@ pub enum ExportError {
         /// The ending as given, without the dot.
         extension: String,
     },
+    /// A brush is a closed mesh.
+    #[error("brush {brush} (counted from 0) is a closed mesh, expected convex bodies alone")]
+    MeshBrush {
+        /// Its place among the brushes, from 0.
+        brush: usize,
+    },
     /// A brush reaches infinity.
     #[error("brush {brush} (counted from 0) is unbounded, expected bounded convex bodies")]
     Unbounded {

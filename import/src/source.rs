@@ -1,5 +1,7 @@
 //! What all readers of texts do first, and how they show what they found.
 
+use planecut_csg::{MeshBody, Tree};
+
 /// Most bytes of a text that is read: 1 GiB.
 pub const MAX_TEXT: usize = 1 << 30;
 
@@ -9,6 +11,12 @@ pub const DEFAULT_MAX_PIECES: usize = 1 << 20;
 /// What is expected of a number of pieces, for an error.
 pub(crate) fn at_most(pieces: usize) -> String {
     format!("at most {pieces} (--max-pieces)")
+}
+
+/// The planes of all brushes of a tree; triangles of closed meshes count as planes.
+pub(crate) fn planes_of(tree: &Tree) -> usize {
+    let triangles = |mesh: &MeshBody| mesh.mesh().triangles().len();
+    tree.brushes().iter().map(|brush| brush.faces.len() + brush.mesh.as_ref().map_or(0, triangles)).sum()
 }
 
 /// Most characters of a text that an error shows.

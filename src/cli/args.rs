@@ -3,12 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use clap::error::ErrorKind;
-use clap::{Args, CommandFactory, Parser, Subcommand};
+use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use planecut::csg::Tree;
 use planecut::csg::coarsen::{CoarsenOptions, LEAST_MAX_FACES, LEAST_MAX_VERTICES, Side};
 use planecut::import::DEFAULT_MAX_PIECES;
 use planecut::import::map::MapOptions;
+use planecut::import::mesh::{SolidOptions, WindingRule};
 use planecut::import::model::{MAX_BRUSHES, ModelOptions};
 use planecut::import::scad::ScadOptions;
 use planecut::picture::{MAX_IMAGE_SIDE, PreviewOptions};
@@ -54,9 +55,13 @@ pub(crate) enum Command {
 /// Arguments of `build`.
 #[derive(Debug, Args)]
 pub(crate) struct BuildArgs {
-    /// The model, map, tree or closed mesh to read (.json, .map, .csg, .obj, .stl, .ply, .glb, .gltf); `-` is standard input
-    #[arg(value_name = "INPUT")]
-    pub(crate) input: PathBuf,
+    /// The model, map, tree or closed mesh to read (.json, .map, .csg, .obj, .stl, .ply, .glb, .gltf); several, of any kinds, with --combine; `-` is standard
+    /// input
+    #[arg(value_name = "INPUT", required = true)]
+    pub(crate) inputs: Vec<PathBuf>,
+    /// How to combine several inputs; `difference` takes all others from the first one
+    #[arg(long, value_enum, value_name = "OPERATION")]
+    pub(crate) combine: Option<Combine>,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
     /// Write the convex cells of the solid, one mesh each, instead of its boundary
@@ -71,6 +76,19 @@ pub(crate) struct BuildArgs {
     pub(crate) reading: ReadingArgs,
     #[command(flatten)]
     pub(crate) common: CommonArgs,
+}
+
+/// How several inputs become one solid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Combine {
+    /// What lies in any of them
+    Union,
+    /// What lies in the first one and in no other
+    Difference,
+    /// What lies in all of them
+    Intersection,
+    /// What lies in an odd number of them
+    Xor,
 }
 
 /// Where meshes and the report go.
@@ -271,12 +289,15 @@ pub(crate) struct ReadingArgs {
     map: MapArgs,
     #[command(flatten)]
     scad: ScadArgs,
+    #[command(flatten)]
+    mesh: MeshArgs,
 }
 
 impl ReadingArgs {
-    /// The options for model files.
-    pub(crate) fn model_options(&self) -> ModelOptions {
-        ModelOptions { parameters: self.model.set.clone(), max_pieces: self.max_pieces }
+    /// The options for model files; meshes that `input` names lie beside it.
+    pub(crate) fn model_options(&self, input: &Input) -> ModelOptions {
+        let (parameters, folder) = (self.model.set.clone(), folder_of(input));
+        ModelOptions { parameters, max_pieces: self.max_pieces, folder }
     }
 
     /// The options for maps.
@@ -286,9 +307,13 @@ impl ReadingArgs {
 
     /// The options for OpenSCAD's trees; files that `input` names lie beside it.
     pub(crate) fn scad_options(&self, input: &Input) -> ScadOptions {
-        let folder = input.file().and_then(Path::parent).map(Path::to_owned).unwrap_or_default();
         let ScadArgs { keep_going, keep_touching } = self.scad;
-        ScadOptions { folder, keep_going, keep_touching, max_pieces: self.max_pieces }
+        ScadOptions { folder: folder_of(input), keep_going, keep_touching, max_pieces: self.max_pieces }
+    }
+
+    /// The options for meshes.
+    pub(crate) fn solid_options(&self) -> SolidOptions {
+        SolidOptions { rule: self.mesh.winding.into(), close: self.mesh.close.unwrap_or(0.0) }
     }
 
     /// The same for another input, of any kind: what is for one kind alone is left out.
@@ -300,6 +325,7 @@ impl ReadingArgs {
             model: ModelArgs { set: Vec::new() },
             map: MapArgs { world_only: false, skip_texture: Vec::new(), skip_class: Vec::new() },
             scad: self.scad.clone(),
+            mesh: self.mesh.clone(),
         }
     }
 
@@ -308,23 +334,41 @@ impl ReadingArgs {
     /// # Errors
     /// [`CliError::Usage`]; `kind` is that of the input.
     pub(crate) fn check(&self, kind: InputKind) -> Result<(), CliError> {
+        self.check_any(&[kind])
+    }
+
+    /// The same for several inputs of these kinds.
+    ///
+    /// # Errors
+    /// As [`check`](Self::check).
+    pub(crate) fn check_any(&self, kinds: &[InputKind]) -> Result<(), CliError> {
+        let lacks = |kind: InputKind| !kinds.contains(&kind);
         let refuse = |option: &str, expected: &str| {
             Err(CliError::Usage(format!("found {option} with another input, expected it with {expected}")))
         };
-        if kind != InputKind::Json && !self.model.set.is_empty() {
+        if lacks(InputKind::Json) && !self.model.set.is_empty() {
             return refuse("--set", "a model file (.json)");
         }
-        if kind != InputKind::Map && self.map.options() != MapOptions::default() {
+        if lacks(InputKind::Map) && self.map.options() != MapOptions::default() {
             return refuse("--world-only, --skip-texture or --skip-class", "a map (.map)");
         }
-        if kind != InputKind::Csg && self.scad.keep_going {
+        if lacks(InputKind::Csg) && self.scad.keep_going {
             return refuse("--keep-going", "an OpenSCAD tree (.csg)");
         }
-        if kind != InputKind::Csg && self.scad.keep_touching {
+        if lacks(InputKind::Csg) && self.scad.keep_touching {
             return refuse("--keep-touching", "an OpenSCAD tree (.csg)");
+        }
+        let has_mesh = kinds.iter().any(|kind| matches!(kind, InputKind::Mesh(_)));
+        if !has_mesh && self.solid_options() != SolidOptions::default() {
+            return refuse("--winding or --close", "a mesh (.obj, .stl, .ply, .glb, .gltf)");
         }
         Ok(())
     }
+}
+
+/// The folder of an input: the working folder for standard input.
+fn folder_of(input: &Input) -> PathBuf {
+    input.file().and_then(Path::parent).map(Path::to_owned).unwrap_or_default()
 }
 
 /// What to change in a model file.
@@ -372,6 +416,39 @@ struct ScadArgs {
     /// Keep solids that touch themselves also where they are combined with others, as OpenSCAD does since 2024
     #[arg(long)]
     keep_touching: bool,
+}
+
+/// How to take closed meshes.
+#[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "Options for meshes")]
+struct MeshArgs {
+    /// What of a mesh that crosses itself, lies upon itself or is nested in itself is inside, by how often it winds around a place
+    #[arg(long, value_enum, value_name = "RULE", default_value_t = Winding::Positive)]
+    winding: Winding,
+    /// Join vertices of a mesh that differ by no more than EPS in each coordinate, in its units; for meshes that are not closed
+    #[arg(long, value_name = "EPS", value_parser = parse_distance)]
+    close: Option<f64>,
+}
+
+/// Which winding numbers are inside.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Winding {
+    /// Those above zero
+    Positive,
+    /// All but zero
+    Nonzero,
+    /// Odd ones
+    Odd,
+}
+
+impl From<Winding> for WindingRule {
+    fn from(winding: Winding) -> Self {
+        match winding {
+            Winding::Positive => Self::Positive,
+            Winding::Nonzero => Self::NonZero,
+            Winding::Odd => Self::Odd,
+        }
+    }
 }
 
 /// What every command takes.
@@ -469,6 +546,11 @@ fn parse_pieces(text: &str) -> Result<usize, String> {
 fn parse_ratio(text: &str) -> Result<f64, String> {
     let ratio = text.parse().ok().filter(|ratio: &f64| ratio.is_finite() && *ratio >= 0.0);
     ratio.ok_or_else(|| "expected a number that is not negative".to_owned())
+}
+
+fn parse_distance(text: &str) -> Result<f64, String> {
+    let distance = text.parse().ok().filter(|distance| *distance > 0.0 && *distance <= 1e30);
+    distance.ok_or_else(|| "expected a number above 0, at most 1e30".to_owned())
 }
 
 fn parse_thickness(text: &str) -> Result<f64, String> {

@@ -6,19 +6,20 @@ use planecut::export::Part;
 use planecut::picture::Subject;
 
 use super::args::BuildArgs;
+use super::combine::Inputs;
 use super::error::{CliError, Done};
-use super::input::{Input, InputKind};
+use super::input::InputKind;
 use super::output::{MeshTarget, OutputFormat, Target, check_targets};
-use super::pieces::{Pieces, brushes};
+use super::pieces::{Pieces, bounded_tree, brushes};
 use super::product::{Contents, Product, draw, encode, first_written, produce};
 use super::progress::Progress;
 use super::report::milliseconds;
-use super::solve::solve;
+use super::solve::solve_split;
 
 /// What is to be written where.
 struct Plan<'a> {
     args: &'a BuildArgs,
-    input: Input,
+    inputs: Inputs,
     kind: InputKind,
     meshes: Vec<MeshTarget>,
     preview: Option<Target>,
@@ -32,24 +33,26 @@ struct Plan<'a> {
 pub(crate) fn run(args: &BuildArgs) -> Result<Done, CliError> {
     let begin = Instant::now();
     let plan = Plan::resolve(args)?;
-    let product = produce(&args.common, &plan.input, plan.report.as_ref(), begin, |progress| plan.carry_out(progress));
+    let product =
+        produce(&args.common, plan.inputs.first(), plan.report.as_ref(), begin, |progress| plan.carry_out(progress));
     product.map(|warnings| Done::with(&warnings, args.reading.allow_loss))
 }
 
 impl<'a> Plan<'a> {
     fn resolve(args: &'a BuildArgs) -> Result<Self, CliError> {
-        let (input, kind) = Input::resolve_any(&args.input, args.reading.input_format)?;
-        args.reading.check(kind)?;
+        let inputs = Inputs::resolve(&args.inputs, args.combine, &args.reading)?;
         let plan = Self {
             args,
-            input,
-            kind,
+            kind: inputs.kind(),
+            inputs,
             meshes: args.output.targets()?,
             preview: args.picture.preview.as_deref().map(Target::picture).transpose()?,
             report: args.output.report.as_deref().map(Target::new),
         };
         let meshes: Vec<Target> = plan.meshes.iter().flat_map(MeshTarget::targets).collect();
-        check_targets(plan.input.file(), meshes.iter().chain(&plan.preview).chain(&plan.report))?;
+        for (input, _) in plan.inputs.all() {
+            check_targets(input.file(), meshes.iter().chain(&plan.preview).chain(&plan.report))?;
+        }
         Ok(plan)
     }
 
@@ -58,12 +61,16 @@ impl<'a> Plan<'a> {
         let splits_by_face = assets.splits_by_face();
         let writes_brushes = self.meshes.iter().any(|place| matches!(place.format, OutputFormat::Brushes(_)));
         let needs_brushes = writes_brushes || self.args.cells || self.args.parts;
-        let mut solved = solve(&self.input, self.kind, &self.args.reading, splits_by_face, needs_brushes, progress)?;
+        let (input, begin) = (self.inputs.first(), Instant::now());
+        progress.stage("reading");
+        let read = self.inputs.read(&self.args.reading)?;
+        let mut solved = solve_split(input, self.kind, read, begin, splits_by_face, needs_brushes, progress)?;
+        solved.report.set_inputs(self.inputs.told());
         let pieces = if self.args.cells {
             progress.stage("cutting cells");
-            Some(Pieces::cells(&self.input, self.kind, &mut solved)?)
+            Some(Pieces::cells(input, self.kind, &mut solved)?)
         } else if self.args.parts {
-            Some(Pieces::parts(&self.input, self.kind, &mut solved)?)
+            Some(Pieces::parts(input, self.kind, &mut solved)?)
         } else {
             None
         };
@@ -72,7 +79,7 @@ impl<'a> Plan<'a> {
         let options = assets.options(self.args.output.scale);
         let solid = Part { name: "solid", mesh: &solved.mesh, sources: &solved.sources };
         let parts = pieces.as_ref().map_or_else(|| vec![solid], |pieces| pieces.as_parts(&solved.sources));
-        let brushes = || brushes(self.kind, &solved);
+        let brushes = || brushes(&input.path, &bounded_tree(self.kind, &solved));
         let contents = Contents { parts: &parts, materials: &solved.model.materials, brushes: &brushes };
         let mut outputs = encode(&contents, &self.meshes, &options)?;
         let encoding = begin.elapsed();

@@ -14,7 +14,7 @@ use super::args::CoarsenArgs;
 use super::error::{CliError, Done};
 use super::input::{Input, InputKind};
 use super::output::{MeshTarget, Output, OutputFormat, Target, check_targets};
-use super::pieces::{NUMBER, bounded_tree};
+use super::pieces::{NUMBER, bounded_tree, of_cells};
 use super::product::{Contents, Product, draw, encode, produce};
 use super::progress::Progress;
 use super::report::{CoarsenPart, milliseconds};
@@ -116,7 +116,8 @@ impl<'a> Plan<'a> {
     /// The model, and the points that its cells must hold.
     fn read(&self) -> Result<(Read, Vec<DVec3>), CliError> {
         if let InputKind::Mesh(format) = self.kind {
-            let parts = read_parts(&self.input.read()?, format, &self.input.name())?;
+            let parts =
+                read_parts(&self.input.read()?, format, &self.input.name(), &self.args.reading.solid_options())?;
             let MeshImport { model, warnings, .. } = parts.import;
             return Ok((Read { model, warnings, ..Read::default() }, parts.points));
         }
@@ -128,7 +129,7 @@ impl<'a> Plan<'a> {
         let (mut trees, mut warnings) = (Vec::new(), Vec::new());
         for (input, kind) in &self.clear {
             let read = read(input, *kind, &self.args.reading.of_any_kind())?;
-            trees.push(read.model.tree);
+            trees.push(of_cells(&input.path, &read.model.tree)?.into_owned());
             let in_file =
                 |warning: Warning| Warning { line: 0, message: format!("{}: {warning}", input.name()), ..warning };
             warnings.extend(read.warnings.into_iter().map(in_file));
@@ -138,6 +139,7 @@ impl<'a> Plan<'a> {
 
     fn coarsen(&self, solved: &Solved, points: &[DVec3], options: &CoarsenOptions) -> Result<Coarsened, CliError> {
         let tree = bounded_tree(self.kind, solved);
+        let tree = of_cells(&self.input.path, &tree)?;
         let coarsened = Coarsener::new(&tree, points, options).and_then(|coarsener| coarsener.coarsened());
         coarsened.map_err(|source| CliError::Coarsen { path: self.input.path.clone(), source })
     }
@@ -185,7 +187,8 @@ impl<'a> Plan<'a> {
         let mut outputs = Vec::new();
         for mesh in &self.meshes {
             let (pieces, options) = cells.in_format(mesh.format);
-            let contents = Contents { parts: &pieces.as_parts(&[]), materials, brushes: &|| cells.bodies().to_vec() };
+            let contents =
+                Contents { parts: &pieces.as_parts(&[]), materials, brushes: &|| Ok(cells.bodies().to_vec()) };
             outputs.extend(encode(&contents, std::slice::from_ref(mesh), options)?);
         }
         for mesh in &self.patterns {
@@ -193,7 +196,7 @@ impl<'a> Plan<'a> {
             let (pieces, options) = cells.in_format(mesh.format);
             for (number, (part, body)) in pieces.as_parts(&[]).iter().zip(cells.bodies()).enumerate() {
                 let target = Target::File(PathBuf::from(pattern.replace(NUMBER, &number.to_string())));
-                let contents = Contents { parts: &[*part], materials, brushes: &|| vec![body.clone()] };
+                let contents = Contents { parts: &[*part], materials, brushes: &|| Ok(vec![body.clone()]) };
                 outputs.extend(encode(&contents, &[MeshTarget::alone(target, mesh.format)], options)?);
             }
         }

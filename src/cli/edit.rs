@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use planecut::csg::{Edit, EditError, Evaluation, LiveModel, Mesh, Model, convex_union, evaluate_with, summarize};
+use planecut::csg::{Edit, EditError, Evaluation, LiveModel, Mesh, Model, evaluate_with, summarize};
 use planecut::export::Part;
 use planecut::import::Warning;
 use planecut::import::edits::{EditsImport, read_edits};
@@ -12,7 +12,7 @@ use super::args::EditArgs;
 use super::error::{CliError, Done};
 use super::input::{Input, InputKind};
 use super::output::{MeshTarget, Target, check_targets};
-use super::pieces::bounded_tree_of;
+use super::pieces::{bounded_tree_of, brushes, of_cells};
 use super::product::{Contents, Product, encode, first_written, produce};
 use super::progress::Progress;
 use super::report::{EditPart, Report, evaluation_time, milliseconds};
@@ -60,7 +60,9 @@ impl<'a> Plan<'a> {
     fn carry_out(&self, progress: &Progress) -> Result<Product, CliError> {
         let begin = Instant::now();
         progress.stage("reading");
-        let Read { model, warnings, .. } = read(&self.input, self.kind, &self.args.reading)?;
+        let Read { mut model, warnings, .. } = read(&self.input, self.kind, &self.args.reading)?;
+        // edits are of convex bodies
+        model.tree = of_cells(&self.input.path, &model.tree)?.into_owned();
         let text = Input::plain(&self.args.edits).read()?;
         let EditsImport { edits, materials } =
             read_edits(&text, &self.args.edits.display().to_string(), &model.materials)?;
@@ -152,7 +154,7 @@ impl<'a> Plan<'a> {
         progress.stage("encoding");
         let options = self.args.output.assets.options(self.args.output.scale);
         let parts = [Part::new("solid", &mesh)];
-        let brushes = || convex_union(&bounded_tree_of(self.kind, &model, &unbounded)).into_owned();
+        let brushes = || brushes(&self.input.path, &bounded_tree_of(self.kind, &model, &unbounded));
         let contents = Contents { parts: &parts, materials: &model.materials, brushes: &brushes };
         let outputs = encode(&contents, &self.meshes, &options)?;
         let encoding = begin.elapsed();

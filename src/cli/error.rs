@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use planecut::check::MeshProblem;
 use planecut::csg::coarsen::CoarsenError;
+use planecut::csg::polyhedron::ConvexTreeError;
 use planecut::csg::{EditError, EvaluateError};
 use planecut::export::ExportError;
 use planecut::import::Warning;
@@ -102,7 +103,7 @@ pub(crate) enum CliError {
     #[error(transparent)]
     Mesh(#[from] MeshError),
     /// The input is no closed mesh.
-    #[error(transparent)]
+    #[error("{error}{advice}", error = .0, advice = advice(.0))]
     Solid(#[from] SolidError),
     /// The edits are none.
     #[error(transparent)]
@@ -124,6 +125,14 @@ pub(crate) enum CliError {
         path: PathBuf,
         /// The line, counted from 1; 0 for all.
         line: u32,
+    },
+    /// A closed mesh has no convex cells that could be found.
+    #[error("{}: found {source}, expected one that convex cells can fill", .path.display())]
+    Cells {
+        /// The input.
+        path: PathBuf,
+        /// Why.
+        source: ConvexTreeError,
     },
     /// The cells cannot be coarsened so.
     #[error("{}: {source}", .path.display())]
@@ -217,6 +226,7 @@ impl CliError {
             | Self::Edit { .. }
             | Self::NotFresh { .. }
             | Self::Evaluate { .. }
+            | Self::Cells { .. }
             | Self::Coarsen { .. }
             | Self::Bug { .. }
             | Self::Draw { .. }
@@ -226,6 +236,11 @@ impl CliError {
             | Self::Threads(_) => FAILED,
         }
     }
+}
+
+/// What would make a solid of a mesh that is none.
+pub(crate) fn advice(error: &SolidError) -> &'static str {
+    if error.is_open() { " (--close EPS joins vertices that are no farther apart than EPS)" } else { "" }
 }
 
 /// A line after the name of a file; nothing for line 0.

@@ -7,8 +7,8 @@ use planecut::check::check_topology;
 use planecut::import::Warning;
 use planecut::import::mesh::{MeshFormat, read_mesh, solid_of_mesh};
 
-use super::args::InfoArgs;
-use super::error::{CliError, Done};
+use super::args::{InfoArgs, ReadingArgs};
+use super::error::{CliError, Done, advice};
 use super::input::{Input, InputKind};
 use super::pool::on_threads;
 use super::progress::Progress;
@@ -26,7 +26,7 @@ pub(crate) fn run(args: &InfoArgs) -> Result<Done, CliError> {
     args.reading.check(kind)?;
     let progress = Progress::start(args.common.quiet);
     let (mut report, warnings) = on_threads(args.common.threads, || match kind {
-        InputKind::Mesh(format) => report_on_mesh(&input, format, &progress),
+        InputKind::Mesh(format) => report_on_mesh(&input, format, &args.reading, &progress),
         kind => {
             let solved = solve(&input, kind, &args.reading, None, false, &progress)?;
             Ok((solved.report, solved.warnings))
@@ -42,7 +42,12 @@ pub(crate) fn run(args: &InfoArgs) -> Result<Done, CliError> {
 }
 
 /// What the file says of the mesh, and what its solid is where there is one.
-fn report_on_mesh(input: &Input, format: MeshFormat, progress: &Progress) -> Result<(Report, Vec<Warning>), CliError> {
+fn report_on_mesh(
+    input: &Input,
+    format: MeshFormat,
+    reading: &ReadingArgs,
+    progress: &Progress,
+) -> Result<(Report, Vec<Warning>), CliError> {
     let begin = Instant::now();
     progress.stage("reading");
     let kind = InputKind::Mesh(format);
@@ -53,14 +58,14 @@ fn report_on_mesh(input: &Input, format: MeshFormat, progress: &Progress) -> Res
     report.time_ms.import = milliseconds(reading_time);
     let mut warnings: Vec<Warning> = topology.first_defect.map(warning).into_iter().collect();
     let begin = Instant::now();
-    match solid_of_mesh(mesh, format, &input.name()) {
+    match solid_of_mesh(mesh, format, &input.name(), &reading.solid_options()) {
         Ok(import) => {
             let read = Read { model: import.model, warnings: import.warnings, ..Read::default() };
             let solved = solve_read(input, kind, read, reading_time + begin.elapsed(), progress)?;
             report.take_model(solved.report);
             warnings.extend(solved.warnings);
         }
-        Err(error) => warnings.push(warning(format_args!("no solid: {error}"))),
+        Err(error) => warnings.push(warning(format_args!("no solid: {error}{}", advice(&error)))),
     }
     report.warn(&warnings);
     Ok((report, warnings))

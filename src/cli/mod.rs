@@ -7,6 +7,7 @@ mod asset_args;
 mod build;
 mod check;
 mod coarsen;
+mod combine;
 mod completions;
 mod edit;
 mod error;

@@ -1,9 +1,11 @@
 //! What is written as several meshes: the convex cells of a solid (`--cells`, `coarsen`), or its named parts (`--parts`).
 
 use std::borrow::Cow;
+use std::path::Path;
 use std::time::Instant;
 
 use planecut::check::check_topology;
+use planecut::csg::polyhedron::{ConvexTreeError, convex_tree};
 use planecut::csg::{
     Brush, EvaluateError, FaceSource, Material, Mesh, Model, Solid, Tree, convex_union, evaluate, evaluate_with,
 };
@@ -31,7 +33,8 @@ impl Pieces {
     /// [`CliError::Evaluate`] for an unbounded solid, [`CliError::Bug`] for a bug.
     pub(crate) fn cells(input: &Input, kind: InputKind, solved: &mut Solved) -> Result<Self, CliError> {
         let begin = Instant::now();
-        let solid = Solid::from_tree(&bounded_tree(kind, solved));
+        let tree = bounded_tree(kind, solved);
+        let solid = Solid::from_tree(&*of_cells(&input.path, &tree)?);
         let mut meshes = solid
             .cell_meshes(&solved.model.materials)
             .map_err(|source| CliError::of_evaluation(&input.path, source))?;
@@ -108,9 +111,23 @@ pub(crate) fn brush_meshes(brushes: &[Brush], materials: &[Material]) -> Result<
     brushes.par_iter().map(mesh).collect()
 }
 
-/// The solid as convex bodies: the brushes of a union as they are, else disjoint cells.
-pub(crate) fn brushes(kind: InputKind, solved: &Solved) -> Vec<Brush> {
-    convex_union(&bounded_tree(kind, solved)).into_owned()
+/// The solid of a tree as convex bodies: the brushes of a union as they are, closed meshes as cells, and any other tree as disjoint cells.
+///
+/// # Errors
+/// As [`of_cells`].
+pub(crate) fn brushes(path: &Path, tree: &Tree) -> Result<Vec<Brush>, CliError> {
+    Ok(convex_union(&*of_cells(path, tree)?).into_owned())
+}
+
+/// A tree with convex cells in place of closed meshes.
+///
+/// # Errors
+/// [`CliError::Cells`] for a mesh that falls into too many.
+pub(crate) fn of_cells<'a>(path: &Path, tree: &'a Tree) -> Result<Cow<'a, Tree>, CliError> {
+    convex_tree(tree).map_err(|source| match source {
+        ConvexTreeError::Evaluate(source) => CliError::of_evaluation(path, source),
+        source => CliError::Cells { path: path.to_owned(), source },
+    })
 }
 
 /// The tree of an input, of a map without what is not bounded.
@@ -127,7 +144,7 @@ pub(crate) fn bounded_tree_of<'a>(kind: InputKind, model: &'a Model, unbounded: 
 }
 
 /// The union of a map's brushes but for those that are not bounded.
-fn without(model: &Model, unbounded: &[usize]) -> Tree {
+pub(crate) fn without(model: &Model, unbounded: &[usize]) -> Tree {
     let brushes = model.tree.brushes().iter().zip(model.tree.source_lines()).enumerate();
     let bounded =
         brushes.filter(|(number, _)| !unbounded.contains(number)).map(|(_, (brush, line))| (brush.clone(), line));

@@ -1,6 +1,5 @@
 //! What `build`, `edit` and `coarsen` make: all of it is complete before the first file gets its name.
 
-use std::cell::LazyCell;
 use std::time::{Duration, Instant};
 
 use planecut::csg::{Brush, Material};
@@ -85,20 +84,21 @@ pub(crate) struct Contents<'a> {
     pub(crate) parts: &'a [Part<'a>],
     pub(crate) materials: &'a [Material],
     /// Convex bodies, where they are asked for.
-    pub(crate) brushes: &'a dyn Fn() -> Vec<Brush>,
+    pub(crate) brushes: &'a dyn Fn() -> Result<Vec<Brush>, CliError>,
 }
 
 /// Writes what there is to each of some places, and materials beside an OBJ file where that is asked for.
 ///
 /// # Errors
-/// [`CliError::Encode`], [`CliError::Write`].
+/// [`CliError::Encode`], [`CliError::Write`], and those of making convex bodies.
 pub(crate) fn encode(
     contents: &Contents<'_>,
     places: &[MeshTarget],
     options: &ExportOptions,
 ) -> Result<Vec<Output>, CliError> {
     let mut outputs = Vec::with_capacity(places.len());
-    let brushes = LazyCell::new(|| (contents.brushes)());
+    let has_brushes = places.iter().any(|place| matches!(place.format, OutputFormat::Brushes(_)));
+    let brushes = if has_brushes { (contents.brushes)()? } else { Vec::new() };
     for place in places {
         let library = place.library();
         let material_library = library.as_ref().and_then(Target::file_name);

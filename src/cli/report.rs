@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use planecut::check::{Measures, TopologyReport, check_topology, measure_triangles};
 use planecut::csg::coarsen::Coarsened;
-use planecut::csg::{Evaluation, ModelSummary, Noise, SolidMeasures, StageTimes};
+use planecut::csg::{Evaluation, ModelSummary, Noise, SolidMeasures, StageTimes, Tree};
 use planecut::export::Written;
 use planecut::import::Warning;
 use planecut::kernel::DVec3;
@@ -33,6 +33,9 @@ pub(crate) struct Report {
     noise: NoisePart,
     /// The signs that were asked for.
     signs: SignsPart,
+    /// How several inputs were combined; of one nothing is said of it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    combine: Option<CombinePart>,
     /// What `edit` did; other commands say nothing of it.
     #[serde(skip_serializing_if = "Option::is_none")]
     edit: Option<EditPart>,
@@ -65,6 +68,7 @@ impl Report {
             mesh,
             noise: NoisePart::new(evaluation.noise),
             signs: SignsPart::new(&evaluation.signs),
+            combine: None,
             edit: None,
             coarsen: None,
             time_ms: Times::new(&evaluation.times),
@@ -91,6 +95,19 @@ impl Report {
         }
     }
 
+    /// Says how many leaves of the model are closed meshes, and how many triangles these have.
+    pub(crate) fn set_meshes(&mut self, leaves: MeshLeaves) {
+        if let Some(model) = &mut self.model {
+            (model.meshes, model.mesh_triangles) = (leaves.meshes, leaves.triangles);
+        }
+    }
+
+    /// Says of what format the first of several inputs is, and how they were combined.
+    pub(crate) fn set_inputs(&mut self, (format, combined): (&'static str, Option<(String, Vec<String>)>)) {
+        self.format = format;
+        self.combine = combined.map(|(operation, inputs)| CombinePart { operation, inputs });
+    }
+
     /// The report on a mesh that was read from a file of the given format.
     pub(crate) fn of_mesh(input: String, format: &'static str, topology: &TopologyReport) -> Self {
         let Measures { volume, area, centroid, min, max } = topology.measures;
@@ -104,6 +121,7 @@ impl Report {
             mesh: MeshPart::new(topology, None),
             noise: NoisePart::new(Noise::default()),
             signs: SignsPart::new(&Counts::default()),
+            combine: None,
             edit: None,
             coarsen: None,
             time_ms: Times::default(),
@@ -163,6 +181,9 @@ struct ModelPart {
     materials: usize,
     unbounded_brushes: usize,
     brush_volume_sum: f64,
+    /// Brushes that are closed meshes, and the triangles of all of these.
+    meshes: usize,
+    mesh_triangles: usize,
 }
 
 impl ModelPart {
@@ -176,8 +197,33 @@ impl ModelPart {
             materials,
             unbounded_brushes: summary.unbounded.len(),
             brush_volume_sum: summary.brush_volume_sum,
+            meshes: 0,
+            mesh_triangles: 0,
         }
     }
+}
+
+/// Leaves of a tree that are closed meshes.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct MeshLeaves {
+    meshes: usize,
+    triangles: usize,
+}
+
+impl MeshLeaves {
+    /// Those of a tree.
+    pub(crate) fn of(tree: &Tree) -> Self {
+        let meshes = || tree.brushes().iter().filter_map(|brush| brush.mesh.as_ref());
+        Self { meshes: meshes().count(), triangles: meshes().map(|mesh| mesh.mesh().triangles().len()).sum() }
+    }
+}
+
+/// Several inputs that became one solid.
+#[derive(Debug, Clone, Serialize)]
+struct CombinePart {
+    operation: String,
+    /// Their paths as they were given.
+    inputs: Vec<String>,
 }
 
 #[derive(Debug, Clone, Serialize)]

@@ -17,7 +17,7 @@ use super::args::ReadingArgs;
 use super::error::CliError;
 use super::input::{Input, InputKind};
 use super::progress::Progress;
-use super::report::{MeshPart, Report, milliseconds};
+use super::report::{MeshLeaves, MeshPart, Report, milliseconds};
 
 /// The solid of a model.
 pub(crate) struct Solved {
@@ -51,7 +51,23 @@ pub(crate) fn solve(
 ) -> Result<Solved, CliError> {
     let begin = Instant::now();
     progress.stage("reading");
-    let mut read = read(input, kind, reading)?;
+    let read = read(input, kind, reading)?;
+    solve_split(input, kind, read, begin, splits_by_face, needs_brushes, progress)
+}
+
+/// The same for what was read of an input since `begin`.
+///
+/// # Errors
+/// As [`solve_read`].
+pub(crate) fn solve_split(
+    input: &Input,
+    kind: InputKind,
+    mut read: Read,
+    begin: Instant,
+    splits_by_face: Option<bool>,
+    needs_brushes: bool,
+    progress: &Progress,
+) -> Result<Solved, CliError> {
     read.drops_brushes = !needs_brushes;
     let materials = read.model.materials.len();
     let mut sources = Vec::new();
@@ -89,6 +105,7 @@ pub(crate) fn solved(
     progress: &Progress,
 ) -> Solved {
     warnings.extend(solid_warnings(kind, &model, &evaluation.model, &evaluation.mesh));
+    let meshes = MeshLeaves::of(&model.tree);
     if drops_brushes {
         model.tree = Tree::default();
     }
@@ -96,6 +113,7 @@ pub(crate) fn solved(
     let topology = check_topology(&evaluation.mesh.positions, &evaluation.mesh.triangles);
     let mesh = MeshPart::of_solid(&topology, evaluation.mesh.faces.len());
     let mut report = Report::of_model(input.given(), kind.name(), model.materials.len(), &evaluation, mesh);
+    report.set_meshes(meshes);
     report.time_ms.import = milliseconds(import_time);
     report.warn(&warnings);
     Solved {
@@ -127,7 +145,7 @@ pub(crate) fn read(input: &Input, kind: InputKind, reading: &ReadingArgs) -> Res
     let bytes = input.read()?;
     let (model, warnings) = match kind {
         InputKind::Json => {
-            let import = read_model(&bytes, &input.name(), &reading.model_options())?;
+            let import = read_model(&bytes, &input.name(), &reading.model_options(input))?;
             (import.model, import.warnings)
         }
         InputKind::Map => {
@@ -139,7 +157,7 @@ pub(crate) fn read(input: &Input, kind: InputKind, reading: &ReadingArgs) -> Res
             (import.model, import.warnings)
         }
         InputKind::Mesh(format) => {
-            let import = read_solid(&bytes, format, &input.name())?;
+            let import = read_solid(&bytes, format, &input.name(), &reading.solid_options())?;
             (import.model, import.warnings)
         }
     };
@@ -173,7 +191,7 @@ pub(crate) fn solid_warnings(kind: InputKind, model: &Model, summary: &ModelSumm
 }
 
 /// One warning for each kind of brush that adds nothing to the solid, on the line of the first of them.
-fn brush_warnings(kind: InputKind, model: &Model, summary: &ModelSummary) -> impl Iterator<Item = Warning> {
+pub(crate) fn brush_warnings(kind: InputKind, model: &Model, summary: &ModelSummary) -> impl Iterator<Item = Warning> {
     let unbounded: &[usize] = if kind == InputKind::Map { &summary.unbounded } else { &[] };
     // without interior there is nothing to leave out
     let kinds = [(&summary.empty[..], "without interior", false), (unbounded, "that is not bounded", true)];

@@ -4,6 +4,7 @@
 mod assets;
 mod check;
 mod coarsen;
+mod combine;
 mod damaged;
 mod determinism;
 mod edit;
@@ -12,6 +13,7 @@ mod examples;
 mod interrupt;
 mod limits;
 mod losses;
+mod mesh_data;
 mod meshes;
 mod model;
 mod outputs;

@@ -85,7 +85,11 @@ fn info_tells_of_the_file_and_of_its_solid() {
     let built = build(&Path::new(ROOT).join("examples/gear.json"), std::slice::from_ref(&mesh));
     let info = planecut(["info".as_ref(), mesh.as_os_str()]).json();
     assert_eq!(info["mesh"]["triangles"], built["mesh"]["triangles"]);
-    assert!(info["model"]["brushes"].as_u64().is_some_and(|brushes| brushes > 1), "{info}");
+    let model = &info["model"];
+    assert_eq!(
+        (&model["brushes"], &model["meshes"], &model["mesh_triangles"]),
+        (&1.into(), &1.into(), &built["mesh"]["triangles"])
+    );
     assert!(agree(&info["solid"]["volume"], built["solid"]["volume"].as_f64().expect("a volume"), 1e-6), "{info}");
 }
 
@@ -122,6 +126,9 @@ fn meshes_that_are_no_solid_are_unusable_to_build_from() {
         let info = planecut(["info".as_ref(), mesh.as_os_str()]);
         assert_eq!(info.status, 0, "{}", info.stderr);
     };
-    refused(&TETRAHEDRON.replace("f 2 3 4\n", ""), "m.obj:5: the surface is not closed: found an edge of facet 0");
+    refused(
+        &TETRAHEDRON.replace("f 2 3 4\n", ""),
+        "m.obj:5: the surface is not closed: found 3 open edges, the first one from (0, 1, 0) to (1, 0, 0), expected none (--close EPS joins",
+    );
     refused("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 3 2 1\n", "no volume");
 }

@@ -25,6 +25,7 @@ fn keys_are_those_of_the_contract_in_its_order() {
     let text = String::from_utf8(run.stdout).expect("UTF-8");
     let expected = "planecut input format \
         model brushes planes empty_brushes redundant_planes snapped_planes materials unbounded_brushes brush_volume_sum \
+        meshes mesh_triangles \
         solid volume area centroid min max cells \
         mesh vertices triangles faces components genus watertight manifold volume \
         noise collapsed thickest \
@@ -40,7 +41,7 @@ fn two_boxes_have_the_measures_of_two_boxes() {
     let report = info(&two_boxes()).json();
     let model = json!({
         "brushes": 2, "planes": 12, "empty_brushes": 0, "redundant_planes": 0, "snapped_planes": 0,
-        "materials": 2, "unbounded_brushes": 0, "brush_volume_sum": 16.0
+        "materials": 2, "unbounded_brushes": 0, "brush_volume_sum": 16.0, "meshes": 0, "mesh_triangles": 0
     });
     assert_eq!(report["model"], model);
     // Of each box's surface 3 of 24 units lie inside the other box.

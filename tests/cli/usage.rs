@@ -26,7 +26,13 @@ fn arguments_the_parser_does_not_know() {
     refused("biuld m.map", "biuld");
     refused("build m.map", "-o");
     refused("build m.map -o a.glb --reprot r.json", "--reprot");
-    refused("build m.map -o a.glb n.map", "n.map");
+    refused("build m.map -o a.glb n.map", "found 2 inputs, expected one, or --combine union");
+    refused("build m.map n.map -o a.glb --combine sum", "sum");
+    refused("build - - -o a.glb --combine union", "standard input twice");
+    refused("build m.map -o a.glb --close 0", "above 0");
+    refused("build m.map -o a.glb --close 0.1", "--winding or --close with another input");
+    refused("build m.map -o a.glb --winding even", "even");
+    refused("coarsen m.map n.map -o a.glb", "n.map");
     refused("build -o a.glb", "INPUT");
     refused("coarsen m.map -o a.glb --max-cells 0", "at least 1");
     refused("coarsen m.map -o a.glb --max-faces 5", "at least 6");

@@ -334,6 +334,9 @@ fn better(search: &Search, groups: &mut [Group]) {
 
 /// The convex parts of a tree's solid: the brushes of a union, else disjoint cells.
 fn parts_of(tree: &Tree) -> Result<Vec<Part>, CoarsenError> {
+    if tree.has_meshes() {
+        return Err(CoarsenError::Mesh);
+    }
     convex_union(tree).iter().filter_map(|brush| Part::of_brush(brush).transpose()).collect()
 }
 

@@ -51,6 +51,9 @@ pub enum CoarsenError {
     /// The solid, or what is to be kept clear, is not bounded.
     #[error("found a solid that reaches infinity, expected one that is bounded")]
     Unbounded,
+    /// A leaf of the solid, or of what is to be kept clear, is a closed mesh: `convex_tree` of the crate of shapes makes cells of it.
+    #[error("found a closed mesh as a leaf, expected convex bodies alone")]
+    Mesh,
     /// Coordinates are so large or small that no hull can be made of them.
     #[error("found coordinates out of the accepted range, expected magnitudes between 2^-150 and 2^150")]
     OutOfRange,

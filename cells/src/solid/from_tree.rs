@@ -18,13 +18,22 @@ use super::sources::Sources;
 use super::{Solid, merge};
 
 /// Convex bodies whose union is the solid of a tree: the brushes of a union as they are, those of any other tree as disjoint cells.
+///
+/// # Panics
+/// Where a leaf is a closed mesh: `convex_tree` of the crate of shapes makes cells of it.
 #[must_use]
 pub fn convex_union(tree: &Tree) -> Cow<'_, [Brush]> {
+    expect_convex(tree);
     if tree.is_union() {
         return Cow::Borrowed(tree.brushes());
     }
     let solid = Solid::from_tree(tree);
     Cow::Owned(solid.cells().map(|cell| solid.brush_of(cell)).collect())
+}
+
+/// A closed mesh has no half-spaces, and would be taken for all of space.
+fn expect_convex(tree: &Tree) {
+    assert!(!tree.has_meshes(), "found a closed mesh as a leaf, expected convex bodies alone");
 }
 
 impl Solid {
@@ -44,12 +53,16 @@ impl Solid {
     /// let shell = Solid::from_tree(&(block(0.0, 3.0) - block(1.0, 2.0)));
     /// assert_eq!((shell.cells().count(), shell.volume()), (6, Some(26.0)));
     /// ```
+    ///
+    /// # Panics
+    /// Where a leaf is a closed mesh: `convex_tree` of the crate of shapes makes cells of it.
     #[must_use]
     pub fn from_tree(tree: &Tree) -> Self {
         Self::from_tree_by(tree, Rule::default())
     }
 
     pub(super) fn from_tree_by(tree: &Tree, rule: Rule) -> Self {
+        expect_convex(tree);
         let brushes = tree.brushes();
         let half_spaces: Vec<HalfSpace> = brushes.iter().flat_map(Brush::half_spaces).copied().collect();
         let (table, ids) = PlaneTable::intern(&half_spaces, smallest_size(brushes.iter().map(Brush::half_spaces)));

@@ -73,6 +73,12 @@ pub enum BlocksError<E> {
         /// Its number.
         brush: usize,
     },
+    /// A leaf is a closed mesh.
+    #[error("found a closed mesh, number {brush}, expected convex bodies alone")]
+    Mesh {
+        /// Its number.
+        brush: usize,
+    },
     /// As for a model that is evaluated at once.
     #[error(transparent)]
     Evaluate(#[from] EvaluateError),
@@ -101,13 +107,16 @@ pub enum BlocksError<E> {
 /// ```
 ///
 /// # Errors
-/// [`BlocksError`]: brushes must be bounded, and so must be the solid.
+/// [`BlocksError`]: brushes must be convex and bounded, and so must be the solid.
 pub fn evaluate_in_blocks<E>(
     model: &Model,
     options: BlockOptions,
     mut take: impl FnMut(Block) -> Result<(), E>,
 ) -> Result<BlocksSummary, BlocksError<E>> {
     let brushes = model.tree.brushes();
+    if let Some(brush) = brushes.iter().position(Brush::is_mesh) {
+        return Err(BlocksError::Mesh { brush });
+    }
     let used = brushes.iter().flat_map(|brush| &brush.faces).map(|face| face.material);
     check_materials(used, model.materials.len())?;
     if model.tree.holds_outside() {

@@ -1,7 +1,9 @@
 //! Models cut open, so that a picture shows what is inside.
 
+use crate::base::Bounds;
 use crate::ids::number32;
-use planecut_kernel::HalfSpace;
+use glam::DVec3;
+use planecut_kernel::{HalfSpace, IncrementalPolytope};
 use rustc_hash::FxHashMap;
 
 use super::{Brush, BrushFace, Material, MaterialId, Model, Tree};
@@ -11,7 +13,8 @@ use super::{Brush, BrushFace, Material, MaterialId, Model, Tree};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Cutaway {
-    /// What is left. Brushes and their faces keep their numbers; each brush has one face more, the cut.
+    /// What is left. Brushes and their faces keep their numbers; each brush has one face more, the cut. Where a leaf is a closed mesh, there is
+    /// one leaf more instead.
     pub model: Model,
     /// The materials of the faces that were cut: they follow those of the whole.
     pub cuts: Vec<CutMaterial>,
@@ -34,7 +37,7 @@ const SUFFIX: &str = "(cut)";
 impl Model {
     /// Cuts the model open along the plane of a half-space. Where it goes through a brush that is made of one material, the face of the cut has that
     /// material's own for cuts, of the same looks; brushes whose faces differ, as the textures of a map do, share one without a name.
-    /// Faces that lie on the plane already stay what they are.
+    /// Faces that lie on the plane already stay what they are, but for those of closed meshes among leaves of several materials.
     ///
     /// ```
     /// use planecut_csg::{Brush, Material, MaterialId, Model, Tree, evaluate};
@@ -62,8 +65,13 @@ impl Model {
                 id
             })
         };
-        // Inside the half-space each brush is what it was, outside it is nothing: whatever the tree makes of the brushes, it makes the same of
+        // Inside the half-space each convex brush is what it was, outside it is nothing: whatever the tree makes of the brushes, it makes the same of
         // them inside, and outside what it makes of nothing.
+        if tree.has_meshes() {
+            let rest = Brush::from_half_spaces(walls(&tree, half_space), cut_of(common_material(&tree)));
+            tree = Tree::intersection([tree, rest.into()]);
+            return Cutaway { model: Self { materials, tree }, cuts };
+        }
         for brush in tree.brushes_mut() {
             brush.faces.push(BrushFace { half_space: *half_space, material: cut_of(inside_of(brush)) });
         }
@@ -79,6 +87,36 @@ impl Model {
 fn inside_of(brush: &Brush) -> Option<MaterialId> {
     let material = brush.faces.first()?.material;
     brush.faces.iter().all(|face| face.material == material).then_some(material)
+}
+
+/// The material that all leaves of a tree are made of, if that is one.
+fn common_material(tree: &Tree) -> Option<MaterialId> {
+    let mut materials = tree.brushes().iter().flat_map(Brush::materials);
+    let first = materials.next()?;
+    materials.all(|material| material == first).then_some(first)
+}
+
+/// A half-space, with walls around all that is bounded: closed meshes are combined with bounded bodies alone.
+fn walls(tree: &Tree, half_space: &HalfSpace) -> Vec<HalfSpace> {
+    let of_meshes = tree.meshes().flat_map(|mesh| mesh.positions().into_owned());
+    let of_bodies = tree.brushes().iter().filter(|brush| !brush.is_mesh()).flat_map(corners);
+    let points = of_meshes.chain(of_bodies).map(|point| Bounds { min: point, max: point });
+    let all = points.reduce(|all, point| all.union(&point)).unwrap_or(Bounds { min: DVec3::ZERO, max: DVec3::ZERO });
+    // out of the way of all faces
+    let margin = 1.0 + (all.max - all.min).max_element();
+    let wall = |axis: DVec3, offset: f64| HalfSpace::new(axis, offset + margin);
+    let walls =
+        DVec3::AXES.into_iter().flat_map(|axis| [wall(axis, axis.dot(all.max)), wall(-axis, -axis.dot(all.min))]);
+    std::iter::once(*half_space).chain(walls.flatten()).collect()
+}
+
+/// The corners of a convex brush that is bounded.
+fn corners(brush: &Brush) -> Vec<DVec3> {
+    let mut polytope = IncrementalPolytope::new();
+    brush.half_spaces().for_each(|half_space| {
+        polytope.add_plane(*half_space);
+    });
+    if polytope.is_empty() || !polytope.is_bounded() { Vec::new() } else { polytope.to_mesh().0 }
 }
 
 /// How the cut through a material is called, and what it looks like.

@@ -2,6 +2,7 @@
 
 mod brush;
 mod cutaway;
+mod leaves;
 mod material;
 mod mesh_body;
 mod parts;

@@ -55,7 +55,7 @@ impl TextureAxes {
 pub struct FaceSource {
     /// The brush, by its place among the leaves.
     pub brush: u32,
-    /// The plane, by its place among the faces of the brush.
+    /// The plane, by its place among the faces of the brush; of a closed mesh the surface, by its place among its materials.
     pub plane: u32,
     /// How its texture lies.
     pub texture: Option<TextureAxes>,
@@ -73,9 +73,9 @@ impl Model {
         let mut sources = Vec::new();
         let mut known: FxHashMap<(MaterialId, Option<[u64; 9]>), MaterialId> = FxHashMap::default();
         for (number, brush) in split.tree.brushes_mut().iter_mut().enumerate() {
-            for (plane, face) in brush.faces.iter_mut().enumerate() {
+            for (plane, material) in brush.materials_mut().enumerate() {
                 let texture = textures.get(number).and_then(|faces| faces.get(plane).copied().flatten());
-                let old = face.material;
+                let old = *material;
                 let mut new = || {
                     // a number that is not in the list stays out of it
                     split.materials.push(self.materials.get(old.0 as usize)?.clone());
@@ -89,7 +89,7 @@ impl Model {
                 };
                 if let Some(id) = id {
                     known.insert(key, id);
-                    face.material = id;
+                    *material = id;
                 }
             }
         }

@@ -38,6 +38,9 @@ pub(super) struct BodyFace {
 impl Body {
     /// The body of a brush, scaled; `None` where it has no interior, or none but for rounding.
     pub(super) fn of(number: usize, brush: &Brush, materials: usize, scale: f64) -> Result<Option<Self>, ExportError> {
+        if brush.is_mesh() {
+            return Err(ExportError::MeshBrush { brush: number });
+        }
         // Without a tolerance: an edge is left out where its length is exactly zero, and nowhere else.
         let mut polytope = IncrementalPolytope::with_epsilon(0.0);
         for face in &brush.faces {

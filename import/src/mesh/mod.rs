@@ -6,6 +6,7 @@
 //! touch in a vertex or edge from parts that are connected, so a sound mesh may come back with pinched vertices or edges
 //! used four times.
 
+pub(crate) mod colors;
 mod decimals;
 mod error;
 mod gltf;
@@ -23,9 +24,10 @@ use glam::DVec3;
 use planecut_csg::Material;
 
 pub use error::{MeshError, Place};
+pub use planecut_csg::WindingRule;
 pub use planecut_shapes::polyhedron::Precision;
 pub(crate) use solid::joined_message;
-pub use solid::{MeshImport, PartsImport, SolidError, read_parts, read_solid, solid_of_mesh};
+pub use solid::{MeshImport, PartsImport, SolidError, SolidOptions, read_parts, read_solid, solid_of_mesh};
 
 use error::Fault;
 
@@ -84,6 +86,9 @@ pub struct IndexedMesh {
     pub materials: Vec<Material>,
     /// Of each triangle the number of its material, where it has one; empty where the file names none.
     pub material_of: Vec<Option<u32>>,
+    /// Of each triangle its colour, linear RGB, where it has one: its own, or the mean of those of its vertices; empty where the file gives none.
+    /// [`painted`](Self::painted) makes materials of them.
+    pub colors: Vec<Option<[f32; 3]>>,
     /// Where in the file each triangle's facet begins; empty where that says nothing.
     pub places: Vec<Place>,
 }
@@ -92,14 +97,14 @@ impl IndexedMesh {
     /// A mesh of one object, without materials.
     fn plain(positions: Vec<DVec3>, triangles: Vec<[u32; 3]>, precision: Precision) -> Self {
         let objects = objects_from_starts(Vec::new(), triangles.len());
-        let (materials, material_of, places) = (Vec::new(), Vec::new(), Vec::new());
-        Self { positions, triangles, objects, precision, materials, material_of, places }
+        let (materials, material_of, colors, places) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        Self { positions, triangles, objects, precision, materials, material_of, colors, places }
     }
 }
 
 /// Reads a mesh; `name` is what errors call the file.
 ///
-/// Polygons are cut into triangles without adding or dropping vertices. Lines, points, normals, colours and textures are passed over.
+/// Polygons are cut into triangles without adding or dropping vertices. Lines, points, normals and textures are passed over.
 ///
 /// # Errors
 /// [`MeshError`] where the data is damaged, truncated or not of this format, refers to other files, or holds no triangle.

@@ -1,11 +1,11 @@
-//! Closed meshes as models of convex cells.
+//! Closed meshes as models: a leaf of the tree for each object.
 
 use std::num::NonZeroU32;
 
 use glam::DVec3;
-use planecut_csg::{Brush, Material, MaterialId, Model, Tree};
+use planecut_csg::{Brush, Material, MaterialId, Model, Tree, WindingRule};
 use planecut_kernel::hull;
-use planecut_shapes::polyhedron::{PolyhedronError, PolyhedronOptions, polyhedron};
+use planecut_shapes::polyhedron::{PolyhedronError, SurfaceOptions, join_near, surface_body};
 use rustc_hash::FxHashMap;
 use thiserror::Error;
 
@@ -13,10 +13,19 @@ use super::error::{MeshError, Place};
 use super::{IndexedMesh, MeshFormat, MeshObject, read_mesh};
 use crate::Warning;
 
+/// How closed meshes are taken.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct SolidOptions {
+    /// What of a mesh is inside.
+    pub rule: WindingRule,
+    /// Vertices that differ by no more than this in each coordinate are joined before anything else, where it is above zero.
+    pub close: f64,
+}
+
 /// A mesh file as a model, and what was noticed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeshImport {
-    /// The union of the file's objects, each as convex cells that bear its name.
+    /// The union of the file's objects, each one leaf that bears its name: a convex body where it is one, a closed mesh otherwise.
     pub model: Model,
     /// What was repaired.
     pub warnings: Vec<Warning>,
@@ -43,6 +52,14 @@ pub enum SolidError {
     },
 }
 
+impl SolidError {
+    /// Whether an object is not closed.
+    #[must_use]
+    pub fn is_open(&self) -> bool {
+        matches!(self, Self::Surface { source, .. } if matches!(**source, PolyhedronError::Open { .. }))
+    }
+}
+
 /// What is said of corners that were joined.
 pub(crate) fn joined_message(count: usize) -> String {
     match count {
@@ -58,27 +75,36 @@ fn of_object(object: Option<&str>) -> String {
     object.map_or_else(String::new, |name| format!("object `{}`: ", name.escape_debug()))
 }
 
-/// Reads a mesh whose objects are closed, as a model: each object becomes convex cells, and overlapping ones are united.
+/// Reads a mesh whose objects are closed, as a model. An object that is a convex body becomes one, with a face for each plane; any other becomes a
+/// leaf that is a closed mesh, which may cross itself, lie upon itself and be nested in itself. Overlapping objects are united.
 ///
 /// Where an object for itself is not closed, the file is taken as one surface. Faces have the materials of the file, or one named
-/// `default`. The brushes of an object bear its name, and the line of its first facet. glTF, in which y points up, is turned so
+/// `default`. The brush of an object bears its name, and the line of its first facet. glTF, in which y points up, is turned so
 /// that z does. `name` is what errors call the file.
 ///
 /// # Errors
-/// [`SolidError`] where the file cannot be read, or an object's surface is not closed, crosses itself, or encloses nothing.
-pub fn read_solid(bytes: &[u8], format: MeshFormat, name: &str) -> Result<MeshImport, SolidError> {
-    solid_of_mesh(read_mesh(bytes, format, name)?, format, name)
+/// [`SolidError`] where the file cannot be read, or an object's surface is not closed or encloses nothing.
+pub fn read_solid(
+    bytes: &[u8],
+    format: MeshFormat,
+    name: &str,
+    options: &SolidOptions,
+) -> Result<MeshImport, SolidError> {
+    solid_of_mesh(read_mesh(bytes, format, name)?, format, name, options)
 }
 
 /// The same for a mesh that was read already.
 ///
 /// # Errors
-/// [`SolidError::Surface`] where an object's surface is not closed, crosses itself, or encloses nothing.
-pub fn solid_of_mesh(mut mesh: IndexedMesh, format: MeshFormat, name: &str) -> Result<MeshImport, SolidError> {
-    if format == MeshFormat::Gltf {
-        turn_up(&mut mesh);
-    }
-    import(&mesh, name, ConvexObjects::AsStated)
+/// [`SolidError::Surface`] where an object's surface is not closed or encloses nothing.
+pub fn solid_of_mesh(
+    mesh: IndexedMesh,
+    format: MeshFormat,
+    name: &str,
+    options: &SolidOptions,
+) -> Result<MeshImport, SolidError> {
+    let (mesh, notes) = prepared(mesh, format, options);
+    import(&mesh, name, ConvexObjects::AsStated, options.rule, &notes)
 }
 
 /// The convex parts of a mesh, as they are to be coarsened, and its points.
@@ -96,21 +122,37 @@ pub struct PartsImport {
 ///
 /// # Errors
 /// As [`read_solid`].
-pub fn read_parts(bytes: &[u8], format: MeshFormat, name: &str) -> Result<PartsImport, SolidError> {
-    let mut mesh = read_mesh(bytes, format, name)?;
-    if format == MeshFormat::Gltf {
-        turn_up(&mut mesh);
-    }
+pub fn read_parts(
+    bytes: &[u8],
+    format: MeshFormat,
+    name: &str,
+    options: &SolidOptions,
+) -> Result<PartsImport, SolidError> {
+    let (mesh, notes) = prepared(read_mesh(bytes, format, name)?, format, options);
+    let import = import(&mesh, name, ConvexObjects::AsHulls, options.rule, &notes)?;
     let mut used: Vec<u32> = mesh.triangles.iter().flatten().copied().collect();
     used.sort_unstable();
     used.dedup();
     let points = used.into_iter().map(|point| mesh.positions[point as usize]).collect();
-    Ok(PartsImport { import: import(&mesh, name, ConvexObjects::AsHulls)?, points })
+    Ok(PartsImport { import, points })
 }
 
-/// From glTF's axes, in which y points up, to those in which z does.
-fn turn_up(mesh: &mut IndexedMesh) {
-    mesh.positions.iter_mut().for_each(|p| *p = DVec3::new(p.x, 0.0 - p.z, p.y));
+/// A mesh with z up, with materials for colours, and with vertices joined as the options say; and what is to be said of that.
+fn prepared(mesh: IndexedMesh, format: MeshFormat, options: &SolidOptions) -> (IndexedMesh, Vec<String>) {
+    let (mut mesh, rounded) = mesh.painted();
+    let mut notes: Vec<String> = rounded.into_iter().collect();
+    if format == MeshFormat::Gltf {
+        mesh.positions.iter_mut().for_each(|p| *p = DVec3::new(p.x, 0.0 - p.z, p.y));
+    }
+    if options.close > 0.0 {
+        let (positions, joined) = join_near(&mesh.positions, options.close);
+        mesh.positions = positions;
+        let vertices = if joined == 1 { "vertex" } else { "vertices" };
+        if joined > 0 {
+            notes.push(format!("joined {joined} {vertices} with others that are no farther than {}", options.close));
+        }
+    }
+    (mesh, notes)
 }
 
 /// What becomes of objects that are convex bodies.
@@ -122,61 +164,77 @@ enum ConvexObjects {
     AsHulls,
 }
 
-fn import(mesh: &IndexedMesh, name: &str, convex: ConvexObjects) -> Result<MeshImport, SolidError> {
-    solid_of(mesh, convex).map_err(|(object, source)| {
+fn import(
+    mesh: &IndexedMesh,
+    name: &str,
+    convex: ConvexObjects,
+    rule: WindingRule,
+    notes: &[String],
+) -> Result<MeshImport, SolidError> {
+    let reader = Reader { mesh, rule, convex };
+    let mut import = reader.solid().map_err(|(object, source)| {
         let triangle = source.facet().map(|facet| object.triangles.start + facet);
         let place = triangle.and_then(|triangle| mesh.places.get(triangle)).cloned().unwrap_or(Place::End);
         SolidError::Surface { name: name.to_owned(), place, object: object.name.clone(), source: Box::new(source) }
-    })
+    })?;
+    import.warnings.splice(0..0, notes.iter().map(|note| Warning::note(0, note.as_str())));
+    Ok(import)
 }
 
 /// An object's surface is wrong.
 type Fault = (MeshObject, PolyhedronError);
 
-fn solid_of(mesh: &IndexedMesh, convex: ConvexObjects) -> Result<MeshImport, Fault> {
-    match united(mesh, &mesh.objects, convex) {
-        Err((object, error @ PolyhedronError::Open { .. })) if mesh.objects.len() > 1 => {
-            let whole = MeshObject { name: None, triangles: 0..mesh.triangles.len() };
-            // what is wrong with the object says more than what is wrong with all
-            united(mesh, &[whole], convex).map_err(|_| (object, error))
-        }
-        result => result,
-    }
+/// Makes the solid of a mesh.
+struct Reader<'m> {
+    mesh: &'m IndexedMesh,
+    rule: WindingRule,
+    convex: ConvexObjects,
 }
 
-fn united(mesh: &IndexedMesh, objects: &[MeshObject], convex: ConvexObjects) -> Result<MeshImport, Fault> {
-    let (materials, material_of) = materials(mesh);
-    let mut import = MeshImport { model: Model { materials, tree: Tree::empty() }, warnings: Vec::new() };
-    let (mut brushes, mut lines) = (Vec::new(), Vec::new());
-    for object in objects {
-        let (points, triangles) = own_points(mesh, object);
-        let options = PolyhedronOptions { precision: mesh.precision };
-        let mut solid = polyhedron(&points, &triangles, &material_of[object.triangles.clone()], &options)
-            .map_err(|error| (object.clone(), error))?;
-        if let (ConvexObjects::AsHulls, [cell]) = (convex, &mut solid.cells[..]) {
-            *cell = hull_of(&points, cell);
+impl Reader<'_> {
+    fn solid(&self) -> Result<MeshImport, Fault> {
+        match self.united(&self.mesh.objects) {
+            Err((object, error @ PolyhedronError::Open { .. })) if self.mesh.objects.len() > 1 => {
+                let whole = MeshObject { name: None, triangles: 0..self.mesh.triangles.len() };
+                // what is wrong with the object says more than what is wrong with all
+                self.united(&[whole]).map_err(|_| (object, error))
+            }
+            result => result,
         }
-        let line = match mesh.places.get(object.triangles.start) {
-            Some(Place::Line(line)) => u32::try_from(*line).ok().and_then(NonZeroU32::new),
-            _ => None,
-        };
-        if solid.is_turned {
-            let message = "found facets that are clockwise seen from outside, turned them over";
-            let message = format!("{}{message}", of_object(object.name.as_deref()));
-            import.warnings.push(Warning::note(line.map_or(0, NonZeroU32::get), message));
-        }
-        if solid.joined_corners > 0 {
-            let message = format!("{}{}", of_object(object.name.as_deref()), joined_message(solid.joined_corners));
-            import.warnings.push(Warning::note(line.map_or(0, NonZeroU32::get), message));
-        }
-        brushes.extend(solid.cells.into_iter().map(|mut brush| {
-            brush.name = object.name.clone();
-            brush
-        }));
-        lines.resize(brushes.len(), line);
     }
-    import.model.tree = Tree::union_of(brushes).with_source_lines(lines);
-    Ok(import)
+
+    /// The union of objects.
+    fn united(&self, objects: &[MeshObject]) -> Result<MeshImport, Fault> {
+        let (materials, material_of) = materials(self.mesh);
+        let (mut brushes, mut lines, mut warnings) = (Vec::new(), Vec::new(), Vec::new());
+        let mut numbers = vec![u32::MAX; self.mesh.positions.len()];
+        for object in objects {
+            let (points, triangles) = own_points(self.mesh, object, &mut numbers);
+            let options = SurfaceOptions { precision: self.mesh.precision, rule: self.rule };
+            let body = surface_body(&points, &triangles, &material_of[object.triangles.clone()], &options)
+                .map_err(|error| (object.clone(), error))?;
+            let line = match self.mesh.places.get(object.triangles.start) {
+                Some(Place::Line(line)) => u32::try_from(*line).ok().and_then(NonZeroU32::new),
+                _ => None,
+            };
+            let mut warn = |message: &str| {
+                let message = format!("{}{message}", of_object(object.name.as_deref()));
+                warnings.push(Warning::note(line.map_or(0, NonZeroU32::get), message));
+            };
+            if body.is_turned {
+                warn("found facets that are clockwise seen from outside, turned them over");
+            }
+            if body.joined_corners > 0 {
+                warn(&joined_message(body.joined_corners));
+            }
+            let is_hull = self.convex == ConvexObjects::AsHulls && !body.brush.is_mesh();
+            let brush = if is_hull { hull_of(&points, &body.brush) } else { body.brush };
+            brushes.push(Brush { name: object.name.clone(), ..brush });
+            lines.push(line);
+        }
+        let tree = Tree::union_of(brushes).with_source_lines(lines);
+        Ok(MeshImport { model: Model { materials, tree }, warnings })
+    }
 }
 
 /// The hull of points with the material of a body that is the same but for rounding; that body where there is no hull.
@@ -186,29 +244,32 @@ fn hull_of(points: &[DVec3], body: &Brush) -> Brush {
     Brush::from_half_spaces(facets.iter().filter_map(|(plane, _)| hull.plane(*plane).copied()), face.material)
 }
 
-/// The points that an object uses, and its triangles by their numbers.
-fn own_points(mesh: &IndexedMesh, object: &MeshObject) -> (Vec<DVec3>, Vec<[u32; 3]>) {
-    let mut numbers: FxHashMap<u32, u32> = FxHashMap::default();
-    let mut points = Vec::new();
+/// The points that an object uses, and its triangles by their numbers. `numbers` has room for each point of the mesh, and is left as it was.
+fn own_points(mesh: &IndexedMesh, object: &MeshObject, numbers: &mut [u32]) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+    let (mut points, mut used) = (Vec::new(), Vec::new());
     let mut own = |point: u32| {
-        *numbers.entry(point).or_insert_with(|| {
+        let number = &mut numbers[point as usize];
+        if *number == u32::MAX {
+            *number = used.len() as u32;
+            used.push(point);
             points.push(mesh.positions[point as usize]);
-            points.len() as u32 - 1
-        })
+        }
+        *number
     };
     let triangles = mesh.triangles[object.triangles.clone()].iter().map(|t| t.map(&mut own)).collect();
+    used.into_iter().for_each(|point| numbers[point as usize] = u32::MAX);
     (points, triangles)
 }
 
 /// The materials, each name once, and that of each triangle.
 fn materials(mesh: &IndexedMesh) -> (Vec<Material>, Vec<MaterialId>) {
     let mut materials: Vec<Material> = Vec::new();
+    let mut by_name: FxHashMap<String, MaterialId> = FxHashMap::default();
     let mut number = |material: &Material| {
-        let known = materials.iter().position(|other| other.name == material.name);
-        MaterialId(known.unwrap_or_else(|| {
+        *by_name.entry(material.name.clone()).or_insert_with(|| {
             materials.push(material.clone());
-            materials.len() - 1
-        }) as u32)
+            MaterialId(materials.len() as u32 - 1)
+        })
     };
     let of_file: Vec<MaterialId> = mesh.materials.iter().map(&mut number).collect();
     let mut default = None;

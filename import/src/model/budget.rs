@@ -5,7 +5,7 @@ use planecut_csg::Tree;
 use super::MAX_PLANES;
 use super::error::{Checked, Fault};
 use super::json::Entry;
-use crate::source::at_most;
+use crate::source::{at_most, planes_of};
 
 /// Most nodes that are evaluated, those in parts counting each time: a bound on work that leaves no brush behind.
 const MAX_STEPS: u64 = 1 << 26;
@@ -22,7 +22,7 @@ pub(super) struct Budget {
     steps: u64,
 }
 
-/// Brushes and planes of something.
+/// Brushes and planes of something; triangles of closed meshes count as planes.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Size {
     pub(super) brushes: usize,
@@ -32,8 +32,7 @@ pub(super) struct Size {
 impl Size {
     /// That of a tree.
     pub(super) fn of(tree: &Tree) -> Self {
-        let planes = tree.brushes().iter().map(|brush| brush.faces.len()).sum();
-        Self { brushes: tree.brushes().len(), planes }
+        Self { brushes: tree.brushes().len(), planes: planes_of(tree) }
     }
 
     /// A multiple of it.

@@ -8,7 +8,7 @@ use super::expression::{self, Expression};
 use super::form::{PlaceForm, find, kind_of, list, place_of, unknown_key};
 use super::json::{Document, Entry, Kind};
 use super::keys::{
-    Field, MATERIAL, NODE_EXTRAS, NODE_KINDS, OUTLINE_EXTRAS, OUTLINE_KINDS, PLACE, STEP_KINDS, TURN, WITH, Want,
+    Field, MATERIAL, MESH, NODE_EXTRAS, NODE_KINDS, OUTLINE_EXTRAS, OUTLINE_KINDS, PLACE, STEP_KINDS, TURN, WITH, Want,
 };
 use super::names::Names;
 use crate::source::shorten;
@@ -189,6 +189,7 @@ impl<'d, 'a> Checker<'d, 'a> {
             Want::Matrix(columns) => self.matrix(entry, columns),
             Want::Loops => self.loops(entry),
             Want::Turn => self.turn(entry),
+            Want::Mesh => self.mesh(entry),
             Want::Steps => self.steps(entry),
             Want::Places => self.places(entry),
             Want::Object(fields) => self.object(entry, fields),
@@ -287,6 +288,14 @@ impl<'d, 'a> Checker<'d, 'a> {
             Kind::List => self.vector(entry, 3),
             Kind::Object => self.object(entry, TURN),
             _ => self.document.refuse(entry, "a list of 3 angles, or an object with axis and angle"),
+        }
+    }
+
+    fn mesh(&mut self, entry: Entry) -> Checked<()> {
+        match self.document.kind(entry) {
+            Kind::Text => Ok(()),
+            Kind::Object => self.object(entry, MESH),
+            _ => self.document.refuse(entry, "the name of a mesh file, or an object with the key file"),
         }
     }
 

@@ -20,6 +20,8 @@ pub(super) enum Want {
     Loops,
     /// A vector of angles, or an axis and an angle.
     Turn,
+    /// The name of a mesh file, or an object with it.
+    Mesh,
     /// Transform steps.
     Steps,
     /// One or more places of instances.
@@ -79,6 +81,14 @@ const OFFSET: &[Field] = &[
     SEGMENTS,
 ];
 
+/// A mesh file, and how it is taken.
+pub(super) const MESH: &[Field] = &[
+    required("file", Want::Text),
+    optional("scale", Want::Number),
+    optional("rule", Want::Choice(&["positive", "nonzero", "odd"])),
+    optional("close", Want::Number),
+];
+
 /// The regular solids.
 pub(super) const REGULAR: &[&str] = &["tetrahedron", "cube", "octahedron", "dodecahedron", "icosahedron"];
 
@@ -98,6 +108,7 @@ pub(super) const NODE_KINDS: &[Field] = &[
     optional("torus", Want::Object(TORUS)),
     optional("extrude", Want::Object(EXTRUDE)),
     optional("revolve", Want::Object(REVOLVE)),
+    optional("mesh", Want::Mesh),
     optional("union", Want::Nodes),
     optional("intersection", Want::Nodes),
     optional("difference", Want::Nodes),

@@ -1,6 +1,6 @@
 //! Materials: those of the file, and the one of faces that name none.
 
-use planecut_csg::{Material, MaterialId, Tree};
+use planecut_csg::{Brush, Material, MaterialId, Tree};
 use rustc_hash::FxHashSet;
 
 use super::error::Checked;
@@ -14,7 +14,7 @@ use crate::source::shorten;
 /// Stands for a material on faces that have none yet.
 pub(super) const NO_MATERIAL: MaterialId = MaterialId(u32::MAX);
 /// The material of faces that no node gives one.
-const DEFAULT: &str = "default";
+pub(super) const DEFAULT: &str = "default";
 
 /// The materials, by their numbers.
 ///
@@ -43,8 +43,7 @@ fn read_one(named: &NamedMaterial, values: &Values<'_, '_>) -> Checked<Material>
 
 /// Gives faces without a material the default one.
 pub(super) fn fill(tree: &mut Tree, materials: &mut Vec<Material>) {
-    let faces = || tree.brushes().iter().flat_map(|brush| &brush.faces);
-    if faces().all(|face| face.material != NO_MATERIAL) {
+    if tree.brushes().iter().flat_map(Brush::materials).all(|material| material != NO_MATERIAL) {
         return;
     }
     let known = materials.iter().position(|material| material.name == DEFAULT);
@@ -57,9 +56,9 @@ pub(super) fn fill(tree: &mut Tree, materials: &mut Vec<Material>) {
 
 /// Gives faces without a material this one.
 pub(super) fn set_missing(tree: &mut Tree, material: MaterialId) {
-    let faces = tree.brushes_mut().iter_mut().flat_map(|brush| &mut brush.faces);
-    for face in faces.filter(|face| face.material == NO_MATERIAL) {
-        face.material = material;
+    let materials = tree.brushes_mut().iter_mut().flat_map(Brush::materials_mut);
+    for own in materials.filter(|own| **own == NO_MATERIAL) {
+        *own = material;
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! The format is described in `docs/model-file.md` and, as a JSON Schema, in `docs/model.schema.json`. The stages, each in
 //! its own file: text → flat list of values with their places (`json`), values → names and expressions (`names`, `check`,
-//! `form`, `keys`, `expression`), values → bodies (`values`, `parameters`, `body`), NODEs → one tree (`evaluate`, `copies`). No stage is
+//! `form`, `keys`, `expression`), values → bodies (`values`, `parameters`, `body`, `meshes`), NODEs → one tree (`evaluate`, `copies`). No stage is
 //! recursive, so a file can be nested as deep as [`MAX_DEPTH`] on any stack.
 
 mod body;
@@ -16,10 +16,13 @@ mod form;
 mod json;
 mod keys;
 mod materials;
+mod meshes;
 mod names;
 mod order;
 mod parameters;
 mod values;
+
+use std::path::PathBuf;
 
 use planecut_csg::Model;
 use serde::{Deserialize, Serialize};
@@ -31,8 +34,9 @@ use crate::lines::LineTable;
 use crate::source::{DEFAULT_MAX_PIECES, at_most, shorten, without_byte_order_mark};
 use check::{Checker, Findings, Use};
 use error::{Checked, Fault};
-use evaluate::Evaluator;
+use evaluate::{Evaluated, Evaluator};
 use json::{Document, Entry, Kind};
+use meshes::Meshes;
 use names::Names;
 use order::{describe_circle, order};
 use parameters::{Definitions, numbers_of};
@@ -55,11 +59,13 @@ pub struct ModelOptions {
     /// Most brushes of the model, copies of instances counted, and most corners of all outlines that are made on the way;
     /// [`DEFAULT_MAX_PIECES`] unless it is set, at most [`MAX_BRUSHES`].
     pub max_pieces: usize,
+    /// Where mesh files that the model names are looked for; the current folder by default.
+    pub folder: PathBuf,
 }
 
 impl Default for ModelOptions {
     fn default() -> Self {
-        Self { parameters: Vec::new(), max_pieces: DEFAULT_MAX_PIECES }
+        Self { parameters: Vec::new(), max_pieces: DEFAULT_MAX_PIECES, folder: PathBuf::new() }
     }
 }
 
@@ -127,8 +133,11 @@ pub fn read_model(text: &[u8], name: &str, options: &ModelOptions) -> Result<Mod
     let environment = definitions.environment(&set).map_err(located)?;
     let mut materials = materials::read(&names, &definitions.values(&environment)).map_err(located)?;
     let parameters = names.parameters.names.iter().cloned().zip(environment.values.iter().copied()).collect();
-    let evaluator = Evaluator::new(&definitions, &names, &lines, &findings.uses, limit);
-    let (mut tree, more) = evaluator.run(root, environment).map_err(located)?;
+    let meshes = Meshes::new(&options.folder, &names);
+    let evaluator = Evaluator::new(&definitions, &names, &lines, &findings.uses, limit, meshes);
+    let Evaluated { mut tree, materials: of_meshes, warnings: more } =
+        evaluator.run(root, environment).map_err(located)?;
+    materials.extend(of_meshes);
     materials::fill(&mut tree, &mut materials);
     let warnings = warnings.into_iter().chain(more).collect();
     Ok(ModelImport { model: Model { materials, tree }, parameters, warnings })

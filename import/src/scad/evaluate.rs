@@ -18,7 +18,7 @@ use super::turn::{Combination, Turn};
 use super::{ScadImport, ScadOptions, extrusion, flat, import, leaf, polyhedron, solid, text};
 use crate::Warning;
 use crate::lines::LineTable;
-use crate::source::at_most;
+use crate::source::{at_most, planes_of};
 
 /// Most planes of a tree, those included that later steps leave out: 8,388,608.
 const MAX_PLANES: usize = 1 << 23;
@@ -159,7 +159,7 @@ impl<'s, 'a> Evaluator<'s, 'a> {
         match made {
             Some(Geometry::Solid(body)) if MAKERS.contains(&turn.node.name) => {
                 self.bodies += body.tree.brushes().len();
-                self.planes += body.tree.brushes().iter().map(|brush| brush.faces.len()).sum::<usize>();
+                self.planes += planes_of(&body.tree);
             }
             Some(Geometry::Flat(outline)) if operands != 1 || turn.node.name == "offset" => {
                 self.corners += outline.corner_count();
@@ -183,6 +183,7 @@ impl<'s, 'a> Evaluator<'s, 'a> {
     fn unplaced(&mut self, turn: Turn<'s, 'a>, children: Vec<Option<Geometry>>) -> Made {
         match turn.node.name {
             "minkowski" => {
+                let children = solid::of_cells(children)?;
                 self.allow_sum(&children)?;
                 self.combine(turn, children, Combination::Minkowski)
             }

@@ -9,7 +9,7 @@ use super::arguments::Arguments;
 use super::problem::Problem;
 use super::syntax::Node;
 use crate::file::{MAX_MESH, read_file};
-use crate::mesh::{MeshFormat, read_solid};
+use crate::mesh::{MeshFormat, SolidOptions, read_solid};
 
 /// What a mesh file gives.
 pub(super) enum Imported {
@@ -41,7 +41,7 @@ pub(super) fn mesh(node: &Node<'_>, folder: &Path, material: MaterialId) -> Resu
         }
         Err(error) => return Ok(Imported::LeftOut(format!("`{}` cannot be read ({error})", file.escape_debug()))),
     };
-    Ok(match read_solid(&bytes, format, file) {
+    Ok(match read_solid(&bytes, format, file, &SolidOptions::default()) {
         Ok(import) => {
             let messages = import.warnings.iter().map(|warning| format!("`{}`: {warning}", file.escape_debug()));
             // a line of the mesh file is none of this one

@@ -3,6 +3,8 @@
 use planecut_csg::{Material, MaterialId};
 use rustc_hash::FxHashMap;
 
+use crate::mesh::colors::linear;
+
 /// What OpenSCAD shows solids without a colour in.
 const UNCOLORED: [f64; 3] = [249.0 / 255.0, 215.0 / 255.0, 44.0 / 255.0];
 
@@ -32,7 +34,7 @@ impl Materials {
         let next = MaterialId(u32::try_from(self.all.len()).unwrap_or(u32::MAX));
         let id = *self.by_name.entry(name.clone()).or_insert(next);
         if id == next {
-            let color = [color[0], color[1], color[2]].map(|part| linear(part.clamp(0.0, 1.0)));
+            let color = [color[0], color[1], color[2]].map(linear);
             self.all.push(Material { color: Some(color), ..Material::named(name) });
         }
         id
@@ -41,10 +43,4 @@ impl Materials {
     pub(super) fn into_all(self) -> Vec<Material> {
         self.all
     }
-}
-
-/// A part of a colour on the linear scale of light, from the sRGB scale of screens (IEC 61966-2-1).
-fn linear(part: f64) -> f32 {
-    let linear = if part <= 0.04045 { part / 12.92 } else { ((part + 0.055) / 1.055).powf(2.4) };
-    linear as f32
 }

@@ -1,10 +1,8 @@
 //! `polyhedron`: a solid of given corners and faces.
 
-use planecut_csg::MaterialId;
+use planecut_csg::{MaterialId, MeshBody, WindingRule};
 use planecut_kernel::DVec3;
-use planecut_shapes::polyhedron::{
-    Polyhedron, PolyhedronError, PolyhedronOptions, Precision, polyhedron, polyhedron_by_winding,
-};
+use planecut_shapes::polyhedron::{PolyhedronError, Precision, SurfaceBody, SurfaceOptions, surface_body};
 use rustc_hash::FxHashMap;
 
 use super::arguments::Arguments;
@@ -18,9 +16,6 @@ use crate::mesh::merge::PositionMerger;
 /// Significant digits of the numbers that OpenSCAD writes.
 const DIGITS: u32 = 6;
 
-/// Surfaces of more facets are not tried as they stand: convex ones are smaller.
-const MAX_TRIED: usize = 1000;
-
 /// Corners, and of each face their numbers, counter-clockwise seen from outside.
 type Surface = (Vec<DVec3>, Vec<Vec<u32>>);
 
@@ -33,21 +28,15 @@ pub(super) fn body(node: &Node<'_>, material: MaterialId) -> Result<(Body, Vec<S
     if facets.is_empty() {
         return Ok((Body::default(), Vec::new()));
     }
-    let (solid, crosses) = match solid(&points, &facets, material) {
-        Err(error @ (PolyhedronError::Crossing { .. } | PolyhedronError::Inconsistent { .. })) => {
-            let solid = solid_by_winding(&points, &facets, material).ok_or_else(|| error.to_string())?;
-            (Ok(solid), Some(format!("{error}: what the surface winds around more than zero times is kept")))
-        }
-        solid => (solid, None),
-    };
-    match solid {
+    match solid(&points, &facets, material) {
         Ok(solid) => {
             let turned =
                 solid.is_turned.then(|| "a polyhedron whose faces are all turned around is turned back".to_owned());
             let joined = (solid.joined_corners > 0).then(|| joined_message(solid.joined_corners));
-            let touches_itself = solid.touches_itself;
-            let messages = turned.into_iter().chain(joined).chain(crosses).collect();
-            Ok((Body { tree: solid.into(), touches_itself, ..Body::default() }, messages))
+            let touches = |mesh: &MeshBody| touches_itself(mesh.mesh().positions(), mesh.mesh().triangles());
+            let touches_itself = solid.brush.mesh.as_ref().is_some_and(touches);
+            let body = Body { tree: solid.brush.into(), touches_itself, ..Body::default() };
+            Ok((body, turned.into_iter().chain(joined).collect()))
         }
         Err(PolyhedronError::NoVolume) => Ok((Body::default(), Vec::new())),
         Err(error) => Err(error.to_string()),
@@ -56,26 +45,16 @@ pub(super) fn body(node: &Node<'_>, material: MaterialId) -> Result<(Body, Vec<S
 
 /// The solid within a surface whose corners are known as OpenSCAD writes them. Where one has more digits than that, something
 /// else wrote the tree, which had reason to write them; and what is convex with planar faces as it stands is meant so.
-fn solid(points: &[DVec3], facets: &[Vec<u32>], material: MaterialId) -> Result<Polyhedron, PolyhedronError> {
-    let known_to = |precision| polyhedron(points, facets, &[material], &PolyhedronOptions { precision });
+fn solid(points: &[DVec3], facets: &[Vec<u32>], material: MaterialId) -> Result<SurfaceBody, PolyhedronError> {
+    let rule = WindingRule::Positive;
+    let known_to = |precision| surface_body(points, facets, &[material], &SurfaceOptions { precision, rule });
     let is_short = |v: f64| format!("{v:.*e}", DIGITS as usize - 1).parse() == Ok(v);
-    if !points.iter().flat_map(|point| point.to_array()).all(is_short) {
-        return known_to(Precision::Double);
-    }
-    if facets.len() <= MAX_TRIED {
-        let exactly = known_to(Precision::Double);
-        if exactly.as_ref().is_ok_and(|solid| solid.cells.len() == 1 && solid.bent_facets == 0) {
-            return exactly;
-        }
+    let exactly = known_to(Precision::Double);
+    let is_meant = |solid: &SurfaceBody| !solid.brush.is_mesh() && solid.bent_facets == 0;
+    if exactly.as_ref().is_ok_and(is_meant) || !points.iter().flat_map(|point| point.to_array()).all(is_short) {
+        return exactly;
     }
     known_to(Precision::Digits(DIGITS))
-}
-
-/// The same for a surface that crosses itself, where it is small enough.
-fn solid_by_winding(points: &[DVec3], facets: &[Vec<u32>], material: MaterialId) -> Option<Polyhedron> {
-    let precisions = [Precision::Digits(DIGITS), Precision::Double];
-    let solid = |precision| polyhedron_by_winding(points, facets, &[material], &PolyhedronOptions { precision }).ok();
-    precisions.into_iter().find_map(solid)
 }
 
 fn surface(node: &Node<'_>) -> Result<Surface, String> {
@@ -104,11 +83,11 @@ fn surface(node: &Node<'_>) -> Result<Surface, String> {
 
 /// Whether a surface is no closed manifold once corners at the same place are one: an edge has other than two faces, or a corner
 /// more than one fan of them.
-pub(super) fn touches_itself(points: &[DVec3], facets: &[Vec<u32>]) -> bool {
+pub(super) fn touches_itself<F: AsRef<[u32]>>(points: &[DVec3], facets: &[F]) -> bool {
     let mut places = PositionMerger::default();
     let mut place = |corner: &u32| places.index(points[*corner as usize]).expect("no more places than corners");
     let facets = facets.iter().map(|facet| {
-        let mut facet: Vec<u32> = facet.iter().map(&mut place).collect();
+        let mut facet: Vec<u32> = facet.as_ref().iter().map(&mut place).collect();
         facet.dedup();
         while facet.len() > 1 && facet.first() == facet.last() {
             facet.pop();

@@ -4,6 +4,7 @@ use planecut_cells::Solid;
 use planecut_csg::{Material, MaterialId, Model, Operation, Transform, Tree, evaluate};
 use planecut_kernel::{DVec2, DVec3};
 use planecut_shapes::outline::Outline;
+use planecut_shapes::polyhedron::convex_tree;
 use planecut_shapes::{ShapeError, shaping};
 
 use super::arguments::Arguments;
@@ -54,6 +55,18 @@ fn minkowski(mut operands: impl Iterator<Item = Tree>, material: MaterialId) -> 
         let is_empty = |tree: &Tree| Solid::from_tree(tree).cells().next().is_none();
         Ok(if is_empty(&operand) { so_far } else { operand })
     })
+}
+
+/// Solids with convex cells in place of closed meshes.
+pub(super) fn of_cells(children: Vec<Option<Geometry>>) -> Result<Vec<Option<Geometry>>, Problem> {
+    let of_cells = |child| match child {
+        Some(Geometry::Solid(body)) => {
+            let tree = convex_tree(&body.tree).map_err(ShapeError::from)?.into_owned();
+            Ok(Some(Geometry::Solid(Body { tree, ..body })))
+        }
+        child => Ok(child),
+    };
+    children.into_iter().map(of_cells).collect()
 }
 
 /// The corners of a body.

@@ -3,6 +3,7 @@
 
 mod edits;
 mod map;
+mod measures;
 mod mesh;
 mod model;
 mod scad;

@@ -4,6 +4,8 @@ use planecut_csg::{EvaluateError, TransformError};
 use planecut_kernel::{HalfSpaceError, HullError};
 use thiserror::Error;
 
+use crate::polyhedron::ConvexTreeError;
+
 /// Why a shape cannot be made.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
@@ -64,6 +66,9 @@ pub enum ShapeError {
         /// How often they may.
         limit: u64,
     },
+    /// A closed mesh that had to be cut into convex cells first could not be.
+    #[error(transparent)]
+    Cells(#[from] ConvexTreeError),
     /// An operand that had to be evaluated first could not be.
     #[error(transparent)]
     Evaluate(#[from] EvaluateError),

@@ -16,7 +16,7 @@ pub const MAX_LENGTH: f64 = 1e25;
 /// Largest accepted number of segments of a circle.
 pub const MAX_SEGMENTS: u32 = 10_000;
 /// Largest number of convex pieces of one shape.
-pub const MAX_PIECES: u64 = 4_194_304;
+pub const MAX_PIECES: u64 = crate::polyhedron::MAX_CELLS;
 
 pub(crate) fn refuse(parameter: &'static str, found: &dyn Display, expected: &dyn Display) -> ShapeError {
     ShapeError::Parameter { parameter, found: found.to_string(), expected: expected.to_string() }

@@ -4,6 +4,7 @@ use planecut_csg::stages::CompensatedSum;
 use planecut_csg::{Brush, BrushFace, MaterialId};
 use planecut_kernel::{HalfSpace, IncrementalPolytope};
 
+use super::MAX_CELLS;
 use super::choice::best_cut;
 use super::edges::Edges;
 use super::error::PolyhedronError;
@@ -11,7 +12,6 @@ use super::lumps::take_convex;
 use super::part::{Part, PlaneSide, Points};
 use super::planes::Planes;
 use super::surface::Surface;
-use crate::parameter::MAX_PIECES;
 
 /// The convex cells within a surface, each as sides of its planes.
 ///
@@ -19,10 +19,10 @@ use crate::parameter::MAX_PIECES;
 /// and all of the part is cut: each point is in one cell, however planes are rounded, so there are no gaps between cells.
 pub(super) fn cells(surface: &Surface, planes: &Planes) -> Result<Vec<Vec<PlaneSide>>, PolyhedronError> {
     let points = Points::new(surface.points.clone(), planes.slack(surface), &planes.float_planes, true);
-    cells_of(Part::whole(surface, planes), points).ok_or(PolyhedronError::TooLarge { limit: MAX_PIECES as usize })
+    cells_of(Part::whole(surface, planes), points).ok_or(PolyhedronError::TooLarge { limit: MAX_CELLS as usize })
 }
 
-/// The convex cells within the pieces of a part; `None` where there are more than [`MAX_PIECES`].
+/// The convex cells within the pieces of a part; `None` where there are more than [`MAX_CELLS`].
 pub(super) fn cells_of(whole: Part, mut points: Points<'_>) -> Option<Vec<Vec<PlaneSide>>> {
     let mut waiting = vec![whole];
     let mut done = Vec::new();
@@ -38,7 +38,7 @@ pub(super) fn cells_of(whole: Part, mut points: Points<'_>) -> Option<Vec<Vec<Pl
         let lumps = take_convex(&mut part, &edges, &points);
         let found_some = !lumps.is_empty();
         done.extend(lumps);
-        if done.len() + waiting.len() > MAX_PIECES as usize {
+        if done.len() + waiting.len() > MAX_CELLS as usize {
             return None;
         }
         if part.pieces.is_empty() {

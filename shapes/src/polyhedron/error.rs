@@ -46,8 +46,8 @@ pub enum PolyhedronError {
     },
     /// An edge is used more often in one direction than in the other.
     #[error(
-        "the surface is not closed: found an edge of facet {facet} from {} to {} without a facet beyond it, expected one",
-        shown(.from), shown(.to)
+        "the surface is not closed: found {}, expected none",
+        open_edges(*.edges, .from, .to)
     )]
     Open {
         /// The facet.
@@ -108,6 +108,14 @@ impl PolyhedronError {
             Self::Crossing { facets, .. } => Some(facets[0]),
             _ => None,
         }
+    }
+}
+
+fn open_edges(count: usize, from: &DVec3, to: &DVec3) -> String {
+    let (from, to) = (shown(from), shown(to));
+    match count {
+        1 => format!("an open edge from {from} to {to}"),
+        _ => format!("{count} open edges, the first one from {from} to {to}"),
     }
 }
 

@@ -6,13 +6,17 @@
 //! - `planes` finds one plane for facets that were meant to lie on one, as exactly as corners are known (`precision`).
 //! - `cells` cuts space along planes of facets (`choice` says which) until what is left in each `part` is convex
 //!   (`edges`, `lumps`); `sides` does the same for surfaces that are closed by the ends of a slab.
+//! - `body` makes a surface one leaf of a tree, a convex body (`convexity`) or a closed mesh; `convex_tree` cuts such meshes into cells.
 //! - `winding` cuts space along all facets of a surface that crosses itself, and keeps what that winds around.
 //!
 //! The sum of the cells' volumes must be the volume that the facets enclose, by the divergence theorem; a surface for which it
 //! is not has no inside.
 
+mod body;
 mod cells;
 mod choice;
+mod convex_tree;
+mod convexity;
 mod edges;
 mod error;
 pub(crate) mod exact;
@@ -33,7 +37,10 @@ use planecut_csg::stages::DisjointSets;
 use planecut_csg::{Brush, MaterialId, Tree};
 use planecut_kernel::DVec3;
 
+pub use body::{MAX_CONVEX_TRIANGLES, SurfaceBody, SurfaceOptions, surface_body};
+pub use convex_tree::{ConvexTreeError, convex_tree};
 pub use error::PolyhedronError;
+pub use joining::join_near;
 pub use polygon::{MAX_CONCAVE_CORNERS, triangulate};
 pub use precision::Precision;
 pub(crate) use sides::cells_within;
@@ -43,6 +50,9 @@ use crate::tolerances::{GOOD_VOLUME, LESS_SLACK};
 use joining::closed_surface;
 use planes::Planes;
 use surface::Surface;
+
+/// Most convex cells of a surface.
+pub const MAX_CELLS: u64 = 4_194_304;
 
 /// How a surface is taken.
 #[derive(Debug, Clone, Copy, PartialEq)]

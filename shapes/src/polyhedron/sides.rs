@@ -12,7 +12,7 @@ use super::surface::merged;
 /// the facet's plane where the facet's solid is not. `half_spaces` are those of the facets, the solid below them.
 ///
 /// Edges that only one facet has end the surface; what else bounds the solid there, the caller adds to each cell. `None` where
-/// there are more than [`MAX_PIECES`](crate::parameter::MAX_PIECES).
+/// there are more than [`MAX_CELLS`](super::MAX_CELLS).
 pub(crate) fn cells_within(
     points: &[DVec3],
     facets: &[Vec<u32>],

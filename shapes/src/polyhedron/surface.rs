@@ -10,7 +10,7 @@ use super::polygon::{MAX_CONCAVE_CORNERS, area_vector, triangulate as cut};
 use super::precision::Precision;
 
 /// Largest accepted magnitude of a coordinate.
-const MAX_COORDINATE: f64 = f64::from_bits((1023 + 100) << 52);
+pub(super) const MAX_COORDINATE: f64 = f64::from_bits((1023 + 100) << 52);
 
 /// A closed surface. Where it touches itself in an edge or a vertex, its sheets have vertices of their own there: every edge
 /// has two triangles, every vertex one fan.
@@ -192,7 +192,7 @@ fn triangulate(polygons: &[(u32, Vec<u32>)], points: &[DVec3]) -> Result<(Vec<[u
 }
 
 /// Six times the volume, as tetrahedra from a point amid the others: less cancels than from the origin.
-fn six_volumes(points: &[DVec3], triangles: &[[u32; 3]]) -> f64 {
+pub(super) fn six_volumes(points: &[DVec3], triangles: &[[u32; 3]]) -> f64 {
     let (low, high) = points.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), p| (l.min(*p), h.max(*p)));
     let middle = 0.5 * low + 0.5 * high;
     let six = |t: &[u32; 3]| {

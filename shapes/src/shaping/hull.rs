@@ -28,7 +28,7 @@ pub fn hull_with_points(operands: &[Tree], points: &[DVec3], material: MaterialI
     let mut bodies: Vec<(&Brush, Convex)> = Vec::new();
     let mut corners: Vec<DVec3> = points.to_vec();
     for operand in operands {
-        if operand.is_union() {
+        if operand.is_union() && !operand.has_meshes() {
             bodies.extend(parts_of_union(operand)?);
         } else {
             corners.extend(evaluated(operand)?.mesh.positions);

@@ -14,6 +14,7 @@ use rustc_hash::FxHashMap;
 use super::boxes::{Bounds, BoxTree};
 use super::convex::{Convex, Edge, parts_of_union, wide_faces};
 use crate::parameter::{ShapeError, pieces};
+use crate::polyhedron::convex_tree;
 
 /// All sums of a point of `a` and a point of `b`; empty where one of them is. All faces get the material.
 ///
@@ -34,10 +35,11 @@ pub fn minkowski(a: &Tree, b: &Tree, material: MaterialId) -> Result<Tree, Shape
 }
 
 fn convex_parts(tree: &Tree) -> Result<Vec<Gauss>, ShapeError> {
+    let tree = convex_tree(tree)?;
     let parts = if tree.is_union() {
-        parts_of_union(tree)?.into_iter().map(|(_, body)| body).collect()
+        parts_of_union(&tree)?.into_iter().map(|(_, body)| body).collect()
     } else {
-        super::convex::cells(tree)?
+        super::convex::cells(&tree)?
     };
     Ok(parts.iter().map(Gauss::of).collect())
 }

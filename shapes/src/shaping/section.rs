@@ -12,7 +12,7 @@ use crate::primitives::body_of_half_spaces;
 
 /// Where a solid meets the plane `z = height`: what there is just below it. Move the tree first for any other plane.
 ///
-/// The corners are those of the solid, rounded once. The solid itself may be unbounded.
+/// The corners are those of the solid, rounded once. The solid itself may be unbounded, where no leaf of it is a closed mesh.
 ///
 /// # Errors
 /// [`ShapeError::Parameter`] where the height is not accepted, [`ShapeError::Unbounded`] where the slice is unbounded.
@@ -20,7 +20,15 @@ pub fn slice(tree: &Tree, height: f64) -> Result<Outline, ShapeError> {
     let height = coordinate("z", height)?;
     // a slab so thick that its planes differ, and no thicker, so that what is unbounded along z does not matter
     let thickness = (height.abs() + 1.0).log2().ceil().exp2();
-    let slab = body_of_half_spaces(&[(DVec3::Z, height), (-DVec3::Z, thickness - height)], MaterialId(0))?;
+    let mut sides = vec![(DVec3::Z, height), (-DVec3::Z, thickness - height)];
+    if tree.has_meshes() {
+        // what closed meshes are combined with must be bounded
+        let Some([min, max]) = bounds(&evaluated(tree)?.mesh) else { return Ok(Outline::empty()) };
+        let margin = (max - min).max_element();
+        sides.extend([DVec3::X, DVec3::Y].map(|axis| (axis, axis.dot(max) + margin)));
+        sides.extend([DVec3::X, DVec3::Y].map(|axis| (-axis, margin - axis.dot(min))));
+    }
+    let slab = body_of_half_spaces(&sides, MaterialId(0))?;
     let mesh = evaluated(&Tree::intersection([tree.clone(), slab.into()]))?.mesh;
     let on_plane = |vertex: &u32| mesh.positions[*vertex as usize].z == height;
     let lid = triangles_by_face(&mesh).into_iter().filter(|(face, triangles)| {
@@ -39,6 +47,11 @@ pub fn project(tree: &Tree) -> Result<Outline, ShapeError> {
     let faces = triangles_by_face(&mesh).into_iter().filter(|(face, _)| mesh.faces[*face as usize].normal.z > 0.0);
     let loops: Vec<Vec<DVec2>> = faces.flat_map(|(_, triangles)| boundary(&mesh, &triangles)).collect();
     Ok(Outline::filled(&loops, FillRule::NonZero))
+}
+
+/// The box around a mesh.
+fn bounds(mesh: &Mesh) -> Option<[DVec3; 2]> {
+    mesh.positions.iter().map(|point| [*point; 2]).reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
 }
 
 fn triangles_by_face(mesh: &Mesh) -> Vec<(u32, Vec<[u32; 3]>)> {

@@ -4,14 +4,14 @@ use planecut::csg::{
     Cutaway, FaceSource, Material, MaterialId, Mesh, MeshFace, Model, Solid, Tree, evaluate, summarize,
 };
 use planecut::import::Warning;
-use planecut::import::mesh::{IndexedMesh, MeshFormat, read_mesh};
+use planecut::import::mesh::{IndexedMesh, MeshFormat, SolidOptions, read_mesh};
 use planecut::kernel::DVec3;
 use planecut::picture::{PreviewOptions, Subject};
 
 use super::args::{IdKind, RenderArgs};
 use crate::cli::error::CliError;
 use crate::cli::input::{Input, InputKind};
-use crate::cli::pieces::{bounded_tree_of, brush_meshes};
+use crate::cli::pieces::{bounded_tree_of, brush_meshes, of_cells};
 use crate::cli::progress::Progress;
 use crate::cli::solve::{read, solve};
 
@@ -41,9 +41,10 @@ pub(super) fn subject(
     progress: &Progress,
 ) -> Result<Drawn, CliError> {
     let is_whole = args.section().is_none() && args.spread().is_none();
+    let takes_as_it_is = args.reading.solid_options() == SolidOptions::default();
     match kind {
         // A mesh is drawn as it is, whether it bounds a solid or not.
-        InputKind::Mesh(format) if is_whole && args.buffers.id_of != IdKind::Brush => {
+        InputKind::Mesh(format) if is_whole && args.buffers.id_of != IdKind::Brush && takes_as_it_is => {
             progress.stage("reading");
             mesh_as_it_is(input, format)
         }
@@ -63,6 +64,7 @@ fn mesh_as_it_is(input: &Input, format: MeshFormat) -> Result<Drawn, CliError> {
 
 /// A mesh with a face for each of its triangles. Those without an area have no normal and are left out.
 fn drawable(read: IndexedMesh) -> Mesh {
+    let (read, _) = read.painted();
     let plain = read.materials.len() as u32;
     let mut mesh = Mesh { positions: read.positions, materials: read.materials, ..Mesh::default() };
     mesh.materials.push(Material::named("mesh"));
@@ -106,6 +108,7 @@ fn inside(
         let mesh = evaluate(&model).map_err(failed)?.mesh;
         return Ok(Drawn::new(Subject::from(mesh).hatching(&cuts), read.warnings));
     };
+    model.tree = of_cells(&input.path, &model.tree)?.into_owned();
     let cells = if matches!(kind, InputKind::Mesh(_)) && is_union(&model.tree) {
         // A file of convex bodies: they are the cells, even where they overlap.
         brush_meshes(model.tree.brushes(), &model.materials)

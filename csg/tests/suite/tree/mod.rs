@@ -5,12 +5,14 @@
 //! - [`algebra`]: the identities of set algebra, bit for bit where the mesh must be the same.
 //! - [`cutaway`]: models cut open, against counts of unit cubes.
 //! - [`ownership`]: which of coplanar faces emits, against unit faces of a grid and the truth table of `docs/weld.md`.
+//! - [`mesh_leaves`]: closed meshes as leaves.
 //! - [`edge_cases`]: empty and unbounded results, deep and wide trees, materials.
 //! - [`source_lines`]: lines of the input stay with their brushes.
 
 mod algebra;
 mod cutaway;
 mod edge_cases;
+mod mesh_leaves;
 mod ownership;
 mod random;
 mod regressions;

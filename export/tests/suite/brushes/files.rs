@@ -9,6 +9,7 @@ use planecut_export::BrushFormat;
 use planecut_import::map::{MapOptions, read_map};
 use planecut_import::scad::{ScadOptions, read_scad};
 use planecut_kernel::HalfSpace;
+use planecut_shapes::polyhedron::convex_tree;
 use planecut_testkit::data::data;
 
 use super::support::{body, read, volume, written};
@@ -50,7 +51,8 @@ fn maps() -> Vec<(String, Model)> {
 
 /// Disjoint convex cells of a solid, where that is bounded.
 fn cells(model: &Model) -> Option<Vec<Brush>> {
-    let solid = Solid::from_tree(&model.tree);
+    let tree = convex_tree(&model.tree).unwrap_or_else(|error| panic!("{error}"));
+    let solid = Solid::from_tree(&tree);
     solid.volume()?;
     let brush = |cell: &Cell| {
         let faces = cell.planes().map(|(_, plane)| {

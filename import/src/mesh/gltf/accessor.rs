@@ -68,6 +68,38 @@ impl<'a> Buffers<'a> {
         }
     }
 
+    /// The colours of an accessor of the type `VEC3` or `VEC4`, linear; opacity is passed over.
+    pub(super) fn colors(&self, accessor: usize) -> Result<Vec<[f32; 3]>, Fault> {
+        let place = Place::Json(format!("accessors/{accessor}"));
+        let has_opacity = self.document.accessors.get(accessor).is_some_and(|a| a.type_ == Checked::Valid(Type::Vec4));
+        let shape = if has_opacity { (Type::Vec4, "VEC4") } else { (Type::Vec3, "VEC3") };
+        let (stated, component) = self.accessor(accessor, shape.0, shape.1)?;
+        match component {
+            ComponentType::U8 => self.channels::<u8>(stated, &place, 255.0, has_opacity),
+            ComponentType::U16 => self.channels::<u16>(stated, &place, 65535.0, has_opacity),
+            ComponentType::F32 => self.channels::<f32>(stated, &place, 1.0, has_opacity),
+            ComponentType::I8 | ComponentType::I16 | ComponentType::U32 => {
+                let found = format!("component type {}", component.as_gl_enum());
+                Err(Fault::new(place, found, "5121, 5123 or 5126 for colours"))
+            }
+        }
+    }
+
+    fn channels<T: Item + Copy + Into<f32>>(
+        &self,
+        accessor: &Accessor,
+        place: &Place,
+        largest: f32,
+        has_opacity: bool,
+    ) -> Result<Vec<[f32; 3]>, Fault> {
+        let color = |channels: [T; 3]| channels.map(|channel| channel.into() / largest);
+        if has_opacity {
+            let values = self.values::<[T; 4]>(accessor, place)?;
+            return Ok(values.into_iter().map(|[r, g, b, _]| color([r, g, b])).collect());
+        }
+        Ok(self.values::<[T; 3]>(accessor, place)?.into_iter().map(color).collect())
+    }
+
     /// Vectors of numbers; normalized, whole numbers stand for fractions of the largest. The crate's own reader of positions knows `f32` alone.
     fn vectors<T: Item + Copy + Into<f64>>(
         &self,

@@ -100,6 +100,7 @@ fn append(mesh: &mut IndexedMesh, geometry: &Geometry, placed: &transform::Place
     let first = mesh.triangles.len();
     mesh.triangles.extend(geometry.triangles.iter().map(|t| turned(t.map(|v| v + shift))));
     mesh.material_of.extend(&geometry.material_of);
+    mesh.colors.extend(&geometry.colors);
     mesh.objects.push(MeshObject { name: placed.name.clone(), triangles: first..mesh.triangles.len() });
     Ok(())
 }

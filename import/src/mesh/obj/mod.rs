@@ -1,10 +1,11 @@
-//! Wavefront OBJ: `v`, `f`, `o`, `g` and `usemtl`; all other statements are passed over.
+//! Wavefront OBJ: `v` with colours, `f`, `o`, `g` and `usemtl`; all other statements are passed over.
 
 use std::borrow::Cow;
 
 use glam::DVec3;
 use planecut_csg::Material;
 
+use super::colors::{Color, linear, mean};
 use super::decimals::Decimals;
 use super::error::{Fault, Place, quoted};
 use super::polygon::{MAX_CONCAVE_CORNERS, triangulate};
@@ -17,6 +18,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<IndexedMesh, Fault> {
     for (line, statement) in (Statements { rest: bytes, line: 1 }) {
         reader.statement(&statement, line)?;
     }
+    let colors = reader.triangle_colors();
     let ObjReader { positions, decimals, triangles, places, materials, material_of, objects, groups, .. } = reader;
     let starts = if objects.is_empty() { groups } else { objects };
     if triangles.is_empty() && starts.is_empty() {
@@ -25,7 +27,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<IndexedMesh, Fault> {
     let objects = objects_from_starts(starts, triangles.len());
     let precision = decimals.precision();
     let material_of = if materials.is_empty() { Vec::new() } else { material_of };
-    Ok(IndexedMesh { positions, triangles, objects, precision, materials, material_of, places })
+    Ok(IndexedMesh { positions, triangles, objects, precision, materials, material_of, colors, places })
 }
 
 /// The statements with the line on which each begins: lines, of which those that end in a backslash are joined with the next.
@@ -71,6 +73,8 @@ impl<'a> Statements<'a> {
 struct ObjReader {
     positions: Vec<DVec3>,
     decimals: Decimals,
+    /// What follows the coordinates of each vertex, where that is a colour; nothing where no vertex has one.
+    colors: Vec<Option<[f64; 3]>>,
     triangles: Vec<[u32; 3]>,
     /// The line of each triangle's face.
     places: Vec<Place>,
@@ -118,7 +122,7 @@ impl ObjReader {
         });
     }
 
-    /// `v x y z`; a weight or colour after it is passed over.
+    /// `v x y z`, and `r g b` after it; a weight alone is passed over.
     fn vertex<'w>(&mut self, mut words: impl Iterator<Item = &'w [u8]>, line: usize) -> Result<(), Fault> {
         let mut coordinate = || {
             let word = words.next().unwrap_or_default();
@@ -126,7 +130,31 @@ impl ObjReader {
             finite(word, Place::Line(line))
         };
         self.positions.push(DVec3::new(coordinate()?, coordinate()?, coordinate()?));
+        let mut channel = || words.next().and_then(|word| finite(word, Place::Line(line)).ok());
+        if let Some(red) = channel()
+            && let (Some(green), Some(blue)) = (channel(), channel())
+        {
+            self.colors.resize(self.positions.len() - 1, None);
+            self.colors.push(Some([red, green, blue]));
+        }
         Ok(())
+    }
+
+    /// The colours of triangles without a material. Channels go from 0 to 1, or to 255 where one is larger than 1.
+    fn triangle_colors(&self) -> Vec<Option<Color>> {
+        if self.colors.is_empty() {
+            return Vec::new();
+        }
+        let largest = self.colors.iter().flatten().flatten().copied().fold(0.0, f64::max);
+        let scale = if largest > 1.0 { 255.0 } else { 1.0 };
+        let of_vertex = |vertex: u32| {
+            let color = self.colors.get(vertex as usize).copied().flatten()?;
+            Some(color.map(|channel| linear(channel / scale)))
+        };
+        let colored = self.triangles.iter().zip(&self.material_of);
+        colored
+            .map(|(triangle, material)| if material.is_some() { None } else { mean(triangle.map(of_vertex)) })
+            .collect()
     }
 
     fn face<'w>(&mut self, words: impl Iterator<Item = &'w [u8]>, line: usize) -> Result<(), Fault> {

@@ -5,6 +5,7 @@ mod header;
 
 use glam::DVec3;
 
+use super::colors::{Color, linear, mean};
 use super::error::{Fault, Place};
 use super::polygon::{MAX_CONCAVE_CORNERS, triangulate};
 use super::{IndexedMesh, Precision};
@@ -13,7 +14,7 @@ use body::Body;
 use header::{Element, Header, Property, Scalar};
 
 /// Reads a PLY file: `x`, `y`, `z` of its element `vertex` and the list `vertex_indices` (or `vertex_index`) of its element
-/// `face`. All else is passed over.
+/// `face`, and `red`, `green`, `blue` of either; those of faces come first. All else is passed over.
 pub(super) fn read(bytes: &[u8]) -> Result<IndexedMesh, Fault> {
     let (header, mut body) = header::read(bytes)?;
     let mut positions = None;
@@ -32,14 +33,21 @@ pub(super) fn read(bytes: &[u8]) -> Result<IndexedMesh, Fault> {
                 let Some(positions) = &positions else {
                     return Err(Fault::new(body.place(), "element `face` first", "element `vertex` before it"));
                 };
-                triangles = Some(read_faces(element, positions, &mut body)?);
+                triangles = Some(read_faces(element, &positions.positions, &mut body)?);
             }
             _ => skip(element, &mut body)?,
         }
     }
-    let positions = positions.ok_or_else(|| Fault::whole("no element `vertex`", "one"))?;
-    let (triangles, places) = triangles.ok_or_else(|| Fault::whole("no element `face`", "one"))?;
-    Ok(IndexedMesh { places, ..IndexedMesh::plain(positions, triangles, precision(&header)) })
+    let Vertices { positions, colors: of_vertex } =
+        positions.ok_or_else(|| Fault::whole("no element `vertex`", "one"))?;
+    let Faces { triangles, places, colors } = triangles.ok_or_else(|| Fault::whole("no element `face`", "one"))?;
+    let of_corners = |triangle: &[u32; 3]| mean(triangle.map(|corner| of_vertex.get(corner as usize).copied()));
+    let colors = match (colors.is_empty(), of_vertex.is_empty()) {
+        (false, _) => colors.into_iter().map(Some).collect(),
+        (true, false) => triangles.iter().map(of_corners).collect(),
+        (true, true) => Vec::new(),
+    };
+    Ok(IndexedMesh { places, colors, ..IndexedMesh::plain(positions, triangles, precision(&header)) })
 }
 
 fn precision(header: &Header) -> Precision {
@@ -52,36 +60,70 @@ fn precision(header: &Header) -> Precision {
     }
 }
 
-fn read_vertices(element: &Element, body: &mut Body<'_>) -> Result<Vec<DVec3>, Fault> {
+/// Records of `vertex`; colours where they have them.
+struct Vertices {
+    positions: Vec<DVec3>,
+    colors: Vec<Color>,
+}
+
+/// Records of `face`, cut into triangles: where the face of each begins, and its colour where they have one.
+struct Faces {
+    triangles: Vec<[u32; 3]>,
+    places: Vec<Place>,
+    colors: Vec<Color>,
+}
+
+/// Which channel of a colour each property is; none where a channel is missing.
+fn channels(element: &Element) -> Vec<Option<usize>> {
+    const NAMES: [&str; 3] = ["red", "green", "blue"];
+    let channel = |p: &Property| NAMES.iter().position(|&name| p.list_length.is_none() && p.name == name);
+    let channels: Vec<Option<usize>> = element.properties.iter().map(channel).collect();
+    let is_there = (0..3).all(|channel| channels.contains(&Some(channel)));
+    if is_there { channels } else { vec![None; element.properties.len()] }
+}
+
+/// A channel on the linear scale of light; whole numbers stand for fractions of the largest.
+fn channel_value(value: f64, scalar: Scalar) -> f32 {
+    linear(match scalar {
+        Scalar::U8 | Scalar::I8 => value / 255.0,
+        Scalar::U16 | Scalar::I16 => value / 65535.0,
+        Scalar::U32 | Scalar::I32 => value / f64::from(u32::MAX),
+        Scalar::F32 | Scalar::F64 => value,
+    })
+}
+
+fn read_vertices(element: &Element, body: &mut Body<'_>) -> Result<Vertices, Fault> {
     let axis = |p: &Property| ["x", "y", "z"].iter().position(|&name| p.list_length.is_none() && p.name == name);
     let axes: Vec<Option<usize>> = element.properties.iter().map(axis).collect();
     if let Some(missing) = (0..3).find(|&k| !axes.contains(&Some(k))) {
         let name = ["x", "y", "z"][missing];
         return Err(Fault::whole(format!("no property `{name}` in element `vertex`"), "`x`, `y` and `z`"));
     }
+    let channels = channels(element);
+    let has_colors = channels.iter().any(Option::is_some);
     let mut positions = Vec::with_capacity(element.count);
+    let mut colors = Vec::new();
     for _ in 0..element.count {
-        let mut position = DVec3::ZERO;
-        for (property, axis) in element.properties.iter().zip(&axes) {
-            match axis {
-                Some(axis) => position[*axis] = body.scalar(property.scalar)?,
-                None => skip_property(property, body)?,
+        let (mut position, mut color) = (DVec3::ZERO, Color::default());
+        for (property, part) in element.properties.iter().zip(axes.iter().zip(&channels)) {
+            match part {
+                (Some(axis), _) => position[*axis] = body.scalar(property.scalar)?,
+                (_, Some(channel)) => color[*channel] = channel_value(body.scalar(property.scalar)?, property.scalar),
+                _ => skip_property(property, body)?,
             }
+        }
+        if has_colors {
+            colors.push(color);
         }
         if !position.is_finite() {
             return Err(Fault::new(body.place(), format!("the vertex {position}"), "finite coordinates"));
         }
         positions.push(position);
     }
-    Ok(positions)
+    Ok(Vertices { positions, colors })
 }
 
-/// The triangles, and where the face of each begins.
-fn read_faces(
-    element: &Element,
-    positions: &[DVec3],
-    body: &mut Body<'_>,
-) -> Result<(Vec<[u32; 3]>, Vec<Place>), Fault> {
+fn read_faces(element: &Element, positions: &[DVec3], body: &mut Body<'_>) -> Result<Faces, Fault> {
     let is_indices =
         |p: &&Property| p.list_length.is_some() && ["vertex_indices", "vertex_index"].contains(&p.name.as_str());
     let Some(indices) = element.properties.iter().find(is_indices) else {
@@ -89,10 +131,17 @@ fn read_faces(
     };
     let mut triangles = Vec::with_capacity(element.count);
     let mut places = Vec::with_capacity(element.count);
-    let mut corners = Vec::new();
+    let channels = channels(element);
+    let has_colors = channels.iter().any(Option::is_some);
+    let (mut corners, mut colors) = (Vec::new(), Vec::new());
     for _ in 0..element.count {
         let before = body.place();
-        for property in &element.properties {
+        let mut color = Color::default();
+        for (property, channel) in element.properties.iter().zip(&channels) {
+            if let Some(channel) = channel {
+                color[*channel] = channel_value(body.scalar(property.scalar)?, property.scalar);
+                continue;
+            }
             if !std::ptr::eq(property, indices) {
                 skip_property(property, body)?;
                 continue;
@@ -114,8 +163,11 @@ fn read_faces(
         // of text the words are known once they are read
         let place = if matches!(body, Body::Ascii(_)) { body.place() } else { before };
         places.resize(triangles.len(), place);
+        if has_colors {
+            colors.resize(triangles.len(), color);
+        }
     }
-    Ok((triangles, places))
+    Ok(Faces { triangles, places, colors })
 }
 
 fn vertex_index(value: f64, count: usize, body: &Body<'_>) -> Result<u32, Fault> {

@@ -6,11 +6,13 @@
 
 mod outline;
 
+use std::borrow::Cow;
 use std::num::NonZeroU32;
 
-use planecut_csg::{MaterialId, Operation, Transform, Tree};
+use planecut_csg::{Material, MaterialId, Operation, Transform, Tree};
 use planecut_shapes::outline::Outline;
-use planecut_shapes::shaping;
+use planecut_shapes::polyhedron::convex_tree;
+use planecut_shapes::{ShapeError, shaping};
 use rustc_hash::FxHashMap;
 
 use crate::Warning;
@@ -25,6 +27,7 @@ use crate::model::form::kind_of;
 use crate::model::json::Entry;
 use crate::model::keys::{NODE_EXTRAS, NODE_KINDS};
 use crate::model::materials::{NO_MATERIAL, set_missing};
+use crate::model::meshes::Meshes;
 use crate::model::names::Names;
 use crate::model::parameters::{Definitions, Environment};
 
@@ -85,6 +88,15 @@ pub(super) struct Evaluator<'v, 'a> {
     /// How many environments there were.
     environments: u32,
     warnings: Vec<Warning>,
+    meshes: Meshes<'v>,
+}
+
+/// What NODEs gave.
+pub(super) struct Evaluated {
+    pub(super) tree: Tree,
+    /// Those of mesh files, which follow the materials of the model.
+    pub(super) materials: Vec<Material>,
+    pub(super) warnings: Vec<Warning>,
 }
 
 impl<'v, 'a> Evaluator<'v, 'a> {
@@ -96,6 +108,7 @@ impl<'v, 'a> Evaluator<'v, 'a> {
         lines: &'v LineTable,
         uses: &[Use],
         limit: usize,
+        meshes: Meshes<'v>,
     ) -> Self {
         let mut counts = vec![0; names.vertices()];
         for Use { used, .. } in uses {
@@ -114,6 +127,7 @@ impl<'v, 'a> Evaluator<'v, 'a> {
             budget: Budget::new(limit),
             environments: 0,
             warnings: Vec::new(),
+            meshes,
         }
     }
 
@@ -121,12 +135,13 @@ impl<'v, 'a> Evaluator<'v, 'a> {
     ///
     /// # Errors
     /// [`Fault`] of the first value that cannot be made.
-    pub(super) fn run(mut self, node: Entry, environment: Environment) -> Checked<(Tree, Vec<Warning>)> {
+    pub(super) fn run(mut self, node: Entry, environment: Environment) -> Checked<Evaluated> {
         self.tasks.push(Task::Node(Context::frame(node, environment, 0)));
         while let Some(task) = self.tasks.pop() {
             self.carry_out(task)?;
         }
-        Ok((self.trees.pop().unwrap_or_default(), self.warnings))
+        let tree = self.trees.pop().unwrap_or_default();
+        Ok(Evaluated { tree, materials: self.meshes.into_materials(), warnings: self.warnings })
     }
 
     fn carry_out(&mut self, task: Task) -> Checked<()> {
@@ -143,7 +158,12 @@ impl<'v, 'a> Evaluator<'v, 'a> {
                 self.make(&context, maker)
             }
             Task::Minkowski(context) => {
-                let operands = self.used_up(2);
+                let mut operands = self.used_up(2);
+                for operand in &mut operands {
+                    let convex = convex_tree(operand).map_err(ShapeError::from);
+                    let convex = self.maker(&context, context.node).accept(convex.map(Cow::into_owned))?;
+                    *operand = convex;
+                }
                 let [a, b] = &operands[..] else { return Ok(()) };
                 if a.is_union() && b.is_union() {
                     let pairs = Size { brushes: a.brushes().len(), planes: 0 };
@@ -242,6 +262,7 @@ impl<'v, 'a> Evaluator<'v, 'a> {
                 self.tasks.push(make(context, value));
                 self.tasks.push(task);
             }
+            "mesh" => return self.mesh(&context, value),
             key => return self.body(&context, key, value),
         }
         Ok(())
@@ -343,6 +364,13 @@ impl<'v, 'a> Evaluator<'v, 'a> {
             self.warnings.push(Warning::note(line, message));
         }
         Ok(())
+    }
+
+    fn mesh(&mut self, context: &Context, value: Entry) -> Checked<()> {
+        let line = self.line(context.node);
+        let (tree, messages) = self.meshes.tree(&self.definitions.values(&context.environment), value)?;
+        self.warnings.extend(messages.into_iter().map(|message| Warning::note(line, message)));
+        self.make_from(context, value, |_| Ok(tree))
     }
 
     fn maker<'c>(&'c self, context: &'c Context, value: Entry) -> Maker<'c, 'a> {

@@ -1,9 +1,11 @@
 //! Triangle meshes: OBJ, STL, PLY and glTF.
 
+mod colors;
 mod damaged;
 mod files;
 mod formats;
 mod gltf;
+mod leaves;
 #[cfg(feature = "meshopt")]
 mod packed;
 mod solid;

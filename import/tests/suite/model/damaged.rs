@@ -83,7 +83,7 @@ fn changed_bytes_do_no_harm() {
 
 #[test]
 fn changed_words_do_no_harm() {
-    const WORDS: [&str; 40] = [
+    const WORDS: [&str; 42] = [
         "planecut",
         "model",
         "union",
@@ -124,6 +124,8 @@ fn changed_words_do_no_harm() {
         "extrude",
         "outline",
         "slice",
+        "mesh",
+        "\"l.obj\"",
     ];
     let mut random = Rng::new(2);
     for round in 0..10_000 {

@@ -4,5 +4,6 @@ mod damaged;
 mod errors;
 mod forms;
 mod limits;
+mod meshes;
 mod schema;
 mod support;

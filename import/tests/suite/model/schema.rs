@@ -78,6 +78,7 @@ fn good() -> Vec<String> {
         r#"{"capsule": {"height": 1, "radius": 1, "segments": 6}}"#,
         r#"{"regular": {"solid": "icosahedron", "radius": 1}}"#,
         r#"{"torus": {"radius": 3, "tube": 1, "segments": 6, "tube_segments": 6}}"#,
+        r#"{"mesh": {"file": "./l.obj", "scale": "=1/2", "rule": "nonzero", "close": 1e-9}}"#,
     ]
     .map(str::to_owned)
     .into();
@@ -195,6 +196,9 @@ fn faults_beyond_one_change() {
         format!(r#"{{"minkowski": [{CUBE}]}}"#),
         format!(r#"{{"union": [{CUBE}], "hull": [{CUBE}]}}"#),
         CUBE.replace("}}", r#"}, "with": {}}"#),
+        r#"{"mesh": ""}"#.to_owned(),
+        r#"{"mesh": {"file": "l.obj", "scale": 0}}"#.to_owned(),
+        r#"{"mesh": {"file": "l.obj", "rule": "even"}}"#.to_owned(),
         r#"{"sphere": {"radius": 0}}"#.to_owned(),
         r#"{"sphere": {"radius": "1"}}"#.to_owned(),
         r#"{"sphere": {"radius": 1, "segments": 2}}"#.to_owned(),

@@ -1,10 +1,13 @@
 //! Small model files to read.
 
+use std::path::Path;
+
 use planecut_import::model::{ModelError, ModelImport, ModelOptions, read_model};
 
-/// Reads a text as the file `m.json`.
+/// Reads a text as the file `m.json` beside the files of these tests.
 pub(crate) fn read(text: &str) -> Result<ModelImport, ModelError> {
-    read_model(text.as_bytes(), "m.json", &ModelOptions::default())
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/files");
+    read_model(text.as_bytes(), "m.json", &ModelOptions { folder, ..ModelOptions::default() })
 }
 
 /// A file with this model alone.

@@ -3,6 +3,7 @@
 mod damage;
 mod forms;
 mod leniency;
+mod meshes;
 mod reference;
 mod shapes;
 
