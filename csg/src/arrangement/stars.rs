@@ -23,6 +23,9 @@ const NORMAL_BOUND: f64 = 8.0 * f64::EPSILON;
 /// Bound on what is rounded in a sum of two products, in units of the magnitudes of these.
 const SIDE_BOUND: f64 = 8.0 * f64::EPSILON;
 
+/// A direction of unit length.
+const ASIDE: DVec3 = DVec3::new(0.726_312, 0.548_276, 0.414_684);
+
 /// Whether the triangles around each vertex are sure to have nothing in common but their edges.
 pub(super) fn simple_stars(positions: &[DVec3], triangles: &[[u32; 3]], twins: &[u32], stars: &[Star]) -> Vec<bool> {
     let work = |vertex: u32| is_simple(positions, triangles, twins, &stars[vertex as usize]);
@@ -74,15 +77,18 @@ fn is_simple(positions: &[DVec3], triangles: &[[u32; 3]], twins: &[u32], star: &
 /// Whether spokes around a vertex, counter-clockwise each from the one before as seen against a direction, go around it once: of the steps
 /// from one to the next one goes from below a line through the vertex to above.
 fn turns_once(spokes: &[DVec3], along: DVec3) -> bool {
-    let least = along.abs().min_position();
-    let (u, v) = ((least + 1) % 3, (least + 2) % 3);
+    // no direction that edges are likely to have, and not that of the projection
+    let mut aside = ASIDE;
+    if along.dot(aside).abs() > 0.8 * along.length() {
+        aside.x = -aside.x;
+    }
     let mut ups = 0;
     let mut last = None;
     for spoke in spokes {
-        // the coordinate in a direction perpendicular to that of the projection
-        let (left, right) = (along[v] * spoke[u], along[u] * spoke[v]);
-        let height = left - right;
-        if height.abs() <= SIDE_BOUND * (left.abs() + right.abs()) {
+        // the coordinate along the line's normal, which is perpendicular to the direction of the projection
+        let (left, right) = (spoke.yzx() * along.zxy(), spoke.zxy() * along.yzx());
+        let height = aside.dot(left - right);
+        if height.abs() <= SIDE_BOUND * aside.abs().dot(left.abs() + right.abs()) {
             return false;
         }
         if last == Some(false) && height > 0.0 {
