@@ -1,6 +1,7 @@
 """manifold3d's side of `bench/csg`: reads a scene, says so, and answers each line of standard input with one run.
 
-What the clock sees are the Booleans and what forces their evaluation; the bodies are manifolds before it starts.
+What the clock sees are the Booleans and what forces their evaluation; convex bodies are manifolds before it starts. Bodies without
+half-spaces are meshes: of these manifolds are made of arrays, and moved, on the clock.
 """
 
 import json
@@ -34,7 +35,25 @@ def main() -> None:
         print(json.dumps(answer), flush=True)
 
 
-def _read(path: str) -> tuple[list[Manifold], dict]:
+class _Mesh:
+    """Arrays that become a manifold on the clock."""
+
+    def __init__(self, positions: np.ndarray, triangles: np.ndarray, matrix: list | None) -> None:
+        self._arrays = positions, triangles
+        self._matrix = None if matrix is None else np.array(matrix)
+
+    def manifold(self) -> Manifold:
+        body = _sound(Manifold(Mesh64(*self._arrays)))
+        return body if self._matrix is None else body.transform(self._matrix)
+
+
+def _sound(body: Manifold) -> Manifold:
+    if body.status() != manifold3d.Error.NoError:
+        raise RuntimeError(f"a body is refused: {body.status()}")
+    return body
+
+
+def _read(path: str) -> tuple[list[Manifold | _Mesh], dict]:
     with open(path, "rb") as file:
         header = json.loads(file.readline())
         sizes = np.array(header["bodies"]).reshape(-1, 3)
@@ -43,19 +62,21 @@ def _read(path: str) -> tuple[list[Manifold], dict]:
         triangles = np.fromfile(file, "<u4", 3 * int(sizes[:, 2].sum())).reshape(-1, 3)
     bodies = []
     at, first = 0, 0
-    for _, corners, count in sizes:
-        mesh = Mesh64(positions[at : at + corners], triangles[first : first + count].astype(np.uint64))
-        body = Manifold(mesh)
-        if body.status() != manifold3d.Error.NoError:
-            raise RuntimeError(f"a body is refused: {body.status()}")
-        body.num_tri()
-        bodies.append(body)
+    for (planes, corners, count), matrix in zip(sizes, header["matrices"]):
+        arrays = positions[at : at + corners], triangles[first : first + count].astype(np.uint64)
+        if planes:
+            body = _sound(Manifold(Mesh64(*arrays)))
+            body.num_tri()
+            bodies.append(body)
+        else:
+            bodies.append(_Mesh(*arrays, matrix))
         at, first = at + corners, first + count
     return bodies, header["plan"]
 
 
-def _run(bodies: list[Manifold], plan: dict) -> dict:
+def _run(bodies: list[Manifold | _Mesh], plan: dict) -> dict:
     begin = time.perf_counter()
+    bodies = [body.manifold() if isinstance(body, _Mesh) else body for body in bodies]
     if "tree" in plan:
         result = _tree(bodies, plan["tree"])
     elif "moves" in plan:

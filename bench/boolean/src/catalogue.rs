@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
+use crate::meshes::{self, Copied, Pair};
 use crate::workloads::{self, Contact, Menger, Task};
 
 /// Series, whose growth is told.
@@ -13,6 +14,7 @@ const CARVE_ONE_BY_ONE: &str = "carve, one by one";
 const DOME: &str = "dome carve";
 const GRID: &str = "grid, one by one";
 const MOVE: &str = "a brush moved among others";
+const MESH_SPHERES: &str = "spheres as meshes";
 const SPHERES: &str = "dense spheres";
 
 /// Maps of fewer brushes are nothing to be timed.
@@ -109,7 +111,51 @@ pub(crate) fn all() -> Vec<Workload> {
     for count in [10, 100, 1000, 10_000, 100_000] {
         all.push(Workload::new(format!("move_in_{count}"), move || workloads::moved_box(count)).of(MOVE, count));
     }
+    all.extend(ember_pairs());
+    all.extend(ember_copies());
+    for triangles in [1000, 8000, 32_000, 200_000, 1_000_000] {
+        let made = Workload::new(format!("mesh_spheres_{triangles}"), move || meshes::spheres(triangles));
+        all.push(made.of(MESH_SPHERES, triangles).quick(triangles == 32_000));
+    }
+    all.push(Workload::new("tori_1000", || meshes::tori(1000)));
     all
+}
+
+/// The pairs of the EMBER benchmark that are there, by their numbers in it.
+fn ember_pairs() -> Vec<Workload> {
+    let folder = data().join("mesh");
+    let reference = reference(&folder);
+    let pair = |entry: &Value| {
+        let file = |key: &str| Some(folder.join(entry[key].as_str()?)).filter(|file| file.exists());
+        let matrix = |key: &str| serde_json::from_value(entry[key].clone()).ok();
+        Some(Pair {
+            files: [file("a")?, file("b")?],
+            matrices: [matrix("matrix_a")?, matrix("matrix_b")?],
+            volume: entry["difference"].as_f64()?,
+        })
+    };
+    let pairs = reference["pairs"].as_array().into_iter().flatten().map(pair);
+    let numbered = ["ember_16", "ember_582", "ember_667"].into_iter().zip(pairs);
+    let workload = |(name, pair): (&str, Option<Pair>)| {
+        let pair = pair?;
+        Some(Workload::read(name, move || meshes::pair(&pair)).quick(name == "ember_582"))
+    };
+    numbered.filter_map(workload).collect()
+}
+
+/// Each mesh of the EMBER benchmark that is there minus a copy of itself.
+fn ember_copies() -> Vec<Workload> {
+    let folder = data().join("mesh/ember");
+    let files = std::fs::read_dir(&folder).into_iter().flatten().flatten().map(|entry| entry.path());
+    let mut files: Vec<PathBuf> = files.filter(|file| file.extension().is_some_and(|end| end == "stl")).collect();
+    files.sort();
+    let copies =
+        [("moved", Copied::Moved), ("itself", Copied::Itself), ("flat", Copied::Flat), ("turned", Copied::Turned)];
+    let workload = |file: &PathBuf, (ending, copied): (&str, Copied)| {
+        let (file, stem) = (file.clone(), file.file_stem().unwrap_or_default().to_string_lossy().into_owned());
+        Workload::read(format!("{stem}_{ending}"), move || meshes::minus_copy(&file, copied))
+    };
+    files.iter().flat_map(|file| copies.map(|copy| workload(file, copy))).collect()
 }
 
 /// A name with its size, but for the size that is best known.

@@ -54,6 +54,11 @@ impl Entrant {
         [PLANECUT, PLANECUT_PLANES, PLANECUT_BLOCKS].contains(&self.name)
     }
 
+    /// Whether it takes part where bodies are meshes that are made of arrays on the clock.
+    pub(crate) fn does_meshes(self) -> bool {
+        [PLANECUT, MANIFOLD3D].contains(&self.name)
+    }
+
     /// The key in the JSON file.
     pub(crate) fn key(self) -> String {
         format!("{} ({} core{})", self.name, self.cores, if self.cores == 1 { "" } else { "s" })
@@ -74,8 +79,12 @@ impl Entrant {
         Limits { total: Duration::from_secs_f64(total), single: Duration::from_secs_f64(single) }
     }
 
-    /// How far a volume may be off, relative. OpenSCAD writes six digits of each coordinate.
-    pub(crate) fn tolerance(self) -> f64 {
-        if self.name == OPENSCAD { 1e-4 } else { 1e-9 }
+    /// How far a volume may be off, relative. OpenSCAD writes six digits of each coordinate; manifold3d moves the vertices of meshes.
+    pub(crate) fn tolerance(self, is_of_meshes: bool) -> f64 {
+        match self.name {
+            OPENSCAD => 1e-4,
+            _ if is_of_meshes => 1e-6,
+            _ => 1e-9,
+        }
     }
 }

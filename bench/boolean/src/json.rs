@@ -35,6 +35,7 @@ fn line(line: &Line) -> Value {
         line.records.iter().map(|(entrant, record)| (entrant.key(), self::record(record))).collect();
     json!({
         "name": line.name, "bodies": line.bodies, "triangles": line.triangles, "volume": line.volume,
+        "of_meshes": line.is_of_meshes,
         "entrants": entrants,
     })
 }

@@ -11,9 +11,12 @@ mod growth;
 mod json;
 mod machine;
 mod markdown;
+mod mesh_table;
+mod meshes;
 mod process;
 mod report;
 mod scene;
+mod stl;
 mod trees;
 mod verify;
 mod workloads;
@@ -105,6 +108,9 @@ fn run(options: &Options) -> Result<(), String> {
     if !all.iter().any(|workload| workload.name == "e1m1") {
         println!("the maps are left out: ../shared/data/map is not there");
     }
+    if !all.iter().any(|workload| workload.name.starts_with("ember_")) {
+        println!("the meshes of files are left out: ../shared/data/mesh is not there");
+    }
     let rounds = if options.is_quick { QUICK_ROUNDS } else { ROUNDS };
     let mut session = Session {
         folder: Folder::make()?,
@@ -126,7 +132,10 @@ fn run(options: &Options) -> Result<(), String> {
     let trees = if options.wants(TREES_NAME, false) { session.trees(options) } else { Vec::new() };
     let seconds = begin.elapsed().as_secs_f64();
     let report = Report { lines, trees, rounds, is_quick: options.is_quick, seconds };
-    println!("\n{}\n{}{seconds:.0} s", markdown::ratios(&report), markdown::exponents(&report));
+    for table in [markdown::ratios(&report), mesh_table::table(&report), markdown::exponents(&report)] {
+        println!("{table}");
+    }
+    println!("{seconds:.0} s");
     if let Some(file) = &options.json {
         write(file, &format!("{:#}\n", json::json(&report)))?;
     }
@@ -162,7 +171,10 @@ impl Session {
         task.scene.write(&file).map_err(|error| format!("{}: {error}", file.display()))?;
         let reason = |entrant: &Entrant| self.reason_to_leave_out(workload, *entrant);
         let in_blocks = (workload.in_blocks != InBlocks::No).then_some(Entrant::IN_BLOCKS);
-        let at_once = self.entrants.iter().filter(|_| workload.in_blocks != InBlocks::Only).copied();
+        let is_of_meshes = task.scene.is_of_meshes();
+        let does =
+            |entrant: &&Entrant| workload.in_blocks != InBlocks::Only && (!is_of_meshes || entrant.does_meshes());
+        let at_once = self.entrants.iter().filter(does).copied();
         let (taking_part, left_out): (Vec<Entrant>, Vec<Entrant>) =
             at_once.chain(in_blocks).partition(|entrant| reason(entrant).is_none());
         let records = conductor::conduct(&file, &taking_part, self.rounds, self.is_quick);
@@ -181,12 +193,13 @@ impl Session {
             }
         }
         let volume = verify::expected(task.volume, &task.scene, &records);
-        verify::mark(&mut records, volume);
+        verify::mark(&mut records, volume, is_of_meshes);
         Ok(Line {
             name: workload.name.clone(),
             series: workload.series,
             bodies: task.scene.bodies.len(),
             triangles: task.scene.triangles(),
+            is_of_meshes,
             volume,
             records,
         })

@@ -6,6 +6,7 @@ use crate::conductor::Record;
 use crate::entrant::{CORES, Entrant, MANIFOLD3D, PLANECUT, PLANECUT_PLANES};
 use crate::growth::growth;
 use crate::machine;
+use crate::mesh_table;
 use crate::report::{Line, Report};
 use crate::trees::Tree;
 
@@ -40,6 +41,7 @@ pub(crate) fn page(report: &Report) -> String {
         ("run", run),
         ("versions", versions()),
         ("ratios", ratios(report)),
+        ("meshes", Some(mesh_table::table(report)).filter(|table| !table.is_empty()).unwrap_or(LEFT_OUT.to_owned())),
         ("workloads", workloads(report)),
         ("growth", Some(exponents(report)).filter(|table| !table.is_empty()).unwrap_or(LEFT_OUT.to_owned())),
         ("trees", trees(report)),
@@ -95,7 +97,7 @@ pub(crate) fn ratios(report: &Report) -> String {
     let mut table = String::from(
         "| workload | planecut ms | manifold3d ms | manifold3d / planecut | on one core | from planes ms |\n|---|---:|---:|---:|---:|---:|\n",
     );
-    for line in &report.lines {
+    for line in report.lines.iter().filter(|line| !line.is_of_meshes) {
         let time = |name| line.median(name, CORES).map(|seconds| significant(1e3 * seconds)).unwrap_or_default();
         let [ours, theirs, from_planes] = [PLANECUT, MANIFOLD3D, PLANECUT_PLANES].map(time);
         let ratios = [CORES, 1].map(|cores| line.ratio(MANIFOLD3D, cores));
@@ -156,7 +158,7 @@ fn times(spread: [f64; 3]) -> String {
 }
 
 /// A number with three significant digits, larger ones without a fraction and with thousands apart.
-fn significant(value: f64) -> String {
+pub(crate) fn significant(value: f64) -> String {
     if value >= 999.5 {
         return thousands(value.round() as usize);
     }
@@ -168,7 +170,7 @@ fn significant(value: f64) -> String {
     format!("{value:.decimals$}")
 }
 
-fn thousands(value: usize) -> String {
+pub(crate) fn thousands(value: usize) -> String {
     let text = value.to_string();
     let first = text.len() % 3;
     let mut groups: Vec<&str> = (first..text.len()).step_by(3).map(|i| &text[i..i + 3]).collect();

@@ -11,16 +11,23 @@ pub(crate) struct Line {
     pub(crate) bodies: usize,
     /// Of all bodies.
     pub(crate) triangles: usize,
+    /// Whether bodies are meshes, made of arrays on the clock.
+    pub(crate) is_of_meshes: bool,
     /// The volume that counts as right.
     pub(crate) volume: Option<f64>,
     pub(crate) records: Vec<(Entrant, Record)>,
 }
 
 impl Line {
+    /// What an entrant did.
+    pub(crate) fn record(&self, name: &str, cores: usize) -> Option<&Record> {
+        let mut records = self.records.iter();
+        records.find(|(entrant, _)| entrant.name == name && entrant.cores == cores).map(|(_, record)| record)
+    }
+
     /// The median of an entrant in seconds, where its results are right.
     pub(crate) fn median(&self, name: &str, cores: usize) -> Option<f64> {
-        let mut records = self.records.iter().filter(|(entrant, _)| entrant.name == name && entrant.cores == cores);
-        records.find_map(|(_, record)| record.median())
+        self.record(name, cores)?.median()
     }
 
     /// How many times longer an entrant takes than planecut on as many cores.

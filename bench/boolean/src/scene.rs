@@ -1,4 +1,4 @@
-//! What is timed: convex bodies, and what is done with them. One file holds both, so that every contestant, whatever
+//! What is timed: convex bodies or closed meshes, and what is done with them. One file holds both, so that every contestant, whatever
 //! its language, has the same bodies.
 //!
 //! The file is one line of JSON (a [`Header`]), then the planes of all bodies as `[nx, ny, nz, d]` and the positions
@@ -12,12 +12,17 @@ use planecut_csg::{Brush, MaterialId, Operation, Tree};
 use planecut_kernel::{DVec3, HalfSpace, IncrementalPolytope};
 use serde::{Deserialize, Serialize};
 
-/// A convex body, as half-spaces and as a closed triangle mesh.
+/// An affine map, by rows.
+pub(crate) type Matrix = [[f64; 4]; 3];
+
+/// A convex body, as half-spaces and as a closed triangle mesh; or any closed mesh, which has no half-spaces.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(crate) struct Convex {
+pub(crate) struct Body {
     pub(crate) planes: Vec<[f64; 4]>,
     pub(crate) positions: Vec<[f64; 3]>,
     pub(crate) triangles: Vec<[u32; 3]>,
+    /// How a mesh is moved, by the kernels themselves.
+    pub(crate) matrix: Option<Matrix>,
 }
 
 /// What a step does with a body.
@@ -54,7 +59,7 @@ pub(crate) enum Plan {
 /// Bodies and what is done with them.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Scene {
-    pub(crate) bodies: Vec<Convex>,
+    pub(crate) bodies: Vec<Body>,
     pub(crate) plan: Plan,
 }
 
@@ -62,10 +67,11 @@ pub(crate) struct Scene {
 struct Header {
     /// Planes, positions and triangles of each body.
     bodies: Vec<[usize; 3]>,
+    matrices: Vec<Option<Matrix>>,
     plan: Plan,
 }
 
-impl Convex {
+impl Body {
     /// A bounded brush with its mesh; nothing for one that is empty or unbounded.
     pub(crate) fn of(brush: &Brush) -> Option<Self> {
         // its tolerance merges corners that are one but for the rounding of plane coefficients
@@ -85,7 +91,13 @@ impl Convex {
             planes: brush.faces.iter().map(|face| coefficients(&face.half_space)).collect(),
             positions: positions.iter().map(DVec3::to_array).collect(),
             triangles: polygons.iter().flat_map(fan).collect(),
+            matrix: None,
         })
+    }
+
+    /// Whether it is a mesh, without half-spaces.
+    pub(crate) fn is_mesh(&self) -> bool {
+        self.planes.is_empty()
     }
 
     /// The half-spaces as a brush.
@@ -102,14 +114,14 @@ fn coefficients(half_space: &HalfSpace) -> [f64; 4] {
 
 impl Scene {
     /// An operation on all bodies at once.
-    pub(crate) fn batch(bodies: Vec<Convex>, operation: fn(u32) -> Entry) -> Self {
+    pub(crate) fn batch(bodies: Vec<Body>, operation: fn(u32) -> Entry) -> Self {
         let mut entries = vec![Entry::Leaf; bodies.len()];
         entries.push(operation(bodies.len() as u32));
         Self { bodies, plan: Plan::Tree(entries) }
     }
 
     /// The first body, then one action with each of the others.
-    pub(crate) fn one_by_one(bodies: Vec<Convex>, action: Action) -> Self {
+    pub(crate) fn one_by_one(bodies: Vec<Body>, action: Action) -> Self {
         let others = (1..bodies.len() as u32).map(|k| (action, k));
         let steps = std::iter::once((Action::Add, 0)).chain(others).collect();
         Self { bodies, plan: Plan::Steps(steps) }
@@ -129,7 +141,7 @@ impl Scene {
             }),
             Plan::Moves(count) => {
                 let last = Self::moves(&self.bodies, *count).last();
-                Tree::union_of(last.into_iter().flatten().map(Convex::brush).collect())
+                Tree::union_of(last.into_iter().flatten().map(Body::brush).collect())
             }
         }
     }
@@ -142,12 +154,16 @@ impl Scene {
 
     /// A tree over brushes.
     pub(crate) fn tree(&self, entries: &[Entry]) -> Tree {
+        Self::tree_of(entries, self.bodies.iter().map(Body::brush))
+    }
+
+    /// A tree over leaves.
+    pub(crate) fn tree_of(entries: &[Entry], mut leaves: impl Iterator<Item = Brush>) -> Tree {
         let mut stack: Vec<Tree> = Vec::new();
-        let mut bodies = self.bodies.iter();
         for entry in entries {
             let (operation, count) = match entry {
                 Entry::Leaf => {
-                    stack.extend(bodies.next().map(|body| Tree::from(body.brush())));
+                    stack.extend(leaves.next().map(Tree::from));
                     continue;
                 }
                 Entry::Union(count) => (Operation::Union, count),
@@ -160,6 +176,11 @@ impl Scene {
         stack.pop().unwrap_or_default()
     }
 
+    /// Whether its bodies are meshes, which are made of arrays on the clock.
+    pub(crate) fn is_of_meshes(&self) -> bool {
+        self.bodies.first().is_some_and(Body::is_mesh)
+    }
+
     /// Triangles of all bodies.
     pub(crate) fn triangles(&self) -> usize {
         self.bodies.iter().map(|body| body.triangles.len()).sum()
@@ -169,7 +190,8 @@ impl Scene {
     pub(crate) fn write(&self, path: &Path) -> std::io::Result<()> {
         let mut out = BufWriter::new(File::create(path)?);
         let sizes = self.bodies.iter().map(|body| [body.planes.len(), body.positions.len(), body.triangles.len()]);
-        serde_json::to_writer(&mut out, &Header { bodies: sizes.collect(), plan: self.plan.clone() })?;
+        let matrices = self.bodies.iter().map(|body| body.matrix).collect();
+        serde_json::to_writer(&mut out, &Header { bodies: sizes.collect(), matrices, plan: self.plan.clone() })?;
         out.write_all(b"\n")?;
         let planes = self.bodies.iter().flat_map(|body| body.planes.iter().flatten());
         let positions = self.bodies.iter().flat_map(|body| body.positions.iter().flatten());
@@ -187,8 +209,8 @@ impl Scene {
         let mut file = BufReader::new(File::open(path)?);
         let mut line = String::new();
         file.read_line(&mut line)?;
-        let Header { bodies: sizes, plan } = serde_json::from_str(&line)?;
-        let mut bodies = vec![Convex::default(); sizes.len()];
+        let Header { bodies: sizes, matrices, plan } = serde_json::from_str(&line)?;
+        let mut bodies: Vec<Body> = matrices.into_iter().map(|matrix| Body { matrix, ..Body::default() }).collect();
         for (body, [count, _, _]) in bodies.iter_mut().zip(&sizes) {
             body.planes = (0..*count).map(|_| read_numbers(&mut file)).collect::<Result<_, _>>()?;
         }
@@ -224,7 +246,7 @@ fn read_corners(file: &mut impl Read) -> std::io::Result<[u32; 3]> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Action, Convex, Entry, Plan, Scene};
+    use super::{Action, Body, Entry, Plan, Scene};
     use crate::workloads::{Menger, boxes, menger};
 
     #[test]
@@ -236,6 +258,10 @@ mod tests {
             scene.write(&file).unwrap();
             assert_eq!(Scene::read(&file).unwrap(), scene);
         }
+        let matrix = Some([[1.0, 0.1, 0.0, 5.0], [0.0, 1.0, 0.0, 1.0 / 3.0], [0.0, 0.0, 2.0, 0.0]]);
+        scene.bodies[0] = Body { planes: Vec::new(), matrix, ..scene.bodies[0].clone() };
+        scene.write(&file).unwrap();
+        assert_eq!(Scene::read(&file).unwrap(), scene);
         std::fs::remove_file(file).unwrap();
     }
 
@@ -243,7 +269,7 @@ mod tests {
     fn a_body_is_the_same_as_brush_and_as_mesh() {
         for body in boxes(5, true) {
             assert_eq!([body.planes.len(), body.positions.len(), body.triangles.len()], [6, 8, 12]);
-            assert_eq!(Convex::of(&body.brush()), Some(body));
+            assert_eq!(Body::of(&body.brush()), Some(body));
         }
     }
 

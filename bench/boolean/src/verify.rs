@@ -22,9 +22,9 @@ pub(crate) fn expected(known: Option<f64>, scene: &Scene, records: &[(Entrant, R
 }
 
 /// Marks the records whose results are not right.
-pub(crate) fn mark(records: &mut [(Entrant, Record)], expected: Option<f64>) {
+pub(crate) fn mark(records: &mut [(Entrant, Record)], expected: Option<f64>, is_of_meshes: bool) {
     for (entrant, record) in records {
-        let tolerance = entrant.tolerance();
+        let tolerance = entrant.tolerance(is_of_meshes);
         record.wrong = record.runs.iter().find_map(|run| fault(run, expected, tolerance));
     }
 }
@@ -82,7 +82,7 @@ mod tests {
             (entrant("boolmesh"), record([1.0, 1.001])),
             (entrant(OPENSCAD), record([1.00001, 1.0])),
         ];
-        mark(&mut records, Some(1.0));
+        mark(&mut records, Some(1.0), false);
         assert!(records[0].1.median().is_some() && records[1].1.median().is_none() && records[2].1.median().is_some());
     }
 

@@ -10,7 +10,7 @@ use planecut_shapes::primitives::capsule;
 use rand::rngs::StdRng;
 use rand::{Rng, SeedableRng};
 
-use crate::scene::{Action, Convex, Entry, Plan, Scene};
+use crate::scene::{Action, Body, Entry, Plan, Scene};
 
 const ONE: MaterialId = MaterialId(0);
 
@@ -22,11 +22,11 @@ pub(crate) struct Task {
 }
 
 impl Task {
-    fn new(scene: Scene) -> Self {
+    pub(crate) fn new(scene: Scene) -> Self {
         Self { scene, volume: None }
     }
 
-    fn of_volume(scene: Scene, volume: f64) -> Self {
+    pub(crate) fn of_volume(scene: Scene, volume: f64) -> Self {
         Self { scene, volume: Some(volume) }
     }
 }
@@ -48,12 +48,12 @@ pub(crate) fn moved_box(count: usize) -> Task {
     Task::new(Scene { bodies, plan: Plan::Moves(count as u32) })
 }
 
-fn middle(body: &Convex) -> DVec3 {
+fn middle(body: &Body) -> DVec3 {
     body.positions.iter().map(|at| DVec3::from_array(*at)).sum::<DVec3>() / body.positions.len() as f64
 }
 
 /// Boxes of random sizes at constant density; rotated, or on a grid of 1/1024.
-pub(crate) fn boxes(count: usize, is_rotated: bool) -> Vec<Convex> {
+pub(crate) fn boxes(count: usize, is_rotated: bool) -> Vec<Body> {
     let mut rng = StdRng::seed_from_u64(count as u64 + u64::from(is_rotated));
     let side = 1.5 * (count as f64).cbrt();
     let make = |_| {
@@ -76,7 +76,7 @@ pub(crate) fn boxes(count: usize, is_rotated: bool) -> Vec<Convex> {
 
 /// The unit block, and capsules in it: two spheres of radius 0.02 to 0.06 at 0.1 to 0.3 from each other, and what lies
 /// between.
-fn capsules_in_block(count: usize, make: impl Fn(f64, f64, DMat3, DVec3) -> Brush) -> Vec<Convex> {
+fn capsules_in_block(count: usize, make: impl Fn(f64, f64, DMat3, DVec3) -> Brush) -> Vec<Body> {
     let mut rng = StdRng::seed_from_u64(count as u64);
     let mut bodies = vec![convex(&Brush::cuboid(DVec3::ZERO, DVec3::ONE, ONE))];
     for _ in 0..count {
@@ -171,7 +171,7 @@ pub(crate) fn touching_cubes(side: u32, contact: Contact) -> Task {
 }
 
 /// Unit cubes of a grid.
-fn cubes(side: u32, is_there: impl Fn([u32; 3]) -> bool) -> Vec<Convex> {
+fn cubes(side: u32, is_there: impl Fn([u32; 3]) -> bool) -> Vec<Body> {
     let places = (0..side * side * side).map(|k| [k % side, k / side % side, k / side / side]);
     let corners = places.filter(|place| is_there(*place)).map(|place| DVec3::from_array(place.map(f64::from)));
     corners.map(|corner| convex(&Brush::cuboid(corner, corner + DVec3::ONE, ONE))).collect()
@@ -271,14 +271,14 @@ pub(crate) fn map_one_by_one(file: &Path, volume: f64) -> Result<Task, String> {
     Ok(Task::of_volume(Scene::one_by_one(map_bodies(file)?, Action::Add), volume))
 }
 
-fn map_bodies(file: &Path) -> Result<Vec<Convex>, String> {
+fn map_bodies(file: &Path) -> Result<Vec<Body>, String> {
     let text = std::fs::read(file).map_err(|error| error.to_string())?;
     let import = read_map(&text, &file.to_string_lossy(), &MapOptions::default()).map_err(|error| error.to_string())?;
-    Ok(import.model.tree.brushes().iter().filter_map(Convex::of).collect())
+    Ok(import.model.tree.brushes().iter().filter_map(Body::of).collect())
 }
 
-fn convex(brush: &Brush) -> Convex {
-    Convex::of(brush).expect("a bounded body")
+fn convex(brush: &Brush) -> Body {
+    Body::of(brush).expect("a bounded body")
 }
 
 fn half_space(normal: DVec3, offset: f64) -> HalfSpace {
@@ -293,7 +293,7 @@ fn transformed(mut brush: Brush, transform: &Transform) -> Brush {
 }
 
 /// A random rotation, by a quaternion of normal deviates (near enough).
-fn rotation(rng: &mut StdRng) -> DMat3 {
+pub(crate) fn rotation(rng: &mut StdRng) -> DMat3 {
     let mut deviate = || (0..12).map(|_| rng.random_range(0.0..1.0)).sum::<f64>() - 6.0;
     let [w, x, y, z] = [(); 4].map(|()| deviate());
     let s = 2.0 / (w * w + x * x + y * y + z * z);

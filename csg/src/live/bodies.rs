@@ -38,7 +38,7 @@ pub(super) struct Difference {
 }
 
 impl LiveModel {
-    /// The bodies of brushes as they are now; none for those that are gone. `before` are the brushes that were edited, as
+    /// The bodies of brushes as they are now; none for those that are gone, or are meshes. `before` are the brushes that were edited, as
     /// they were.
     pub(super) fn build(&mut self, numbers: &[OperandId], before: &[New]) -> Vec<Placed> {
         let placed = |number: OperandId, body: Option<Body>| {
@@ -81,7 +81,7 @@ impl LiveModel {
         let (id, count) = (operand.id, operand.uses.len());
         let known = self.polytopes.take(id);
         let operand = self.operand(number);
-        if !operand.is_there || count < LEAST_PLANES {
+        if !operand.is_there || operand.state.brush.is_mesh() || count < LEAST_PLANES {
             return None;
         }
         let Some(old) = old else { return known };
@@ -91,7 +91,7 @@ impl LiveModel {
     }
 
     fn body(&self, operand: &Operand, builder: &mut ShapeBuilder) -> Option<Body> {
-        if !operand.is_there {
+        if !operand.is_there || operand.state.brush.is_mesh() {
             return None;
         }
         let table = &self.planes.table;

@@ -14,11 +14,11 @@ use crate::model::Brush;
 use crate::plane_table::size_of;
 
 impl LiveModel {
-    /// Gives brushes other states; gives the ones before.
+    /// Gives brushes other states, and changes the boundary that those make which are no meshes; gives the states before.
     ///
     /// # Errors
     /// [`EvaluateError::Unbounded`]; then all is as it was. [`EvaluateError::Weld`]: a bug in this crate.
-    pub(super) fn change(&mut self, new: Vec<New>) -> Result<(Change, Vec<New>), EditError> {
+    pub(super) fn change_convex(&mut self, new: Vec<New>) -> Result<(Change, Vec<New>), EditError> {
         let reach = self.reach(&new);
         let (before, numbers, settled) = self.set_states(new, &[]);
         let mut changed = numbers.clone();

@@ -109,7 +109,7 @@ impl LiveModel {
             }
             Edit::RemovePlane { brush, plane } => self.remove_plane(brush, plane)?.into(),
             Edit::MovePlane { brush, plane, offset } => {
-                let state = self.state(brush)?;
+                let state = self.convex_state(brush)?;
                 let place = state.place_of(plane).ok_or(EditError::UnknownPlane { brush, plane })?;
                 let normal = state.brush.faces[place].half_space.normal();
                 let half_space = HalfSpace::new(normal, offset).map_err(|_| EditError::Offset(offset))?;
@@ -132,14 +132,14 @@ impl LiveModel {
     /// [`LiveModel::remove_plane`] lets the brush grow back.
     ///
     /// # Errors
-    /// [`EditError::UnknownBrush`], [`EditError::Evaluate`].
+    /// [`EditError::UnknownBrush`], [`EditError::Mesh`], [`EditError::Evaluate`].
     pub fn add_plane(
         &mut self,
         brush: BrushId,
         half_space: HalfSpace,
         material: MaterialId,
     ) -> Result<(PlaneIdx, Change), EditError> {
-        let mut state = State::clone(self.state(brush)?);
+        let mut state = State::clone(self.convex_state(brush)?);
         let plane = PlaneIdx(state.next_plane);
         state.next_plane += 1;
         state.planes.push(plane);
@@ -151,9 +151,9 @@ impl LiveModel {
     /// Takes a plane out of a brush, which grows to what its other planes leave.
     ///
     /// # Errors
-    /// [`EditError::UnknownBrush`], [`EditError::UnknownPlane`], [`EditError::Evaluate`].
+    /// [`EditError::UnknownBrush`], [`EditError::Mesh`], [`EditError::UnknownPlane`], [`EditError::Evaluate`].
     pub fn remove_plane(&mut self, brush: BrushId, plane: PlaneIdx) -> Result<Change, EditError> {
-        let mut state = State::clone(self.state(brush)?);
+        let mut state = State::clone(self.convex_state(brush)?);
         let place = state.place_of(plane).ok_or(EditError::UnknownPlane { brush, plane })?;
         state.planes.remove(place);
         state.brush.faces.remove(place);
@@ -163,15 +163,15 @@ impl LiveModel {
     /// Puts another half-space in the place of a plane of a brush, which keeps its handle and its material.
     ///
     /// # Errors
-    /// [`EditError::UnknownBrush`], [`EditError::UnknownPlane`], [`EditError::Evaluate`].
+    /// [`EditError::UnknownBrush`], [`EditError::Mesh`], [`EditError::UnknownPlane`], [`EditError::Evaluate`].
     pub fn move_plane(&mut self, brush: BrushId, plane: PlaneIdx, half_space: HalfSpace) -> Result<Change, EditError> {
-        let mut state = State::clone(self.state(brush)?);
+        let mut state = State::clone(self.convex_state(brush)?);
         let place = state.place_of(plane).ok_or(EditError::UnknownPlane { brush, plane })?;
         state.brush.faces[place].half_space = half_space;
         self.edit_brush(brush, state)
     }
 
-    /// Adds a brush after all others.
+    /// Adds a brush, which may be a closed mesh, after all others.
     ///
     /// # Errors
     /// [`EditError::Evaluate`].
@@ -228,15 +228,13 @@ impl LiveModel {
         self.edit_brush(id, State { brush, planes, next_plane: next_plane + count, role, line: None })
     }
 
-    /// Moves a brush by an affine map; its planes keep their handles.
+    /// Moves a brush, or a closed mesh, by an affine map; planes keep their handles.
     ///
     /// # Errors
     /// [`EditError::UnknownBrush`], [`EditError::Transform`], [`EditError::Evaluate`].
     pub fn transform_brush(&mut self, id: BrushId, transform: &Transform) -> Result<Change, EditError> {
         let mut state = State::clone(self.state(id)?);
-        for face in &mut state.brush.faces {
-            face.half_space = transform.half_space(&face.half_space)?;
-        }
+        state.brush = state.brush.transformed(transform)?;
         self.edit_brush(id, state)
     }
 
@@ -250,6 +248,12 @@ impl LiveModel {
             return Err(EditError::Nested(id));
         }
         self.edit_brush(id, state)
+    }
+
+    /// What is said of a brush that has planes.
+    fn convex_state(&self, id: BrushId) -> Result<&Arc<State>, EditError> {
+        let state = self.state(id)?;
+        if state.brush.is_mesh() { Err(EditError::Mesh(id)) } else { Ok(state) }
     }
 
     fn edit_brush(&mut self, id: BrushId, state: State) -> Result<Change, EditError> {

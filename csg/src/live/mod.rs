@@ -8,12 +8,16 @@
 //! - [`change`]: how a change of brushes goes through [`planes`], [`bodies`], [`boundary`] and weld; [`polytopes`] are kept to
 //!   build bodies from, [`reach`] tells which faces are to be worked out again.
 //! - [`order`]: how brushes are combined, [`operand`]: what is known of each.
+//! - [`meshes`]: where a brush is a closed mesh, the boundary is [`evaluated`] as a whole by each edit; [`face`]: what users see of either.
 
 mod bodies;
 mod boundary;
 mod change;
 mod edit;
+mod evaluated;
+mod face;
 mod history;
+mod meshes;
 mod operand;
 mod order;
 mod planes;
@@ -36,12 +40,13 @@ use crate::expression::Expression;
 pub use crate::ids::FaceId;
 use crate::ids::{BodyFaceId, BodyId, Id, OperandFace, OperandId};
 use crate::mesh::Mesh;
-use crate::model::{Brush, Material, MaterialId, Model, Operation, TransformError, Tree, TreeNode};
+use crate::model::{Brush, Material, MaterialId, Model, TransformError, TreeNode};
 use crate::plane_table::PlaneTable;
-pub use crate::weld::LiveFace;
 use crate::weld::{LiveWeld, weld};
 use bodies::Marks;
 pub use edit::{Edit, Edited};
+use evaluated::EvaluatedBoundary;
+pub use face::LiveFace;
 use history::History;
 pub use operand::Role;
 use operand::{Operand, Places, State};
@@ -79,6 +84,9 @@ pub enum EditError {
         /// The plane.
         plane: PlaneIdx,
     },
+    /// The brush is a closed mesh, which has no planes.
+    #[error("found brush {}, which is a closed mesh, expected one of planes", .0.0)]
+    Mesh(BrushId),
     /// The brush is an operand of a nested operation, which is not one after another.
     #[error("found brush {} within nested operations, expected one that is added, subtracted or intersected by itself", .0.0)]
     Nested(BrushId),
@@ -104,6 +112,9 @@ pub enum EditError {
 ///
 /// The solid is what is left when one brush after another is added to it, taken from it or intersected with it. Brushes may be
 /// unbounded or empty; the solid must be bounded, or the edit is refused.
+///
+/// Brushes may be closed meshes, too. As long as one is, each edit takes as long as [`evaluate`](crate::evaluate) of the whole model. The edit by
+/// which the first mesh comes, or the last one goes, removes all faces and adds all of what is there then.
 ///
 /// ```
 /// use planecut_csg::{Brush, LiveModel, Material, MaterialId, Role};
@@ -150,6 +161,10 @@ pub struct LiveModel {
     /// The brushes that intersect, in order.
     intersecting: Vec<Member>,
     welded: LiveWeld,
+    /// How many brushes are closed meshes.
+    meshes: usize,
+    /// The boundary, where some are.
+    evaluated: Option<EvaluatedBoundary>,
     history: History,
     buffers: Buffers,
 }
@@ -203,6 +218,8 @@ impl LiveModel {
             bodies_on_plane: Vec::new(),
             intersecting: Vec::new(),
             welded: LiveWeld::default(),
+            meshes: 0,
+            evaluated: None,
             history: History::default(),
             buffers: Buffers::default(),
         }
@@ -243,22 +260,7 @@ impl LiveModel {
     /// sequence.
     #[must_use]
     pub fn to_model(&self) -> Model {
-        let states = || self.by_id.values().filter_map(|number| self.operands[number.index()].as_ref());
-        let brushes = states().map(|operand| operand.state.brush.clone()).collect();
-        let leaves = self.base.as_ref().map_or(0, |base| u64::from(base.leaves));
-        let base = self.base.as_ref().map(|base| {
-            let nothing = TreeNode::Operation { operation: Operation::Union, operands: 0 };
-            let mut leaf = 0..base.leaves;
-            let node = |node: &TreeNode| match node {
-                TreeNode::Leaf if leaf.next().is_none_or(|id| !self.by_id.contains_key(&BrushId(id.into()))) => nothing,
-                other => *other,
-            };
-            base.nodes.iter().map(node).collect::<Vec<TreeNode>>()
-        });
-        let roles = states().filter(|operand| operand.id.0 >= leaves).map(|operand| operand.state.role);
-        let nodes = order::sequence(base.unwrap_or_default(), roles);
-        let lines = states().map(|operand| operand.state.line).collect();
-        Model { materials: self.materials.clone(), tree: Tree::of_parts(brushes, nodes).with_source_lines(lines) }
+        self.model_after(&[])
     }
 
     /// The materials; faces name them by their places.
@@ -269,6 +271,9 @@ impl LiveModel {
 
     /// Adds a material, for faces to come. That is no edit: it cannot be undone.
     pub fn add_material(&mut self, material: Material) -> MaterialId {
+        if let Some(evaluated) = &mut self.evaluated {
+            evaluated.add_material(material.clone());
+        }
         self.materials.push(material);
         self.rank = material_ranks(&self.materials);
         MaterialId(number32(self.materials.len()) - 1)
@@ -303,25 +308,31 @@ impl LiveModel {
     /// How many triangles the faces have.
     #[must_use]
     pub fn triangle_count(&self) -> usize {
-        self.welded.triangle_count()
+        self.evaluated.as_ref().map_or_else(|| self.welded.triangle_count(), |all| all.mesh().triangles.len())
     }
 
     /// A face, where there is one of this number.
     #[must_use]
     pub fn face(&self, id: FaceId) -> Option<LiveFace<'_>> {
-        self.welded.face(id)
+        match &self.evaluated {
+            Some(evaluated) => evaluated.face(id),
+            None => self.welded.face(id).map(LiveFace::welded),
+        }
     }
 
     /// All faces.
     pub fn faces(&self) -> impl Iterator<Item = (FaceId, LiveFace<'_>)> {
-        self.welded.faces()
+        let evaluated = self.evaluated.iter();
+        let of_evaluated = evaluated.flat_map(|all| all.ids().iter().filter_map(|id| Some((*id, all.face(*id)?))));
+        let welded = self.welded.faces().filter(|_| self.evaluated.is_none());
+        welded.map(|(id, face)| (id, LiveFace::welded(face))).chain(of_evaluated)
     }
 
     /// Whether the faces are those of the mesh. They are not where solids alternate around a line, so that faces cross
     /// in it: what an exclusive or of three half-spaces does.
     #[must_use]
     pub fn has_faces(&self) -> bool {
-        !self.welded.has_crossings()
+        self.evaluated.is_some() || !self.welded.has_crossings()
     }
 
     /// The mesh of the solid, equal to that of the same model built from scratch.
@@ -329,6 +340,9 @@ impl LiveModel {
     /// # Errors
     /// [`EvaluateError::Weld`]: a bug in this crate.
     pub fn mesh(&self) -> Result<Mesh, EvaluateError> {
+        if let Some(evaluated) = &self.evaluated {
+            return Ok(evaluated.mesh().clone());
+        }
         let operands = self.operands.iter().flatten();
         let edges: Vec<BoundaryEdge> =
             operands.flat_map(|operand| &operand.edges).flatten().map(|edge| edge.0).collect();

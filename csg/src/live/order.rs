@@ -1,8 +1,41 @@
 //! How the brushes of a live model are combined: one after another, or first as in a tree.
 
-use super::operand::Role;
-use crate::ids::number32;
-use crate::model::{Operation, Tree, TreeNode};
+use std::collections::BTreeMap;
+
+use super::history::New;
+use super::operand::{Role, State};
+use super::{BrushId, LiveModel};
+use crate::ids::{Id, number32};
+use crate::model::{Model, Operation, Tree, TreeNode};
+
+impl LiveModel {
+    /// The model as a tree, once some brushes have other states.
+    pub(super) fn model_after(&self, new: &[New]) -> Model {
+        let operands = self.by_id.values().filter_map(|number| self.operands[number.index()].as_ref());
+        let mut states: BTreeMap<BrushId, &State> = operands.map(|operand| (operand.id, &*operand.state)).collect();
+        for (id, state) in new {
+            match state {
+                Some(state) => states.insert(*id, state),
+                None => states.remove(id),
+            };
+        }
+        let leaves = self.base.as_ref().map_or(0, |base| u64::from(base.leaves));
+        let base = self.base.as_ref().map(|base| {
+            let nothing = TreeNode::Operation { operation: Operation::Union, operands: 0 };
+            let mut leaf = 0..base.leaves;
+            let node = |node: &TreeNode| match node {
+                TreeNode::Leaf if leaf.next().is_none_or(|id| !states.contains_key(&BrushId(id.into()))) => nothing,
+                other => *other,
+            };
+            base.nodes.iter().map(node).collect::<Vec<TreeNode>>()
+        });
+        let roles = states.range(BrushId(leaves)..).map(|(_, state)| state.role);
+        let nodes = sequence(base.unwrap_or_default(), roles);
+        let brushes = states.values().map(|state| state.brush.clone()).collect();
+        let lines = states.values().map(|state| state.line).collect();
+        Model { materials: self.materials.clone(), tree: Tree::of_parts(brushes, nodes).with_source_lines(lines) }
+    }
+}
 
 /// The roles of a tree's brushes where it does no more than to add, subtract and intersect one brush after another; nothing
 /// where it does more.

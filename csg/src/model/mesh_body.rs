@@ -13,6 +13,13 @@ use crate::closed_mesh::{ClosedMesh, WindingRule};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "super::saved::SavedMeshBody", into = "super::saved::SavedMeshBody"))]
 pub struct MeshBody {
+    // boxed, so that convex bodies, of which there may be a million, do not pay for it
+    parts: Box<Parts>,
+}
+
+/// What a mesh body is.
+#[derive(Debug, Clone)]
+struct Parts {
     mesh: Arc<ClosedMesh>,
     transform: Transform,
     rule: WindingRule,
@@ -22,8 +29,10 @@ pub struct MeshBody {
 
 impl PartialEq for MeshBody {
     fn eq(&self, other: &Self) -> bool {
-        let is_one = Arc::ptr_eq(&self.mesh, &other.mesh) || self.mesh == other.mesh;
-        is_one && (self.transform, self.rule) == (other.transform, other.rule) && self.materials == other.materials
+        let is_one = Arc::ptr_eq(&self.parts.mesh, &other.parts.mesh) || self.parts.mesh == other.parts.mesh;
+        is_one
+            && (self.parts.transform, self.parts.rule) == (other.parts.transform, other.parts.rule)
+            && self.parts.materials == other.parts.materials
     }
 }
 
@@ -37,32 +46,33 @@ impl MeshBody {
         let mesh = mesh.into();
         let surfaces = mesh.surfaces().iter().max().map_or(0, |last| *last as usize + 1);
         assert!(surfaces <= materials.len(), "found {surfaces} surfaces, expected a material for each");
-        Self { mesh, transform: Transform::identity(), rule: WindingRule::default(), materials }
+        let transform = Transform::identity();
+        Self { parts: Box::new(Parts { mesh, transform, rule: WindingRule::default(), materials }) }
     }
 
     /// The mesh as it was given, before it is moved.
     #[must_use]
     pub fn mesh(&self) -> &Arc<ClosedMesh> {
-        &self.mesh
+        &self.parts.mesh
     }
 
     /// What of it is inside.
     #[must_use]
     pub fn rule(&self) -> WindingRule {
-        self.rule
+        self.parts.rule
     }
 
     /// The same with another rule for what is inside.
     #[must_use]
     pub fn with_rule(mut self, rule: WindingRule) -> Self {
-        self.rule = rule;
+        self.parts.rule = rule;
         self
     }
 
     /// Where the mesh goes: vertices are moved by all transforms at once, and rounded once.
     #[must_use]
     pub fn transform(&self) -> &Transform {
-        &self.transform
+        &self.parts.transform
     }
 
     /// The mesh moved by a further map.
@@ -70,48 +80,50 @@ impl MeshBody {
     /// # Errors
     /// [`TransformError`] where products leave the range of numbers.
     pub fn transformed(mut self, transform: &Transform) -> Result<Self, TransformError> {
-        self.transform = self.transform.then(transform)?;
+        self.parts.transform = self.parts.transform.then(transform)?;
         Ok(self)
     }
 
     /// The materials of surfaces.
     #[must_use]
     pub fn materials(&self) -> &[MaterialId] {
-        &self.materials
+        &self.parts.materials
     }
 
     /// The materials of surfaces, to be changed one by one.
     pub fn materials_mut(&mut self) -> &mut [MaterialId] {
-        &mut self.materials
+        &mut self.parts.materials
     }
 
     /// Whether the mesh is moved to where its mirror image is.
     #[must_use]
     pub fn is_mirrored(&self) -> bool {
-        self.transform.linear().determinant() < 0.0
+        self.parts.transform.linear().determinant() < 0.0
     }
 
     /// The places of vertices, after the transform.
     #[must_use]
     pub fn positions(&self) -> Cow<'_, [DVec3]> {
-        if self.transform == Transform::identity() {
-            return Cow::Borrowed(self.mesh.positions());
+        if self.parts.transform == Transform::identity() {
+            return Cow::Borrowed(self.parts.mesh.positions());
         }
-        Cow::Owned(self.mesh.positions().iter().map(|position| self.transform.point(*position) + 0.0).collect())
+        Cow::Owned(
+            self.parts.mesh.positions().iter().map(|position| self.parts.transform.point(*position) + 0.0).collect(),
+        )
     }
 
     /// The vertices of each triangle, counter-clockwise seen from outside after the transform.
     #[must_use]
     pub fn triangles(&self) -> Cow<'_, [[u32; 3]]> {
         if self.is_mirrored() {
-            return Cow::Owned(self.mesh.triangles().iter().map(|[a, b, c]| [*a, *c, *b]).collect());
+            return Cow::Owned(self.parts.mesh.triangles().iter().map(|[a, b, c]| [*a, *c, *b]).collect());
         }
-        Cow::Borrowed(self.mesh.triangles())
+        Cow::Borrowed(self.parts.mesh.triangles())
     }
 
     /// The material of a triangle.
     #[must_use]
     pub fn material(&self, triangle: usize) -> MaterialId {
-        self.materials[self.mesh.surfaces()[triangle] as usize]
+        self.parts.materials[self.parts.mesh.surfaces()[triangle] as usize]
     }
 }

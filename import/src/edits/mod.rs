@@ -137,7 +137,7 @@ pub fn read_edits(text: &[u8], name: &str, known: &[Material]) -> Result<EditsIm
     Ok(EditsImport { edits, materials: names.new })
 }
 
-/// Writes edits, a line each, as [`read_edits`] reads them.
+/// Writes edits, a line each, as [`read_edits`] reads them. Those that put a closed mesh into the model have no such form, and are left out.
 #[must_use]
 pub fn write_edits<'a>(edits: impl IntoIterator<Item = &'a Edit>, materials: &[Material]) -> String {
     let name = |material: MaterialId| materials.get(material.0 as usize).map(|material| material.name.clone());
@@ -290,6 +290,7 @@ impl Record {
             Edit::MovePlane { brush, plane, offset } => {
                 Self::MovePlane { brush: brush.0, plane: u32::try_from(plane.0).ok()?, offset: *offset }
             }
+            Edit::AddBrush { brush, .. } | Edit::ReplaceBrush { by: brush, .. } if brush.is_mesh() => return None,
             Edit::AddBrush { brush, role } => Self::AddBrush {
                 planes: planes(brush),
                 material: material_names(brush, name),

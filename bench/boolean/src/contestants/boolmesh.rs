@@ -6,7 +6,7 @@ use boolmesh::compute_boolean;
 use boolmesh::prelude::{Manifold, OpType};
 
 use super::{Binary, Contestant, Outcome, fold, outcome};
-use crate::scene::{Convex, Plan, Scene};
+use crate::scene::{Body, Plan, Scene};
 
 pub(super) struct Boolmesh {
     bodies: Vec<Option<Manifold>>,
@@ -20,7 +20,7 @@ impl Boolmesh {
     }
 }
 
-fn manifold(body: &Convex) -> Result<Manifold, String> {
+fn manifold(body: &Body) -> Result<Manifold, String> {
     let positions: Vec<f64> = body.positions.iter().flatten().copied().collect();
     let corners: Vec<usize> = body.triangles.iter().flatten().map(|corner| *corner as usize).collect();
     Manifold::new(&positions, &corners)

@@ -6,7 +6,7 @@ use csgrs::mesh::Mesh;
 use csgrs::traits::CSG;
 
 use super::{Binary, Contestant, Outcome, fold, outcome};
-use crate::scene::{Convex, Plan, Scene};
+use crate::scene::{Body, Plan, Scene};
 
 pub(super) struct Csgrs {
     bodies: Vec<Mesh<()>>,
@@ -20,7 +20,7 @@ impl Csgrs {
     }
 }
 
-fn mesh(body: &Convex) -> Result<Mesh<()>, String> {
+fn mesh(body: &Body) -> Result<Mesh<()>, String> {
     let corners: Vec<[usize; 3]> =
         body.triangles.iter().map(|triangle| triangle.map(|corner| corner as usize)).collect();
     let faces: Vec<&[usize]> = corners.iter().map(<[usize; 3]>::as_slice).collect();

@@ -7,7 +7,7 @@ use manifold_rust::manifold::Manifold;
 use manifold_rust::types::{Error, MeshGL64, OpType};
 
 use super::{Contestant, Outcome};
-use crate::scene::{Action, Convex, Entry, Plan, Scene};
+use crate::scene::{Action, Body, Entry, Plan, Scene};
 
 pub(super) struct ManifoldRust {
     bodies: Vec<Manifold>,
@@ -64,7 +64,7 @@ impl ManifoldRust {
     }
 }
 
-fn manifold(body: &Convex) -> Result<Manifold, String> {
+fn manifold(body: &Body) -> Result<Manifold, String> {
     let mesh = MeshGL64 {
         num_prop: 3,
         vert_properties: body.positions.iter().flatten().copied().collect(),

@@ -7,6 +7,7 @@ mod manifold_rust;
 mod openscad;
 mod planecut;
 mod planecut_blocks;
+mod planecut_meshes;
 pub(crate) mod worker;
 
 use std::path::Path;
@@ -20,7 +21,7 @@ use crate::scene::{Action, Entry, Plan, Scene};
 /// What one run gave.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct Outcome {
-    /// Time of the Booleans alone, bodies to mesh.
+    /// Time of the Booleans alone, bodies to mesh; where these are meshes, from their arrays.
     pub(crate) seconds: f64,
     /// Volume of the last result, worked out after the clock has stopped.
     pub(crate) volume: f64,
@@ -39,6 +40,7 @@ pub(crate) trait Contestant {
 /// The kernels of this program, by name. Files that one needs go beside the scene's.
 pub(crate) fn prepare(name: &str, scene: Scene, file: &Path) -> Result<Box<dyn Contestant>, String> {
     match name {
+        PLANECUT if scene.is_of_meshes() => Ok(Box::new(planecut_meshes::PlanecutMeshes::new(&scene)?)),
         PLANECUT => Ok(Box::new(planecut::Planecut::with_bodies(&scene)?)),
         PLANECUT_PLANES => Ok(Box::new(planecut::Planecut::new(&scene)?)),
         PLANECUT_BLOCKS => Ok(Box::new(planecut_blocks::PlanecutBlocks::new(&scene)?)),

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use super::{Contestant, Outcome, outcome};
 use crate::entrant::OPENSCAD;
-use crate::scene::{Convex, Entry, Plan, Scene};
+use crate::scene::{Body, Entry, Plan, Scene};
 
 /// It is a process of this process, which cannot end it any more once it has been ended itself.
 const LIMIT: Duration = Duration::from_secs(35);
@@ -60,7 +60,7 @@ fn wait(mut child: Child, begin: Instant) -> Result<(), String> {
 }
 
 /// The tree in its language.
-fn text(entries: &[Entry], bodies: &[Convex]) -> String {
+fn text(entries: &[Entry], bodies: &[Body]) -> String {
     let mut stack: Vec<String> = Vec::new();
     let mut leaves = bodies.iter();
     for entry in entries {
@@ -80,7 +80,7 @@ fn text(entries: &[Entry], bodies: &[Convex]) -> String {
 }
 
 /// Its faces turn clockwise, seen from outside.
-fn polyhedron(body: &Convex) -> String {
+fn polyhedron(body: &Body) -> String {
     let mut text = String::from("polyhedron(points=[");
     for [x, y, z] in &body.positions {
         let _ = write!(text, "[{x},{y},{z}],");
@@ -119,14 +119,15 @@ fn triangles(text: &str) -> Option<Vec<[[f64; 3]; 3]>> {
 mod tests {
     use super::{text, triangles};
     use crate::contestants::measures;
-    use crate::scene::{Convex, Entry};
+    use crate::scene::{Body, Entry};
 
     #[test]
     fn a_tree_is_written() {
-        let corner = Convex {
+        let corner = Body {
             planes: Vec::new(),
             positions: vec![[0.0; 3], [1.5, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
             triangles: vec![[0, 2, 1]],
+            matrix: None,
         };
         let leaf = "polyhedron(points=[[0,0,0],[1.5,0,0],[0,1,0],[0,0,1],],faces=[[0,1,2],]);\n";
         let entries = [Entry::Leaf, Entry::Leaf, Entry::Leaf, Entry::Union(2), Entry::Difference(2)];

@@ -7,7 +7,7 @@ use planecut_csg::{Brush, BrushId, BuiltBodies, LiveModel, Material, Model, Role
 use planecut_kernel::DVec3;
 
 use super::{Contestant, Outcome};
-use crate::scene::{Action, Convex, Plan, Scene};
+use crate::scene::{Action, Body, Plan, Scene};
 
 pub(super) struct Planecut {
     task: Task,
@@ -66,7 +66,7 @@ impl Task {
                 let brushes = model.iter().map(|body| (body.brush(), Role::Add)).collect();
                 let (ids, _) = live.add_brushes(brushes).map_err(|error| error.to_string())?;
                 let first = *ids.first().ok_or("no brush to move")?;
-                Ok(Self::Moves(Box::new(live), first, forms.iter().map(Convex::brush).collect()))
+                Ok(Self::Moves(Box::new(live), first, forms.iter().map(Body::brush).collect()))
             }
         }
     }

@@ -15,35 +15,37 @@ use crate::weld::nest::{self, Nester, Projection};
 use crate::weld::triangulate::{Triangles, Triangulator, WeldPoints};
 use crate::weld::{WeldError, loops};
 
-/// A planar, connected region of the boundary of a live model, with its triangles.
+/// A planar, connected region of the boundary, with its triangles.
 #[derive(Clone, Copy)]
-pub struct LiveFace<'a> {
+pub(crate) struct WeldedFace<'a> {
     numbers: &'a Numbers,
     state: &'a State,
     face: &'a Face,
 }
 
-impl<'a> LiveFace<'a> {
+impl<'a> WeldedFace<'a> {
     pub(super) fn new(numbers: &'a Numbers, state: &'a State, number: FaceId) -> Option<Self> {
         let face = state.faces.faces.get(number.index()).filter(|face| !face.pieces.is_empty())?;
         Some(Self { numbers, state, face })
     }
 
     /// What it is made of.
-    #[must_use]
-    pub fn material(&self) -> MaterialId {
+    pub(crate) fn material(&self) -> MaterialId {
         self.numbers.material(self.face.region)
     }
 
-    /// The triangles, counter-clockwise seen from outside: for each corner the number of its vertex, equal for what is one
-    /// corner of the solid as long as nothing changes there, and its position.
-    pub fn triangles(&self) -> impl ExactSizeIterator<Item = [(u32, DVec3); 3]> + use<'a> {
-        let Self { numbers, state, face } = *self;
+    pub(crate) fn triangle_count(&self) -> usize {
+        self.face.triangles.len()
+    }
+
+    /// A triangle: for each corner the number of its vertex, and its position.
+    pub(crate) fn triangle(&self, place: usize) -> [(u32, DVec3); 3] {
+        let Self { numbers, state, face } = self;
         let corner = |piece: HalfEdgeId| {
             let position = numbers.position(state.pieces.half_edges[piece.index()].from);
             (state.vertices.at(piece).number(), position)
         };
-        face.triangles.iter().map(move |corners| corners.map(corner))
+        face.triangles[place].map(corner)
     }
 }
 

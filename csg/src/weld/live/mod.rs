@@ -21,7 +21,7 @@ use crate::base::Bounds;
 use crate::boundary::BoundaryEdge;
 use crate::ids::{EdgeId, FaceId, HalfEdgeId, Id, LineId, PointId, PointOfRegion, PointOnLine, RegionId};
 use crate::plane_table::PlaneTable;
-pub use faces::LiveFace;
+pub(crate) use faces::WeldedFace;
 use faces::{Faces, Regions};
 use names::place;
 use numbers::{NumberedEdge, Numbers};
@@ -157,12 +157,12 @@ impl LiveWeld {
     }
 
     /// A face, where there is one of this number.
-    pub(crate) fn face(&self, id: FaceId) -> Option<LiveFace<'_>> {
-        LiveFace::new(&self.numbers, &self.state, id)
+    pub(crate) fn face(&self, id: FaceId) -> Option<WeldedFace<'_>> {
+        WeldedFace::new(&self.numbers, &self.state, id)
     }
 
     /// All faces.
-    pub(crate) fn faces(&self) -> impl Iterator<Item = (FaceId, LiveFace<'_>)> {
+    pub(crate) fn faces(&self) -> impl Iterator<Item = (FaceId, WeldedFace<'_>)> {
         self.state.faces.ids().filter_map(|id| Some((id, self.face(id)?)))
     }
 

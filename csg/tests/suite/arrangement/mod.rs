@@ -2,5 +2,5 @@
 
 mod cases;
 mod random;
-mod soup;
+pub(crate) mod soup;
 mod winding;

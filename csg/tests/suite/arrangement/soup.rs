@@ -6,14 +6,14 @@ use planecut_testkit::random::Rng;
 
 /// Triangles of a closed mesh, perhaps one that crosses itself.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Soup {
-    pub(super) positions: Vec<DVec3>,
-    pub(super) triangles: Vec<[u32; 3]>,
+pub(crate) struct Soup {
+    pub(crate) positions: Vec<DVec3>,
+    pub(crate) triangles: Vec<[u32; 3]>,
 }
 
 impl Soup {
     /// A few tetrahedra and boxes with corners at whole numbers below `size`; some flat, some inside out.
-    pub(super) fn random(rng: &mut Rng, size: usize) -> Self {
+    pub(crate) fn random(rng: &mut Rng, size: usize) -> Self {
         let mut soup = Self::default();
         for _ in 0..=rng.below(3) {
             if rng.chance(0.3) { soup.push_box(rng, size) } else { soup.push_tetrahedron(rng, size) }
@@ -22,13 +22,13 @@ impl Soup {
     }
 
     /// Triangles of this one and another.
-    pub(super) fn push(&mut self, other: &Self) {
+    pub(crate) fn push(&mut self, other: &Self) {
         let first = u32::try_from(self.positions.len()).expect("few vertices");
         self.positions.extend(&other.positions);
         self.triangles.extend(other.triangles.iter().map(|triangle| triangle.map(|vertex| vertex + first)));
     }
 
-    pub(super) fn mesh(&self) -> MeshBody {
+    pub(crate) fn mesh(&self) -> MeshBody {
         let mesh = ClosedMesh::new(&self.positions, &self.triangles, |_| 0).expect("the mesh is closed");
         MeshBody::new(mesh, vec![MaterialId(0)])
     }

@@ -307,7 +307,7 @@ pub(crate) fn check(seed: u64, edits: &[Edit], faces: Faces) -> Tally {
 }
 
 /// A triangle by its corners, the least first.
-type Corners = [[u64; 3]; 3];
+pub(crate) type Corners = [[u64; 3]; 3];
 
 fn corners(triangle: [DVec3; 3]) -> Corners {
     let mut corners = triangle.map(|corner| (corner + 0.0).to_array().map(f64::to_bits));
@@ -316,7 +316,7 @@ fn corners(triangle: [DVec3; 3]) -> Corners {
     corners
 }
 
-fn triangles_of(mesh: &Mesh) -> Vec<Corners> {
+pub(crate) fn triangles_of(mesh: &Mesh) -> Vec<Corners> {
     let at = |vertex: u32| mesh.positions[vertex as usize];
     let mut all: Vec<Corners> = mesh.triangles.iter().map(|triangle| corners(triangle.map(at))).collect();
     all.sort_unstable();
@@ -325,10 +325,10 @@ fn triangles_of(mesh: &Mesh) -> Vec<Corners> {
 
 /// A copy of the faces, kept up to date by what each edit says alone.
 #[derive(Default)]
-struct Viewer(BTreeMap<FaceId, Vec<Corners>>);
+pub(crate) struct Viewer(BTreeMap<FaceId, Vec<Corners>>);
 
 impl Viewer {
-    fn follow(&mut self, model: &LiveModel, change: &Change) -> Result<(), String> {
+    pub(crate) fn follow(&mut self, model: &LiveModel, change: &Change) -> Result<(), String> {
         for face in &change.removed {
             self.0.remove(face).ok_or_else(|| format!("{face:?} is removed, but was not there"))?;
         }
@@ -343,14 +343,14 @@ impl Viewer {
         Ok(())
     }
 
-    fn triangles(&self) -> Vec<Corners> {
+    pub(crate) fn triangles(&self) -> Vec<Corners> {
         let mut all: Vec<Corners> = self.0.values().flatten().copied().collect();
         all.sort_unstable();
         all
     }
 
     /// Whether each edge between vertices is met as often in either direction.
-    fn is_closed(&self, model: &LiveModel) -> bool {
+    pub(crate) fn is_closed(&self, model: &LiveModel) -> bool {
         let mut edges: Vec<(u32, u32)> = Vec::new();
         for face in self.0.keys().filter_map(|face| model.face(*face)) {
             for triangle in face.triangles() {
