@@ -15,7 +15,7 @@ use super::operand::Operand;
 use super::pairing::{Fans, fans};
 use super::winding::Windings;
 use crate::closed_mesh::connectivity::NO_TWIN;
-use crate::ids::{HalfEdgeId, Id, InputTriangleId, InputVertexId, PointId, number32};
+use crate::ids::{HalfEdgeId, Id, InputTriangleId, InputVertexId, number32};
 use crate::mesh::{Flaw, Mesh, MeshFace, Noise, SolidMeasures, may_be_noise, prove_part, proven};
 use crate::weld::manifold::split_repeated_edges;
 
@@ -28,7 +28,7 @@ struct CutPart {
     mesh: Mesh,
     /// The triangles of the input that faces are, those that come first.
     whole: Vec<InputTriangleId>,
-    /// For each vertex the vertex of the input that it is, where it is one.
+    /// For each vertex the smallest vertex of the input that whole triangles at it have.
     origins: Vec<Option<InputVertexId>>,
     /// Whether triangles that pass through share it.
     is_shared: Vec<bool>,
@@ -85,12 +85,9 @@ impl Arranged<'_> {
         let side = |half_edge: u32| HalfEdgeId::from_index(half_edge as usize);
         let mut labels = (0..number32(triangles.len())).map(|t| [0, 1, 2].map(|k| side(3 * t + k))).collect();
         split_repeated_edges(&mut mesh, &mut labels, |piece| side(twins[piece.index()]));
-        let of_point = |point: PointId| surface.origins.get(point.index()).copied();
-        let mut origins: Vec<Option<InputVertexId>> =
-            inputs.iter().zip(&points).map(|(input, point)| input.or_else(|| of_point(*point))).collect();
+        let mut origins = inputs;
         origins.resize(mesh.positions.len(), None);
-        let mut shared: Vec<bool> = inputs.iter().map(|input| input.is_some_and(is_shared)).collect();
-        shared.resize(mesh.positions.len(), false);
+        let shared: Vec<bool> = origins.iter().map(|input| input.is_some_and(is_shared)).collect();
         let triangle = |face: &Face| match self.facets.kind(face.kept.facet) {
             FacetKind::Triangle(triangle) => Some(surface.number(triangle)),
             _ => None,

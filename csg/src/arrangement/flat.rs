@@ -29,6 +29,11 @@ pub(super) fn are_coplanar(places: [DVec3; 4]) -> bool {
     if p.dot(left - right).abs() > BOUND * p.abs().dot(left.abs() + right.abs()) {
         return false;
     }
+    let is_safe = |v: &f64| *v == 0.0 || (1e-60..1e60).contains(&v.abs());
+    if places.iter().all(|place| place.to_array().iter().all(is_safe)) {
+        let [a, b, c, d] = places.map(|DVec3 { x, y, z }| robust::Coord3D { x, y, z });
+        return robust::orient3d(a, b, c, d) == 0.0;
+    }
     let [a, b, c, d] = integers(places);
     let [p, q, r] = [b, c, d].map(|place| minus(&place, &a));
     let minor = |u: usize, v: usize| &q[u] * &r[v] - &q[v] * &r[u];

@@ -44,6 +44,7 @@ use planecut_kernel::sign::Counts;
 use rustc_hash::FxHashMap;
 
 use crate::base::{DisjointSets, map_chunks};
+use crate::closed_mesh::connectivity::NO_TWIN;
 use crate::ids::{Id, PointId, TriangleId, number32};
 pub use combine::{CombineError, CombinedMeshes, Inside, combine_meshes};
 pub(crate) use combine::{Leaf, combine_leaves};
@@ -51,6 +52,7 @@ use contact::{Contacts, InputKey};
 use crossings::{CutLine, Neighbours, crossings};
 use edge_points::{EdgePoints, PointOnEdge};
 use facets::Facets;
+use flat::are_coplanar;
 use input::Input;
 use patches::Patches;
 use points::{PointKey, Points};
@@ -96,7 +98,13 @@ impl<'a> Arrangement<'a> {
     /// Cuts triangles along what they have in common. Also tells which of them are not whole any more, and which may have doubles.
     fn new(surface: Surface<'a>, contacts: &Contacts) -> (Self, Vec<bool>, Vec<bool>) {
         let patches = Patches::new(&surface);
-        let planes = planes(&surface, contacts);
+        let mut is_split = vec![false; surface.len()];
+        for (operand, own) in surface.input.operands.iter().enumerate() {
+            for triangle in own.flat() {
+                is_split[surface.triangle_of(surface.input.number(operand, *triangle)).index()] = true;
+            }
+        }
+        let planes = planes(&surface, contacts, &is_split);
         let key = |key: InputKey| canonical(&surface, &planes, key);
         let on_edges: Vec<PointOnEdge> = contacts
             .edge_cuts
@@ -105,6 +113,15 @@ impl<'a> Arrangement<'a> {
             .collect();
         let ends: Vec<[PointKey; 2]> = contacts.cuts.iter().map(|cut| cut.ends.map(key)).collect();
         let mut points = Points::new(&surface);
+        for point in &on_edges {
+            let triangle = TriangleId::from_index(point.side as usize / 3);
+            let other = match surface.twins[point.side as usize] {
+                NO_TWIN => triangle,
+                twin => TriangleId::from_index(twin as usize / 3),
+            };
+            let at = [triangle, other].map(|triangle| planes[triangle.index()]);
+            points.know_edge(surface.edge(triangle, point.side as usize % 3), at);
+        }
         let keys = ends.as_flattened().iter().chain(on_edges.iter().map(|point| &point.key)).copied();
         points.add(&surface, keys.filter(|key| !matches!(key, PointKey::Vertex(_))));
         let (edge_points, cut_sides) = EdgePoints::new(&surface, &points, &on_edges);
@@ -115,12 +132,6 @@ impl<'a> Arrangement<'a> {
         let mut is_doubled = vec![false; surface.len()];
         for triangle in contacts.overlapping.as_flattened() {
             is_doubled[surface.triangle_of(*triangle).index()] = true;
-        }
-        let mut is_split = vec![false; surface.len()];
-        for (operand, own) in surface.input.operands.iter().enumerate() {
-            for triangle in own.flat() {
-                is_split[surface.triangle_of(surface.input.number(operand, *triangle)).index()] = true;
-            }
         }
         let mut split: Vec<TriangleId> =
             cuts.iter().filter(|cut| !cut.is_point()).map(|cut| cut.triangle).chain(cut_sides).collect();
@@ -182,11 +193,26 @@ impl<'a> Arrangement<'a> {
 }
 
 /// For each triangle the first one that is known to lie in the same plane.
-fn planes(surface: &Surface<'_>, contacts: &Contacts) -> Vec<TriangleId> {
+fn planes(surface: &Surface<'_>, contacts: &Contacts, is_flat: &[bool]) -> Vec<TriangleId> {
     let mut sets = DisjointSets::new(surface.len());
     for pair in &contacts.coplanar {
         let [a, b] = pair.map(|triangle| surface.triangle_of(triangle).number());
         sets.join(a, b);
+    }
+    // large flat faces are made of many triangles
+    for (half_edge, &twin) in
+        (0..).zip(&surface.twins).filter(|(half_edge, twin)| **twin != NO_TWIN && half_edge < *twin)
+    {
+        let [one, other] = [half_edge, twin].map(|side: u32| TriangleId::from_index(side as usize / 3));
+        if is_flat[one.index()] || is_flat[other.index()] {
+            continue;
+        }
+        let [a, b, c] = surface.triangle(one).corners;
+        let apex = surface.corner(surface.corners(other)[(twin as usize + 2) % 3]);
+        let are_there = [a, b, c, apex].iter().all(|corner| surface.input.is_where_it_is_said(corner.vertex));
+        if are_there && are_coplanar([a.at, b.at, c.at, apex.at]) {
+            sets.join(one.number(), other.number());
+        }
     }
     // triangles of convex bodies know their planes
     if surface.input.has_bodies {

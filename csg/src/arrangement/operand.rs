@@ -183,11 +183,10 @@ impl<'a> Operand<'a> {
         matches!(self.source, Source::Body(_))
     }
 
-    /// Whether two triangles share a vertex around which triangles have nothing in common but their edges.
+    /// Whether the triangles around a vertex are sure to have nothing in common but their edges.
     #[inline]
-    pub(super) fn are_known_apart(&self, one: u32, other: u32) -> bool {
-        let [p, q] = [one, other].map(|triangle| self.triangles[triangle as usize]);
-        p.iter().any(|vertex| q.contains(vertex) && self.simple[*vertex as usize])
+    pub(super) fn is_simple(&self, vertex: u32) -> bool {
+        self.simple[vertex as usize]
     }
 
     /// The material of a triangle.

@@ -7,7 +7,7 @@ use planecut_parallel::prelude::*;
 
 use super::contact::{Contacts, touch};
 use super::input::Input;
-use super::predicates::{RoundedPlane, Triangle};
+use super::predicates::{EdgePlane, RoundedPlane, Triangle};
 use super::self_walk::{Node, SelfTree};
 use super::triangle_tree::{TreeNode, TriangleTree};
 use crate::base::{Bounds, Boxes, map_chunks};
@@ -212,8 +212,12 @@ impl Walk<'_> {
             let mut probe = None;
             for (other, other_bounds) in &others[..other_count] {
                 if bounds.touches(other_bounds) {
-                    let probe = probe.get_or_insert_with(|| self.probe(0, *one));
-                    if misses(self.input, probe, other_bounds) {
+                    let (probe, edges) = probe.get_or_insert_with(|| {
+                        let probe = self.probe(0, *one);
+                        let edges = probe.plane.edge_planes();
+                        (probe, edges)
+                    });
+                    if misses(self.input, probe, edges, other_bounds) {
                         continue;
                     }
                     let other = self.probe(1, *other);
@@ -237,29 +241,30 @@ impl Walk<'_> {
         for &triangle in tree.triangles(leaf) {
             if self.bounds(k, triangle).touches(other.bounds(node)) {
                 let probe = self.probe(k, triangle);
-                self.below(&probe, node, is_first);
+                self.below(&probe, &probe.plane.edge_planes(), node, is_first);
             }
         }
     }
 
     /// Compares a triangle with those below a node of the other tree.
-    fn below(&mut self, probe: &Probe, node: TreeNode, is_first: bool) {
+    fn below(&mut self, probe: &Probe, edges: &[EdgePlane; 3], node: TreeNode, is_first: bool) {
         let tree = if is_first { self.other } else { self.one };
         let bounds = tree.bounds(node);
-        if !bounds.touches(&probe.bounds) || misses(self.input, probe, bounds) {
+        if !bounds.touches(&probe.bounds) || misses(self.input, probe, edges, bounds) {
             return;
         }
         if node.level > 0 {
             let (first, second) = tree.children(node);
-            self.below(probe, first, is_first);
+            self.below(probe, edges, first, is_first);
             if let Some(second) = second {
-                self.below(probe, second, is_first);
+                self.below(probe, edges, second, is_first);
             }
             return;
         }
         let k = usize::from(is_first);
         for &triangle in tree.triangles(node) {
-            if self.bounds(k, triangle).touches(&probe.bounds) {
+            let bounds = self.bounds(k, triangle);
+            if bounds.touches(&probe.bounds) && !misses(self.input, probe, edges, &bounds) {
                 let other = self.probe(k, triangle);
                 if is_first { self.compare(probe, &other) } else { self.compare(&other, probe) }
             }
@@ -273,10 +278,10 @@ impl Walk<'_> {
     }
 }
 
-/// Whether the plane of a triangle is sure to miss a box.
-fn misses(input: &Input<'_>, probe: &Probe, bounds: &Bounds) -> bool {
+/// Whether a triangle is sure to be apart from a box: that misses its plane, or lies beyond one of its edges.
+fn misses(input: &Input<'_>, probe: &Probe, edges: &[EdgePlane; 3], bounds: &Bounds) -> bool {
     // far from the origin the middle is rounded by more than it is off the plane: the half is taken from where it is
     let middle = 0.5 * bounds.min + 0.5 * bounds.max;
     let half = (bounds.max - middle).max(middle - bounds.min);
-    input.is_safe && probe.plane.misses(middle, half)
+    input.is_safe && (probe.plane.misses(middle, half) || edges.iter().any(|edge| edge.misses(middle, half)))
 }

@@ -67,12 +67,36 @@ pub(super) struct Points {
     vertices: usize,
     /// What defines each point that is not a vertex.
     keys: Vec<PointKey>,
-    /// The places of these, correctly rounded.
-    positions: Vec<DVec3>,
+    /// Where these are.
+    places: Vec<Place>,
     number: FxHashMap<PointKey, PointId>,
+    /// The planes of the triangles at edges on which points lie.
+    planes_at: FxHashMap<[PointId; 2], [TriangleId; 2]>,
     /// The first point at a rounded place, and for each constructed point the next one at the same rounded place.
     at_place: FxHashMap<[u64; 3], PointId>,
     next_at_place: FxHashMap<PointId, PointId>,
+}
+
+/// Where a point is: as sums of two numbers, and by how much each may be off.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    /// Correctly rounded.
+    at: DVec3,
+    /// What rounding left.
+    rest: DVec3,
+    /// Infinite where the rest is not known.
+    slack: DVec3,
+}
+
+impl Place {
+    /// A point of which nothing but the rounded place is known.
+    fn rounded(at: DVec3) -> Self {
+        Self { at, rest: DVec3::ZERO, slack: DVec3::INFINITY }
+    }
+
+    fn sum(&self, axis: usize) -> Sum {
+        Sum::sum(self.at[axis], self.rest[axis])
+    }
 }
 
 fn place_key(place: DVec3) -> [u64; 3] {
@@ -113,7 +137,7 @@ impl Points {
     pub(super) fn at(&self, surface: &Surface<'_>, point: PointId) -> DVec3 {
         match point.index().checked_sub(self.vertices) {
             None => surface.at(point),
-            Some(k) => self.positions[k],
+            Some(k) => self.places[k].at,
         }
     }
 
@@ -139,16 +163,16 @@ impl Points {
         let mut fresh: Vec<PointKey> = keys.filter(|key| !self.number.contains_key(key)).collect();
         fresh.par_sort_unstable();
         fresh.dedup();
-        let places: Vec<DVec3> = fresh.par_iter().with_min_len(256).map(|key| place_of(surface, key)).collect();
+        let places: Vec<Place> = fresh.par_iter().with_min_len(256).map(|key| place_of(surface, key)).collect();
         for (key, place) in fresh.into_iter().zip(places) {
             let number = self.numbered(surface, key, place);
             self.number.insert(key, number);
         }
     }
 
-    fn numbered(&mut self, surface: &Surface<'_>, key: PointKey, place: DVec3) -> PointId {
+    fn numbered(&mut self, surface: &Surface<'_>, key: PointKey, place: Place) -> PointId {
         let fresh = PointId::from_index(self.len());
-        let first = *self.at_place.entry(place_key(place)).or_insert(fresh);
+        let first = *self.at_place.entry(place_key(place.at)).or_insert(fresh);
         if first != fresh {
             let exact = ExactPoint::new(surface, &key);
             let mut other = first;
@@ -164,7 +188,7 @@ impl Points {
             self.next_at_place.insert(other, fresh);
         }
         self.keys.push(key);
-        self.positions.push(place);
+        self.places.push(place);
         fresh
     }
 
@@ -189,8 +213,73 @@ impl Points {
         if [a, b, c].iter().all(|point| self.is_there(surface, *point)) {
             return turn(surface.input, [a, b, c].map(|point| surface.corner(point)), axis);
         }
+        if self.are_of_one_line([a, b, c]) {
+            return Sign::Zero;
+        }
+        if let Some(sign) = self.turn_of_sums(surface, [a, b, c], axis) {
+            return sign;
+        }
         let [a, b, c] = [a, b, c].map(|point| self.exact(surface, point));
         turn_of_points([&a, &b, &c], axis)
+    }
+
+    /// The turn of three points, where sums of two numbers are enough to tell.
+    fn turn_of_sums(&self, surface: &Surface<'_>, points: [PointId; 3], axis: usize) -> Option<Sign> {
+        if !surface.is_safe {
+            return None;
+        }
+        let place = |point: PointId| match point.index().checked_sub(self.vertices) {
+            None if surface.is_where_it_is_said(point) => {
+                Place { at: surface.at(point), rest: DVec3::ZERO, slack: DVec3::ZERO }
+            }
+            None => Place::rounded(surface.at(point)),
+            Some(k) => self.places[k],
+        };
+        let [a, b, c] = points.map(place);
+        let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+        let from_a = |p: &Place, axis: usize| p.sum(axis).plus(a.sum(axis).negated());
+        let [bu, bv, cu, cv] = [from_a(&b, u), from_a(&b, v), from_a(&c, u), from_a(&c, v)];
+        let (left, right) = (bu.times_sum(cv), bv.times_sum(cu));
+        let value = left.plus(right.negated()).high;
+        let off = |axis: usize| a.slack[axis] + b.slack[axis] + c.slack[axis] + SUM_BOUND * a.at[axis].abs();
+        let [off_u, off_v] = [off(u), off(v)];
+        let bound = SUM_BOUND * (left.high.abs() + right.high.abs())
+            + 2.0 * (off_u * (bv.high.abs() + cv.high.abs()) + off_v * (bu.high.abs() + cu.high.abs()) + off_u * off_v);
+        (value.abs() > bound).then(|| sign(value))
+    }
+
+    /// Tells the planes of the triangles at an edge on which points lie.
+    pub(super) fn know_edge(&mut self, edge: [PointId; 2], planes: [TriangleId; 2]) {
+        self.planes_at.insert(edge, planes);
+    }
+
+    /// Whether three points are known to lie on one line by what defines them: on one edge, or in two planes that cross.
+    fn are_of_one_line(&self, points: [PointId; 3]) -> bool {
+        let keys = points.map(|point| self.key(point));
+        keys.iter().any(|key| match *key {
+            PointKey::EdgePlane { edge, triangle } => {
+                keys.iter().all(|other| is_on_edge(other, edge))
+                    || self.planes_at.get(&edge).is_some_and(|planes| {
+                        planes.iter().any(|plane| {
+                            keys.iter()
+                                .all(|other| self.is_in_plane(other, triangle) && self.is_in_plane(other, *plane))
+                        })
+                    })
+            }
+            PointKey::EdgeEdge(edges) => edges.iter().any(|edge| keys.iter().all(|other| is_on_edge(other, *edge))),
+            PointKey::Vertex(_) | PointKey::ThreePlanes(_) => false,
+        })
+    }
+
+    /// Whether a point is known to lie in a plane by what defines it.
+    fn is_in_plane(&self, key: &PointKey, plane: TriangleId) -> bool {
+        let has = |edge: &[PointId; 2]| self.planes_at.get(edge).is_some_and(|planes| planes.contains(&plane));
+        match key {
+            PointKey::Vertex(_) => false,
+            PointKey::EdgePlane { edge, triangle } => *triangle == plane || has(edge),
+            PointKey::EdgeEdge(edges) => edges.iter().any(has),
+            PointKey::ThreePlanes(planes) => planes.contains(&plane),
+        }
     }
 
     /// The order of two points along an axis: correct rounding keeps it unless it makes them equal.
@@ -241,11 +330,21 @@ impl Points {
     }
 }
 
+/// Whether a point is known to lie on an edge by what defines it.
+fn is_on_edge(key: &PointKey, edge: [PointId; 2]) -> bool {
+    match key {
+        PointKey::Vertex(vertex) => edge.contains(vertex),
+        PointKey::EdgePlane { edge: own, .. } => *own == edge,
+        PointKey::EdgeEdge(edges) => edges.contains(&edge),
+        PointKey::ThreePlanes(_) => false,
+    }
+}
+
 /// The place of a point, correctly rounded.
-fn place_of(surface: &Surface<'_>, key: &PointKey) -> DVec3 {
+fn place_of(surface: &Surface<'_>, key: &PointKey) -> Place {
     let between = if surface.is_safe && !surface.input.has_bodies {
         match *key {
-            PointKey::Vertex(vertex) => return surface.at(vertex),
+            PointKey::Vertex(vertex) => return Place::rounded(surface.at(vertex)),
             PointKey::EdgePlane { edge, triangle } => through_plane(surface, edge, triangle),
             PointKey::EdgeEdge([one, other]) => through_edge(surface, one, other),
             PointKey::ThreePlanes(_) => None,
@@ -253,7 +352,7 @@ fn place_of(surface: &Surface<'_>, key: &PointKey) -> DVec3 {
     } else {
         None
     };
-    between.unwrap_or_else(|| ExactPoint::new(surface, key).rounded(surface.input))
+    between.unwrap_or_else(|| Place::rounded(ExactPoint::new(surface, key).rounded(surface.input)))
 }
 
 /// A vector of sums of two numbers.
@@ -271,7 +370,7 @@ fn cross_component(a: &Sums, b: &Sums, axis: usize) -> (Sum, f64) {
 }
 
 /// Where an edge crosses the plane of a triangle, where sums of two numbers are enough to round it.
-fn through_plane(surface: &Surface<'_>, edge: [PointId; 2], triangle: TriangleId) -> Option<DVec3> {
+fn through_plane(surface: &Surface<'_>, edge: [PointId; 2], triangle: TriangleId) -> Option<Place> {
     let [p, q] = edge.map(|end| surface.at(end));
     let [a, b, c] = surface.triangle(triangle).places();
     let (ab, ac) = (difference(b, a), difference(c, a));
@@ -287,7 +386,7 @@ fn through_plane(surface: &Surface<'_>, edge: [PointId; 2], triangle: TriangleId
 }
 
 /// Where two edges cross, where sums of two numbers are enough to round it.
-fn through_edge(surface: &Surface<'_>, one: [PointId; 2], other: [PointId; 2]) -> Option<DVec3> {
+fn through_edge(surface: &Surface<'_>, one: [PointId; 2], other: [PointId; 2]) -> Option<Place> {
     let ([p, q], [r, s]) = (one.map(|end| surface.at(end)), other.map(|end| surface.at(end)));
     let (along, across, offset) = (difference(q, p), difference(s, r), difference(r, p));
     let wholes = [0, 1, 2].map(|axis| cross_component(&along, &across, axis));
@@ -297,18 +396,21 @@ fn through_edge(surface: &Surface<'_>, one: [PointId; 2], other: [PointId; 2]) -
 }
 
 /// The point a share of the way from `p` to `q`; share and whole are off by a bound times `magnitude`.
-fn between(p: DVec3, q: DVec3, share: Sum, whole: Sum, magnitude: f64) -> Option<DVec3> {
+fn between(p: DVec3, q: DVec3, share: Sum, whole: Sum, magnitude: f64) -> Option<Place> {
     let error = 2.0 * SUM_BOUND * magnitude / whole.high.abs() + SUM_BOUND;
     // also where the whole is not known to differ from zero
     if error.is_nan() || error > U {
         return None;
     }
     let t = share.over(whole);
-    let coordinate = |k: usize| {
+    let mut place = Place::rounded(DVec3::ZERO);
+    for k in 0..3 {
         let along = Sum::sum(q[k], -p[k]);
         let value = along.times_sum(t).plus(Sum::sum(p[k], 0.0));
         let slack = along.high.abs() * error + SUM_BOUND * (p[k].abs() + q[k].abs());
-        value.rounded_with(slack)
-    };
-    Some(DVec3::new(coordinate(0)?, coordinate(1)?, coordinate(2)?))
+        place.at[k] = value.rounded_with(slack)?;
+        place.rest[k] = (value.high - place.at[k]) + value.low;
+        place.slack[k] = slack;
+    }
+    Some(place)
 }

@@ -15,6 +15,9 @@ const ORIENT_BOUND: f64 = 8.0 * U;
 /// How far corners of bodies, which are rounded, may be from where they are, with room for three products and sums of that.
 const BLUR: f64 = 8.0 * U;
 
+/// Bound on what rounding does to a height over an edge, with much room.
+const EDGE_BOUND: f64 = 256.0 * U;
+
 /// A vertex of an operand, and where it is, correctly rounded.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Corner {
@@ -156,6 +159,19 @@ impl RoundedPlane {
         self.normal.dot(along).abs() > self.normal.abs().dot(half) + slack
     }
 
+    /// Planes through the edges along the normal, their normals pointing away from the triangle; and magnitudes that bound what rounding
+    /// does to these.
+    pub(super) fn edge_planes(&self) -> [EdgePlane; 3] {
+        let places = self.triangle.places();
+        [0, 1, 2].map(|k| {
+            let (from, to) = (places[k], places[(k + 1) % 3]);
+            let along = to - from;
+            let normal = along.cross(self.normal);
+            let (u, n) = (along.abs(), self.permanent);
+            EdgePlane { at: from, normal, permanent: u.yzx() * n.zxy() + u.zxy() * n.yzx() }
+        })
+    }
+
     /// The component of the normal along an axis where rounding does not matter.
     #[inline]
     fn component(&self, input: &Input<'_>, axis: usize) -> Option<Sign> {
@@ -164,6 +180,25 @@ impl RoundedPlane {
         }
         // those of bodies are what was given
         input.half_space(self.triangle.number).map(|half_space| sign(half_space.normal()[axis]))
+    }
+}
+
+/// A plane through an edge of a triangle, perpendicular to it but for rounding.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct EdgePlane {
+    at: DVec3,
+    normal: DVec3,
+    permanent: DVec3,
+}
+
+impl EdgePlane {
+    /// Whether a box, given by its middle and half of its extent, is sure to lie beyond the edge.
+    #[inline]
+    pub(super) fn misses(&self, middle: DVec3, half: DVec3) -> bool {
+        let along = middle - self.at;
+        // the other corners are up to as far inside as rounding of the normal makes of their distance, which the permanent bounds
+        let slack = EDGE_BOUND * self.permanent.dot(middle.abs() + half + self.at.abs());
+        self.normal.dot(along) > self.normal.abs().dot(half) + slack
     }
 }
 

@@ -24,8 +24,11 @@ const CHUNK: usize = 1 << 12;
 /// Levels below which a pair of nodes is not split into parts.
 const SMALL: u32 = 5;
 
-/// What rounding to single precision, and turning before that, may do to a coordinate, as a share of the largest one.
-const SLACK: f32 = 4.0 * f32::EPSILON;
+/// What rounding to single precision, and turning before that, may do to coordinates of a mesh whose largest extent is 2.
+const SLACK: f32 = 8.0 * f32::EPSILON;
+
+/// What turning and rounding to double precision may do to coordinates in the frame, with room for a few products and sums of them.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// A box in the frame.
 #[derive(Debug, Clone, Copy)]
@@ -55,6 +58,9 @@ impl SmallBox {
     }
 }
 
+/// A vertex around which more may be in common.
+const OTHER: u32 = u32::MAX;
+
 /// A node: its level, 0 for leaves, and its place there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Node {
@@ -65,21 +71,30 @@ pub(super) struct Node {
 /// Boxes around the triangles of an operand.
 pub(super) struct SelfTree<'a> {
     operand: &'a Operand<'a>,
+    /// Turns, and makes the largest extent 2.
     frame: DMat3,
     origin: DVec3,
     /// By how much boxes are grown.
     slack: f32,
     order: &'a [u32],
+    /// In that order, the vertices of triangles around which triangles have nothing in common but edges; [`OTHER`] for others.
+    simple: Vec<[u32; 3]>,
     /// The boxes of triangles in that order, and of nodes, leaves first.
     triangles: Vec<SmallBox>,
     levels: Vec<Vec<SmallBox>>,
 }
+
+/// The tiles of a leaf, as far as they were asked for.
+type Tiles = [Option<Tile>; LEAF];
 
 /// A triangle in the frame.
 struct Tile {
     places: [DVec3; 3],
     /// The normal of its plane, and those of planes through its edges along that, pointing away from it.
     normals: [DVec3; 4],
+    /// What each normal may be off, in the sum of its components.
+    doubts: [f64; 4],
+    /// By how much boxes are larger than what they hold.
     slack: f64,
 }
 
@@ -88,22 +103,52 @@ impl Tile {
         let places = tree.places(triangle);
         let [a, b, c] = places;
         let normal = (b - a).cross(c - a);
-        let across = |from: DVec3, to: DVec3| (to - from).cross(normal).normalize_or_zero();
-        let normals = [normal.normalize_or_zero(), across(a, b), across(b, c), across(c, a)];
-        Self { places, normals, slack: 8.0 * f64::from(tree.slack) }
+        let length = |v: DVec3| v.abs().element_sum();
+        let doubt = ROUNDING * (length(b - a) + length(c - a));
+        let across = |from: DVec3, to: DVec3| (to - from).cross(normal);
+        let doubt_across = |from: DVec3, to: DVec3| ROUNDING * length(normal) + length(to - from) * doubt;
+        Self {
+            places,
+            normals: [normal, across(a, b), across(b, c), across(c, a)],
+            doubts: [doubt, doubt_across(a, b), doubt_across(b, c), doubt_across(c, a)],
+            slack: f64::from(tree.slack),
+        }
+    }
+
+    /// A corner in each of the planes.
+    fn origin(&self, plane: usize) -> DVec3 {
+        self.places[plane.saturating_sub(1)]
+    }
+
+    /// Whether another triangle is sure to lie beyond its plane or one of its edges.
+    fn has_beyond(&self, other: &Self) -> bool {
+        let heights = |k: usize| {
+            other.places.map(|place| {
+                let along = place - self.origin(k);
+                let room = self.doubts[k] * along.abs().element_sum() + ROUNDING * self.normals[k].abs().element_sum();
+                (self.normals[k].dot(along), room)
+            })
+        };
+        let over = heights(0);
+        over.iter().all(|(height, room)| height > room)
+            || over.iter().all(|(height, room)| *height < -room)
+            || (1..4).any(|k| heights(k).iter().all(|(height, room)| height > room))
     }
 
     /// Whether it is sure to be apart from a box.
+    #[inline]
     fn misses(&self, bounds: &SmallBox) -> bool {
         let [min, max] = [bounds.min, bounds.max].map(|v| DVec3::from_array(v.map(f64::from)));
-        let (middle, half) = (0.5 * (min + max), 0.5 * (max - min));
-        let [a, b, c] = self.places;
-        let height =
-            |k: usize, at: DVec3| (self.normals[k].dot(middle - at), self.normals[k].abs().dot(half) + self.slack);
-        let (over, reach) = height(0, a);
+        let (middle, half) = (0.5 * (min + max), 0.5 * (max - min) + self.slack);
+        let height = |k: usize| {
+            let along = middle - self.origin(k);
+            let reach = self.normals[k].abs().dot(half) + self.doubts[k] * (along.abs() + half).element_sum();
+            (self.normals[k].dot(along), reach)
+        };
+        let (over, reach) = height(0);
         over.abs() > reach
-            || [(1, a), (2, b), (3, c)].iter().any(|(k, at)| {
-                let (beyond, reach) = height(*k, *at);
+            || (1..4).any(|k| {
+                let (beyond, reach) = height(k);
                 beyond > reach
             })
     }
@@ -114,18 +159,23 @@ impl<'a> SelfTree<'a> {
         let order = operand.tree().order();
         let bounds = operand.tree().all_bounds();
         let origin = if order.is_empty() { DVec3::ZERO } else { 0.5 * bounds.min + 0.5 * bounds.max };
-        let size = (bounds.max - origin).length();
+        // by its size, which single precision may not hold
+        let scale = (0.5 * bounds.max - 0.5 * bounds.min).max_element().recip();
         let mut tree = Self {
             operand,
-            frame: frame(operand, order),
+            frame: if scale.is_finite() { frame(operand, order) * scale } else { DMat3::IDENTITY },
             origin,
-            slack: SLACK * narrowed(size),
+            slack: if scale.is_finite() { SLACK } else { f32::INFINITY },
             order,
+            simple: Vec::new(),
             triangles: Vec::new(),
             levels: Vec::new(),
         };
         let own = &tree;
         tree.triangles = order.par_iter().with_min_len(CHUNK).map(|triangle| own.small_box(*triangle)).collect();
+        let simple = |vertex: u32| if operand.is_simple(vertex) { vertex } else { OTHER };
+        let of_triangle = |triangle: &u32| operand.triangles()[*triangle as usize].map(simple);
+        tree.simple = order.par_iter().with_min_len(CHUNK).map(of_triangle).collect();
         let union = |boxes: &[SmallBox]| boxes[1..].iter().fold(boxes[0], |all, one| all.union(one));
         if !order.is_empty() {
             tree.levels.push(tree.triangles.par_chunks(LEAF).with_min_len(CHUNK).map(union).collect());
@@ -217,7 +267,7 @@ impl<'a> SelfTree<'a> {
         }
         let leaf = self.leaf(a);
         for i in leaf.clone() {
-            self.compare(i, i + 1..leaf.end, visit);
+            self.compare(i, i + 1..leaf.end, &mut Tiles::default(), visit);
         }
     }
 
@@ -230,9 +280,10 @@ impl<'a> SelfTree<'a> {
         match (a.level, b.level) {
             (0, 0) => {
                 let (first, second) = (self.leaf(a), self.leaf(b));
+                let mut tiles = Tiles::default();
                 for i in first {
                     if self.triangles[i].touches(of_b) {
-                        self.compare(i, second.clone(), visit);
+                        self.compare(i, second.clone(), &mut tiles, visit);
                     }
                 }
             }
@@ -266,24 +317,30 @@ impl<'a> SelfTree<'a> {
             return;
         }
         if node.level == 0 {
-            return self.compare(i, self.leaf(node), visit);
+            return self.compare(i, self.leaf(node), &mut Tiles::default(), visit);
         }
         self.open(node, |child| self.below_tile(i, tile, child, visit));
     }
 
-    /// Calls for those of some triangles that may touch one.
-    fn compare(&self, i: usize, others: std::ops::Range<usize>, visit: &mut impl FnMut(u32, u32)) {
+    /// Calls for those of some triangles of one leaf, whose tiles are kept, that may touch another triangle.
+    fn compare(&self, i: usize, others: std::ops::Range<usize>, tiles: &mut Tiles, visit: &mut impl FnMut(u32, u32)) {
         let mut tile = None;
+        let first = others.start;
         for j in others {
             if !self.triangles[i].touches(&self.triangles[j]) {
                 continue;
             }
             let (one, other) = (self.order[i], self.order[j]);
-            if self.operand.are_known_apart(one, other) {
+            let (p, q) = (&self.simple[i], &self.simple[j]);
+            if p.iter().any(|vertex| *vertex != OTHER && q.contains(vertex)) {
                 continue;
             }
             let tile = tile.get_or_insert_with(|| Tile::new(self, one));
-            if !tile.misses(&self.triangles[j]) && !Tile::new(self, other).misses(&self.triangles[i]) {
+            if tile.misses(&self.triangles[j]) {
+                continue;
+            }
+            let other_tile = tiles[j - first].get_or_insert_with(|| Tile::new(self, other));
+            if !other_tile.has_beyond(tile) && !tile.has_beyond(other_tile) {
                 visit(one, other);
             }
         }
