@@ -232,14 +232,10 @@ fn add_passing(mesh: &mut Mesh, own: &Operand<'_>, numbers: &[u32], passing: &[(
         material: own.material(entry.0),
     };
     let first = number32(mesh.faces.len());
-    if passing.len() < CHUNK {
-        mesh.triangles.extend(passing.iter().map(|entry| corners(entry).map(|vertex| numbers[vertex as usize])));
-        mesh.faces.extend(passing.iter().map(face));
-    } else {
-        let all = passing.par_iter().with_min_len(CHUNK);
-        mesh.triangles.par_extend(all.clone().map(|entry| corners(entry).map(|vertex| numbers[vertex as usize])));
-        mesh.faces.par_extend(all.map(face));
-    }
+    let all = passing.par_iter().with_min_len(CHUNK);
+    let triangle = |entry: &(u32, bool)| corners(entry).map(|vertex| numbers[vertex as usize]);
+    mesh.triangles.extend(all.clone().map(triangle).collect::<Vec<[u32; 3]>>());
+    mesh.faces.extend(all.map(face).collect::<Vec<MeshFace>>());
     mesh.triangle_faces.extend(first..first + number32(passing.len()));
 }
 

@@ -7,7 +7,7 @@ use planecut_kernel::sign::Counts;
 use super::{EvaluateError, Evaluation, ModelSummary, StageTimes, UnboundedBrushes, summary_of};
 use crate::arrangement::{CombinedMeshes, Inside, Leaf, combine_leaves};
 use crate::base::Clock;
-use crate::body::{Body, BrushBodies, BrushBody, BuiltBodies, OuterBox, build_other_bodies};
+use crate::body::{Body, BrushBodies, BrushBody, BuiltBodies, OuterBox, build_bodies, build_other_bodies};
 use crate::expression::{Expression, Restriction};
 use crate::ids::{Id, KeptLeafId, LeafId};
 use crate::mesh::Mesh;
@@ -23,8 +23,7 @@ pub(super) fn evaluate_meshes(
 ) -> Result<Evaluation, EvaluateError> {
     let begin = Clock::start();
     let brushes = model.tree.brushes();
-    let convex: Vec<Brush> = brushes.iter().filter(|brush| !brush.is_mesh()).cloned().collect();
-    let places: Vec<usize> = (0..brushes.len()).filter(|k| !brushes[*k].is_mesh()).collect();
+    let (convex, places) = convex_ones(brushes);
     let BrushBodies { mut table, planes, bodies, signs } = build_other_bodies(&convex, built, size);
     let summary = summary_among(&table, &bodies, brushes, &places);
     let expression = Expression::new(model.tree.nodes());
@@ -65,6 +64,19 @@ pub(super) fn evaluate_meshes(
     let times = StageTimes { evaluate: begin.elapsed(), ..StageTimes::default() };
     let signs: Counts = signs;
     Ok(Evaluation { mesh, solid, noise, model: summary, signs, times })
+}
+
+/// What leaves hold, some of which are closed meshes.
+pub(super) fn summarize(brushes: &[Brush]) -> ModelSummary {
+    let (convex, places) = convex_ones(brushes);
+    let BrushBodies { table, bodies, .. } = build_bodies(&convex);
+    summary_among(&table, &bodies, brushes, &places)
+}
+
+/// The leaves that are convex bodies, and their places.
+fn convex_ones(brushes: &[Brush]) -> (Vec<Brush>, Vec<usize>) {
+    let convex = brushes.iter().zip(0..).filter(|(brush, _)| !brush.is_mesh());
+    convex.map(|(brush, place)| (brush.clone(), place)).unzip()
 }
 
 /// What a model holds, brushes numbered among all leaves.

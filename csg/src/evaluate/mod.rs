@@ -104,9 +104,13 @@ pub enum EvaluateError {
     Combine(#[from] CombineError),
 }
 
-/// Counts planes and brushes and finds empty and unbounded ones, without evaluating the tree.
+/// Counts planes and brushes and finds empty and unbounded ones, without evaluating the tree. Closed meshes count as brushes; planes and
+/// volumes are those of convex bodies.
 #[must_use]
 pub fn summarize(model: &Model) -> ModelSummary {
+    if model.tree.has_meshes() {
+        return meshes::summarize(model.tree.brushes());
+    }
     let BrushBodies { table, bodies, .. } = build_bodies(model.tree.brushes());
     summary_of(&table, &bodies)
 }
