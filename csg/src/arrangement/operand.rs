@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use glam::DVec3;
+use planecut_kernel::compare_exactly;
 use planecut_parallel::prelude::*;
 use rustc_hash::FxHashMap;
 
@@ -59,6 +60,39 @@ struct BodyPlanes {
     at_vertex: Vec<Option<[PlaneId; 3]>>,
 }
 
+/// The corners of a convex body, each once: the planes of a face and its edges name those where more than three planes meet differently.
+#[derive(Debug, Default)]
+struct BodyCorners {
+    positions: Vec<DVec3>,
+    at_vertex: Vec<Option<[PlaneId; 3]>>,
+    /// The planes that meet in each vertex.
+    planes: Vec<[PlaneId; 3]>,
+    at_place: FxHashMap<[u64; 3], Vec<u32>>,
+}
+
+impl BodyCorners {
+    /// The number of the corner where three planes meet, near a place.
+    fn number(&mut self, table: &PlaneTable, planes: [PlaneId; 3], near: DVec3) -> u32 {
+        let at = table.position(planes).unwrap_or(near);
+        let there = self.at_place.entry((at + 0.0).to_array().map(f64::to_bits)).or_default();
+        let rows = |planes: [PlaneId; 3]| planes.map(|plane| table.row(plane));
+        let is_one = |other: &&u32| {
+            let own = self.planes[**other as usize];
+            own == planes || compare_exactly(rows(own), rows(planes), &[0, 1, 2]).is_eq()
+        };
+        if let Some(known) = there.iter().find(is_one) {
+            return *known;
+        }
+        let fresh = number32(self.positions.len());
+        there.push(fresh);
+        let is_there = planes.iter().all(|plane| is_surely_on(table, *plane, at));
+        self.positions.push(at);
+        self.at_vertex.push((!is_there).then_some(planes));
+        self.planes.push(planes);
+        fresh
+    }
+}
+
 /// Whether floating-point filters and expansions hold for these coordinates.
 fn are_safe(positions: &[DVec3]) -> bool {
     let is_safe = |v: f64| v == 0.0 || SAFE.contains(&v.abs());
@@ -97,8 +131,7 @@ impl<'a> Operand<'a> {
 
     /// A convex body whose planes are in a table.
     pub(super) fn of_body(table: &PlaneTable, body: &Body) -> Self {
-        let mut number: FxHashMap<crate::ids::CornerId, u32> = FxHashMap::default();
-        let (mut positions, mut at_vertex) = (Vec::new(), Vec::new());
+        let mut corners = BodyCorners::default();
         let (mut triangles, mut of_triangle) = (Vec::new(), Vec::new());
         let mut ring = Vec::new();
         for face in &body.faces {
@@ -106,19 +139,14 @@ impl<'a> Operand<'a> {
             ring.clear();
             for (k, corner) in body.corners(face).enumerate() {
                 let planes = [face.plane, edges[k], edges[(k + 1) % edges.len()]];
-                ring.push(*number.entry(corner.number).or_insert_with(|| {
-                    let at = table.position(planes).unwrap_or(corner.at);
-                    let is_there = planes.iter().all(|plane| is_surely_on(table, *plane, at));
-                    positions.push(at);
-                    at_vertex.push((!is_there).then_some(planes));
-                    number32(positions.len()) - 1
-                }));
+                ring.push(corners.number(table, planes, corner.at));
             }
             for k in 1..ring.len().saturating_sub(1) {
                 triangles.push([ring[0], ring[k], ring[k + 1]]);
                 of_triangle.push((face.plane, face.material));
             }
         }
+        let BodyCorners { positions, at_vertex, .. } = corners;
         let twins = HalfEdges::new(positions.len(), &triangles).twins();
         let all: Vec<u32> = (0..number32(triangles.len())).collect();
         let tree = TriangleTree::new(&all, |t| {

@@ -214,7 +214,7 @@ impl Walk<'_> {
                 if bounds.touches(other_bounds) {
                     let (probe, edges) = probe.get_or_insert_with(|| {
                         let probe = self.probe(0, *one);
-                        let edges = probe.plane.edge_planes();
+                        let edges = probe.plane.edge_planes(self.input);
                         (probe, edges)
                     });
                     if misses(self.input, probe, edges, other_bounds) {
@@ -241,7 +241,7 @@ impl Walk<'_> {
         for &triangle in tree.triangles(leaf) {
             if self.bounds(k, triangle).touches(other.bounds(node)) {
                 let probe = self.probe(k, triangle);
-                self.below(&probe, &probe.plane.edge_planes(), node, is_first);
+                self.below(&probe, &probe.plane.edge_planes(self.input), node, is_first);
             }
         }
     }

@@ -161,8 +161,12 @@ impl RoundedPlane {
 
     /// Planes through the edges along the normal, their normals pointing away from the triangle; and magnitudes that bound what rounding
     /// does to these.
-    pub(super) fn edge_planes(&self) -> [EdgePlane; 3] {
+    pub(super) fn edge_planes(&self, input: &Input<'_>) -> [EdgePlane; 3] {
         let places = self.triangle.places();
+        if input.half_space(self.triangle.number).is_some() {
+            // short edges between rounded corners may run anywhere
+            return places.map(|at| EdgePlane { at, normal: DVec3::ZERO, permanent: DVec3::ZERO });
+        }
         [0, 1, 2].map(|k| {
             let (from, to) = (places[k], places[(k + 1) % 3]);
             let along = to - from;

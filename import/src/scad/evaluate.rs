@@ -15,7 +15,7 @@ use super::materials::Materials;
 use super::problem::{Body, Geometry, Made, Problem};
 use super::syntax::Node;
 use super::turn::{Combination, Turn};
-use super::{ScadImport, ScadOptions, extrusion, flat, import, leaf, polyhedron, solid, text};
+use super::{ScadImport, ScadOptions, extrusion, flat, import, leaf, polyhedron, solid, surface, text};
 use crate::Warning;
 use crate::lines::LineTable;
 use crate::source::{at_most, planes_of};
@@ -24,8 +24,18 @@ use crate::source::{at_most, planes_of};
 const MAX_PLANES: usize = 1 << 23;
 
 /// Nodes that make new bodies.
-const MAKERS: [&str; 9] =
-    ["cube", "sphere", "cylinder", "polyhedron", "import", "hull", "minkowski", "linear_extrude", "rotate_extrude"];
+const MAKERS: [&str; 10] = [
+    "cube",
+    "sphere",
+    "cylinder",
+    "polyhedron",
+    "import",
+    "surface",
+    "hull",
+    "minkowski",
+    "linear_extrude",
+    "rotate_extrude",
+];
 
 /// Nodes that make something of their children in a frame of its own, and put that in place.
 const IN_PLACE_LATER: [&str; 6] = ["minkowski", "linear_extrude", "rotate_extrude", "projection", "offset", "resize"];
@@ -221,16 +231,8 @@ impl<'s, 'a> Evaluator<'s, 'a> {
             "square" => made_flat(leaf::square(node)),
             "circle" => made_flat(leaf::circle(node)),
             "polyhedron" => Ok(self.polyhedron(turn)),
-            "import" => match import::mesh(node, &self.options.folder, material)? {
-                Imported::Solid(tree, messages) => {
-                    messages.into_iter().for_each(|message| self.warn(turn, message));
-                    Ok(Some(tree.into()))
-                }
-                Imported::LeftOut(why) => {
-                    self.warn_of_loss(turn, format!("an import is left out: {why}"));
-                    Ok(Some(Tree::empty().into()))
-                }
-            },
+            "import" => Ok(self.imported(turn, import::mesh(node, &self.options.folder, material)?)),
+            "surface" => Ok(self.imported(turn, surface::solid(node, &self.options.folder, material)?)),
             "polygon" => {
                 let (outline, message) = leaf::polygon(node)?;
                 if let Some(message) = message {
@@ -248,6 +250,21 @@ impl<'s, 'a> Evaluator<'s, 'a> {
                 format!("`{}`, which is not supported", node.name),
                 "a node that is (with --keep-going others are left out)",
             )),
+        }
+    }
+
+    /// What another file gives; like OpenSCAD, goes on without it where that is nothing.
+    fn imported(&mut self, turn: Turn<'s, 'a>, imported: Imported) -> Option<Geometry> {
+        match imported {
+            Imported::Solid(tree, messages) => {
+                messages.into_iter().for_each(|message| self.warn(turn, message));
+                Some(tree.into())
+            }
+            Imported::LeftOut(why) => {
+                let name = if turn.node.name == "import" { "an import" } else { "a surface" };
+                self.warn_of_loss(turn, format!("{name} is left out: {why}"));
+                Some(Tree::empty().into())
+            }
         }
     }
 

@@ -5,7 +5,7 @@
 //! become materials, and where OpenSCAD is lenient this is too, with a warning.
 //!
 //! The stages, each in its own file: bytes → tokens (`token`), tokens → nodes (`syntax`, `value`), what nodes inherit
-//! (`frame`, `materials`), nodes → bodies and regions (`leaf`, `polyhedron`, `import`, `fragments`,
+//! (`frame`, `materials`), nodes → bodies and regions (`leaf`, `polyhedron`, `import`, `surface`, `fragments`,
 //! `extrusion`), and their combination
 //! (`evaluate`, `flat`, `solid`). No stage is recursive, so trees can be nested to any depth.
 //!
@@ -24,6 +24,7 @@ mod materials;
 mod polyhedron;
 mod problem;
 mod solid;
+mod surface;
 mod syntax;
 #[cfg_attr(not(feature = "text"), path = "text_missing.rs")]
 mod text;
@@ -49,7 +50,7 @@ pub use crate::source::MAX_TEXT;
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct ScadOptions {
-    /// Where files that `import` names are looked for; the current folder by default.
+    /// Where files that `import` and `surface` name are looked for; the current folder by default.
     pub folder: PathBuf,
     /// Leaves out what cannot be made, with a warning, instead of failing.
     pub keep_going: bool,
@@ -89,8 +90,8 @@ pub struct ScadImport {
 /// assert!((evaluation.solid.volume - (32.0 - 1.0)).abs() < 1e-12);
 /// assert_eq!(import.model.materials[1].name, "#ff0000");
 ///
-/// let error = read_scad(b"cube(1);\nsurface(file = \"a.png\");", "hill.csg", &ScadOptions::default()).unwrap_err();
-/// assert!(error.to_string().starts_with("hill.csg:2: found `surface`, "));
+/// let error = read_scad(b"cube(1);\nteapot(size = 2);", "hill.csg", &ScadOptions::default()).unwrap_err();
+/// assert!(error.to_string().starts_with("hill.csg:2: found `teapot`, "));
 /// # Ok(())
 /// # }
 /// ```

@@ -4,6 +4,7 @@ use glam::DVec3;
 use planecut_check::{CheckOptions, check_mesh};
 use planecut_csg::{CombinedMeshes, Inside, MeshBody, combine_meshes};
 use planecut_testkit::random::Rng;
+use planecut_testkit::scene::scaled;
 
 use super::soup::Soup;
 use super::winding::winding;
@@ -41,7 +42,7 @@ fn by_table<'a>(table: u32, count: usize) -> impl Fn(&Inside<'_>) -> bool + 'a {
 #[test]
 fn points_beside_triangles_are_where_winding_numbers_say() {
     let mut asked = 0;
-    for seed in 0..1000 {
+    for seed in 0..scaled(1000) {
         let mut rng = Rng::spread(seed);
         let soups = soups(&mut rng);
         let table = u32::try_from(rng.bits() >> 40).expect("24 bits") & !1;
@@ -79,7 +80,7 @@ fn points_beside_triangles_are_where_winding_numbers_say() {
 /// `|A ∪ B| + |A ∩ B| = |A| + |B|`, `|A − B| + |A ∩ B| = |A|`, `A − A = ∅`, whatever is done to the coordinates.
 #[test]
 fn volumes_follow_inclusion_and_exclusion() {
-    for seed in 0..1000 {
+    for seed in 0..scaled(1000) {
         let mut rng = Rng::spread(seed + 10_000);
         let mut soups = soups(&mut rng);
         let (scale, shift) = match seed % 6 {

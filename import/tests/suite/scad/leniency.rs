@@ -176,7 +176,7 @@ fn outlines_on_both_sides_of_the_axis_are_left_out() {
 #[test]
 fn keeping_on_leaves_out_what_is_not_supported() {
     let options = ScadOptions { keep_going: true, ..ScadOptions::default() };
-    let text = b"cube(1);\nsurface(file = \"a.dat\");\ndifference() { cube(9); frob() cube(8); }";
+    let text = b"cube(1);\nsurface(file = \"a.png\");\ndifference() { cube(9); frob() cube(8); }";
     let ScadImport { model, warnings } = read_scad(text, "test.csg", &options).expect("goes on");
     assert_eq!(warnings.iter().map(|warning| warning.line).collect::<Vec<_>>(), [2, 3]);
     assert!(warnings.iter().all(|warning| warning.message.contains("is left out")), "{warnings:?}");

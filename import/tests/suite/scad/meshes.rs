@@ -63,3 +63,30 @@ fn an_import_is_a_mesh_in_the_colour_of_its_node() {
     assert_eq!(warning.left_out, 1);
     assert!(warning.message.contains("found 4 open edges"), "{warning}");
 }
+
+/// The volume of a field of heights is the sum of the means of its cells, over the bottom.
+#[test]
+fn a_surface_is_a_closed_mesh() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("hill.dat"), "# heights\n0 1 2\n\n1 2 3\n2 3 10\n").expect("a file");
+    std::fs::write(folder.path().join("torn.dat"), "0 1\n1 high\n").expect("a file");
+    let options = ScadOptions { folder: folder.path().to_owned(), ..ScadOptions::default() };
+    let solid = |text: &str| {
+        let import = read_scad(text.as_bytes(), "test.csg", &options).expect("a tree");
+        (evaluate(&import.model).expect("a mesh").solid, import.warnings)
+    };
+    let means = [[0.0, 1.0, 1.0, 2.0], [1.0, 2.0, 2.0, 3.0], [1.0, 2.0, 2.0, 3.0], [2.0, 3.0, 3.0, 10.0]];
+    let volume: f64 = means.iter().map(|corners| corners.iter().sum::<f64>() / 4.0).sum::<f64>() + 4.0;
+    let (hill, warnings) = solid("surface(file = \"hill.dat\", center = true, invert = false);");
+    assert!((hill.volume - volume).abs() < 1e-12 && warnings.is_empty(), "{} {warnings:?}", hill.volume);
+    assert_eq!((hill.min.to_array(), hill.max.to_array()), ([-1.0, -1.0, -1.0], [1.0, 1.0, 10.0]));
+    let (cut, _) = solid("difference() { surface(file = \"hill.dat\"); cube([9, 9, 20]); }");
+    assert_eq!(cut.volume, 4.0, "what lies below 0");
+    let (nothing, warnings) = solid("surface(file = \"torn.dat\"); surface(file = \"gone.dat\"); cube(1);");
+    assert_eq!(nothing.volume, 1.0);
+    let messages: Vec<&str> = warnings.iter().map(|warning| warning.message.as_str()).collect();
+    assert!(
+        messages[0].contains("`torn.dat`:2: found `high`") && messages[1].contains("cannot be read"),
+        "{messages:?}"
+    );
+}
