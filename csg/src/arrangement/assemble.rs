@@ -7,7 +7,7 @@ use rustc_hash::FxHashMap;
 use super::Arranged;
 use super::facets::FacetKind;
 use super::fill::FilledFaces;
-use super::input::{Input, normal_of};
+use super::input::Input;
 use super::kept::{Kept, KeptFacets};
 use super::measures::{Sums, bounds_of, of_facets, of_triangles, total};
 use super::merge::Face;
@@ -151,11 +151,11 @@ impl Arranged<'_> {
             for face in cut_here {
                 let before = part.whole[face].number() - first.number();
                 let (now, later) = rest.split_at(rest.partition_point(|(triangle, _)| *triangle < before));
-                add_passing(&mut mesh, own, numbers, now);
+                add_passing(&mut mesh, (input, operand), numbers, now);
                 add_cut(&mut mesh, face);
                 rest = later;
             }
-            add_passing(&mut mesh, own, numbers, rest);
+            add_passing(&mut mesh, (input, operand), numbers, rest);
         }
         (part.whole.len()..cut.faces.len()).for_each(|face| add_cut(&mut mesh, face));
         mesh
@@ -222,13 +222,14 @@ fn number_vertices(
 }
 
 /// Adds triangles that pass through.
-fn add_passing(mesh: &mut Mesh, own: &Operand<'_>, numbers: &[u32], passing: &[(u32, bool)]) {
+fn add_passing(mesh: &mut Mesh, (input, operand): (&Input<'_>, usize), numbers: &[u32], passing: &[(u32, bool)]) {
+    let own = &input.operands[operand];
     let corners = |(triangle, is_flipped): &(u32, bool)| {
         let [a, b, c] = own.triangles()[*triangle as usize];
         if *is_flipped { [a, c, b] } else { [a, b, c] }
     };
     let face = |entry: &(u32, bool)| MeshFace {
-        normal: normal_of(corners(entry).map(|vertex| own.positions()[vertex as usize])),
+        normal: input.normal(&input.triangle(operand, entry.0), entry.1),
         material: own.material(entry.0),
     };
     let first = number32(mesh.faces.len());

@@ -27,16 +27,13 @@ pub(super) fn evaluate_meshes(
     let BrushBodies { mut table, planes, bodies, signs } = build_other_bodies(&convex, built, size);
     let summary = summary_among(&table, &bodies, brushes, &places);
     let expression = Expression::new(model.tree.nodes());
-    if expression.base() {
-        return Err(EvaluateError::Unbounded);
-    }
     let keeps = unbounded == UnboundedBrushes::Keep && !summary.unbounded.is_empty();
-    let outer = keeps.then(|| OuterBox::new(&mut table));
+    let outer = (keeps || expression.base()).then(|| OuterBox::new(&mut table));
     let bodies: Vec<Option<Body>> = bodies
         .into_iter()
         .enumerate()
         .map(|(k, body)| match (body, &outer) {
-            (BrushBody::Unbounded, Some(outer)) => {
+            (BrushBody::Unbounded, Some(outer)) if keeps => {
                 let materials: Vec<MaterialId> = convex[k].materials().collect();
                 outer.cut(&table, &planes[k], &materials).bounded()
             }
@@ -54,8 +51,14 @@ pub(super) fn evaluate_meshes(
             leaves[*place] = Leaf::Body(body);
         }
     }
+    // where the tree holds what no leaf holds, the box is a leaf of its own, so that it ends somewhere
+    let everything = outer.filter(|_| expression.base()).and_then(|outer| outer.cut(&table, &[], &[]).bounded());
+    leaves.extend(everything.as_ref().map(Leaf::Body));
     let restriction = RefCell::new(Restriction::default());
-    let holds = |inside: &Inside<'_>| holds(&mut restriction.borrow_mut(), &expression, inside);
+    let (count, is_boxed) = (brushes.len(), everything.is_some());
+    let holds = |inside: &Inside<'_>| {
+        (!is_boxed || inside.of(count)) && holds(&mut restriction.borrow_mut(), &expression, inside, count)
+    };
     let combined = combine_leaves(&leaves, Some(&table), model.materials.clone(), holds)?;
     let CombinedMeshes { mesh, solid, noise } = combined;
     if outer.is_some_and(|outer| reaches(&mesh, &table, &outer)) {
@@ -89,9 +92,12 @@ fn summary_among(table: &PlaneTable, bodies: &[BrushBody], brushes: &[Brush], pl
     summary
 }
 
-/// Whether the tree holds the points that lie in some of its leaves.
-fn holds(restriction: &mut Restriction, expression: &Expression, inside: &Inside<'_>) -> bool {
-    let leaves: Vec<LeafId> = inside.all().map(LeafId::from_index).collect();
+/// Whether the tree holds the points that lie in some of the first `count` leaves, which are its own.
+fn holds(restriction: &mut Restriction, expression: &Expression, inside: &Inside<'_>, count: usize) -> bool {
+    let leaves: Vec<LeafId> = inside.all().filter(|leaf| *leaf < count).map(LeafId::from_index).collect();
+    if leaves.is_empty() {
+        return expression.base();
+    }
     restriction.restrict(expression, &leaves);
     for leaf in KeptLeafId::all(leaves.len()) {
         restriction.set(expression, leaf, 0, true);

@@ -115,6 +115,12 @@ fn half_spaces_cut_meshes_and_do_not_end() {
     assert!((solid(cube() - half()).solid.volume - 4.0).abs() < 1e-12);
     assert!((solid(cube() & half().complement()).solid.volume - 4.0).abs() < 1e-12);
     let model = |tree| Model { materials: vec![Material::named("stone")], tree };
+    // all of space less six half-spaces is a cube
+    let space = Tree::everything();
+    let sides = DVec3::AXES.into_iter().flat_map(|axis| [axis, -axis]);
+    let outside = sides.map(|side| Tree::from(planecut_testkit::scene::brush([half_space(-side, -2.0)])));
+    let block = Tree::difference(std::iter::once(space).chain(outside));
+    assert!((solid(block - cube()).solid.volume - 56.0).abs() < 1e-12);
     for tree in [cube() | half(), cube().complement(), half() - cube()] {
         assert!(matches!(evaluate(&model(tree)), Err(EvaluateError::Unbounded)));
     }
