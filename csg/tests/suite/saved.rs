@@ -61,3 +61,30 @@ fn trees_that_are_not_well_formed_are_refused() {
     assert!(changed("/lines", json!([0, 0, 0])).contains("nonzero"));
     assert!(changed("/brushes/0/faces/0/half_space", json!([0.0, 0.0, 0.0, 1.0])).contains("normal"));
 }
+
+#[test]
+fn closed_meshes_come_back_and_are_checked() {
+    use planecut_csg::{ClosedMesh, MeshBody, WindingRule};
+    let mesh = planecut_testkit::meshes::box_mesh([0.1; 3].into(), [0.7; 3].into(), "steel");
+    let closed = ClosedMesh::new(&mesh.positions, &mesh.triangles, |triangle| u32::from(triangle > 5)).expect("closed");
+    let turn = Transform::rotation([1.0, 2.0, 3.0], 40.0).expect("an axis");
+    let body = MeshBody::new(closed, vec![MaterialId(1), MaterialId(0)]).with_rule(WindingRule::Odd);
+    let body = body.transformed(&turn).expect("near the origin");
+    assert_eq!(through_data(&body), body);
+    let mut model = model();
+    model.tree = Tree::from(body.clone()).with_name("mesh") | model.tree;
+    let copy = through_data(&model);
+    assert_eq!(copy, model);
+    assert_eq!(evaluate(&copy).expect("it is bounded").mesh, evaluate(&model).expect("it is bounded").mesh);
+    let data = to_value(&body).expect("it can be written");
+    let changed = |key: &str, value: Value| {
+        let mut data = data.clone();
+        data[key] = value;
+        refusal::<MeshBody>(data)
+    };
+    assert_eq!(changed("surfaces", json!([0])), "the mesh has 1 surfaces, but 12 triangles");
+    assert!(changed("materials", json!([0])).starts_with("a triangle has surface 1, expected a number below 1"));
+    let mut triangles = data["triangles"].as_array().expect("triangles").clone();
+    triangles[3] = triangles[2].clone();
+    assert!(changed("triangles", json!(triangles)).contains("expected a closed mesh"));
+}

@@ -1,8 +1,8 @@
 //! Single cases: what is refused, winding rules, what passes through.
 
 use glam::DVec3;
+use planecut_csg::{Brush, Material, MaterialId, Mesh, Model, Transform, Tree, evaluate};
 use planecut_csg::{ClosedMesh, ClosedMeshError, MeshBody, WindingRule, combine_meshes};
-use planecut_csg::{Material, MaterialId, Mesh};
 use planecut_testkit::meshes::box_mesh;
 
 fn closed(mesh: &Mesh) -> MeshBody {
@@ -111,4 +111,45 @@ fn materials_are_those_of_the_triangles() {
         assert_eq!(face.material == MaterialId(1), face.normal == DVec3::X, "{face:?}");
     }
     assert!(mesh.faces.iter().any(|face| face.normal == DVec3::X));
+}
+
+/// The triangle of the first open edge is that of the list that was given, also where others before it were left out.
+#[test]
+fn the_triangle_of_an_open_edge_is_the_one_that_was_given() {
+    let mesh = cube(0.0);
+    let mut triangles = vec![[0, 0, 1], [2, 2, 2]];
+    triangles.extend(&mesh.triangles);
+    let missing = triangles.remove(6);
+    let error = ClosedMesh::new(&mesh.positions, &triangles, |_| 0).expect_err("a triangle is missing");
+    let ClosedMeshError::Open { triangle, from, to, count } = error else { panic!("{error}") };
+    assert_eq!(count, 3);
+    let given = triangles[triangle].map(|vertex| mesh.positions[vertex as usize]);
+    assert!((0..3).any(|k| (given[k], given[(k + 1) % 3]) == (from, to)), "triangle {triangle}, {from} to {to}");
+    assert!(missing.iter().filter(|vertex| triangles[triangle].contains(vertex)).count() == 2);
+}
+
+/// Trees move, paint and name meshes as they do brushes.
+#[test]
+fn trees_move_paint_and_name_meshes() {
+    let body = closed(&cube(0.0));
+    let block = Brush::cuboid(DVec3::splat(0.5), DVec3::splat(1.5), MaterialId(0));
+    let tree = (Tree::from(body.clone()) - block.into()).with_name("notched").with_material(MaterialId(1));
+    let turn = Transform::from_columns([[0.0, 2.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, 2.0], [5.0, 0.0, 0.0]]);
+    let tree = tree.transformed(&turn.expect("a mirror image")).expect("in range") | Tree::from(body).with_name("cube");
+    let materials = vec![Material::named("stone"), Material::named("brass")];
+    let found = evaluate(&Model { materials: materials.clone(), tree: tree.clone() }).expect("a solid");
+    assert_eq!((found.solid.volume, found.solid.area), (8.0, 30.0));
+    assert_eq!((found.solid.min, found.solid.max), (DVec3::ZERO, DVec3::new(7.0, 2.0, 2.0)));
+    for (triangle, face) in found.mesh.triangles.iter().zip(&found.mesh.triangle_faces) {
+        let is_brass = found.mesh.positions[triangle[0] as usize].x > 3.0;
+        assert_eq!(found.mesh.faces[*face as usize].material, MaterialId(u32::from(is_brass)));
+    }
+    let parts = tree.into_named_parts();
+    let names: Vec<Option<&str>> = parts.iter().map(|(name, _)| name.as_deref()).collect();
+    assert_eq!(names, [Some("notched"), Some("cube")]);
+    let volumes: Vec<f64> = parts
+        .into_iter()
+        .map(|(_, tree)| evaluate(&Model { materials: materials.clone(), tree }).expect("a solid").solid.volume)
+        .collect();
+    assert_eq!(volumes, [7.0, 1.0]);
 }

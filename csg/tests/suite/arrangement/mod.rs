@@ -1,6 +1,9 @@
 //! Combinations of closed meshes.
 
+mod bodies;
 mod cases;
+mod coincidences;
+mod integers;
 mod mixed;
 mod random;
 pub(crate) mod soup;
