@@ -120,9 +120,8 @@ impl<'a> Pair<'a> {
     fn new(input: &'a Input<'a>, probes: [&'a Probe; 2]) -> Self {
         let mut corners = probes.map(|probe| probe.triangle.corners);
         let [first, second] = &mut corners;
-        let is_one = |a: &Corner, b: &Corner| {
-            a.vertex == b.vertex || a.at == b.at && (!input.has_bodies || are_at_one_place(input, a, b))
-        };
+        let is_one =
+            |a: &Corner, b: &Corner| a.vertex == b.vertex || a.at == b.at && are_one(input, a.vertex, b.vertex);
         let like = first.map(|corner| second.iter().position(|other| is_one(&corner, other)));
         for (corner, like) in first.iter().zip(like) {
             if let Some(like) = like {
@@ -181,12 +180,6 @@ impl<'a> Pair<'a> {
             && (one.plane.has_beyond_an_edge(self.input, &self.corners[1])
                 || other.plane.has_beyond_an_edge(self.input, &self.corners[0]))
     }
-}
-
-#[cold]
-fn are_at_one_place(input: &Input<'_>, a: &Corner, b: &Corner) -> bool {
-    let is_there = |corner: &Corner| input.is_where_it_is_said(corner.vertex);
-    is_there(a) && is_there(b) || are_one(input, a.vertex, b.vertex)
 }
 
 /// Finds what two triangles have in common.

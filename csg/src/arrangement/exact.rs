@@ -14,10 +14,10 @@ use super::input::Input;
 use super::points::PointKey;
 use super::predicates::Corner;
 use super::surface::Surface;
-use crate::ids::{InputTriangleId, InputVertexId, PointId, TriangleId};
+use crate::ids::{Id, InputTriangleId, InputVertexId, PointId, TriangleId};
 
 /// A vector of big integers.
-type Vector = [IBig; 3];
+pub(super) type Vector = [IBig; 3];
 
 /// A point: coordinates times its weight, in units of the input, and the weight, above zero.
 #[derive(Debug, Clone)]
@@ -33,7 +33,8 @@ struct ExactPlane {
     offset: IBig,
 }
 
-fn integers(place: DVec3, lowest: i32) -> Vector {
+/// A place in a unit of which all coordinates are multiples, given by its exponent.
+pub(super) fn integers(place: DVec3, lowest: i32) -> Vector {
     place.to_array().map(|v| {
         if v == 0.0 {
             return IBig::ZERO;
@@ -43,7 +44,7 @@ fn integers(place: DVec3, lowest: i32) -> Vector {
     })
 }
 
-fn minus(a: &Vector, b: &Vector) -> Vector {
+pub(super) fn minus(a: &Vector, b: &Vector) -> Vector {
     [&a[0] - &b[0], &a[1] - &b[1], &a[2] - &b[2]]
 }
 
@@ -51,12 +52,12 @@ fn times(a: &Vector, factor: &IBig) -> Vector {
     [&a[0] * factor, &a[1] * factor, &a[2] * factor]
 }
 
-fn cross(a: &Vector, b: &Vector) -> Vector {
+pub(super) fn cross(a: &Vector, b: &Vector) -> Vector {
     let minor = |u: usize, v: usize| &a[u] * &b[v] - &a[v] * &b[u];
     [minor(1, 2), minor(2, 0), minor(0, 1)]
 }
 
-fn dot(a: &Vector, b: &Vector) -> IBig {
+pub(super) fn dot(a: &Vector, b: &Vector) -> IBig {
     &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
 }
 
@@ -123,7 +124,7 @@ impl ExactPoint {
 
     /// A point from what defines it.
     pub(super) fn new(surface: &Surface<'_>, key: &PointKey) -> Self {
-        let at = |point: PointId| Self::of_vertex(surface.input, surface.origins[point_index(point)]);
+        let at = |point: PointId| Self::of_vertex(surface.input, surface.origins[point.index()]);
         let plane = |triangle: TriangleId| ExactPlane::of_triangle(surface.input, surface.number(triangle));
         match *key {
             PointKey::Vertex(point) => at(point),
@@ -181,10 +182,6 @@ impl ExactPoint {
     }
 }
 
-fn point_index(point: PointId) -> usize {
-    crate::ids::Id::index(point)
-}
-
 /// The determinant of three points of a plane by two of their coordinates, times their weights.
 fn turn_value([a, b, c]: [&ExactPoint; 3], u: usize, v: usize) -> IBig {
     let minor = |p: &ExactPoint, q: &ExactPoint| &p.scaled[u] * &q.scaled[v] - &p.scaled[v] * &q.scaled[u];
@@ -196,9 +193,10 @@ pub(super) fn turn_of_points(points: [&ExactPoint; 3], axis: usize) -> Sign {
     sign_of(&turn_value(points, (axis + 1) % 3, (axis + 2) % 3))
 }
 
-/// Whether two vertices are at the same place.
+/// Whether two vertices with the same rounded place are one.
 pub(super) fn are_one(input: &Input<'_>, one: InputVertexId, other: InputVertexId) -> bool {
-    ExactPoint::of_vertex(input, one).is_at(&ExactPoint::of_vertex(input, other))
+    let are_there = || [one, other].iter().all(|vertex| input.is_where_it_is_said(*vertex));
+    !input.has_bodies || are_there() || ExactPoint::of_vertex(input, one).is_at(&ExactPoint::of_vertex(input, other))
 }
 
 /// The sign of the difference of one vertex and another along an axis.

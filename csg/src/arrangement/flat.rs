@@ -4,6 +4,8 @@ use dashu_int::IBig;
 use glam::{DVec3, Vec3Swizzles};
 use planecut_kernel::decompose;
 
+use super::exact::{Vector, cross, dot, integers, minus};
+
 /// Bound on the rounding of a component of a triangle's normal, in units of the magnitudes that it is a difference of.
 const BOUND: f64 = 4.0 * f64::EPSILON;
 
@@ -17,9 +19,8 @@ pub(super) fn is_surely_not_flat([a, b, c]: [DVec3; 3]) -> bool {
 
 /// Whether three places are on one line, exactly.
 pub(super) fn are_collinear(places: [DVec3; 3]) -> bool {
-    let [a, b, c] = integers(places);
-    let (p, q) = (minus(&b, &a), minus(&c, &a));
-    [(1, 2), (2, 0), (0, 1)].iter().all(|(u, v)| &p[*u] * &q[*v] == &p[*v] * &q[*u])
+    let [a, b, c] = in_one_unit(places);
+    cross(&minus(&b, &a), &minus(&c, &a)).iter().all(|component| *component == IBig::ZERO)
 }
 
 /// Whether four places are on one plane, exactly.
@@ -34,27 +35,14 @@ pub(super) fn are_coplanar(places: [DVec3; 4]) -> bool {
         let [a, b, c, d] = places.map(|DVec3 { x, y, z }| robust::Coord3D { x, y, z });
         return robust::orient3d(a, b, c, d) == 0.0;
     }
-    let [a, b, c, d] = integers(places);
-    let [p, q, r] = [b, c, d].map(|place| minus(&place, &a));
-    let minor = |u: usize, v: usize| &q[u] * &r[v] - &q[v] * &r[u];
-    &p[0] * minor(1, 2) + &p[1] * minor(2, 0) + &p[2] * minor(0, 1) == IBig::ZERO
+    let [a, b, c, d] = in_one_unit(places);
+    dot(&minus(&b, &a), &cross(&minus(&c, &a), &minus(&d, &a))) == IBig::ZERO
 }
 
 /// Places as integers in one unit.
-fn integers<const N: usize>(places: [DVec3; N]) -> [[IBig; 3]; N] {
+fn in_one_unit<const N: usize>(places: [DVec3; N]) -> [Vector; N] {
     let all = places.map(|place| place.to_array());
     let exponent = |v: &f64| if *v == 0.0 { None } else { Some(decompose(*v).1) };
     let lowest = all.as_flattened().iter().filter_map(exponent).min().unwrap_or(0);
-    let integer = |v: f64| {
-        if v == 0.0 {
-            return IBig::ZERO;
-        }
-        let (mantissa, exponent) = decompose(v);
-        IBig::from(mantissa) << usize::try_from(exponent - lowest).expect("the lowest exponent is no larger")
-    };
-    all.map(|place| place.map(integer))
-}
-
-fn minus(a: &[IBig; 3], b: &[IBig; 3]) -> [IBig; 3] {
-    [&a[0] - &b[0], &a[1] - &b[1], &a[2] - &b[2]]
+    places.map(|place| integers(place, lowest))
 }

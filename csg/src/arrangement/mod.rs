@@ -45,7 +45,7 @@ use rustc_hash::FxHashMap;
 
 use crate::base::{DisjointSets, map_chunks};
 use crate::closed_mesh::connectivity::NO_TWIN;
-use crate::ids::{Id, PointId, TriangleId, number32};
+use crate::ids::{Id, InputTriangleId, PointId, TriangleId, number32};
 pub use combine::{CombineError, CombinedMeshes, Inside, combine_meshes};
 pub(crate) use combine::{Leaf, combine_leaves};
 use contact::{Contacts, InputKey};
@@ -251,7 +251,7 @@ fn cut_lines(surface: &Surface<'_>, points: &Points, contacts: &Contacts, ends: 
 
 /// Pairs of triangles that touch, each once.
 fn pairs_of(surface: &Surface<'_>, contacts: &Contacts) -> Vec<[TriangleId; 2]> {
-    let of = |pair: &[crate::ids::InputTriangleId; 2]| pair.map(|triangle| surface.triangle_of(triangle));
+    let of = |pair: &[InputTriangleId; 2]| pair.map(|triangle| surface.triangle_of(triangle));
     let mut pairs: Vec<[TriangleId; 2]> = contacts.pairs.iter().map(of).collect();
     pairs.sort_unstable();
     pairs.dedup();

@@ -107,11 +107,7 @@ impl<'a> Surface<'a> {
         let fresh = PointId::from_index(self.positions.len());
         let key = (corner.at + 0.0).to_array().map(f64::to_bits);
         let there = at_place.entry(key).or_default();
-        let is_there = |vertex: InputVertexId| self.input.is_where_it_is_said(vertex);
-        let is_one = |other: &&PointId| {
-            let origin = self.origins[other.index()];
-            is_there(origin) && is_there(corner.vertex) || are_one(self.input, origin, corner.vertex)
-        };
+        let is_one = |other: &&PointId| are_one(self.input, self.origins[other.index()], corner.vertex);
         if let Some(known) = there.iter().find(is_one) {
             return *known;
         }
@@ -125,7 +121,7 @@ impl<'a> Surface<'a> {
         let Self { input, numbers, operands, triangle_number, .. } = self;
         for (k, (triangle, operand)) in numbers.iter().zip(&*operands).enumerate() {
             let operand = *operand as usize;
-            let (_, own) = (operand, triangle.number() - input.number(operand, 0).number());
+            let own = triangle.number() - input.number(operand, 0).number();
             for side in 0..3 {
                 let half_edge = 3 * number32(k) + side;
                 let twin = match input.operands[operand].twins()[(3 * own + side) as usize] {
@@ -255,9 +251,8 @@ fn core_vertices(input: &Input<'_>, contacts: &Contacts) -> Vec<bool> {
         for triangle in own.flat() {
             take(operand, *triangle);
         }
-        for (half_edge, _) in (0..).zip(own.twins()).filter(|(_, twin)| **twin == NO_TWIN) {
-            let _: u32 = half_edge;
-            take(operand, half_edge / 3);
+        for (triangle, _) in (0..).zip(own.twins().chunks(3)).filter(|(_, twins)| twins.contains(&NO_TWIN)) {
+            take(operand, triangle);
         }
     }
     for (operand, own) in input.operands.iter().enumerate() {

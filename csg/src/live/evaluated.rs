@@ -1,4 +1,4 @@
-//! A boundary that is evaluated anew by each edit, its faces numbered on.
+//! A boundary that is evaluated again by each edit, its faces numbered on.
 
 use std::cmp::Ordering;
 

@@ -36,7 +36,7 @@ impl<'a> LiveFace<'a> {
 
     /// The triangles, counter-clockwise seen from outside: for each corner the number of its vertex, equal for what is one
     /// corner of the solid as long as nothing changes there, and its position. While a brush of the model is a closed mesh,
-    /// vertices are numbered anew by each edit.
+    /// vertices are numbered again by each edit.
     pub fn triangles(&self) -> impl ExactSizeIterator<Item = [(u32, DVec3); 3]> + use<'a> {
         let Self(kind) = *self;
         let count = match kind {

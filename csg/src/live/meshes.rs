@@ -1,6 +1,6 @@
 //! Brushes of a live model that are closed meshes.
 //!
-//! As long as there is one, the boundary is that of the model as a tree, evaluated anew by each edit. What is kept for edits of
+//! As long as there is one, the boundary is that of the model as a tree, evaluated again by each edit. What is kept for edits of
 //! convex brushes is kept up all the time, with nothing in the place of each mesh: when the last mesh goes, it is all there.
 
 use super::evaluated::EvaluatedBoundary;

@@ -49,6 +49,21 @@ impl Sums {
     }
 }
 
+impl Sums {
+    /// Makes sure that no triangle faces against its face, and that volume and area are those given, of a part of a solid of some area: `moved`
+    /// sums what rounding may have moved, by as much as `off`.
+    fn agree_with(&self, [volume, area]: [f64; 2], area_of_all: f64, moved: &Self, off: f64) -> Result<(), Flaw> {
+        if self.folded > 0.0 {
+            return Err(Flaw::Folded);
+        }
+        let area_slack = PROOF * area_of_all + 4.0 * off * moved.perimeter;
+        let volume_slack = (PROOF * area_of_all.sqrt() + 4.0 * off) * area_of_all + 4.0 * f64::EPSILON * moved.cubes;
+        let (found_volume, found_area) = (self.six_volume / 6.0, 0.5 * self.twice_area);
+        let is_same = (found_area - area).abs() <= area_slack && (found_volume - volume).abs() <= volume_slack;
+        if is_same { Ok(()) } else { Err(Flaw::Measures) }
+    }
+}
+
 /// A mesh without rounding noise, or, where that would damage it, with it; proven to be the boundary of a solid.
 pub(crate) fn proven(mesh: Mesh, solid: &SolidMeasures) -> Result<(Mesh, Noise), Flaw> {
     if let Some((cleared, noise)) = without_noise(&mesh)
@@ -80,28 +95,14 @@ fn prove_cleared(mesh: &Mesh, solid: &SolidMeasures, before: &Mesh, noise: Noise
     let sums = sums_of(mesh, middle, off);
     // of what is gone, too
     let moved = if noise == Noise::default() { sums } else { sums_of(before, middle, off) };
-    if sums.folded > 0.0 {
-        return Err(Flaw::Folded);
-    }
-    let (volume, area) = (sums.six_volume / 6.0, 0.5 * sums.twice_area);
-    let area_slack = PROOF * solid.area + 4.0 * off * moved.perimeter;
-    let volume_slack = (PROOF * solid.area.sqrt() + 4.0 * off) * solid.area + 4.0 * f64::EPSILON * moved.cubes;
-    let is_same = (area - solid.area).abs() <= area_slack && (volume - solid.volume).abs() <= volume_slack;
-    if is_same { Ok(()) } else { Err(Flaw::Measures) }
+    sums.agree_with([solid.volume, solid.area], solid.area, &moved, off)
 }
 
 /// Checks a part of a mesh against the volume and area of what it was made of, seen from a point near the middle of a solid of some area.
-pub(crate) fn prove_part(part: &Mesh, middle: DVec3, [volume, area]: [f64; 2], area_of_all: f64) -> Result<(), Flaw> {
+pub(crate) fn prove_part(part: &Mesh, middle: DVec3, measures: [f64; 2], area_of_all: f64) -> Result<(), Flaw> {
     let off = f64::EPSILON * largest_coordinate(part.positions.iter().copied());
     let sums = sums_of(part, middle, off);
-    if sums.folded > 0.0 {
-        return Err(Flaw::Folded);
-    }
-    let area_slack = PROOF * area_of_all + 4.0 * off * sums.perimeter;
-    let volume_slack = (PROOF * area_of_all.sqrt() + 4.0 * off) * area_of_all + 4.0 * f64::EPSILON * sums.cubes;
-    let (found_volume, found_area) = (sums.six_volume / 6.0, 0.5 * sums.twice_area);
-    let is_same = (found_area - area).abs() <= area_slack && (found_volume - volume).abs() <= volume_slack;
-    if is_same { Ok(()) } else { Err(Flaw::Measures) }
+    sums.agree_with(measures, area_of_all, &sums, off)
 }
 
 fn sums_of(mesh: &Mesh, middle: DVec3, off: f64) -> Sums {
