@@ -5,10 +5,11 @@ use std::path::PathBuf;
 use planecut::csg::{Brush, Material, MaterialId, Model, ModelSummary, Operation, Tree, summarize};
 use planecut::import::Warning;
 
-use super::args::{Combine, ReadingArgs};
+use super::args::Combine;
 use super::error::CliError;
 use super::input::{Input, InputKind};
 use super::pieces::without;
+use super::reading_args::ReadingArgs;
 use super::solve::{Read, brush_warnings, read};
 
 /// One input, or several that are combined.

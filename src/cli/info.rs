@@ -7,11 +7,12 @@ use planecut::check::check_topology;
 use planecut::import::Warning;
 use planecut::import::mesh::{MeshFormat, read_mesh, solid_of_mesh};
 
-use super::args::{InfoArgs, ReadingArgs};
+use super::args::InfoArgs;
 use super::error::{CliError, Done, advice};
 use super::input::{Input, InputKind};
 use super::pool::on_threads;
 use super::progress::Progress;
+use super::reading_args::ReadingArgs;
 use super::report::{Report, milliseconds};
 use super::solve::{Read, solve, solve_read};
 use super::terminal;

@@ -19,6 +19,7 @@ mod pieces;
 mod pool;
 mod product;
 mod progress;
+mod reading_args;
 mod render;
 mod report;
 mod schema;

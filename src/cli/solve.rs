@@ -13,10 +13,10 @@ use planecut::import::mesh::read_solid;
 use planecut::import::model::read_model;
 use planecut::import::scad::read_scad;
 
-use super::args::ReadingArgs;
 use super::error::CliError;
 use super::input::{Input, InputKind};
 use super::progress::Progress;
+use super::reading_args::ReadingArgs;
 use super::report::{MeshLeaves, MeshPart, Report, milliseconds};
 
 /// The solid of a model.

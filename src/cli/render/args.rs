@@ -6,8 +6,9 @@ use clap::{Args, ValueEnum};
 use planecut::kernel::{DVec3, HalfSpace};
 use planecut::picture::{Background, CameraKind, PreviewOptions, PreviewStyle};
 
-use crate::cli::args::{CommonArgs, ReadingArgs, Size, parse_size};
+use crate::cli::args::{CommonArgs, Size, parse_size};
 use crate::cli::asset_args::UnitName;
+use crate::cli::reading_args::ReadingArgs;
 
 /// Arguments of `render`.
 #[derive(Debug, Args)]
