@@ -30,6 +30,9 @@ const SLACK: f32 = 8.0 * f32::EPSILON;
 /// What turning and rounding to double precision may do to coordinates in the frame, with room for a few products and sums of them.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
+/// More than the sum of the magnitudes of a place's coordinates in the frame, and of a difference of two: the largest extent is 2 before it is turned.
+const FRAME_SIZE: f64 = 16.0;
+
 /// A box in the frame.
 #[derive(Debug, Clone, Copy)]
 struct SmallBox {
@@ -38,6 +41,13 @@ struct SmallBox {
 }
 
 impl SmallBox {
+    /// Its middle, and half of its extent with room for rounding of both.
+    #[inline]
+    fn middle_and_half(&self) -> (DVec3, DVec3) {
+        let [min, max] = [self.min, self.max].map(|v| DVec3::from_array(v.map(f64::from)));
+        (0.5 * (min + max), 0.5 * (max - min) + f64::from(SLACK))
+    }
+
     #[inline]
     fn touches(&self, other: &Self) -> bool {
         (self.min[0] <= other.max[0])
@@ -77,6 +87,8 @@ pub(super) struct SelfTree<'a> {
     /// By how much boxes are grown.
     slack: f32,
     order: &'a [u32],
+    /// The places of vertices in the frame.
+    places: Vec<DVec3>,
     /// In that order, the vertices of triangles around which triangles have nothing in common but edges; [`OTHER`] for others.
     simple: Vec<[u32; 3]>,
     /// The boxes of triangles in that order, and of nodes, leaves first.
@@ -89,68 +101,64 @@ type Tiles = [Option<Tile>; LEAF];
 
 /// A triangle in the frame.
 struct Tile {
-    places: [DVec3; 3],
+    /// The coordinates of its corners along each axis.
+    xs: [f64; 3],
+    ys: [f64; 3],
+    zs: [f64; 3],
     /// The normal of its plane, and those of planes through its edges along that, pointing away from it.
     normals: [DVec3; 4],
-    /// What each normal may be off, in the sum of its components.
+    /// The heights of these planes over the origin, along their normals.
+    offsets: [f64; 4],
+    /// What rounding may do to the height of a place over each.
     doubts: [f64; 4],
-    /// By how much boxes are larger than what they hold.
-    slack: f64,
 }
 
 impl Tile {
     fn new(tree: &SelfTree<'_>, triangle: u32) -> Self {
-        let places = tree.places(triangle);
-        let [a, b, c] = places;
-        let normal = (b - a).cross(c - a);
+        let [a, b, c] = tree.corners(triangle);
+        let (ab, bc, ca) = (b - a, c - b, a - c);
+        let normal = ca.cross(ab);
         let length = |v: DVec3| v.abs().element_sum();
-        let doubt = ROUNDING * (length(b - a) + length(c - a));
-        let across = |from: DVec3, to: DVec3| (to - from).cross(normal);
-        let doubt_across = |from: DVec3, to: DVec3| ROUNDING * length(normal) + length(to - from) * doubt;
+        let doubt = ROUNDING * (length(ab) + length(ca));
+        let of_normal = ROUNDING * length(normal);
+        let (over_ab, over_bc, over_ca) = (ab.cross(normal), bc.cross(normal), ca.cross(normal));
+        let room = |along: DVec3, over: DVec3| {
+            FRAME_SIZE * (of_normal + length(along) * doubt + ROUNDING * length(over))
+        };
         Self {
-            places,
-            normals: [normal, across(a, b), across(b, c), across(c, a)],
-            doubts: [doubt, doubt_across(a, b), doubt_across(b, c), doubt_across(c, a)],
-            slack: f64::from(tree.slack),
+            xs: [a.x, b.x, c.x],
+            ys: [a.y, b.y, c.y],
+            zs: [a.z, b.z, c.z],
+            normals: [normal, over_ab, over_bc, over_ca],
+            offsets: [normal.dot(a), over_ab.dot(a), over_bc.dot(b), over_ca.dot(c)],
+            doubts: [FRAME_SIZE * (doubt + of_normal), room(ab, over_ab), room(bc, over_bc), room(ca, over_ca)],
         }
     }
 
-    /// A corner in each of the planes.
-    fn origin(&self, plane: usize) -> DVec3 {
-        self.places[plane.saturating_sub(1)]
+    /// The least and the largest height of another triangle's corners over one of the planes.
+    #[inline]
+    fn heights(&self, plane: usize, other: &Self) -> (f64, f64) {
+        let (normal, offset) = (self.normals[plane], self.offsets[plane]);
+        let height = |k: usize| normal.x * other.xs[k] + normal.y * other.ys[k] + normal.z * other.zs[k] - offset;
+        let (a, b, c) = (height(0), height(1), height(2));
+        (a.min(b).min(c), a.max(b).max(c))
     }
 
     /// Whether another triangle is sure to lie beyond its plane or one of its edges.
+    #[inline]
     fn has_beyond(&self, other: &Self) -> bool {
-        let heights = |k: usize| {
-            other.places.map(|place| {
-                let along = place - self.origin(k);
-                let room = self.doubts[k] * along.abs().element_sum() + ROUNDING * self.normals[k].abs().element_sum();
-                (self.normals[k].dot(along), room)
-            })
-        };
-        let over = heights(0);
-        over.iter().all(|(height, room)| height > room)
-            || over.iter().all(|(height, room)| *height < -room)
-            || (1..4).any(|k| heights(k).iter().all(|(height, room)| height > room))
+        let (lowest, highest) = self.heights(0, other);
+        lowest > self.doubts[0]
+            || highest < -self.doubts[0]
+            || (1..4).any(|k| self.heights(k, other).0 > self.doubts[k])
     }
 
-    /// Whether it is sure to be apart from a box.
+    /// Whether it is sure to be apart from a box, given by its middle and half of its extent.
     #[inline]
-    fn misses(&self, bounds: &SmallBox) -> bool {
-        let [min, max] = [bounds.min, bounds.max].map(|v| DVec3::from_array(v.map(f64::from)));
-        let (middle, half) = (0.5 * (min + max), 0.5 * (max - min) + self.slack);
-        let height = |k: usize| {
-            let along = middle - self.origin(k);
-            let reach = self.normals[k].abs().dot(half) + self.doubts[k] * (along.abs() + half).element_sum();
-            (self.normals[k].dot(along), reach)
-        };
-        let (over, reach) = height(0);
-        over.abs() > reach
-            || (1..4).any(|k| {
-                let (beyond, reach) = height(k);
-                beyond > reach
-            })
+    fn misses(&self, middle: DVec3, half: DVec3) -> bool {
+        let height = |k: usize| self.normals[k].dot(middle) - self.offsets[k];
+        let reach = |k: usize| self.normals[k].abs().dot(half) + self.doubts[k];
+        height(0).abs() > reach(0) || (1..4).any(|k| height(k) > reach(k))
     }
 }
 
@@ -167,10 +175,14 @@ impl<'a> SelfTree<'a> {
             origin,
             slack: if scale.is_finite() { SLACK } else { f32::INFINITY },
             order,
+            places: Vec::new(),
             simple: Vec::new(),
             triangles: Vec::new(),
             levels: Vec::new(),
         };
+        let (frame, origin) = (tree.frame, tree.origin);
+        let in_frame = |position: &DVec3| frame * (*position - origin);
+        tree.places = operand.positions().par_iter().with_min_len(CHUNK).map(in_frame).collect();
         let own = &tree;
         tree.triangles = order.par_iter().with_min_len(CHUNK).map(|triangle| own.small_box(*triangle)).collect();
         let simple = |vertex: u32| if operand.is_simple(vertex) { vertex } else { OTHER };
@@ -187,13 +199,12 @@ impl<'a> SelfTree<'a> {
         tree
     }
 
-    fn places(&self, triangle: u32) -> [DVec3; 3] {
-        let corners = self.operand.triangles()[triangle as usize];
-        corners.map(|vertex| self.frame * (self.operand.positions()[vertex as usize] - self.origin))
+    fn corners(&self, triangle: u32) -> [DVec3; 3] {
+        self.operand.triangles()[triangle as usize].map(|vertex| self.places[vertex as usize])
     }
 
     fn small_box(&self, triangle: u32) -> SmallBox {
-        let [a, b, c] = self.places(triangle);
+        let [a, b, c] = self.corners(triangle);
         let (min, max) = (a.min(b).min(c), a.max(b).max(c));
         SmallBox {
             min: min.to_array().map(|v| narrowed(v) - self.slack),
@@ -313,7 +324,11 @@ impl<'a> SelfTree<'a> {
 
     fn below_tile(&self, i: usize, tile: &Tile, node: Node, visit: &mut impl FnMut(u32, u32)) {
         let bounds = self.bounds(node);
-        if !self.triangles[i].touches(bounds) || tile.misses(bounds) {
+        if !self.triangles[i].touches(bounds) {
+            return;
+        }
+        let (middle, half) = bounds.middle_and_half();
+        if tile.misses(middle, half) {
             return;
         }
         if node.level == 0 {
@@ -336,9 +351,6 @@ impl<'a> SelfTree<'a> {
                 continue;
             }
             let tile = tile.get_or_insert_with(|| Tile::new(self, one));
-            if tile.misses(&self.triangles[j]) {
-                continue;
-            }
             let other_tile = tiles[j - first].get_or_insert_with(|| Tile::new(self, other));
             if !other_tile.has_beyond(tile) && !tile.has_beyond(other_tile) {
                 visit(one, other);
