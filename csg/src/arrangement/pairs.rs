@@ -2,13 +2,15 @@
 //!
 //! Slivers make boxes alone useless, so planes of triangles are tested against boxes, too, and the larger box is opened first.
 
+use std::ops::Range;
+
 use planecut_kernel::sign::Counts;
 use planecut_parallel::prelude::*;
 
 use super::contact::{Contacts, touch};
 use super::input::Input;
 use super::predicates::{EdgePlane, RoundedPlane, Triangle};
-use super::self_walk::{Node, SelfTree};
+use super::self_walk::SelfTree;
 use super::triangle_tree::{TreeNode, TriangleTree};
 use crate::base::{Bounds, Boxes, map_chunks};
 
@@ -49,10 +51,10 @@ pub(super) fn contacts(input: &Input<'_>) -> Contacts {
 fn contacts_within(input: &Input<'_>, operand: usize) -> Vec<Contacts> {
     let own = &input.operands[operand];
     let tree = SelfTree::new(own);
-    let work = |tasks: &[[Node; 2]]| {
+    let work = |tasks: &[Range<usize>]| {
         let mut out = Contacts::default();
         for task in tasks {
-            tree.walk(*task, &mut |one, other| {
+            tree.walk(task.clone(), &mut |one, other| {
                 let [one, other] = [one, other].map(|triangle| Probe::new(input, operand, triangle));
                 if one.bounds.touches(&other.bounds) {
                     touch(input, [&one, &other], &mut out);
@@ -61,8 +63,7 @@ fn contacts_within(input: &Input<'_>, operand: usize) -> Vec<Contacts> {
         }
         out
     };
-    let tasks = tree.tasks(if own.triangles().len() > ALONE { PARTS } else { 1 });
-    map_chunks(&tasks, 1, work).0
+    map_chunks(&tree.tasks(), 1, work).0
 }
 
 /// What triangles of different operands have in common.
