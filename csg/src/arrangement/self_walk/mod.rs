@@ -10,6 +10,7 @@
 mod frame;
 mod tile;
 mod wide_boxes;
+mod wide_corners;
 
 use glam::DVec3;
 use planecut_parallel::prelude::*;
@@ -21,15 +22,13 @@ use crate::ids::number32;
 use frame::Frame;
 use tile::{Tile, WidePlanes};
 use wide_boxes::{Lanes, SLACK, SmallBox, WIDTH, WideBox, WideBoxes};
+use wide_corners::{OTHER, WideCorners};
 
 /// Triangles that one thread looks at in a row.
 const CHUNK: usize = 1 << 12;
 
 /// Leaves that are held against all others in a row.
 const LEAVES: usize = 32;
-
-/// A vertex around which more may be in common.
-const OTHER: u32 = u32::MAX;
 
 /// The classes of sizes: one for each factor of 8, the middle one around the mean.
 const CLASSES: usize = 64;
@@ -44,8 +43,8 @@ pub(super) struct SelfTree<'a> {
     places: Vec<DVec3>,
     /// The triangles in order.
     order: Vec<u32>,
-    /// In that order, the vertices of triangles around which triangles have nothing in common but edges; [`OTHER`] for others.
-    simple: Vec<[u32; 3]>,
+    /// For each leaf the corners of its triangles around which triangles have nothing in common but edges; [`OTHER`] for others.
+    simple: Vec<WideCorners>,
     boxes: WideBoxes,
 }
 
@@ -65,7 +64,8 @@ impl<'a> SelfTree<'a> {
         let sorted: Vec<SmallBox> = by_size.iter().map(|k| in_place[*k as usize]).collect();
         let simple = |vertex: u32| if operand.is_simple(vertex) { vertex } else { OTHER };
         let of_triangle = |triangle: &u32| operand.triangles()[*triangle as usize].map(simple);
-        let simple = order.par_iter().with_min_len(CHUNK).map(of_triangle).collect();
+        let of_leaf = |leaf: &[u32]| WideCorners::new(leaf.iter().map(of_triangle));
+        let simple = order.par_chunks(WIDTH).with_min_len(CHUNK / WIDTH).map(of_leaf).collect();
         Self { operand, places, order, simple, boxes: WideBoxes::new(&sorted) }
     }
 
@@ -91,11 +91,14 @@ impl<'a> SelfTree<'a> {
                         continue;
                     }
                     let bounds = boxes.get(k);
-                    let near = query.near(&bounds);
-                    if near.is_empty() {
+                    if level > 1 {
+                        if !query.is_larger(&bounds) || !query.near(&bounds).is_empty() {
+                            waiting.push((level - 1, child));
+                        }
                         continue;
                     }
-                    if level > 1 { waiting.push((level - 1, child)) } else { query.compare(child, near, visit) }
+                    let near = query.near(&bounds);
+                    query.compare(child, near, visit);
                 }
             }
         }
@@ -128,10 +131,15 @@ impl<'a> Query<'a> {
         Self { tree, leaf, boxes, around, size, tiles: [const { None }; WIDTH], planes: None }
     }
 
+    /// Whether its triangles are larger than a box, so that planes may tell that they are apart.
+    fn is_larger(&self, bounds: &SmallBox) -> bool {
+        bounds.extent() < self.size
+    }
+
     /// Its triangles that are near a box.
     fn near(&mut self, bounds: &SmallBox) -> Lanes {
         let near = self.boxes.touching(bounds);
-        if near.is_empty() || bounds.extent() >= self.size {
+        if near.is_empty() || !self.is_larger(bounds) {
             return near;
         }
         let Self { tree, leaf, tiles, planes, .. } = self;
@@ -140,7 +148,7 @@ impl<'a> Query<'a> {
             for (k, tile) in tiles.iter_mut().enumerate().take(count) {
                 tile.get_or_insert_with(|| Tile::new(tree.corners(WIDTH * *leaf + k)));
             }
-            WidePlanes::new(tiles.iter().flatten())
+            WidePlanes::new(tiles)
         });
         near.and(planes.near(bounds))
     }
@@ -148,20 +156,17 @@ impl<'a> Query<'a> {
     /// Compares some of its triangles with those of another leaf.
     fn compare(&mut self, other: usize, near: Lanes, visit: &mut impl FnMut(u32, u32)) {
         let tree = self.tree;
-        let others = &tree.boxes.levels[0][other];
+        let (others, corners) = (&tree.boxes.levels[0][other], &tree.simple[other]);
         let mut tiles: [Option<Tile>; WIDTH] = [const { None }; WIDTH];
         for i in near {
-            let one = WIDTH * self.leaf + i;
-            let mut touching = others.touching(&self.boxes.get(i));
+            let sharing = corners.sharing(tree.simple[self.leaf].get(i));
+            let mut touching = others.touching(&self.boxes.get(i)).without(sharing);
             if other == self.leaf {
                 touching = touching.after(i);
             }
+            let one = WIDTH * self.leaf + i;
             for j in touching {
                 let another = WIDTH * other + j;
-                let (p, q) = (&tree.simple[one], &tree.simple[another]);
-                if p.iter().any(|vertex| *vertex != OTHER && q.contains(vertex)) {
-                    continue;
-                }
                 let tile = self.tiles[i].get_or_insert_with(|| Tile::new(tree.corners(one)));
                 if tile.has_beyond(&tree.corners(another)) {
                     continue;

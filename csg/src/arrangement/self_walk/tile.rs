@@ -1,8 +1,9 @@
 //! A triangle in the frame, with planes that tell others apart from it. All tests may only say *surely apart*.
 
 use glam::DVec3;
+use wide::f32x4;
 
-use super::wide_boxes::{Lanes, SmallBox, WIDTH};
+use super::wide_boxes::{Eight, Lanes, SmallBox, WIDTH, eight};
 
 /// What turning and rounding to double precision may do to coordinates in the frame, with room for a few products and sums of them.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
@@ -68,50 +69,52 @@ impl Tile {
 
 /// The planes of eight triangles.
 #[derive(Debug)]
-pub(super) struct WidePlanes {
-    /// For each of the four planes of a tile the components of the normals.
-    normals: [[[f32; WIDTH]; 3]; 4],
-    offsets: [[f32; WIDTH]; 4],
-    doubts: [[f32; WIDTH]; 4],
+pub(super) struct WidePlanes([WidePlane; 4]);
+
+/// One of the four planes of each of eight tiles.
+#[derive(Debug, Clone, Copy)]
+struct WidePlane {
+    normals: [Eight; 3],
+    offsets: Eight,
+    doubts: Eight,
 }
 
 impl WidePlanes {
-    pub(super) fn new<'a>(tiles: impl Iterator<Item = &'a Tile>) -> Self {
-        let mut planes =
-            Self { normals: [[[0.0; WIDTH]; 3]; 4], offsets: [[0.0; WIDTH]; 4], doubts: [[0.0; WIDTH]; 4] };
-        for (lane, tile) in tiles.enumerate().take(WIDTH) {
-            for k in 0..4 {
-                let normal = tile.normals[k];
-                for axis in 0..3 {
-                    planes.normals[k][axis][lane] = narrowed(normal[axis]);
-                }
-                planes.offsets[k][lane] = narrowed(tile.offsets[k]);
-                let rounding = NARROW_ROUNDING * normal.abs().element_sum();
-                planes.doubts[k][lane] = narrowed(2.0 * (tile.doubts[k] + rounding + NARROW_UNDERFLOW));
-            }
-        }
-        planes
+    pub(super) fn new(tiles: &[Option<Tile>; WIDTH]) -> Self {
+        let of_all = |value: &dyn Fn(&Tile) -> f64| {
+            eight(std::array::from_fn(|k| tiles[k].as_ref().map_or(0.0, |tile| narrowed(value(tile)))))
+        };
+        Self([0, 1, 2, 3].map(|k| WidePlane {
+            normals: [0, 1, 2].map(|axis| of_all(&|tile| tile.normals[k][axis])),
+            offsets: of_all(&|tile| tile.offsets[k]),
+            doubts: of_all(&|tile| {
+                let rounding = NARROW_ROUNDING * tile.normals[k].abs().element_sum();
+                2.0 * (tile.doubts[k] + rounding + NARROW_UNDERFLOW)
+            }),
+        }))
     }
 
     /// Which of the triangles are not sure to be apart from a box.
     #[inline]
     pub(super) fn near(&self, bounds: &SmallBox) -> Lanes {
-        let [middle, half] = bounds.middle_and_half();
-        let mut near = [!0_u32; WIDTH];
-        for k in 0..4 {
-            let ([xs, ys, zs], offsets, doubts) = (&self.normals[k], &self.offsets[k], &self.doubts[k]);
-            for lane in 0..WIDTH {
-                let (x, y, z) = (xs[lane], ys[lane], zs[lane]);
-                let height = x * middle[0] + y * middle[1] + z * middle[2] - offsets[lane];
-                let reach = x.abs() * half[0] + y.abs() * half[1] + z.abs() * half[2] + doubts[lane];
-                let height = if k == 0 { height.abs() } else { height };
-                // also where that is not a number
-                near[lane] &= if height > reach { 0 } else { !0 };
-            }
-        }
-        Lanes::of(near)
+        let [middle, half] = bounds.middle_and_half().map(|[x, y, z]| [x, y, z].map(f32x4::splat));
+        let apart = |k: usize| {
+            let height_and_reach = |plane: &WidePlane| {
+                let [x, y, z] = [plane.normals[0][k], plane.normals[1][k], plane.normals[2][k]];
+                let height = x * middle[0] + y * middle[1] + z * middle[2] - plane.offsets[k];
+                (height, x.abs() * half[0] + y.abs() * half[1] + z.abs() * half[2] + plane.doubts[k])
+            };
+            let [of_plane, ab, bc, ca] = [0, 1, 2, 3].map(|plane| height_and_reach(&self.0[plane]));
+            let beyond = |(height, reach): (f32x4, f32x4)| height.simd_gt(reach);
+            (of_plane.0.abs().simd_gt(of_plane.1) | beyond(ab) | beyond(bc) | beyond(ca)).to_bitmask()
+        };
+        // what is not a number tells nothing apart
+        Lanes(!(apart(0) | apart(1) << 4) & ALL)
     }
 }
+
+/// All of eight.
+const ALL: u32 = (1 << WIDTH) - 1;
 
 #[expect(clippy::cast_possible_truncation, reason = "doubts are larger than what that rounds")]
 fn narrowed(v: f64) -> f32 {

@@ -1,7 +1,8 @@
-//! Boxes in single precision, eight side by side, and a hierarchy of them: compilers make one instruction of what is done to several.
+//! Boxes in single precision, eight side by side, and a hierarchy of them.
 
 use glam::DVec3;
 use planecut_parallel::prelude::*;
+use wide::f32x4;
 
 /// Boxes that are held against another one at once.
 pub(super) const WIDTH: usize = 8;
@@ -25,10 +26,7 @@ impl SmallBox {
     /// A box around three places, with room for rounding.
     pub(super) fn around([a, b, c]: [DVec3; 3], slack: f32) -> Self {
         let (min, max) = (a.min(b).min(c), a.max(b).max(c));
-        Self {
-            min: min.to_array().map(|v| narrowed(v) - slack),
-            max: max.to_array().map(|v| narrowed(v) + slack),
-        }
+        Self { min: min.to_array().map(|v| narrowed(v) - slack), max: max.to_array().map(|v| narrowed(v) + slack) }
     }
 
     fn union(&self, other: &Self) -> Self {
@@ -51,30 +49,45 @@ impl SmallBox {
     }
 }
 
+/// Eight numbers: two times as many as processors of the oldest kind that matters take at once.
+pub(super) type Eight = [f32x4; 2];
+
+/// The numbers of a list.
+pub(super) fn eight(values: [f32; WIDTH]) -> Eight {
+    let [a, b, c, d, e, f, g, h] = values;
+    [f32x4::from([a, b, c, d]), f32x4::from([e, f, g, h])]
+}
+
+/// One of eight numbers.
+#[inline]
+fn one_of(eight: &Eight, k: usize) -> f32 {
+    eight[k / 4].as_array()[k % 4]
+}
+
 /// Eight boxes; those that are missing touch nothing.
 #[derive(Debug, Clone)]
 pub(super) struct WideBox {
-    min: [[f32; WIDTH]; 3],
-    max: [[f32; WIDTH]; 3],
+    min: [Eight; 3],
+    max: [Eight; 3],
 }
 
 impl WideBox {
     fn new(boxes: impl Iterator<Item = SmallBox>) -> Self {
-        let mut wide = Self { min: [[f32::INFINITY; WIDTH]; 3], max: [[f32::NEG_INFINITY; WIDTH]; 3] };
+        let (mut min, mut max) = ([[f32::INFINITY; WIDTH]; 3], [[f32::NEG_INFINITY; WIDTH]; 3]);
         for (k, own) in boxes.enumerate().take(WIDTH) {
             for axis in 0..3 {
-                wide.min[axis][k] = own.min[axis];
-                wide.max[axis][k] = own.max[axis];
+                min[axis][k] = own.min[axis];
+                max[axis][k] = own.max[axis];
             }
         }
-        wide
+        Self { min: min.map(eight), max: max.map(eight) }
     }
 
     /// One of the boxes.
     #[inline]
     pub(super) fn get(&self, k: usize) -> SmallBox {
-        let ([a, b, c], [d, e, f]) = (&self.min, &self.max);
-        SmallBox { min: [a[k], b[k], c[k]], max: [d[k], e[k], f[k]] }
+        let corner = |[x, y, z]: &[Eight; 3]| [one_of(x, k), one_of(y, k), one_of(z, k)];
+        SmallBox { min: corner(&self.min), max: corner(&self.max) }
     }
 
     /// A box around all of them.
@@ -85,35 +98,24 @@ impl WideBox {
     /// Which of the boxes touch another one, as bits.
     #[inline]
     pub(super) fn touching(&self, other: &SmallBox) -> Lanes {
-        let mut hits = [!0_u32; WIDTH];
-        for axis in 0..3 {
-            let (low, high) = (other.min[axis], other.max[axis]);
-            let (min, max) = (&self.min[axis], &self.max[axis]);
-            for k in 0..WIDTH {
-                hits[k] &= if min[k] <= high { !0 } else { 0 };
-            }
-            for k in 0..WIDTH {
-                hits[k] &= if max[k] >= low { !0 } else { 0 };
-            }
-        }
-        Lanes::of(hits)
+        let [low_x, low_y, low_z] = other.min.map(f32x4::splat);
+        let [high_x, high_y, high_z] = other.max.map(f32x4::splat);
+        let ([min_x, min_y, min_z], [max_x, max_y, max_z]) = (&self.min, &self.max);
+        let half = |k: usize| {
+            let along_x = min_x[k].simd_le(high_x) & max_x[k].simd_ge(low_x);
+            let along_y = min_y[k].simd_le(high_y) & max_y[k].simd_ge(low_y);
+            let along_z = min_z[k].simd_le(high_z) & max_z[k].simd_ge(low_z);
+            (along_x & along_y & along_z).to_bitmask()
+        };
+        Lanes(half(0) | half(1) << 4)
     }
 }
 
 /// Some of eight, as bits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Lanes(u32);
+pub(super) struct Lanes(pub(super) u32);
 
 impl Lanes {
-    /// Those whose number is not zero; all bits of it are set then.
-    #[inline]
-    pub(super) fn of(mut members: [u32; WIDTH]) -> Self {
-        for (k, member) in members.iter_mut().enumerate() {
-            *member &= 1 << k;
-        }
-        Self(members.iter().fold(0, |bits, member| bits | member))
-    }
-
     pub(super) fn is_empty(self) -> bool {
         self.0 == 0
     }
@@ -122,6 +124,12 @@ impl Lanes {
     #[inline]
     pub(super) fn and(self, other: Self) -> Self {
         Self(self.0 & other.0)
+    }
+
+    /// Those that others are not.
+    #[inline]
+    pub(super) fn without(self, others: Self) -> Self {
+        Self(self.0 & !others.0)
     }
 
     /// Those after one of them.
@@ -136,9 +144,12 @@ impl Iterator for Lanes {
 
     #[inline]
     fn next(&mut self) -> Option<usize> {
-        let first = self.0.trailing_zeros();
-        self.0 &= self.0.wrapping_sub(1);
-        (first < 32).then_some(first as usize)
+        if self.0 == 0 {
+            return None;
+        }
+        let first = self.0.trailing_zeros() as usize;
+        self.0 &= self.0 - 1;
+        Some(first)
     }
 }
 
