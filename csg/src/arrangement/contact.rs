@@ -5,11 +5,13 @@ use planecut_kernel::sign::Sign;
 
 use super::coplanar;
 use super::exact::are_one;
+use super::flat_faces::FlatFaces;
 use super::input::Input;
 use super::pairs::Probe;
 use super::points::Key;
 use super::predicates::{Corner, orient};
 use super::surface::sorted;
+use super::triangle_tree::bounds_of;
 use crate::ids::{Id, InputTriangleId, InputVertexId, number32};
 
 /// What defines a point, in numbers of the input.
@@ -63,7 +65,21 @@ pub(super) struct Cut {
 pub(super) struct EdgeCut {
     /// A half-edge along it.
     pub(super) side: u32,
+    /// The triangle that cuts it.
+    pub(super) other: InputTriangleId,
     pub(super) key: InputKey,
+}
+
+/// A segment along an edge of a triangle, which is no cut of that.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Along {
+    /// A half-edge along it.
+    pub(super) side: u32,
+    /// The triangle that it comes from.
+    pub(super) other: InputTriangleId,
+    /// The edge of the other triangle that it lies on.
+    pub(super) edge: Option<[InputVertexId; 2]>,
+    pub(super) ends: [InputKey; 2],
 }
 
 /// What pairs of triangles have in common.
@@ -71,6 +87,9 @@ pub(super) struct EdgeCut {
 pub(super) struct Contacts {
     pub(super) cuts: Vec<Cut>,
     pub(super) edge_cuts: Vec<EdgeCut>,
+    pub(super) along: Vec<Along>,
+    /// Half-edges of triangles that are not neighbours, along an edge between the same two vertices.
+    pub(super) shared_edges: Vec<[u32; 2]>,
     /// Triangles whose edges other surfaces share.
     pub(super) touched: Vec<InputTriangleId>,
     /// Triangles that have more in common than vertices and edges of a mesh.
@@ -79,23 +98,29 @@ pub(super) struct Contacts {
     pub(super) coplanar: Vec<[InputTriangleId; 2]>,
     /// Those of them that share an area.
     pub(super) overlapping: Vec<[InputTriangleId; 2]>,
+    /// Those of these that have the same corners.
+    pub(super) identical: Vec<[InputTriangleId; 2]>,
 }
 
 impl Contacts {
     pub(super) fn append(&mut self, other: &mut Self) {
         self.cuts.append(&mut other.cuts);
         self.edge_cuts.append(&mut other.edge_cuts);
+        self.along.append(&mut other.along);
+        self.shared_edges.append(&mut other.shared_edges);
         self.touched.append(&mut other.touched);
         self.pairs.append(&mut other.pairs);
         self.coplanar.append(&mut other.coplanar);
         self.overlapping.append(&mut other.overlapping);
+        self.identical.append(&mut other.identical);
     }
 
     /// Edges are cut at a point that lies inside of them.
     pub(super) fn cut_edges(&mut self, pair: &Pair<'_>, touch: &Touch) {
         for (k, place) in touch.places.into_iter().enumerate() {
             if let Place::Edge(side) = place {
-                self.edge_cuts.push(EdgeCut { side: half_edge(pair.number(k), side), key: touch.key });
+                let (side, other) = (half_edge(pair.number(k), side), pair.number(1 - k));
+                self.edge_cuts.push(EdgeCut { side, other, key: touch.key });
             }
         }
     }
@@ -172,6 +197,25 @@ impl<'a> Pair<'a> {
         is_known && along[0].iter().all(|p| height(*p) > 1.0) && along[1].iter().all(|p| height(*p) < -1.0)
     }
 
+    /// Whether all corners have one coordinate in common.
+    fn are_in_plane_of_axes(&self) -> bool {
+        let [a, ..] = self.corners[0];
+        !self.input.has_bodies
+            && (0..3).any(|axis| self.corners.as_flattened().iter().all(|corner| corner.at[axis] == a.at[axis]))
+    }
+
+    /// Whether an edge of the face of one triangle may touch the other triangle.
+    fn has_edges_near(&self, faces: &FlatFaces<'_>) -> bool {
+        self.input.has_bodies
+            || (0..2).any(|k| {
+                let others = bounds_of(self.corners[1 - k].map(|corner| corner.at));
+                (0..3).any(|side| {
+                    let [a, b] = [self.corners[k][side].at, self.corners[k][(side + 1) % 3].at];
+                    bounds_of([a, b, b]).touches(&others) && !self.probes[k].is_within_face(faces, side)
+                })
+            })
+    }
+
     /// Whether triangles of nearly one plane, of which large flat faces have many, are sure to lie side by side.
     fn are_side_by_side(&self) -> bool {
         let [one, other] = self.probes;
@@ -182,19 +226,27 @@ impl<'a> Pair<'a> {
     }
 }
 
-/// Finds what two triangles have in common.
-pub(super) fn touch(input: &Input<'_>, probes: [&Probe; 2], out: &mut Contacts) {
+/// Finds what two triangles have in common. Where the flat faces of operands are given, nothing need be told of triangles of one plane
+/// no edge of whose faces is near.
+pub(super) fn touch(input: &Input<'_>, probes: [&Probe; 2], faces: Option<&FlatFaces<'_>>, out: &mut Contacts) {
     let pair = Pair::new(input, probes);
     match pair.like.iter().flatten().count() {
         3 => {
             out.coplanar.push(pair.numbers());
             out.overlapping.push(pair.numbers());
+            out.identical.push(pair.numbers());
             out.pairs.push(pair.numbers());
             return;
         }
         2 => return share_edge(&pair, out),
         1 if pair.are_apart() => return,
         _ => {}
+    }
+    if pair.are_in_plane_of_axes() {
+        if faces.is_none_or(|faces| pair.has_edges_near(faces)) && !pair.are_side_by_side() {
+            coplanar::touch(&pair, out);
+        }
+        return;
     }
     if pair.are_side_by_side() {
         return;
@@ -204,7 +256,10 @@ pub(super) fn touch(input: &Input<'_>, probes: [&Probe; 2], out: &mut Contacts) 
         return;
     }
     if of_second == [Sign::Zero; 3] {
-        return coplanar::touch(&pair, out);
+        if faces.is_none_or(|faces| pair.has_edges_near(faces)) {
+            coplanar::touch(&pair, out);
+        }
+        return;
     }
     let of_first = [0, 1, 2].map(|k| pair.side(1, k));
     if all_on_one_side(of_first) {
@@ -242,9 +297,11 @@ fn add(pair: &Pair<'_>, ends: [Touch; 2], out: &mut Contacts) {
         }
         out.touched.push(triangle);
         let shared_edge = |k: usize| ends[0].places[k].shared_edge(ends[1].places[k]);
-        if shared_edge(k).is_none() {
-            let edge = shared_edge(1 - k).map(|edge| pair.edge(1 - k, edge));
-            out.cuts.push(Cut { triangle, other, edge, ends: ends.map(|end| end.key) });
+        let edge = shared_edge(1 - k).map(|edge| pair.edge(1 - k, edge));
+        let ends = ends.map(|end| end.key);
+        match shared_edge(k) {
+            None => out.cuts.push(Cut { triangle, other, edge, ends }),
+            Some(side) => out.along.push(Along { side: half_edge(triangle, side), other, edge, ends }),
         }
     }
 }
@@ -253,10 +310,11 @@ fn add(pair: &Pair<'_>, ends: [Touch; 2], out: &mut Contacts) {
 fn share_edge(pair: &Pair<'_>, out: &mut Contacts) {
     let apex = pair.like.iter().position(Option::is_none).expect("two vertices are shared");
     let side = (apex + 1) % 3;
+    let other = (0..3).find(|k| !pair.like.contains(&Some(*k))).expect("two vertices are shared");
     if !pair.probes[0].is_neighbour(side, pair.probes[1]) {
         out.touched.extend(pair.numbers());
+        out.shared_edges.push([half_edge(pair.number(0), side), half_edge(pair.number(1), (other + 1) % 3)]);
     }
-    let other = (0..3).find(|k| !pair.like.contains(&Some(*k))).expect("two vertices are shared");
     let plane = &pair.probes[0].plane;
     if plane.tells_apart(pair.input, side, pair.corners[1][other].at) || pair.side(0, other) != Sign::Zero {
         return;

@@ -2,7 +2,7 @@
 
 use planecut_kernel::sign::Sign;
 
-use super::contact::{Contacts, Cut, Pair, Place, Touch};
+use super::contact::{Along, Contacts, Cut, Pair, Place, Touch, half_edge};
 use super::points::Key;
 use super::predicates::{Triangle, best_axis, normal_component, turn};
 
@@ -51,12 +51,12 @@ pub(super) fn touch(pair: &Pair<'_>, out: &mut Contacts) {
         }
         for edge in 0..3 {
             let ends: Vec<&Touch> = touches.iter().filter(|touch| touch.places[1 - k].is_on(edge)).collect();
-            if let [from, to] = ends[..]
-                && from.places[k].shared_edge(to.places[k]).is_none()
-            {
-                let ends = [from.key, to.key];
-                let edge = Some(pair.edge(1 - k, edge));
-                out.cuts.push(Cut { triangle: pair.number(k), other: pair.number(1 - k), edge, ends });
+            let [from, to] = ends[..] else { continue };
+            let (triangle, other) = (pair.number(k), pair.number(1 - k));
+            let (edge, ends) = (Some(pair.edge(1 - k, edge)), [from.key, to.key]);
+            match from.places[k].shared_edge(to.places[k]) {
+                None => out.cuts.push(Cut { triangle, other, edge, ends }),
+                Some(side) => out.along.push(Along { side: half_edge(triangle, side), other, edge, ends }),
             }
         }
     }

@@ -23,7 +23,9 @@ mod exact;
 mod facets;
 mod fill;
 mod flat;
+mod flat_faces;
 mod input;
+mod joined_cuts;
 mod kept;
 mod measures;
 mod merge;
@@ -32,6 +34,7 @@ mod pairing;
 mod pairs;
 mod patches;
 mod points;
+mod polygons;
 mod predicates;
 mod self_walk;
 mod stars;
@@ -50,12 +53,15 @@ pub use combine::{CombineError, CombinedMeshes, Inside, combine_meshes};
 pub(crate) use combine::{Leaf, combine_leaves};
 use contact::{Contacts, InputKey};
 use crossings::{CutLine, Neighbours, crossings};
-use edge_points::{EdgePoints, PointOnEdge};
+use edge_points::EdgePoints;
 use facets::Facets;
 use flat::are_coplanar;
+use flat_faces::FlatFaces;
 use input::Input;
+use joined_cuts::{JoinedCuts, KeyedCut, joined_cuts};
 use patches::Patches;
 use points::{PointKey, Points};
+use polygons::Polygons;
 use predicates::best_axis;
 use subdivide::{Cells, View, subdivide};
 use surface::{Surface, sorted};
@@ -66,6 +72,7 @@ use winding::{Contradiction, Sheets, sheets};
 struct Arrangement<'a> {
     surface: Surface<'a>,
     patches: Patches,
+    polygons: Polygons,
     points: Points,
     /// For each triangle the first one that is known to lie in the same plane.
     planes: Vec<TriangleId>,
@@ -84,10 +91,10 @@ struct Arranged<'a> {
 impl<'a> Arranged<'a> {
     /// Arranges the triangles of operands.
     fn new(input: &'a Input<'a>) -> Result<Self, Contradiction> {
-        let contacts = pairs::contacts(input);
-        let surface = Surface::new(input, &contacts);
-        let (arrangement, is_split, is_doubled) = Arrangement::new(surface, &contacts);
-        drop(contacts);
+        let (contacts, faces) = pairs::contacts(input);
+        let surface = Surface::new(input, &contacts, &faces);
+        let (arrangement, is_split, is_doubled) = Arrangement::new(surface, &contacts, &faces);
+        drop((contacts, faces));
         let facets = Facets::new(&arrangement, is_split, &is_doubled);
         let sheets = sheets(&arrangement, &facets)?;
         Ok(Self { arrangement, facets, sheets })
@@ -96,7 +103,7 @@ impl<'a> Arranged<'a> {
 
 impl<'a> Arrangement<'a> {
     /// Cuts triangles along what they have in common. Also tells which of them are not whole any more, and which may have doubles.
-    fn new(surface: Surface<'a>, contacts: &Contacts) -> (Self, Vec<bool>, Vec<bool>) {
+    fn new(surface: Surface<'a>, contacts: &Contacts, faces: &FlatFaces<'_>) -> (Self, Vec<bool>, Vec<bool>) {
         let patches = Patches::new(&surface);
         let mut is_split = vec![false; surface.len()];
         for (operand, own) in surface.input.operands.iter().enumerate() {
@@ -105,13 +112,9 @@ impl<'a> Arrangement<'a> {
             }
         }
         let planes = planes(&surface, contacts, &is_split);
+        let polygons = Polygons::new(&surface, contacts, faces, &is_split);
         let key = |key: InputKey| canonical(&surface, &planes, key);
-        let on_edges: Vec<PointOnEdge> = contacts
-            .edge_cuts
-            .iter()
-            .map(|cut| PointOnEdge { side: surface.half_edge_of(cut.side), key: key(cut.key) })
-            .collect();
-        let ends: Vec<[PointKey; 2]> = contacts.cuts.iter().map(|cut| cut.ends.map(key)).collect();
+        let JoinedCuts { cuts: keyed, on_edges } = joined_cuts(&surface, &polygons, &planes, contacts, key);
         let mut points = Points::new(&surface);
         for point in &on_edges {
             let triangle = TriangleId::from_index(point.side as usize / 3);
@@ -122,25 +125,31 @@ impl<'a> Arrangement<'a> {
             let at = [triangle, other].map(|triangle| planes[triangle.index()]);
             points.know_edge(surface.edge(triangle, point.side as usize % 3), at);
         }
-        let keys = ends.as_flattened().iter().chain(on_edges.iter().map(|point| &point.key)).copied();
+        let ends = keyed.iter().flat_map(|cut| &cut.ends);
+        let keys = ends.chain(on_edges.iter().map(|point| &point.key)).copied();
         points.add(&surface, keys.filter(|key| !matches!(key, PointKey::Vertex(_))));
         let (edge_points, cut_sides) = EdgePoints::new(&surface, &points, &on_edges);
-        let cuts = cut_lines(&surface, &points, contacts, &ends);
-        let neighbours = Neighbours::new(surface.len(), &pairs_of(&surface, contacts));
+        let cuts = cut_lines(&points, &keyed);
+        let neighbours = Neighbours::new(surface.len(), &pairs_of(&surface, &polygons, contacts));
         let found = crossings(&surface, &points, &planes, &cuts, &neighbours);
         points.add(&surface, found.iter().map(|(_, key)| *key).filter(|key| !matches!(key, PointKey::Vertex(_))));
         let mut is_doubled = vec![false; surface.len()];
         for triangle in contacts.overlapping.as_flattened() {
-            is_doubled[surface.triangle_of(*triangle).index()] = true;
+            let triangle = surface.triangle_of(*triangle);
+            is_doubled[triangle.index()] = true;
+            is_doubled[polygons.of(triangle).index()] = true;
         }
         let mut split: Vec<TriangleId> =
             cuts.iter().filter(|cut| !cut.is_point()).map(|cut| cut.triangle).chain(cut_sides).collect();
+        split.iter_mut().for_each(|triangle| *triangle = polygons.of(*triangle));
+        split.extend(polygons.all());
         split.sort_unstable();
         split.dedup();
         split.retain(|triangle| !is_split[triangle.index()]);
-        let mut arrangement = Self { surface, patches, points, planes, edge_points, cells: Cells::default() };
-        arrangement.cells = arrangement.subdivided(&split, &cuts, &found);
         split.iter().for_each(|triangle| is_split[triangle.index()] = true);
+        polygons.triangles().for_each(|triangle| is_split[triangle.index()] = true);
+        let mut arrangement = Self { surface, patches, polygons, points, planes, edge_points, cells: Cells::default() };
+        arrangement.cells = arrangement.subdivided(&split, &cuts, &found);
         (arrangement, is_split, is_doubled)
     }
 
@@ -185,10 +194,19 @@ impl<'a> Arrangement<'a> {
                 last = point;
             }
         }
-        let corners = surface.corners(triangle);
-        let border: Vec<PointId> =
-            (0..3).flat_map(|k| self.edge_points.from(corners[k], corners[(k + 1) % 3])).collect();
-        subdivide(View { surface, points, axis, facing }, triangle, &border, &mut pieces, cells);
+        let border: Vec<[PointId; 2]> = self
+            .polygons
+            .border(surface, triangle)
+            .into_iter()
+            .flat_map(|half_edge| {
+                let corners = surface.corners(TriangleId::from_index(half_edge as usize / 3));
+                let [from, to] = [half_edge as usize % 3, (half_edge as usize + 1) % 3].map(|k| corners[k]);
+                let along: Vec<PointId> = self.edge_points.from(from, to).chain([to]).collect();
+                along.windows(2).map(|ends| [ends[0], ends[1]]).collect::<Vec<_>>()
+            })
+            .collect();
+        let is_triangle = self.polygons.members(triangle).is_empty();
+        subdivide(View { surface, points, axis, facing }, triangle, &border, is_triangle, &mut pieces, cells);
     }
 }
 
@@ -232,27 +250,25 @@ fn canonical(surface: &Surface<'_>, planes: &[TriangleId], key: InputKey) -> Poi
     key.renumbered(|vertex| surface.vertex_of(vertex), |triangle| planes[surface.triangle_of(triangle).index()])
 }
 
-/// The cuts of triangles, sorted, each once.
-fn cut_lines(surface: &Surface<'_>, points: &Points, contacts: &Contacts, ends: &[[PointKey; 2]]) -> Vec<CutLine> {
-    let cut_line = |(cut, ends): (&contact::Cut, &[PointKey; 2])| {
-        let [from, to] = ends.map(|key| points.of_key(&key));
-        CutLine {
-            triangle: surface.triangle_of(cut.triangle),
-            other: surface.triangle_of(cut.other),
-            ends: sorted(from, to),
-            edge: cut.edge.map(|[a, b]| sorted(surface.vertex_of(a), surface.vertex_of(b))),
-        }
+/// The cuts of polygons and triangles, sorted, each once.
+fn cut_lines(points: &Points, keyed: &[KeyedCut]) -> Vec<CutLine> {
+    let cut_line = |cut: &KeyedCut| {
+        let [from, to] = cut.ends.map(|key| points.of_key(&key));
+        CutLine { triangle: cut.triangle, other: cut.other, ends: sorted(from, to), edge: cut.edge }
     };
-    let mut cuts: Vec<CutLine> = contacts.cuts.iter().zip(ends).map(cut_line).collect();
+    let mut cuts: Vec<CutLine> = keyed.iter().map(cut_line).collect();
     cuts.sort_unstable();
     cuts.dedup();
     cuts
 }
 
-/// Pairs of triangles that touch, each once.
-fn pairs_of(surface: &Surface<'_>, contacts: &Contacts) -> Vec<[TriangleId; 2]> {
-    let of = |pair: &[InputTriangleId; 2]| pair.map(|triangle| surface.triangle_of(triangle));
-    let mut pairs: Vec<[TriangleId; 2]> = contacts.pairs.iter().map(of).collect();
+/// Pairs of polygons or triangles that touch, each once.
+fn pairs_of(surface: &Surface<'_>, polygons: &Polygons, contacts: &Contacts) -> Vec<[TriangleId; 2]> {
+    let of = |pair: &[InputTriangleId; 2]| {
+        let [a, b] = pair.map(|triangle| polygons.of(surface.triangle_of(triangle)));
+        sorted(a, b)
+    };
+    let mut pairs: Vec<[TriangleId; 2]> = contacts.pairs.iter().map(of).filter(|pair| pair[0] != pair[1]).collect();
     pairs.sort_unstable();
     pairs.dedup();
     pairs

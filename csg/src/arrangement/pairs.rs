@@ -8,11 +8,13 @@ use planecut_kernel::sign::Counts;
 use planecut_parallel::prelude::*;
 
 use super::contact::{Contacts, touch};
+use super::flat_faces::FlatFaces;
 use super::input::Input;
 use super::predicates::{EdgePlane, RoundedPlane, Triangle};
 use super::self_walk::SelfTree;
 use super::triangle_tree::{TreeNode, TriangleTree};
 use crate::base::{Bounds, Boxes, map_chunks};
+use crate::ids::number32;
 
 /// Operands of at most this many triangles are compared with themselves on one thread each.
 const ALONE: usize = 1 << 12;
@@ -30,9 +32,10 @@ struct Task {
     nodes: [TreeNode; 2],
 }
 
-/// What the triangles of all operands have in common: of different ones, and of each one that is no convex body.
-pub(super) fn contacts(input: &Input<'_>) -> Contacts {
-    let mut all = contacts_between(input);
+/// What the triangles of all operands have in common: of different ones, and of each one that is no convex body; and the flat faces of
+/// operands.
+pub(super) fn contacts<'a>(input: &'a Input<'a>) -> (Contacts, FlatFaces<'a>) {
+    let mut all = Contacts::default();
     for operand in (0..input.operands.len()).filter(|k| !input.operands[*k].is_body()) {
         if input.operands[operand].triangles().len() > ALONE {
             contacts_within(input, operand).iter_mut().for_each(|part| all.append(part));
@@ -44,7 +47,9 @@ pub(super) fn contacts(input: &Input<'_>) -> Contacts {
         .collect();
     let parts: Vec<Vec<Contacts>> = small.par_iter().map(|operand| contacts_within(input, *operand)).collect();
     parts.into_iter().flatten().for_each(|mut part| all.append(&mut part));
-    all
+    let faces = FlatFaces::new(input, &all.pairs);
+    all.append(&mut contacts_between(input, &faces));
+    (all, faces)
 }
 
 /// What the triangles of an operand have in common.
@@ -57,7 +62,7 @@ fn contacts_within(input: &Input<'_>, operand: usize) -> Vec<Contacts> {
             tree.walk(task.clone(), &mut |one, other| {
                 let [one, other] = [one, other].map(|triangle| Probe::new(input, operand, triangle));
                 if one.bounds.touches(&other.bounds) {
-                    touch(input, [&one, &other], &mut out);
+                    touch(input, [&one, &other], None, &mut out);
                 }
             });
         }
@@ -67,7 +72,7 @@ fn contacts_within(input: &Input<'_>, operand: usize) -> Vec<Contacts> {
 }
 
 /// What triangles of different operands have in common.
-fn contacts_between(input: &Input<'_>) -> Contacts {
+fn contacts_between(input: &Input<'_>, faces: &FlatFaces<'_>) -> Contacts {
     let trees: Vec<&TriangleTree> = input.operands.iter().map(|operand| operand.tree()).collect();
     let boxes = Boxes::new(trees.iter().map(|tree| tree.all_bounds()).collect());
     let (mut tasks, mut near) = (Vec::new(), Vec::new());
@@ -94,7 +99,8 @@ fn contacts_between(input: &Input<'_>) -> Contacts {
         let mut out = Contacts::default();
         for task in tasks {
             let [one, other] = task.operands.map(|k| trees[k as usize]);
-            let mut walk = Walk { input, operands: task.operands.map(|k| k as usize), one, other, out: &mut out };
+            let operands = task.operands.map(|k| k as usize);
+            let mut walk = Walk { input, faces, operands, one, other, out: &mut out };
             walk.between(task.nodes[0], task.nodes[1]);
         }
         out
@@ -149,6 +155,11 @@ impl Probe {
         Self { triangle, plane, bounds: input.operands[operand].bounds(own), operand, own, twins }
     }
 
+    /// Whether an edge lies within a flat face of the operand.
+    pub(super) fn is_within_face(&self, faces: &FlatFaces<'_>, side: usize) -> bool {
+        faces.is_diagonal(self.operand, 3 * self.own + number32(side))
+    }
+
     /// Whether another triangle is the one on the other side of an edge.
     pub(super) fn is_neighbour(&self, side: usize, other: &Self) -> bool {
         self.operand == other.operand && self.twins[side] / 3 == other.own
@@ -157,6 +168,7 @@ impl Probe {
 
 struct Walk<'a> {
     input: &'a Input<'a>,
+    faces: &'a FlatFaces<'a>,
     operands: [usize; 2],
     one: &'a TriangleTree,
     other: &'a TriangleTree,
@@ -274,7 +286,7 @@ impl Walk<'_> {
 
     fn compare(&mut self, one: &Probe, other: &Probe) {
         if one.bounds.touches(&other.bounds) {
-            touch(self.input, [one, other], self.out);
+            touch(self.input, [one, other], Some(self.faces), self.out);
         }
     }
 }

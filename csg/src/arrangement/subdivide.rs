@@ -1,4 +1,4 @@
-//! Subdivision of one triangle into cells by the cuts within it and the points on its edges.
+//! Subdivision of one triangle or polygon into cells by the cuts within it and the points on its edges.
 
 use std::cmp::Ordering;
 
@@ -76,47 +76,81 @@ impl View<'_> {
     }
 }
 
-/// Half-edges of the subdivision. The first ones are those of the boundary; of the others each two run along one segment.
+/// Where a loop that goes around something is.
+#[derive(Debug, Clone, Copy)]
+enum Around {
+    /// Within the cell that has a loop around it.
+    Cell(u32),
+    /// Within none.
+    Nothing,
+}
+
+impl Around {
+    fn cell(self) -> Option<u32> {
+        match self {
+            Self::Cell(cell) => Some(cell),
+            Self::Nothing => None,
+        }
+    }
+}
+
+/// Half-edges of the subdivision. The first ones are those of the boundary of a triangle; of the others each two run along one segment.
 struct Graph<'a> {
     view: View<'a>,
     nodes: Vec<PointId>,
     boundary: usize,
+    /// Whether what lies to the left of a half-edge is not a part of the polygon; empty for a triangle.
+    is_outside: Vec<bool>,
     /// Where each half-edge begins and ends, as places among the nodes.
     ends: Vec<[u32; 2]>,
     next: Vec<u32>,
 }
 
-/// Subdivides a triangle. `border` are the points of its boundary, in order; `cuts` are segments that meet in ends alone, perhaps more
-/// than once each.
+/// Subdivides a triangle, or a polygon that has it as its first one. `border` are the segments of its boundary, itself to their left, those of
+/// a triangle in order; `cuts` are segments that meet in ends alone, perhaps more than once each.
 pub(super) fn subdivide(
     view: View<'_>,
     triangle: TriangleId,
-    border: &[PointId],
+    border: &[[PointId; 2]],
+    is_triangle: bool,
     cuts: &mut Vec<[PointId; 2]>,
     cells: &mut Cells,
 ) {
     cuts.sort_unstable();
     cuts.dedup();
-    let mut sides: Vec<[PointId; 2]> =
-        (0..border.len()).map(|k| super::surface::sorted(border[k], border[(k + 1) % border.len()])).collect();
+    let mut sides: Vec<[PointId; 2]> = border.iter().map(|[a, b]| super::surface::sorted(*a, *b)).collect();
     sides.sort_unstable();
+    sides.dedup();
     cuts.retain(|cut| sides.binary_search(cut).is_err());
-    if cuts.is_empty() {
-        cells.add(triangle, std::iter::once(border.iter().copied()));
+    if cuts.is_empty() && is_triangle {
+        cells.add(triangle, std::iter::once(border.iter().map(|side| side[0])));
         return;
     }
-    let mut nodes: Vec<PointId> = border.iter().chain(cuts.as_flattened()).copied().collect();
+    let mut nodes: Vec<PointId> = border.iter().chain(cuts.iter()).flatten().copied().collect();
     nodes.sort_unstable();
     nodes.dedup();
     let node = |point: &PointId| number32(nodes.binary_search(point).expect("a point of the triangle"));
-    let boundary = border.len();
-    let mut ends: Vec<[u32; 2]> =
-        (0..boundary).map(|k| [node(&border[k]), node(&border[(k + 1) % boundary])]).collect();
+    let boundary = if is_triangle { border.len() } else { 0 };
+    let mut ends: Vec<[u32; 2]> = Vec::with_capacity(boundary + 2 * cuts.len());
+    let mut is_outside = Vec::new();
+    if is_triangle {
+        ends.extend(border.iter().map(|side| [node(&side[0]), node(&side[1])]));
+    } else {
+        // where both half-edges of a segment are parts of the boundary it is a slit
+        let mut directed = border.to_vec();
+        directed.sort_unstable();
+        let is_out = |side: &[PointId; 2]| directed.binary_search(side).is_err();
+        for [a, b] in &sides {
+            ends.extend([[node(a), node(b)], [node(b), node(a)]]);
+            is_outside.extend([is_out(&[*a, *b]), is_out(&[*b, *a])]);
+        }
+    }
     for [a, b] in cuts.iter() {
         let (a, b) = (node(a), node(b));
         ends.extend([[a, b], [b, a]]);
     }
-    let mut graph = Graph { view, nodes, boundary, next: vec![0; ends.len()], ends };
+    is_outside.resize(if is_triangle { 0 } else { ends.len() }, false);
+    let mut graph = Graph { view, nodes, boundary, is_outside, next: vec![0; ends.len()], ends };
     graph.link();
     graph.emit(triangle, cells);
 }
@@ -201,9 +235,10 @@ impl Graph<'_> {
         }
         let parents = self.parents(&of_half_edge, loops.len());
         let mut holes: Vec<(u32, usize)> =
-            (0..loops.len()).filter_map(|k| parents[k].map(|parent| (parent, k))).collect();
+            (0..loops.len()).filter_map(|k| Some((parents[k]?.cell()?, k))).collect();
         holes.sort_unstable();
-        for (k, around) in loops.iter().enumerate().filter(|(k, _)| parents[*k].is_none()) {
+        let is_out = |members: &[u32]| members.iter().any(|h| self.is_outside.get(*h as usize) == Some(&true));
+        for (k, around) in loops.iter().enumerate().filter(|(k, around)| parents[*k].is_none() && !is_out(around)) {
             let first = holes.partition_point(|(parent, _)| (*parent as usize) < k);
             let within =
                 holes[first..].iter().take_while(|(parent, _)| *parent as usize == k).map(|(_, hole)| &loops[*hole]);
@@ -212,17 +247,18 @@ impl Graph<'_> {
         }
     }
 
-    /// For each loop that goes around something within a cell, the loop around that cell.
-    fn parents(&self, of_half_edge: &[u32], loops: usize) -> Vec<Option<u32>> {
-        let mut parents = vec![None; loops];
+    /// For each loop that goes around something where that is.
+    fn parents(&self, of_half_edge: &[u32], loops: usize) -> Vec<Option<Around>> {
+        let mut parents: Vec<Option<Around>> = vec![None; loops];
         let mut sets = DisjointSets::new(self.nodes.len());
         self.ends.iter().for_each(|[a, b]| sets.join(*a, *b));
         let root = sets.root(self.ends[0][0]);
         let (numbers, count) = sets.numbered();
-        if count == 1 {
+        // around a triangle there is no loop
+        let outer = (self.boundary > 0).then_some(numbers[root as usize]);
+        if count == 1 && outer.is_some() {
             return parents;
         }
-        let outer = numbers[root as usize];
         // the leftmost node of each part
         let mut leftmost: Vec<Option<u32>> = vec![None; count];
         for node in 0..number32(self.nodes.len()) {
@@ -233,7 +269,7 @@ impl Graph<'_> {
             }
         }
         let mut islands: Vec<u32> =
-            (0..number32(count)).filter(|k| *k != outer).filter_map(|k| leftmost[k as usize]).collect();
+            (0..number32(count)).filter(|k| Some(*k) != outer).filter_map(|k| leftmost[k as usize]).collect();
         islands.sort_by(|a, b| self.view.order(self.nodes[*a as usize], self.nodes[*b as usize]));
         for node in islands {
             let point = self.nodes[node as usize];
@@ -246,8 +282,9 @@ impl Graph<'_> {
             });
             let around = of_half_edge[last.expect("an island has segments") as usize];
             let below = self.below(node, &numbers).map(|half_edge| of_half_edge[half_edge as usize]);
-            let cell = below.expect("an island lies within the boundary");
-            parents[around as usize] = Some(parents[cell as usize].unwrap_or(cell));
+            // what is around another island is so for this one, too
+            let place = |cell: u32| parents[cell as usize].unwrap_or(Around::Cell(cell));
+            parents[around as usize] = Some(below.map_or(Around::Nothing, place));
         }
         parents
     }

@@ -6,6 +6,7 @@ use rustc_hash::FxHashMap;
 
 use super::contact::Contacts;
 use super::exact::are_one;
+use super::flat_faces::FlatFaces;
 use super::input::Input;
 use super::predicates::{Corner, Triangle};
 use crate::closed_mesh::connectivity::NO_TWIN;
@@ -46,8 +47,8 @@ pub(super) struct Surface<'a> {
 
 impl<'a> Surface<'a> {
     /// The triangles that contacts name, and those around their vertices.
-    pub(super) fn new(input: &'a Input<'a>, contacts: &Contacts) -> Self {
-        let is_core = core_vertices(input, contacts);
+    pub(super) fn new(input: &'a Input<'a>, contacts: &Contacts, faces: &FlatFaces<'_>) -> Self {
+        let is_core = core_vertices(input, contacts, faces);
         let mut surface = Self {
             input,
             positions: Vec::new(),
@@ -225,7 +226,7 @@ impl<'a> Surface<'a> {
 }
 
 /// The vertices of triangles that touch others or have no area, and those where the triangles of an operand are not one fan.
-fn core_vertices(input: &Input<'_>, contacts: &Contacts) -> Vec<bool> {
+fn core_vertices(input: &Input<'_>, contacts: &Contacts, faces: &FlatFaces<'_>) -> Vec<bool> {
     let mut is_core = vec![false; input.vertex_count()];
     let mut take = |operand: usize, triangle: u32| {
         for vertex in input.operands[operand].triangles()[triangle as usize] {
@@ -236,6 +237,11 @@ fn core_vertices(input: &Input<'_>, contacts: &Contacts) -> Vec<bool> {
     let of_cuts = contacts.cuts.iter().flat_map(|cut| [cut.triangle, cut.other]);
     let all = of_pairs.into_iter().flat_map(|pairs| pairs.as_flattened()).copied();
     for triangle in all.chain(of_cuts).chain(contacts.touched.iter().copied()) {
+        let (operand, triangle) = input.of_triangle(triangle);
+        take(operand, triangle);
+    }
+    // of faces upon each other not every triangle need be named
+    for triangle in faces.overlapping(&contacts.overlapping, &contacts.identical) {
         let (operand, triangle) = input.of_triangle(triangle);
         take(operand, triangle);
     }

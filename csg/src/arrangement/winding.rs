@@ -123,8 +123,10 @@ impl Spread<'_> {
             return self.begin_with_patch(facet, operand as usize, first);
         }
         let triangle = self.facets.triangle(&self.arrangement.cells, facet);
-        let Arrangement { surface, edge_points, .. } = self.arrangement;
-        let [a, b, _] = surface.corners(triangle);
+        let Arrangement { surface, polygons, edge_points, .. } = self.arrangement;
+        let half_edge = polygons.border(surface, polygons.of(triangle))[0];
+        let triangle = TriangleId::from_index(half_edge as usize / 3);
+        let [a, b] = [half_edge as usize % 3, (half_edge as usize + 1) % 3].map(|k| surface.corners(triangle)[k]);
         let windings = beside(input, [a, b].map(|point| surface.corner(point)));
         let next = edge_points.from(a, b).nth(1).unwrap_or(b);
         let sides = self.facets.edge_between(sorted(a, next)).expect("the edge of a facet is listed");
@@ -133,7 +135,7 @@ impl Spread<'_> {
         let around = Around::of_side(self.arrangement, &sides[0]);
         let mut members = half_planes(self.arrangement, self.facets, &sides);
         // a patch beside a seam is a triangle of the input
-        let seam = self.seam_at(triangle, a, b);
+        let seam = self.seam_at(half_edge, a, b);
         members.extend(seam);
         around.sort(&mut members);
         let (_, side) = members[around.after_direction(&members)];
@@ -158,11 +160,10 @@ impl Spread<'_> {
         self.set(facet, !is_forward, state)
     }
 
-    /// The triangle of a patch at the edge of a triangle between two of its corners.
-    fn seam_at(&self, triangle: TriangleId, a: PointId, b: PointId) -> Option<(HalfPlane, Side)> {
+    /// The triangle of a patch at a half-edge between two vertices.
+    fn seam_at(&self, half_edge: u32, a: PointId, b: PointId) -> Option<(HalfPlane, Side)> {
         let Arrangement { surface, patches, .. } = self.arrangement;
-        let first = 3 * triangle.number();
-        let seam = surface.seams.binary_search_by_key(&first, |(half_edge, _)| *half_edge).ok()?;
+        let seam = surface.seams.binary_search_by_key(&half_edge, |(half_edge, _)| *half_edge).ok()?;
         let (operand, number) =
             surface.input.of_triangle(InputTriangleId::from_index(surface.seams[seam].1 as usize / 3));
         let facet = self.facets.of_patch(patches.of(operand, number)?);

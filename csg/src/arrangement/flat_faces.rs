@@ -1,0 +1,145 @@
+//! The flat faces of operands: triangles of one plane and one material that are neighbours.
+//!
+//! Edges between triangles of one face are *diagonals*: how a face was cut into triangles does not matter to what others cut out of it.
+
+use std::sync::OnceLock;
+
+use planecut_parallel::prelude::*;
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use super::flat::are_coplanar;
+use super::input::Input;
+use super::predicates::{best_axis, normal_component};
+use crate::base::DisjointSets;
+use crate::closed_mesh::connectivity::NO_TWIN;
+use crate::ids::{InputTriangleId, number32};
+
+/// Half-edges that one thread looks at in a row.
+const CHUNK: usize = 1 << 12;
+
+/// The flat faces of all operands, each found when it is first asked for.
+#[derive(Debug)]
+pub(super) struct FlatFaces<'a> {
+    input: &'a Input<'a>,
+    /// For each operand those of its own triangles that have more in common than vertices and edges.
+    touching: Vec<Vec<[u32; 2]>>,
+    of_operand: Vec<OnceLock<Vec<u32>>>,
+}
+
+impl<'a> FlatFaces<'a> {
+    /// `touching` are triangles of one operand each that have more in common than vertices and edges: these are of no face together.
+    pub(super) fn new(input: &'a Input<'a>, touching: &[[InputTriangleId; 2]]) -> Self {
+        let mut of_operand: Vec<Vec<[u32; 2]>> = vec![Vec::new(); input.operands.len()];
+        for pair in touching {
+            let [(operand, one), (_, other)] = pair.map(|triangle| input.of_triangle(triangle));
+            of_operand[operand].push([one, other]);
+        }
+        let of_none = of_operand.iter().map(|_| OnceLock::new()).collect();
+        Self { input, touching: of_operand, of_operand: of_none }
+    }
+
+    /// For each triangle of an operand the first one of its face.
+    #[inline]
+    pub(super) fn of(&self, operand: usize) -> &[u32] {
+        self.of_operand[operand].get_or_init(|| faces(self.input, operand, &self.touching[operand]))
+    }
+
+    /// Whether both triangles at a half-edge of an operand lie in one plane, and continue one another there.
+    pub(super) fn is_flat(&self, operand: usize, half_edge: u32) -> bool {
+        match self.of_operand[operand].get() {
+            Some(_) => self.is_diagonal(operand, half_edge),
+            None => is_within_face(self.input, operand, half_edge),
+        }
+    }
+
+    /// Whether a half-edge of an operand lies within a face.
+    #[inline]
+    pub(super) fn is_diagonal(&self, operand: usize, half_edge: u32) -> bool {
+        let twin = self.input.operands[operand].twins()[half_edge as usize];
+        let first = self.of(operand);
+        twin != NO_TWIN && first[half_edge as usize / 3] == first[twin as usize / 3]
+    }
+
+    /// The triangles of faces that lie upon those of other operands, other than triangle by triangle: given pairs of triangles that do, and
+    /// those of them that have the same corners.
+    pub(super) fn overlapping(
+        &self,
+        overlapping: &[[InputTriangleId; 2]],
+        identical: &[[InputTriangleId; 2]],
+    ) -> Vec<InputTriangleId> {
+        let place = |triangle: InputTriangleId| {
+            let (operand, own) = self.input.of_triangle(triangle);
+            (operand, self.of(operand)[own as usize])
+        };
+        let of_pair = |pair: &[InputTriangleId; 2]| pair.map(place);
+        let mut pairs: Vec<[(usize, u32); 2]> = overlapping.iter().map(of_pair).collect();
+        pairs.dedup();
+        pairs.sort_unstable();
+        pairs.dedup();
+        let mut like: FxHashMap<[(usize, u32); 2], u32> = FxHashMap::default();
+        for pair in identical {
+            *like.entry(of_pair(pair)).or_insert(0) += 1;
+        }
+        let mut sizes: FxHashMap<(usize, u32), u32> = FxHashMap::default();
+        let operands: FxHashSet<usize> = pairs.as_flattened().iter().map(|(operand, _)| *operand).collect();
+        for operand in &operands {
+            self.of(*operand).iter().for_each(|first| *sizes.entry((*operand, *first)).or_insert(0) += 1);
+        }
+        pairs.retain(|pair| pair.iter().any(|face| like.get(pair) != sizes.get(face)));
+        let faces: FxHashSet<(usize, u32)> = pairs.as_flattened().iter().copied().collect();
+        let mut all = Vec::new();
+        for operand in operands {
+            let members = (0..).zip(self.of(operand)).filter(|(_, first)| faces.contains(&(operand, **first)));
+            all.extend(members.map(|(triangle, _)| self.input.number(operand, triangle)));
+        }
+        all
+    }
+}
+
+/// For each triangle of an operand the first one of its face.
+fn faces(input: &Input<'_>, operand: usize, touching: &[[u32; 2]]) -> Vec<u32> {
+    let own = &input.operands[operand];
+    let count = own.triangles().len();
+    let half_edges = (0..number32(3 * count)).into_par_iter().with_min_len(CHUNK);
+    let within: Vec<u32> = half_edges.filter(|half_edge| is_within_face(input, operand, *half_edge)).collect();
+    let mut sets = DisjointSets::new(count);
+    for half_edge in within {
+        sets.join(half_edge / 3, own.twins()[half_edge as usize] / 3);
+    }
+    let mut first: Vec<u32> = (0..number32(count)).map(|triangle| sets.root(triangle)).collect();
+    // where a face touches itself each triangle is one
+    let mut is_alone = vec![false; count];
+    for [one, other] in touching {
+        if first[*one as usize] == first[*other as usize] {
+            is_alone[first[*one as usize] as usize] = true;
+        }
+    }
+    for (triangle, first) in (0..).zip(&mut first) {
+        if is_alone[*first as usize] {
+            *first = triangle;
+        }
+    }
+    first
+}
+
+/// Whether a half-edge, the smaller one of two along an edge, has triangles of one plane on both sides that continue one another.
+fn is_within_face(input: &Input<'_>, operand: usize, half_edge: u32) -> bool {
+    let own = &input.operands[operand];
+    let twin = own.twins()[half_edge as usize];
+    if twin == NO_TWIN || twin < half_edge {
+        return false;
+    }
+    let (one, other) = (half_edge / 3, twin / 3);
+    if own.material(one) != own.material(other) || !own.flat().is_empty() && [one, other].iter().any(|t| own.flat().binary_search(t).is_ok()) {
+        return false;
+    }
+    if own.is_body() {
+        return own.plane(one) == own.plane(other);
+    }
+    let [a, b, c] = own.triangles()[one as usize].map(|vertex| own.positions()[vertex as usize]);
+    let apex = own.positions()[own.triangles()[other as usize][(twin as usize + 2) % 3] as usize];
+    are_coplanar([a, b, c, apex]) && {
+        let [p, q] = [one, other].map(|triangle| input.triangle(operand, triangle));
+        best_axis(input, &p).is_some_and(|(axis, sign)| normal_component(input, &q, axis) == sign)
+    }
+}

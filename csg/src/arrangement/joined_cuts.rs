@@ -1,0 +1,221 @@
+//! The cuts of polygons: what triangles have in common, joined across the diagonals of both.
+//!
+//! Two triangles share a segment of the line in which their planes meet. Where that ends at a diagonal, the next triangle of the polygon
+//! goes on. So segments of two polygons are joined where just two end in a point that a diagonal, or a vertex within a polygon, defines.
+
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use super::contact::{Contacts, InputKey};
+use super::edge_points::PointOnEdge;
+use super::points::PointKey;
+use super::polygons::Polygons;
+use super::surface::{Surface, sorted};
+use crate::ids::{Id, InputTriangleId, PointId, TriangleId};
+
+/// A segment within a polygon or triangle; or a point, at which cuts through it are divided.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct KeyedCut {
+    /// What is cut, and what it comes from: polygons by their first triangles.
+    pub(super) triangle: TriangleId,
+    pub(super) other: TriangleId,
+    /// The edge of the other one that it lies on.
+    pub(super) edge: Option<[PointId; 2]>,
+    pub(super) ends: [PointKey; 2],
+}
+
+/// What cuts polygons and edges.
+#[derive(Debug, Default)]
+pub(super) struct JoinedCuts {
+    pub(super) cuts: Vec<KeyedCut>,
+    pub(super) on_edges: Vec<PointOnEdge>,
+}
+
+/// Joins what triangles have in common; `key` gives keys of contacts in numbers of the surface.
+pub(super) fn joined_cuts(
+    surface: &Surface<'_>,
+    polygons: &Polygons,
+    planes: &[TriangleId],
+    contacts: &Contacts,
+    key: impl Fn(InputKey) -> PointKey,
+) -> JoinedCuts {
+    let joining = Joining { surface, polygons, planes };
+    let mut found = JoinedCuts::default();
+    for cut in &contacts.cuts {
+        let edge = cut.edge.map(|edge| joining.edge(edge));
+        found.cuts.extend(joining.cut([cut.triangle, cut.other], edge, cut.ends.map(&key)));
+    }
+    joining.along_diagonals(contacts, &key, &mut found.cuts);
+    let vanished = joining.join(&mut found.cuts);
+    for cut in &contacts.edge_cuts {
+        let side = surface.half_edge_of(cut.side);
+        let triangle = TriangleId::from_index(side as usize / 3);
+        let (edge, key) = (surface.edge(triangle, side as usize % 3), key(cut.key));
+        if !polygons.is_diagonal(surface, side) {
+            if !vanished.contains(&(edge, key)) {
+                found.on_edges.push(PointOnEdge { side, key });
+            }
+            continue;
+        }
+        // a point within a polygon: other cuts may go through it
+        let pair = [triangle, surface.triangle_of(cut.other)].map(|triangle| polygons.of(triangle));
+        let is_gone = match key {
+            PointKey::EdgeEdge(edges) => edges.iter().any(|edge| vanished.contains(&(*edge, key))),
+            _ => false,
+        };
+        if !is_gone && !joining.is_nothing(pair, &key) {
+            found.cuts.push(KeyedCut { triangle: pair[0], other: pair[1], edge: None, ends: [key; 2] });
+        }
+    }
+    found
+}
+
+struct Joining<'a> {
+    surface: &'a Surface<'a>,
+    polygons: &'a Polygons,
+    planes: &'a [TriangleId],
+}
+
+impl Joining<'_> {
+    fn edge(&self, [a, b]: [crate::ids::InputVertexId; 2]) -> [PointId; 2] {
+        sorted(self.surface.vertex_of(a), self.surface.vertex_of(b))
+    }
+
+    /// A cut that is none of polygons alone: it does not lie on a diagonal of the other one within its plane.
+    fn cut(
+        &self,
+        triangles: [InputTriangleId; 2],
+        edge: Option<[PointId; 2]>,
+        ends: [PointKey; 2],
+    ) -> Option<KeyedCut> {
+        let [p, q] = triangles.map(|triangle| self.surface.triangle_of(triangle));
+        let [triangle, other] = [p, q].map(|triangle| self.polygons.of(triangle));
+        let is_along = edge.is_some_and(|edge| self.polygons.has_diagonal(other, edge));
+        if is_along && self.planes[p.index()] == self.planes[q.index()]
+            || ends[0] == ends[1] && self.is_nothing([triangle, other], &ends[0])
+        {
+            return None;
+        }
+        let ends = if ends[0] < ends[1] { ends } else { [ends[1], ends[0]] };
+        Some(KeyedCut { triangle, other, edge: edge.filter(|_| !is_along), ends })
+    }
+
+    /// Whether a point is none of two polygons' borders, but one that comes of how they are cut into triangles.
+    fn is_nothing(&self, pair: [TriangleId; 2], key: &PointKey) -> bool {
+        let is_diagonal = |edge: &[PointId; 2]| pair.iter().any(|polygon| self.polygons.has_diagonal(*polygon, *edge));
+        match key {
+            PointKey::Vertex(vertex) => self.polygons.around(*vertex).is_some(),
+            PointKey::EdgePlane { edge, .. } => is_diagonal(edge),
+            PointKey::EdgeEdge(edges) => edges.iter().all(is_diagonal),
+            PointKey::ThreePlanes(_) => false,
+        }
+    }
+
+    /// Whether two segments that end in a point go on into one another.
+    fn joins(&self, cut: &KeyedCut, key: &PointKey) -> bool {
+        let pair = [cut.triangle, cut.other];
+        let is_diagonal = |edge: &[PointId; 2]| pair.iter().any(|polygon| self.polygons.has_diagonal(*polygon, *edge));
+        match key {
+            PointKey::Vertex(vertex) => self.polygons.around(*vertex).is_some_and(|polygon| pair.contains(&polygon)),
+            PointKey::EdgePlane { edge, .. } => is_diagonal(edge),
+            PointKey::EdgeEdge(edges) => edges.iter().any(is_diagonal),
+            PointKey::ThreePlanes(_) => false,
+        }
+    }
+
+    /// Adds cuts along diagonals: what runs along the edge of a triangle is no cut of that, but one of its polygon.
+    fn along_diagonals(&self, contacts: &Contacts, key: &impl Fn(InputKey) -> PointKey, cuts: &mut Vec<KeyedCut>) {
+        let surface = self.surface;
+        for along in &contacts.along {
+            if self.polygons.is_diagonal(surface, surface.half_edge_of(along.side)) {
+                let triangle = InputTriangleId::from_index(along.side as usize / 3);
+                let edge = along.edge.map(|edge| self.edge(edge));
+                cuts.extend(self.cut([triangle, along.other], edge, along.ends.map(key)));
+            }
+        }
+        let mut add = |one: u32, other: u32| {
+            if !self.polygons.is_diagonal(surface, surface.half_edge_of(one)) {
+                return;
+            }
+            let triangles = [one, other].map(|side| InputTriangleId::from_index(side as usize / 3));
+            let edge = surface.edge(surface.triangle_of(triangles[0]), one as usize % 3);
+            cuts.extend(self.cut(triangles, Some(edge), edge.map(PointKey::Vertex)));
+        };
+        for [one, other] in &contacts.shared_edges {
+            add(*one, *other);
+            add(*other, *one);
+        }
+        for pair in &contacts.identical {
+            let [p, q] = pair.map(|triangle| surface.triangle_of(triangle));
+            if [p, q].iter().all(|triangle| self.polygons.members(self.polygons.of(*triangle)).is_empty()) {
+                continue;
+            }
+            for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {
+                if surface.edge(p, i) == surface.edge(q, j) {
+                    let sides = [(pair[0], i), (pair[1], j)].map(|(t, side)| super::contact::half_edge(t, side));
+                    add(sides[0], sides[1]);
+                    add(sides[1], sides[0]);
+                }
+            }
+        }
+    }
+
+    /// Joins cuts of the same two polygons, sorted afterwards. Gives the points at which cuts along edges of others were joined, with these edges.
+    fn join(&self, cuts: &mut Vec<KeyedCut>) -> FxHashSet<([PointId; 2], PointKey)> {
+        let mut vanished = FxHashSet::default();
+        cuts.sort_unstable();
+        cuts.dedup();
+        if self.polygons.all().next().is_none() {
+            return vanished;
+        }
+        let all = std::mem::take(cuts);
+        let mut at: FxHashMap<PointKey, [u32; 3]> = FxHashMap::default();
+        for group in all.chunk_by(|a, b| (a.triangle, a.other, a.edge) == (b.triangle, b.other, b.edge)) {
+            let is_of_polygon =
+                [group[0].triangle, group[0].other].iter().any(|first| !self.polygons.members(*first).is_empty());
+            if group.len() == 1 || !is_of_polygon {
+                cuts.extend(group);
+                continue;
+            }
+            at.clear();
+            for (k, cut) in (0..).zip(group).filter(|(_, cut)| cut.ends[0] != cut.ends[1]) {
+                for end in cut.ends {
+                    let entry = at.entry(end).or_insert([0; 3]);
+                    if entry[0] < 2 {
+                        entry[1 + entry[0] as usize] = k;
+                    }
+                    entry[0] += 1;
+                }
+            }
+            let next = |k: u32, end: &PointKey| {
+                let [count, one, other] = at[end];
+                (count == 2 && self.joins(&group[0], end)).then(|| if one == k { other } else { one })
+            };
+            let mut is_done = vec![false; group.len()];
+            for start in 0..group.len() {
+                if is_done[start] {
+                    continue;
+                }
+                is_done[start] = true;
+                let mut ends = group[start].ends;
+                if ends[0] != ends[1] {
+                    for end in &mut ends {
+                        let mut k = start as u32;
+                        while let Some(other) = next(k, end).filter(|other| !is_done[*other as usize]) {
+                            is_done[other as usize] = true;
+                            if let Some(edge) = group[0].edge {
+                                vanished.insert((edge, *end));
+                            }
+                            let [a, b] = group[other as usize].ends;
+                            *end = if a == *end { b } else { a };
+                            k = other;
+                        }
+                    }
+                }
+                let ends = if ends[0] < ends[1] { ends } else { [ends[1], ends[0]] };
+                cuts.push(KeyedCut { ends, ..group[start] });
+            }
+        }
+        cuts.sort_unstable();
+        vanished
+    }
+}
