@@ -28,6 +28,8 @@ pub(super) struct KeyedCut {
 pub(super) struct JoinedCuts {
     pub(super) cuts: Vec<KeyedCut>,
     pub(super) on_edges: Vec<PointOnEdge>,
+    /// Triangles that touch along a diagonal, which is none of their edges any more.
+    pub(super) pairs: Vec<[InputTriangleId; 2]>,
 }
 
 /// Joins what triangles have in common; `key` gives keys of contacts in numbers of the surface.
@@ -44,7 +46,7 @@ pub(super) fn joined_cuts(
         let edge = cut.edge.map(|edge| joining.edge(edge));
         found.cuts.extend(joining.cut([cut.triangle, cut.other], edge, cut.ends.map(&key)));
     }
-    joining.along_diagonals(contacts, &key, &mut found.cuts);
+    joining.along_diagonals(contacts, &key, &mut found);
     let vanished = joining.join(&mut found.cuts);
     for cut in &contacts.edge_cuts {
         let side = surface.half_edge_of(cut.side);
@@ -101,7 +103,8 @@ impl Joining<'_> {
 
     /// Whether a point is none of two polygons' borders, but one that comes of how they are cut into triangles.
     fn is_nothing(&self, pair: [TriangleId; 2], key: &PointKey) -> bool {
-        let is_diagonal = |edge: &[PointId; 2]| pair.iter().any(|polygon| self.polygons.has_diagonal(*polygon, *edge));
+        let is_diagonal =
+            |edge: &[PointId; 2]| pair.iter().any(|polygon| self.polygons.has_mere_diagonal(*polygon, *edge));
         match key {
             PointKey::Vertex(vertex) => self.polygons.around(*vertex).is_some(),
             PointKey::EdgePlane { edge, .. } => is_diagonal(edge),
@@ -113,7 +116,8 @@ impl Joining<'_> {
     /// Whether two segments that end in a point go on into one another.
     fn joins(&self, cut: &KeyedCut, key: &PointKey) -> bool {
         let pair = [cut.triangle, cut.other];
-        let is_diagonal = |edge: &[PointId; 2]| pair.iter().any(|polygon| self.polygons.has_diagonal(*polygon, *edge));
+        let is_diagonal =
+            |edge: &[PointId; 2]| pair.iter().any(|polygon| self.polygons.has_mere_diagonal(*polygon, *edge));
         match key {
             PointKey::Vertex(vertex) => self.polygons.around(*vertex).is_some_and(|polygon| pair.contains(&polygon)),
             PointKey::EdgePlane { edge, .. } => is_diagonal(edge),
@@ -123,13 +127,13 @@ impl Joining<'_> {
     }
 
     /// Adds cuts along diagonals: what runs along the edge of a triangle is no cut of that, but one of its polygon.
-    fn along_diagonals(&self, contacts: &Contacts, key: &impl Fn(InputKey) -> PointKey, cuts: &mut Vec<KeyedCut>) {
+    fn along_diagonals(&self, contacts: &Contacts, key: &impl Fn(InputKey) -> PointKey, found: &mut JoinedCuts) {
         let surface = self.surface;
         for along in &contacts.along {
             if self.polygons.is_diagonal(surface, surface.half_edge_of(along.side)) {
                 let triangle = InputTriangleId::from_index(along.side as usize / 3);
                 let edge = along.edge.map(|edge| self.edge(edge));
-                cuts.extend(self.cut([triangle, along.other], edge, along.ends.map(key)));
+                found.cuts.extend(self.cut([triangle, along.other], edge, along.ends.map(key)));
             }
         }
         let mut add = |one: u32, other: u32| {
@@ -138,7 +142,8 @@ impl Joining<'_> {
             }
             let triangles = [one, other].map(|side| InputTriangleId::from_index(side as usize / 3));
             let edge = surface.edge(surface.triangle_of(triangles[0]), one as usize % 3);
-            cuts.extend(self.cut(triangles, Some(edge), edge.map(PointKey::Vertex)));
+            found.cuts.extend(self.cut(triangles, Some(edge), edge.map(PointKey::Vertex)));
+            found.pairs.push(triangles);
         };
         for [one, other] in &contacts.shared_edges {
             add(*one, *other);

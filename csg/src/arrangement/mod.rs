@@ -114,7 +114,7 @@ impl<'a> Arrangement<'a> {
         let planes = planes(&surface, contacts, &is_split);
         let polygons = Polygons::new(&surface, contacts, faces, &is_split);
         let key = |key: InputKey| canonical(&surface, &planes, key);
-        let JoinedCuts { cuts: keyed, on_edges } = joined_cuts(&surface, &polygons, &planes, contacts, key);
+        let JoinedCuts { cuts: keyed, on_edges, pairs } = joined_cuts(&surface, &polygons, &planes, contacts, key);
         let mut points = Points::new(&surface);
         for point in &on_edges {
             let triangle = TriangleId::from_index(point.side as usize / 3);
@@ -130,7 +130,7 @@ impl<'a> Arrangement<'a> {
         points.add(&surface, keys.filter(|key| !matches!(key, PointKey::Vertex(_))));
         let (edge_points, cut_sides) = EdgePoints::new(&surface, &points, &on_edges);
         let cuts = cut_lines(&points, &keyed);
-        let neighbours = Neighbours::new(surface.len(), &pairs_of(&surface, &polygons, contacts));
+        let neighbours = Neighbours::new(surface.len(), &pairs_of(&surface, &polygons, contacts.pairs.iter().chain(&pairs)));
         let found = crossings(&surface, &points, &planes, &cuts, &neighbours);
         points.add(&surface, found.iter().map(|(_, key)| *key).filter(|key| !matches!(key, PointKey::Vertex(_))));
         let mut is_doubled = vec![false; surface.len()];
@@ -263,12 +263,16 @@ fn cut_lines(points: &Points, keyed: &[KeyedCut]) -> Vec<CutLine> {
 }
 
 /// Pairs of polygons or triangles that touch, each once.
-fn pairs_of(surface: &Surface<'_>, polygons: &Polygons, contacts: &Contacts) -> Vec<[TriangleId; 2]> {
+fn pairs_of<'a>(
+    surface: &Surface<'_>,
+    polygons: &Polygons,
+    pairs: impl Iterator<Item = &'a [InputTriangleId; 2]>,
+) -> Vec<[TriangleId; 2]> {
     let of = |pair: &[InputTriangleId; 2]| {
         let [a, b] = pair.map(|triangle| polygons.of(surface.triangle_of(triangle)));
         sorted(a, b)
     };
-    let mut pairs: Vec<[TriangleId; 2]> = contacts.pairs.iter().map(of).filter(|pair| pair[0] != pair[1]).collect();
+    let mut pairs: Vec<[TriangleId; 2]> = pairs.map(of).filter(|pair| pair[0] != pair[1]).collect();
     pairs.sort_unstable();
     pairs.dedup();
     pairs

@@ -18,6 +18,8 @@ pub(super) struct Polygons {
     members: Vec<[TriangleId; 2]>,
     /// The edges within polygons.
     diagonals: FxHashSet<(TriangleId, [PointId; 2])>,
+    /// Those of them that are edges of others, too.
+    shared: FxHashSet<[PointId; 2]>,
     /// For each vertex the polygon all of whose triangles around it are that polygon's.
     within: Vec<Option<TriangleId>>,
 }
@@ -30,7 +32,7 @@ impl Polygons {
         members.sort_unstable();
         let groups = members.chunk_by(|a, b| a[0] == b[0]).filter(|group| group.len() > 1);
         let members: Vec<[TriangleId; 2]> = groups.flatten().copied().collect();
-        let mut polygons = Self { first, members, diagonals: FxHashSet::default(), within: Vec::new() };
+        let mut polygons = Self { first, members, diagonals: FxHashSet::default(), shared: FxHashSet::default(), within: Vec::new() };
         polygons.find_diagonals(surface);
         polygons
     }
@@ -48,6 +50,8 @@ impl Polygons {
             }
             surface.corners(*triangle).iter().for_each(|corner| self.within[corner.index()] = Some(*polygon));
         }
+        let is_corner: Vec<bool> = self.within.iter().map(Option::is_some).collect();
+        let edges: FxHashSet<[PointId; 2]> = self.diagonals.iter().map(|(_, edge)| *edge).collect();
         for triangle in TriangleId::all(surface.len()) {
             let polygon = self.of(triangle);
             let vertices = surface.triangle(triangle).corners;
@@ -58,7 +62,11 @@ impl Polygons {
             }
             for side in 0..3 {
                 if !self.is_diagonal(surface, 3 * triangle.number() + number32(side)) {
-                    surface.edge(triangle, side).iter().for_each(|end| self.within[end.index()] = None);
+                    let edge = surface.edge(triangle, side);
+                    edge.iter().for_each(|end| self.within[end.index()] = None);
+                    if edge.iter().all(|end| is_corner[end.index()]) && edges.contains(&edge) {
+                        self.shared.insert(edge);
+                    }
                 }
             }
         }
@@ -97,6 +105,11 @@ impl Polygons {
     /// Whether the edge between two vertices lies within a polygon, given by its first triangle.
     pub(super) fn has_diagonal(&self, polygon: TriangleId, edge: [PointId; 2]) -> bool {
         !self.members.is_empty() && self.diagonals.contains(&(polygon, edge))
+    }
+
+    /// Whether the edge between two vertices lies within a polygon, and is no edge of anything else.
+    pub(super) fn has_mere_diagonal(&self, polygon: TriangleId, edge: [PointId; 2]) -> bool {
+        self.has_diagonal(polygon, edge) && !self.shared.contains(&edge)
     }
 
     /// The polygon within which a vertex lies, all of whose triangles are parts of it.
