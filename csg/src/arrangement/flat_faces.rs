@@ -130,7 +130,9 @@ fn is_within_face(input: &Input<'_>, operand: usize, half_edge: u32) -> bool {
         return false;
     }
     let (one, other) = (half_edge / 3, twin / 3);
-    if own.material(one) != own.material(other) || !own.flat().is_empty() && [one, other].iter().any(|t| own.flat().binary_search(t).is_ok()) {
+    if own.material(one) != own.material(other)
+        || !own.flat().is_empty() && [one, other].iter().any(|t| own.flat().binary_search(t).is_ok())
+    {
         return false;
     }
     if own.is_body() {

@@ -130,7 +130,8 @@ impl<'a> Arrangement<'a> {
         points.add(&surface, keys.filter(|key| !matches!(key, PointKey::Vertex(_))));
         let (edge_points, cut_sides) = EdgePoints::new(&surface, &points, &on_edges);
         let cuts = cut_lines(&points, &keyed);
-        let neighbours = Neighbours::new(surface.len(), &pairs_of(&surface, &polygons, contacts.pairs.iter().chain(&pairs)));
+        let neighbours =
+            Neighbours::new(surface.len(), &pairs_of(&surface, &polygons, contacts.pairs.iter().chain(&pairs)));
         let found = crossings(&surface, &points, &planes, &cuts, &neighbours);
         points.add(&surface, found.iter().map(|(_, key)| *key).filter(|key| !matches!(key, PointKey::Vertex(_))));
         let mut is_doubled = vec![false; surface.len()];

@@ -163,8 +163,14 @@ impl Points {
         let mut fresh: Vec<PointKey> = keys.filter(|key| !self.number.contains_key(key)).collect();
         fresh.par_sort_unstable();
         fresh.dedup();
-        let places: Vec<Place> = fresh.par_iter().with_min_len(256).map(|key| place_of(surface, key)).collect();
-        for (key, place) in fresh.into_iter().zip(places) {
+        let place = |key: PointKey| (place_of(surface, &key), key);
+        let mut placed: Vec<(Place, PointKey)> = fresh.into_par_iter().with_min_len(256).map(place).collect();
+        // numbers follow from where points are, whatever defines them
+        placed.par_sort_unstable_by(|(p, one), (q, other)| {
+            let along = |axis: usize| p.at[axis].total_cmp(&q.at[axis]);
+            along(0).then_with(|| along(1)).then_with(|| along(2)).then_with(|| one.cmp(other))
+        });
+        for (place, key) in placed {
             let number = self.numbered(surface, key, place);
             self.number.insert(key, number);
         }

@@ -32,7 +32,8 @@ impl Polygons {
         members.sort_unstable();
         let groups = members.chunk_by(|a, b| a[0] == b[0]).filter(|group| group.len() > 1);
         let members: Vec<[TriangleId; 2]> = groups.flatten().copied().collect();
-        let mut polygons = Self { first, members, diagonals: FxHashSet::default(), shared: FxHashSet::default(), within: Vec::new() };
+        let mut polygons =
+            Self { first, members, diagonals: FxHashSet::default(), shared: FxHashSet::default(), within: Vec::new() };
         polygons.find_diagonals(surface);
         polygons
     }

@@ -120,7 +120,6 @@ pub(super) fn subdivide(
     cuts.dedup();
     let mut sides: Vec<[PointId; 2]> = border.iter().map(|[a, b]| super::surface::sorted(*a, *b)).collect();
     sides.sort_unstable();
-    sides.dedup();
     cuts.retain(|cut| sides.binary_search(cut).is_err());
     if cuts.is_empty() && is_triangle {
         cells.add(triangle, std::iter::once(border.iter().map(|side| side[0])));
@@ -139,10 +138,12 @@ pub(super) fn subdivide(
         // where both half-edges of a segment are parts of the boundary it is a slit
         let mut directed = border.to_vec();
         directed.sort_unstable();
-        let is_out = |side: &[PointId; 2]| directed.binary_search(side).is_err();
-        for [a, b] in &sides {
-            ends.extend([[node(a), node(b)], [node(b), node(a)]]);
-            is_outside.extend([is_out(&[*a, *b]), is_out(&[*b, *a])]);
+        for [a, b] in border {
+            let is_slit = directed.binary_search(&[*b, *a]).is_ok();
+            if !is_slit || a < b {
+                ends.extend([[node(a), node(b)], [node(b), node(a)]]);
+                is_outside.extend([false, !is_slit]);
+            }
         }
     }
     for [a, b] in cuts.iter() {
@@ -234,8 +235,7 @@ impl Graph<'_> {
             loops.push(members);
         }
         let parents = self.parents(&of_half_edge, loops.len());
-        let mut holes: Vec<(u32, usize)> =
-            (0..loops.len()).filter_map(|k| Some((parents[k]?.cell()?, k))).collect();
+        let mut holes: Vec<(u32, usize)> = (0..loops.len()).filter_map(|k| Some((parents[k]?.cell()?, k))).collect();
         holes.sort_unstable();
         let is_out = |members: &[u32]| members.iter().any(|h| self.is_outside.get(*h as usize) == Some(&true));
         for (k, around) in loops.iter().enumerate().filter(|(k, around)| parents[*k].is_none() && !is_out(around)) {
