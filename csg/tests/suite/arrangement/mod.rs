@@ -6,5 +6,6 @@ mod coincidences;
 mod integers;
 mod mixed;
 mod random;
+mod slits;
 pub(crate) mod soup;
 mod winding;

@@ -38,6 +38,41 @@ fn by_table<'a>(table: u32, count: usize) -> impl Fn(&Inside<'_>) -> bool + 'a {
     }
 }
 
+/// Makes sure that just outside of every triangle of a combination it is empty, just inside not, by winding numbers in integers, and that its
+/// mesh is closed and has the volume that is stated. Gives how many triangles were large enough to be asked.
+pub(super) fn assert_combined(seed: u64, soups: &[Soup], table: u32) -> usize {
+    let mut asked = 0;
+    let meshes: Vec<MeshBody> = soups.iter().map(Soup::mesh).collect();
+    let CombinedMeshes { mesh, solid, .. } = combine_meshes(&meshes, Vec::new(), by_table(table, soups.len()))
+        .unwrap_or_else(|error| panic!("seed {seed}, table {table:#x}: {error}, {soups:?}"));
+    let is_in = |point: DVec3| {
+        let windings: Option<Vec<i32>> = soups.iter().map(|soup| winding(soup, point)).collect();
+        windings.map(|windings| {
+            let set: u32 = (0..soups.len()).filter(|k| windings[*k] > 0).map(|k| 1 << k).sum();
+            table >> set & 1 == 1
+        })
+    };
+    for triangle in &mesh.triangles {
+        let [a, b, c] = triangle.map(|vertex| mesh.positions[vertex as usize]);
+        let normal = (b - a).cross(c - a);
+        let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+        if normal.length() < 64.0 * STEP * longest {
+            continue;
+        }
+        // not the centroid, through which edges that just touch the triangle may run
+        let (middle, step) = (0.417 * a + 0.226 * b + 0.357 * c, STEP * normal.normalize());
+        if let (Some(outside), Some(inside)) = (is_in(middle + step), is_in(middle - step)) {
+            asked += 1;
+            assert!(!outside && inside, "seed {seed}, table {table:#x}, at {middle}: {soups:?}");
+        }
+    }
+    let report = check_mesh(&mesh.positions, &mesh.triangles, &CheckOptions::default());
+    assert!(mesh.triangles.is_empty() || report.is_sound(), "seed {seed}, table {table:#x}: {report:?} {soups:?}");
+    let volume = report.topology.measures.volume;
+    assert!((volume - solid.volume).abs() < 1e-9, "seed {seed}: volume {volume}, stated {}", solid.volume);
+    asked
+}
+
 /// Just outside of every triangle the combination is empty, just inside it is not: by winding numbers in integers.
 #[test]
 fn points_beside_triangles_are_where_winding_numbers_say() {
@@ -46,33 +81,7 @@ fn points_beside_triangles_are_where_winding_numbers_say() {
         let mut rng = Rng::spread(seed);
         let soups = soups(&mut rng);
         let table = u32::try_from(rng.bits() >> 40).expect("24 bits") & !1;
-        let meshes: Vec<MeshBody> = soups.iter().map(Soup::mesh).collect();
-        let CombinedMeshes { mesh, solid, .. } = combined(seed, &meshes, by_table(table, soups.len()));
-        let is_in = |point: DVec3| {
-            let windings: Option<Vec<i32>> = soups.iter().map(|soup| winding(soup, point)).collect();
-            windings.map(|windings| {
-                let set: u32 = (0..soups.len()).filter(|k| windings[*k] > 0).map(|k| 1 << k).sum();
-                table >> set & 1 == 1
-            })
-        };
-        for triangle in &mesh.triangles {
-            let [a, b, c] = triangle.map(|vertex| mesh.positions[vertex as usize]);
-            let normal = (b - a).cross(c - a);
-            let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
-            if normal.length() < 64.0 * STEP * longest {
-                continue;
-            }
-            // not the centroid, through which edges that just touch the triangle may run
-            let (middle, step) = (0.417 * a + 0.226 * b + 0.357 * c, STEP * normal.normalize());
-            if let (Some(outside), Some(inside)) = (is_in(middle + step), is_in(middle - step)) {
-                asked += 1;
-                assert!(!outside && inside, "seed {seed}, table {table:#x}, at {middle}: {soups:?}");
-            }
-        }
-        let report = check_mesh(&mesh.positions, &mesh.triangles, &CheckOptions::default());
-        assert!(report.is_sound(), "seed {seed}, table {table:#x}: {report:?} {soups:?}");
-        let volume = report.topology.measures.volume;
-        assert!((volume - solid.volume).abs() < 1e-9, "seed {seed}: volume {volume}, stated {}", solid.volume);
+        asked += assert_combined(seed, &soups, table);
     }
     assert!(asked > 10_000, "only {asked} triangles were large enough");
 }
