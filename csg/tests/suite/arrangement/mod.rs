@@ -3,6 +3,8 @@
 mod bodies;
 mod cases;
 mod coincidences;
+mod gears;
+mod holes;
 mod integers;
 mod mixed;
 mod random;
