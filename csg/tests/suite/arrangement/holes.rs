@@ -5,6 +5,9 @@ use planecut_csg::{ClosedMesh, Evaluation, MaterialId, Mesh, MeshBody, Model, Tr
 use planecut_testkit::random::Rng;
 use planecut_testkit::scene::{brush, half_space, model, scaled};
 
+use super::random::assert_combined;
+use super::soup::Soup;
+
 /// A convex body by its corners and triangles, which have planes of whole numbers: as a mesh or as a brush.
 fn body(corners: &[DVec3], triangles: &[[u32; 3]], is_mesh: bool) -> Tree {
     if is_mesh {
@@ -19,14 +22,19 @@ fn body(corners: &[DVec3], triangles: &[[u32; 3]], is_mesh: bool) -> Tree {
     brush(triangles.iter().map(plane)).into()
 }
 
-/// A prism from one height to another over a triangle or a convex quadrilateral.
-fn prism(outline: &[DVec2], [low, high]: [f64; 2], is_mesh: bool) -> Tree {
+/// Corners and triangles of a prism from one height to another over a convex polygon.
+fn prism_of(outline: &[DVec2], [low, high]: [f64; 2]) -> Soup {
     let count = u32::try_from(outline.len()).expect("few corners");
-    let corners: Vec<DVec3> = [low, high].iter().flat_map(|z| outline.iter().map(|p| p.extend(*z))).collect();
+    let positions: Vec<DVec3> = [low, high].iter().flat_map(|z| outline.iter().map(|p| p.extend(*z))).collect();
     let next = |k: u32| (k + 1) % count;
     let sides = (0..count).flat_map(|k| [[k, next(k), count + next(k)], [k, count + next(k), count + k]]);
     let caps = (1..count - 1).flat_map(|k| [[0, k + 1, k], [count, count + k, count + k + 1]]);
-    body(&corners, &sides.chain(caps).collect::<Vec<_>>(), is_mesh)
+    Soup { positions, triangles: sides.chain(caps).collect() }
+}
+
+fn prism(outline: &[DVec2], heights: [f64; 2], is_mesh: bool) -> Tree {
+    let Soup { positions, triangles } = prism_of(outline, heights);
+    body(&positions, &triangles, is_mesh)
 }
 
 fn rectangle(min: DVec2, max: DVec2) -> [DVec2; 4] {
@@ -112,4 +120,38 @@ fn a_plate_with_holes_around_points() {
         assert!((volume - expected).abs() < 1e-9, "{what}: volume {volume}, expected {expected}");
         assert!((found.solid.volume - expected).abs() < 1e-9, "{what}: volume {}, {expected}", found.solid.volume);
     }
+}
+
+/// Prisms of few heights over triangles of a small grid: faces with islands, slits and holes that touch each other.
+#[test]
+fn prisms_over_triangles_of_a_grid() {
+    let mut asked = 0;
+    for seed in 0..scaled(300) {
+        let mut rng = Rng::spread(seed);
+        let size = 3 + rng.below(4);
+        let soups: Vec<Soup> = (0..3)
+            .map(|_| {
+                let mut soup = Soup::default();
+                for _ in 0..1 + rng.below(5) {
+                    let mut outline = [0; 3].map(|_| DVec2::new(rng.below(size) as f64, rng.below(size) as f64));
+                    let turn = (outline[1] - outline[0]).perp_dot(outline[2] - outline[0]);
+                    if turn < 0.0 {
+                        outline.swap(0, 1);
+                    }
+                    let low = rng.below(3) as f64;
+                    if turn != 0.0 {
+                        soup.push(&prism_of(&outline, [low, low + 1.0 + rng.below(2) as f64]));
+                    }
+                }
+                // upright, or lying
+                let axis = rng.below(3);
+                soup.positions.iter_mut().for_each(|p| (0..axis).for_each(|_| *p = DVec3::new(p.y, p.z, p.x)));
+                soup
+            })
+            .collect();
+        let parity = 0b1001_0110;
+        let table = if rng.chance(0.5) { parity } else { u32::try_from(rng.bits() >> 56).expect("8 bits") & !1 };
+        asked += assert_combined(seed, &soups, table);
+    }
+    assert!(asked > 5_000, "only {asked} triangles were large enough");
 }
