@@ -87,51 +87,55 @@ fn points_beside_triangles_are_where_winding_numbers_say() {
 }
 
 /// `|A ∪ B| + |A ∩ B| = |A| + |B|`, `|A − B| + |A ∩ B| = |A|`, `A − A = ∅`, whatever is done to the coordinates.
+fn assert_volumes(seed: u64) {
+    let mut rng = Rng::spread(seed + 10_000);
+    let mut soups = soups(&mut rng);
+    let (scale, shift) = match seed % 6 {
+        0 => (2_f64.powi(-70), DVec3::ZERO),
+        1 => (1.0 / 3.0, DVec3::new(1e6 + 0.1, -3e5, 7.7)),
+        2 => (2_f64.powi(-200), DVec3::ZERO),
+        _ => (1.0, DVec3::ZERO),
+    };
+    let jitter = if seed % 6 == 3 { 1e-9 } else { 0.0 };
+    for soup in &mut soups {
+        let move_point = |p: &mut DVec3| {
+            let noise = DVec3::from_array([0; 3].map(|_| rng.float(-jitter, jitter + f64::MIN_POSITIVE)));
+            *p = *p * scale + shift + if jitter > 0.0 { noise } else { DVec3::ZERO };
+        };
+        soup.positions.iter_mut().for_each(move_point);
+    }
+    let meshes: Vec<MeshBody> = soups[..2].iter().map(Soup::mesh).collect();
+    let volume =
+        |is_solid: &dyn Fn(&Inside<'_>) -> bool| combined(seed, &meshes, is_solid).solid.volume / scale.powi(3);
+    let [either, both, first, second, difference] = [
+        volume(&|inside| inside.of(0) || inside.of(1)),
+        volume(&|inside| inside.of(0) && inside.of(1)),
+        volume(&|inside| inside.of(0)),
+        volume(&|inside| inside.of(1)),
+        volume(&|inside| inside.of(0) && !inside.of(1)),
+    ];
+    // far away coordinates are coarse
+    let slack = 1e-9 * (1.0 + shift.length());
+    assert!((either + both - first - second).abs() < slack, "seed {seed}: {either} + {both}, {first} + {second}");
+    assert!((difference + both - first).abs() < slack, "seed {seed}: {difference} + {both}, {first}");
+    let twice = [meshes[0].clone(), meshes[0].clone()];
+    assert_eq!(combined(seed, &twice, |inside| inside.of(0) && !inside.of(1)).mesh.triangles.len(), 0, "seed {seed}");
+    let (one, union) = (
+        combined(seed, &meshes[..1], |inside| inside.of(0)),
+        combined(seed, &twice, |inside| inside.of(0) || inside.of(1)),
+    );
+    assert_eq!(one.mesh, union.mesh, "seed {seed}");
+}
+
 #[test]
 fn volumes_follow_inclusion_and_exclusion() {
-    for seed in 0..scaled(1000) {
-        let mut rng = Rng::spread(seed + 10_000);
-        let mut soups = soups(&mut rng);
-        let (scale, shift) = match seed % 6 {
-            0 => (2_f64.powi(-70), DVec3::ZERO),
-            1 => (1.0 / 3.0, DVec3::new(1e6 + 0.1, -3e5, 7.7)),
-            2 => (2_f64.powi(-200), DVec3::ZERO),
-            _ => (1.0, DVec3::ZERO),
-        };
-        let jitter = if seed % 6 == 3 { 1e-9 } else { 0.0 };
-        for soup in &mut soups {
-            let move_point = |p: &mut DVec3| {
-                let noise = DVec3::from_array([0; 3].map(|_| rng.float(-jitter, jitter + f64::MIN_POSITIVE)));
-                *p = *p * scale + shift + if jitter > 0.0 { noise } else { DVec3::ZERO };
-            };
-            soup.positions.iter_mut().for_each(move_point);
-        }
-        let meshes: Vec<MeshBody> = soups[..2].iter().map(Soup::mesh).collect();
-        let volume =
-            |is_solid: &dyn Fn(&Inside<'_>) -> bool| combined(seed, &meshes, is_solid).solid.volume / scale.powi(3);
-        let [either, both, first, second, difference] = [
-            volume(&|inside| inside.of(0) || inside.of(1)),
-            volume(&|inside| inside.of(0) && inside.of(1)),
-            volume(&|inside| inside.of(0)),
-            volume(&|inside| inside.of(1)),
-            volume(&|inside| inside.of(0) && !inside.of(1)),
-        ];
-        // far away coordinates are coarse
-        let slack = 1e-9 * (1.0 + shift.length());
-        assert!((either + both - first - second).abs() < slack, "seed {seed}: {either} + {both}, {first} + {second}");
-        assert!((difference + both - first).abs() < slack, "seed {seed}: {difference} + {both}, {first}");
-        let twice = [meshes[0].clone(), meshes[0].clone()];
-        assert_eq!(
-            combined(seed, &twice, |inside| inside.of(0) && !inside.of(1)).mesh.triangles.len(),
-            0,
-            "seed {seed}"
-        );
-        let (one, union) = (
-            combined(seed, &meshes[..1], |inside| inside.of(0)),
-            combined(seed, &twice, |inside| inside.of(0) || inside.of(1)),
-        );
-        assert_eq!(one.mesh, union.mesh, "seed {seed}");
-    }
+    (0..scaled(1000)).for_each(assert_volumes);
+}
+
+/// Two needles some 1e-9 thick and one long have a part in common of a volume below 1e-19, which rounding of single products exceeds.
+#[test]
+fn needles_have_less_volume_than_rounding() {
+    assert_volumes(11_751);
 }
 
 /// The same mesh on one thread and on several.
