@@ -6,13 +6,12 @@ use rustc_hash::FxHashMap;
 
 use super::Arranged;
 use super::facets::FacetKind;
-use super::fill::FilledFaces;
 use super::input::Input;
 use super::kept::{Kept, KeptFacets};
 use super::measures::{Sums, bounds_of, of_facets, of_triangles, total};
 use super::merge::Face;
 use super::operand::Operand;
-use super::pairing::{Fans, fans};
+use super::pairing::{Fans, SEAM, fans};
 use super::winding::Windings;
 use crate::closed_mesh::connectivity::NO_TWIN;
 use crate::ids::{HalfEdgeId, Id, InputTriangleId, InputVertexId, number32};
@@ -61,20 +60,26 @@ impl Arranged<'_> {
 
     /// The triangles that were cut out of others, and those that are whole but share a vertex with these.
     fn cut_part(&self, kept: &KeptFacets) -> Result<CutPart, Flaw> {
-        let faces = self.faces(&kept.flat);
-        let FilledFaces { triangles, counts } = self.filled(&faces);
+        let faces = self.faces(kept);
+        let filled = self.filled(&faces);
+        let triangles = &filled.triangles;
         let mut triangle_faces = Vec::with_capacity(triangles.len());
-        for (face, count) in (0..).zip(&counts) {
+        for (face, count) in (0..).zip(&filled.counts) {
             triangle_faces.extend(std::iter::repeat_n(face, *count as usize));
         }
-        let twins = self.twins(&kept.values, &faces, &triangles, &triangle_faces);
-        if twins.contains(&NO_TWIN) {
+        let twins = self.twins(&kept.values, &faces, &filled, &triangle_faces);
+        let is_pair = |(half_edge, twin): (u32, &u32)| match *twin {
+            NO_TWIN => false,
+            SEAM => true,
+            twin => twins[twin as usize] == half_edge,
+        };
+        if !(0..).zip(&twins).all(is_pair) {
             return Err(Flaw::Open);
         }
         let corners = self.input_corners(&faces, &triangle_faces);
         let surface = &self.arrangement.surface;
         let is_shared = |vertex: InputVertexId| !surface.is_core(vertex);
-        let Fans { vertices, points, inputs } = fans(&triangles, &twins, &corners, is_shared);
+        let Fans { vertices, points, inputs } = fans(triangles, &twins, &corners, is_shared);
         let mut mesh = Mesh {
             positions: points.iter().map(|point| self.arrangement.points.at(surface, *point)).collect(),
             triangles: vertices,

@@ -1,12 +1,13 @@
 //! Faces cut into triangles.
 
 use planecut_kernel::sign::{Counts, Sign};
-use rustc_hash::FxHashMap;
 
 use super::facets::FacetKind;
 use super::kept::Kept;
 use super::merge::Face;
 use super::predicates::best_axis;
+use super::slits::{Edges, without_slits};
+use super::surface::sorted;
 use super::{Arranged, Arrangement};
 use crate::base::map_chunks;
 use crate::ids::{HalfEdgeId, Id, LineId, PointId, number32};
@@ -20,6 +21,15 @@ pub(super) struct FilledFaces {
     pub(super) triangles: Vec<[u32; 3]>,
     /// The number of triangles of each face.
     pub(super) counts: Vec<u32>,
+    /// For each triangle which of its sides lie within its face, a bit for each.
+    diagonals: Vec<u8>,
+}
+
+impl FilledFaces {
+    /// Whether a half-edge lies within a face, not on a loop of it.
+    pub(super) fn is_diagonal(&self, half_edge: u32) -> bool {
+        self.diagonals[half_edge as usize / 3] >> (half_edge % 3) & 1 == 1
+    }
 }
 
 /// Points of an arrangement, seen along an axis.
@@ -44,6 +54,7 @@ impl Arranged<'_> {
         for part in parts {
             all.triangles.extend(part.triangles);
             all.counts.extend(part.counts);
+            all.diagonals.extend(part.diagonals);
         }
         all
     }
@@ -57,12 +68,14 @@ impl Arranged<'_> {
         Some(if is_upright { Projection { u, v } } else { Projection { u: v, v: u } })
     }
 
-    /// The loops of a facet, as seen from outside the solid, without segments that run both ways along it.
-    pub(super) fn loops(&self, kept: &Kept) -> Vec<Vec<PointId>> {
+    /// The loops of a facet, as seen from outside the solid, without segments that run both ways along it, but for those in which faces cross.
+    pub(super) fn loops(&self, kept: &Kept, crossed: &Edges) -> Vec<Vec<PointId>> {
         let Arrangement { surface, cells, points: all, .. } = &self.arrangement;
         let mut loops: Vec<Vec<PointId>> = match self.facets.kind(kept.facet) {
             FacetKind::Cell(cell) => {
-                cells.loops(cell).flat_map(|points| without_slits(points, |point| all.at(surface, point))).collect()
+                let stays = |a: PointId, b: PointId| !crossed.is_empty() && crossed.contains(&sorted(a, b));
+                let at = |point: PointId| all.at(surface, point);
+                cells.loops(cell).flat_map(|points| without_slits(points, at, stays)).collect()
             }
             _ => vec![surface.corners[kept.facet.index()].to_vec()],
         };
@@ -81,6 +94,7 @@ impl Arranged<'_> {
             if loops.is_empty() {
                 let [a, b, c] = self.arrangement.surface.corners[kept.facet.index()].map(|point| point.number());
                 filled.triangles.push(if kept.is_flipped { [a, c, b] } else { [a, b, c] });
+                filled.diagonals.push(0);
             } else if let Some(projection) = self.projection(kept) {
                 triangulator.begin(projection);
                 let mut first = 0;
@@ -95,6 +109,9 @@ impl Arranged<'_> {
                 }
                 let mut triangles = Triangles::default();
                 triangulator.triangulate(&mut triangles);
+                let within = |label: HalfEdgeId, bit: u8| if label == HalfEdgeId::NONE { bit } else { 0 };
+                let bits = |[a, b, c]: &[HalfEdgeId; 3]| within(*a, 1) | within(*b, 2) | within(*c, 4);
+                filled.diagonals.extend(triangles.labels.iter().map(bits));
                 let all: Vec<PointId> = loops.concat();
                 filled
                     .triangles
@@ -104,42 +121,6 @@ impl Arranged<'_> {
         }
         filled
     }
-}
-
-/// The loops that are left of one without the segments that it runs along both ways; the one around the others first.
-fn without_slits(points: &[PointId], at: impl Fn(PointId) -> DVec3) -> Vec<Vec<PointId>> {
-    let count = points.len();
-    let to = |k: usize| points[(k + 1) % count];
-    let mut place: FxHashMap<(PointId, PointId), usize> = FxHashMap::default();
-    place.extend((0..count).map(|k| ((points[k], to(k)), k)));
-    let back: Vec<Option<usize>> = (0..count).map(|k| place.get(&(to(k), points[k])).copied()).collect();
-    if back.iter().all(Option::is_none) {
-        return vec![points.to_vec()];
-    }
-    let mut next: Vec<usize> = (0..count).map(|k| (k + 1) % count).collect();
-    let mut previous: Vec<usize> = (0..count).map(|k| (k + count - 1) % count).collect();
-    for (k, back) in back.iter().enumerate() {
-        let Some(back) = back.filter(|back| *back > k) else { continue };
-        for (one, other) in [(k, back), (back, k)] {
-            let (before, after) = (previous[one], next[other]);
-            (next[before], previous[after]) = (after, before);
-        }
-    }
-    let mut is_done: Vec<bool> = back.iter().map(Option::is_some).collect();
-    let mut loops = Vec::new();
-    for start in 0..count {
-        let mut members = Vec::new();
-        let mut k = start;
-        while !std::mem::replace(&mut is_done[k], true) {
-            members.push(points[k]);
-            k = next[k];
-        }
-        if !members.is_empty() {
-            loops.push(members);
-        }
-    }
-    loops.sort_by(|a, b| area(b, &at).total_cmp(&area(a, &at)));
-    loops
 }
 
 /// Twice the area within a loop.

@@ -6,6 +6,7 @@ use planecut_parallel::prelude::*;
 use super::Arranged;
 use super::facets::FacetKind;
 use super::kept::Kept;
+use super::slits::Edges;
 use crate::base::{Bounds, CompensatedSum};
 use crate::ids::PointId;
 use crate::mesh::SolidMeasures;
@@ -84,6 +85,8 @@ pub(super) fn of_triangles<T: Sync>(triangles: &[T], corners: impl Fn(&T) -> [DV
 pub(super) fn of_facets(arranged: &Arranged<'_>, kept: &[Kept], middle: DVec3) -> Sums {
     let (surface, points) = (&arranged.arrangement.surface, &arranged.arrangement.points);
     let at = |point: PointId| points.at(surface, point) - middle;
+    // slits have no area
+    let none = Edges::default();
     let of_chunk = |chunk: &[Kept]| {
         let mut sums = Sums::default();
         for kept in chunk {
@@ -92,7 +95,7 @@ pub(super) fn of_facets(arranged: &Arranged<'_>, kept: &[Kept], middle: DVec3) -
                     let [a, b, c] = surface.corners(triangle).map(at);
                     sums.add(if kept.is_flipped { [a, c, b] } else { [a, b, c] })
                 }
-                _ => add_loops(&mut sums, &arranged.loops(kept), at),
+                _ => add_loops(&mut sums, &arranged.loops(kept, &none), at),
             };
             sums.area.add(0.5 * twice_area.length());
         }

@@ -8,7 +8,7 @@ use rustc_hash::FxHashMap;
 
 use super::facets::FacetKind;
 use super::fill::area;
-use super::kept::Kept;
+use super::kept::{Kept, KeptFacets};
 use super::predicates::{RoundedPlane, best_axis, normal_component};
 use super::surface::sorted;
 use super::{Arranged, Arrangement};
@@ -37,14 +37,16 @@ struct CellEdge {
 
 impl Arranged<'_> {
     /// The faces of the boundary: whole triangles first, in their order, then those that cells make up.
-    pub(super) fn faces(&self, kept: &[Kept]) -> Vec<Face> {
+    pub(super) fn faces(&self, kept: &KeptFacets) -> Vec<Face> {
+        let crossed = self.crossed(&kept.values);
+        let kept = &kept.flat;
         let is_cell = |kept: &&Kept| matches!(self.facets.kind(kept.facet), FacetKind::Cell(_));
         let cells: Vec<Kept> = kept.iter().filter(is_cell).copied().collect();
         let whole = kept.iter().filter(|kept| !is_cell(kept));
         let mut faces: Vec<Face> = whole.map(|kept| Face { kept: *kept, loops: Vec::new() }).collect();
         let mut edges: Vec<CellEdge> = Vec::new();
         for (cell, kept) in (0..).zip(&cells) {
-            for points in self.loops(kept) {
+            for points in self.loops(kept, &crossed) {
                 let first = number32(edges.len());
                 let count = number32(points.len());
                 edges.extend((0..points.len()).map(|k| CellEdge {
@@ -186,6 +188,8 @@ impl Arranged<'_> {
                 for k in 0..count {
                     let [before, point, after] = [count - 1, 0, 1].map(|step| points[(k + step) % count]);
                     if uses[point.index()] == 2
+                        // where a slit ends the turn is a whole one
+                        && before != after
                         && self.arrangement.points.turn(surface, [before, point, after], axis) == Sign::Zero
                     {
                         *straight.entry(point).or_insert(0) += 1;

@@ -9,7 +9,7 @@
 //! 4. [`points`] gives each point one number, whichever edges and planes meet there.
 //! 5. [`crossings`] finds where cuts of one triangle cross, and [`subdivide`] makes cells of it.
 //! 6. [`facets`] joins cells that lie upon each other, [`around`] sorts facets around edges, and [`winding`] goes from one to the next.
-//! 7. [`kept`] keeps the facets that have the solid on one side alone, [`merge`] makes faces of them, [`fill`] triangles of those,
+//! 7. [`kept`] keeps the facets that have the solid on one side alone, [`merge`] makes faces of them, [`fill`] triangles of those ([`slits`] are left out),
 //!    [`pairing`] tells which of these are neighbours, and [`assemble`] puts them beside what passes through; [`combine`] asks for it.
 
 mod around;
@@ -37,6 +37,7 @@ mod points;
 mod polygons;
 mod predicates;
 mod self_walk;
+mod slits;
 mod stars;
 mod subdivide;
 mod surface;

@@ -6,17 +6,19 @@ use rustc_hash::FxHashMap;
 use super::Arranged;
 use super::around::{Around, half_planes};
 use super::facets::{FacetKind, Side};
+use super::fill::FilledFaces;
 use super::merge::Face;
 use super::surface::sorted;
 use crate::closed_mesh::connectivity::{HalfEdges, NO_TWIN, next};
-use crate::ids::{Id, InputVertexId, PointId, number32};
+use crate::ids::{FacetId, Id, InputVertexId, PointId, number32};
 
 /// The twin of a half-edge beside a triangle that passes through.
 pub(super) const SEAM: u32 = NO_TWIN - 1;
 
 impl Arranged<'_> {
     /// For each half-edge of the boundary the one that bounds the same wedge of the solid.
-    pub(super) fn twins(&self, values: &[bool], faces: &[Face], triangles: &[[u32; 3]], face_of: &[u32]) -> Vec<u32> {
+    pub(super) fn twins(&self, values: &[bool], faces: &[Face], filled: &FilledFaces, face_of: &[u32]) -> Vec<u32> {
+        let triangles = &filled.triangles;
         let mut twins = HalfEdges::new(self.arrangement.points.len(), triangles).twins();
         let ends = |half_edge: u32| {
             let corners = triangles[half_edge as usize / 3];
@@ -28,45 +30,59 @@ impl Arranged<'_> {
         let lone = (0..number32(twins.len())).filter(|half_edge| twins[*half_edge as usize] == NO_TWIN);
         let mut lone: Vec<([PointId; 2], u32)> = lone.map(|h| (sorted(ends(h)[0], ends(h)[1]), h)).collect();
         lone.par_sort_unstable();
+        let face = |half_edge: u32| face_of[half_edge as usize / 3];
         let mut sides: Vec<(Side, u32)> = Vec::new();
         for group in lone.chunk_by(|a, b| a.0 == b.0) {
-            sides.clear();
-            sides.extend(group.iter().map(|(along, half_edge)| {
-                let kept = &faces[face_of[*half_edge as usize / 3] as usize].kept;
-                let is_forward = (ends(*half_edge)[0] == along[0]) != kept.is_flipped;
-                (Side { ends: *along, facet: kept.facet, is_forward }, *half_edge)
-            }));
-            // diagonals of one facet belong together
-            let mut k = 0;
-            while k < sides.len() {
-                let (side, half_edge) = sides[k];
-                let opposite =
-                    |(other, _): &(Side, u32)| other.facet == side.facet && other.is_forward != side.is_forward;
-                if let Some(other) = sides[k + 1..].iter().position(opposite) {
-                    let (_, back) = sides.remove(k + 1 + other);
-                    sides.remove(k);
-                    (twins[half_edge as usize], twins[back as usize]) = (back, half_edge);
-                } else {
-                    k += 1;
+            let along = group[0].0;
+            // diagonals of one face belong together
+            let (inner, outer): (Vec<u32>, Vec<u32>) =
+                group.iter().map(|(_, half_edge)| *half_edge).partition(|half_edge| filled.is_diagonal(*half_edge));
+            for half_edge in &inner {
+                let is_back =
+                    |other: &&u32| face(**other) == face(*half_edge) && ends(**other)[0] != ends(*half_edge)[0];
+                if let Some(back) = inner.iter().find(is_back) {
+                    twins[*half_edge as usize] = *back;
                 }
             }
-            self.pair_around(values, &sides, &mut twins);
+            sides.clear();
+            sides.extend(outer.iter().map(|half_edge| {
+                let kept = &faces[face(*half_edge) as usize].kept;
+                let is_forward = (ends(*half_edge)[0] == along[0]) != kept.is_flipped;
+                (Side { ends: along, facet: kept.facet, is_forward }, *half_edge)
+            }));
+            // where several pass they cross, and have been cut
+            let passing = if sides.is_empty() { Vec::new() } else { self.slit_at(values, along) };
+            self.pair_around(values, &sides, if passing.len() == 1 { &passing } else { &[] }, &mut twins);
         }
         twins
     }
 
-    /// Pairs the half-edges at an edge that bound one wedge of the solid.
-    fn pair_around(&self, values: &[bool], sides: &[(Side, u32)], twins: &mut [u32]) {
+    /// Pairs the half-edges at an edge that bound one wedge of the solid. Through wedges between a face that passes through the edge and
+    /// others, pairs go on at its other side.
+    fn pair_around(&self, values: &[bool], sides: &[(Side, u32)], passing: &[FacetId], twins: &mut [u32]) {
         let Some((first, _)) = sides.first() else { return };
         let half_edges: FxHashMap<Side, u32> = sides.iter().copied().collect();
-        let order: Vec<Side> = sides.iter().map(|(side, _)| *side).collect();
+        let both = |facet: &FacetId| [true, false].map(|is_forward| Side { facet: *facet, is_forward, ..*first });
+        let order: Vec<Side> = sides.iter().map(|(side, _)| *side).chain(passing.iter().flat_map(both)).collect();
         let mut members = half_planes(&self.arrangement, &self.facets, &order);
         Around::of_side(&self.arrangement, first).sort(&mut members);
-        for (k, (_, side)) in members.iter().enumerate() {
+        let count = members.len();
+        let place: FxHashMap<Side, usize> = members.iter().enumerate().map(|(k, (_, side))| (*side, k)).collect();
+        // the side across the wedge of solid that one bounds
+        let across = |side: &Side| {
             let after = if side.is_forward { &self.sheets.above } else { &self.sheets.below };
-            if values[after[side.facet.index()].index()] {
-                let (one, other) = (half_edges[side], half_edges[&members[(k + 1) % members.len()].1]);
-                (twins[one as usize], twins[other as usize]) = (other, one);
+            let is_solid = values[after[side.facet.index()].index()];
+            members[(place[side] + if is_solid { 1 } else { count - 1 }) % count].1
+        };
+        for (side, half_edge) in sides {
+            let mut other = across(side);
+            for _ in passing {
+                if !half_edges.contains_key(&other) {
+                    other = across(&Side { is_forward: !other.is_forward, ..other });
+                }
+            }
+            if let Some(found) = half_edges.get(&other) {
+                twins[*half_edge as usize] = *found;
             }
         }
     }

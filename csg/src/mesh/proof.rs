@@ -31,7 +31,8 @@ struct Sums {
     six_volume: f64,
     twice_area: f64,
     perimeter: f64,
-    /// Products of lengths whose rounding is in the volume.
+    /// Products of lengths whose rounding is in the volume. The solid was measured by other triangles than these: of a needle, which has two long
+    /// sides, maybe by those, though here by a short one.
     cubes: f64,
     /// The largest amount by which a triangle that faces against its face exceeds what rounding explains; 0 where none does.
     folded: f64,
@@ -110,13 +111,15 @@ fn sums_of(mesh: &Mesh, middle: DVec3, off: f64) -> Sums {
         let [a, b, c] = triangle.map(|v| mesh.positions[v as usize] - middle);
         let (ab, ac) = (b - a, c - a);
         let normal = ab.cross(ac);
-        let perimeter = ab.length() + ac.length() + (c - b).length();
+        let sides = [ab.length(), ac.length(), (c - b).length()];
+        let perimeter = sides[0] + sides[1] + sides[2];
+        let longest = sides[0].max(sides[1]).max(sides[2]);
         let against = -normal.dot(mesh.faces[*face as usize].normal);
         Sums {
             six_volume: a.dot(normal),
             twice_area: normal.length(),
             perimeter,
-            cubes: a.length() * ab.length() * ac.length(),
+            cubes: a.length() * longest * longest,
             folded: against - 8.0 * off * perimeter,
         }
     };

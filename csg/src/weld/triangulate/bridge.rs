@@ -15,10 +15,33 @@ impl Boundary<'_> {
         }
         holes.sort_by(order);
         for &hole in holes.iter() {
+            if let Some([node, hole]) = self.touching(hole, outer) {
+                self.splice(node, hole);
+                continue;
+            }
             let proposed = self.visible_from(hole, outer);
             let bridge = if self.sees(proposed, hole) { Some(proposed) } else { self.nearest_in_sight(hole, outer) };
-            self.connect(bridge.unwrap_or(proposed), hole);
+            let bridge = bridge.unwrap_or(proposed);
+            // a hole that touches itself there has several corners, one of which opens towards the outside
+            let end = self.corners_at(hole, hole).find(|corner| self.opens_towards(*corner, bridge));
+            self.connect(bridge, end.unwrap_or(hole));
         }
+    }
+
+    /// The nodes of a ring that are at the point of another node.
+    fn corners_at(&self, ring: NodeId, node: NodeId) -> impl Iterator<Item = NodeId> + '_ {
+        let point = self.nodes[node.index()].corner.point;
+        self.ring(ring).filter(move |corner| self.nodes[corner.index()].corner.point == point)
+    }
+
+    /// A node of the outer ring and one of a hole at the point of the leftmost one of it, where the hole touches the ring. Either may have
+    /// several nodes there: those two are wanted between whose edges the others' lie.
+    fn touching(&self, hole: NodeId, outer: NodeId) -> Option<[NodeId; 2]> {
+        let pairs =
+            self.corners_at(outer, hole).flat_map(|node| self.corners_at(hole, hole).map(move |own| [node, own]));
+        pairs.into_iter().find(|[node, own]| {
+            self.opens_towards(*node, self.next(*own)) && self.opens_towards(*own, self.next(*node))
+        })
     }
 
     /// A node of the outer ring that sees `hole`, the leftmost node of a hole, but for rounding: heights are those of the rounded points.
@@ -110,11 +133,26 @@ impl Boundary<'_> {
     /// Whether the inside at `node` lies towards `other`.
     fn opens_towards(&self, node: NodeId, other: NodeId) -> bool {
         let (before, after) = (self.previous(node), self.next(node));
-        if self.turn(before, node, after) == Sign::Positive {
-            self.turn(node, after, other) != Sign::Negative && self.turn(before, node, other) != Sign::Negative
-        } else {
-            self.turn(node, after, other) == Sign::Positive || self.turn(before, node, other) == Sign::Positive
+        let (of_next, of_last) = (self.turn(node, after, other), self.turn(before, node, other));
+        let order = |to: NodeId| self.turns.order(&self.nodes[node.index()].corner, &self.nodes[to.index()].corner);
+        match self.turn(before, node, after) {
+            Sign::Positive => of_next != Sign::Negative && of_last != Sign::Negative,
+            // the end of a slit: the inside lies all around it
+            Sign::Zero if order(before) == order(after) => of_next != Sign::Zero || order(other) != order(after),
+            _ => of_next == Sign::Positive || of_last == Sign::Positive,
         }
+    }
+
+    /// Joins the ring of `hole` to that of `node`, which is at the same point.
+    fn splice(&mut self, node: NodeId, hole: NodeId) {
+        let (after_node, after_hole) = (self.next(node), self.next(hole));
+        let (own, other) = (self.nodes[node.index()], self.nodes[hole.index()]);
+        (self.nodes[node.index()].next, self.nodes[hole.index()].next) = (after_hole, after_node);
+        self.nodes[after_hole.index()].previous = node;
+        self.nodes[after_node.index()].previous = hole;
+        // each goes on along the edge of the other
+        (self.nodes[node.index()].corner, self.nodes[hole.index()].corner) = (other.corner, own.corner);
+        (self.nodes[node.index()].lines[1], self.nodes[hole.index()].lines[1]) = (other.lines[1], own.lines[1]);
     }
 
     /// Doubles both ends of a bridge and splices the ring of `hole` into that of `bridge`.

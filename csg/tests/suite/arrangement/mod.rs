@@ -3,8 +3,11 @@
 mod bodies;
 mod cases;
 mod coincidences;
+mod gears;
+mod holes;
 mod integers;
 mod mixed;
 mod random;
+mod slits;
 pub(crate) mod soup;
 mod winding;
