@@ -210,17 +210,24 @@ impl<'a> Pair<'a> {
             || (0..2).any(|k| {
                 let others = bounds_of(self.corners[1 - k].map(|corner| corner.at));
                 (0..3).any(|side| {
-                    let [a, b] = [self.corners[k][side].at, self.corners[k][(side + 1) % 3].at];
-                    bounds_of([a, b, b]).touches(&others) && !self.probes[k].is_within_face(faces, side)
+                    let ends @ [a, b] = [self.corners[k][side].at, self.corners[k][(side + 1) % 3].at];
+                    bounds_of([a, b, b]).touches(&others)
+                        && !self.probes[k].is_within_face(faces, side)
+                        && !self.probes[1 - k].plane.tells_edge_apart(self.input, ends)
                 })
             })
     }
 
-    /// Whether triangles of nearly one plane, of which large flat faces have many, are sure to lie side by side.
+    /// Whether triangles one of which has corners nearly in the plane of the other, as neighbours of large flat faces have, are sure to lie
+    /// side by side.
     fn are_side_by_side(&self) -> bool {
         let [one, other] = self.probes;
-        let is_uncertain = |corner: &Corner| !self.has(0, corner) && !one.plane.is_sure_of(self.input, corner);
-        self.corners[1].iter().any(is_uncertain)
+        let is_near = |k: usize| {
+            let is_uncertain =
+                |corner: &Corner| !self.has(k, corner) && !self.probes[k].plane.is_sure_of(self.input, corner);
+            self.corners[1 - k].iter().any(is_uncertain)
+        };
+        (is_near(0) || is_near(1))
             && (one.plane.has_beyond_an_edge(self.input, &self.corners[1])
                 || other.plane.has_beyond_an_edge(self.input, &self.corners[0]))
     }

@@ -137,6 +137,17 @@ impl RoundedPlane {
         input.is_safe && height(c) > 1.0 && height(other) < -1.0
     }
 
+    /// Whether the triangle is sure to lie on the other side of one of its edges than both ends of an edge near its plane.
+    pub(super) fn tells_edge_apart(&self, input: &Input<'_>, ends: [DVec3; 2]) -> bool {
+        let places = self.triangle.places();
+        let is_beyond = |side: usize| {
+            let [a, b, c] = [0, 1, 2].map(|k| places[(side + k) % 3]);
+            let height = |place: DVec3| self.height_over_edge(input, [a, b], place);
+            height(c) > 1.0 && ends.iter().all(|end| height(*end) < -1.0)
+        };
+        input.is_safe && (0..3).any(is_beyond)
+    }
+
     /// Whether another triangle is sure to lie beyond one of the edges, but for a vertex that both may share.
     pub(super) fn has_beyond_an_edge(&self, input: &Input<'_>, others: &[Corner; 3]) -> bool {
         let corners = &self.triangle.corners;
