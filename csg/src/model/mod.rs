@@ -9,6 +9,7 @@ mod parts;
 #[cfg(feature = "serde")]
 mod saved;
 mod source;
+mod texture;
 mod transform;
 mod tree;
 
@@ -16,7 +17,8 @@ pub use brush::{Brush, BrushFace};
 pub use cutaway::{CutMaterial, Cutaway};
 pub use material::{Material, MaterialId};
 pub use mesh_body::MeshBody;
-pub use source::{FaceSource, TextureAxes, TextureUnit};
+pub use source::FaceSource;
+pub use texture::{TextureAxes, TextureUnit};
 pub use transform::{Transform, TransformError, sine_and_cosine};
 #[cfg(test)]
 pub(crate) use tree::holds_outside;
