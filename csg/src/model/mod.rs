@@ -12,6 +12,7 @@ mod source;
 mod texture;
 mod transform;
 mod tree;
+mod used_materials;
 
 pub use brush::{Brush, BrushFace};
 pub use cutaway::{CutMaterial, Cutaway};
@@ -23,6 +24,7 @@ pub use transform::{Transform, TransformError, sine_and_cosine};
 #[cfg(test)]
 pub(crate) use tree::holds_outside;
 pub use tree::{Operation, Tree, TreeNode};
+pub use used_materials::UsedMaterials;
 
 /// A tree of brushes, and the materials that their faces name.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -216,6 +216,32 @@ fn a_lone_mesh_comes_back_with_its_own_vertices_and_coordinates() {
 }
 
 #[test]
+fn our_own_files_are_read_with_the_coordinates_that_they_were_written_with() {
+    let ball = TexturedMesh::ball(6, 8, 7);
+    let model = read(ball.to_obj().as_bytes(), MeshFormat::Obj);
+    // off the centre of the file, so that readers find what is in no single-precision place of the ball
+    let map = Transform::translation(DVec3::new(10.0, 20.0, -5.0)).expect("a map");
+    let (tree, moved) = (model.tree.transformed(&map).expect("moved"), ball.moved(|p| map.point(p)));
+    let model = Model { tree: tree - cutter(DVec3::new(10.1, 20.1, -5.1)), ..model };
+    let (mesh, sources) = built(&model);
+    let others = mesh.triangle_faces.iter().filter(|face| {
+        let material = mesh.faces[**face as usize].material;
+        sources[material.0 as usize].brush == 1
+    });
+    let others = others.count();
+    let part = Part { name: "m", mesh: &mesh, sources: &sources };
+    // of a mesh that is a manifold a GLB says which vertices are one, and has coordinates at others
+    for (format, reader) in
+        [(Format::Glb, MeshFormat::Gltf), (Format::Obj, MeshFormat::Obj), (Format::Ply, MeshFormat::Ply)]
+    {
+        let bytes = encode_parts(&[part], format, &options(Shading::Flat)).expect("encoded");
+        let (mesh, sources) = built(&read(&bytes, reader));
+        assert!(sources.iter().all(|source| source.texture.is_some()), "{format:?}");
+        check(&moved, &of_obj(Part { name: "m", mesh: &mesh, sources: &sources }).0, 2e-6, 2e-5, others);
+    }
+}
+
+#[test]
 fn both_triangles_of_a_flat_face_come_from_one_source() {
     let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n\
         f 4/4 3/3 2/2 1/1\nf 5/1 6/2 7/3 8/4\nf 1/1 2/2 6/3 5/4\nf 2/1 3/2 7/3 6/4\nf 3/1 4/2 8/3 7/4\nf 4/1 1/2 5/3 8/4\n";
