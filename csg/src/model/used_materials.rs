@@ -1,5 +1,7 @@
 //! The few materials of a long list that a part uses.
 
+use crate::ids::number32;
+
 use super::{Brush, Material, MaterialId, Model, Tree};
 
 /// The materials that something uses, numbered anew in the order that they have. Where each triangle of a mesh has a material of its own, so that one knows
@@ -37,7 +39,7 @@ impl UsedMaterials {
     /// The new number of a material. One that is not used has a number that no material has.
     #[must_use]
     pub fn number(&self, old: MaterialId) -> MaterialId {
-        self.numbers.binary_search(&old).map_or(MaterialId(u32::MAX), |place| MaterialId(place as u32))
+        self.numbers.binary_search(&old).map_or(MaterialId(u32::MAX), |place| MaterialId(number32(place)))
     }
 }
 
