@@ -50,7 +50,7 @@ pub use live::{BrushId, Change, Edit, EditError, Edited, FaceId, LiveFace, LiveM
 pub use mesh::{Mesh, MeshFace, Noise, SolidMeasures, contract_edges, contract_short_edges};
 pub use model::{
     Brush, BrushFace, CutMaterial, Cutaway, FaceSource, Material, MaterialId, MeshBody, Model, Operation, TextureAxes,
-    TextureUnit, Transform, TransformError, Tree, TreeNode, sine_and_cosine,
+    TextureUnit, Transform, TransformError, Tree, TreeNode, UsedMaterials, sine_and_cosine,
 };
 pub use plane_table::{PlaneId, PlaneTable};
 pub use tolerances::SNAP_TOLERANCE;

@@ -21,7 +21,7 @@ pub(crate) struct AssetArgs {
     /// Smooth normals across edges up to this angle in degrees, instead of flat faces: glTF, OBJ, PLY
     #[arg(long, value_name = "DEGREES")]
     smooth: Option<f64>,
-    /// Texture coordinates: those of the map, by the nearest side of a box, or projected along z: glTF, OBJ, PLY
+    /// Texture coordinates: those of the map or of meshes, by the nearest side of a box, or projected along z: glTF, OBJ, PLY
     #[arg(long, value_enum, value_name = "HOW")]
     uv: Option<Uv>,
     /// Size of a texture: in texels for faces of a map (default 64), else in units of the input (default 1)
@@ -58,7 +58,7 @@ pub(crate) enum UnitName {
 /// Where texture coordinates come from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Uv {
-    /// As stated by the faces of a map; otherwise as box
+    /// As stated by the faces of a map, or at the corners of a mesh's triangles (also of meshes that a .json or .csg names); otherwise as box
     Source,
     /// By the nearest side of a box
     Box,
@@ -120,9 +120,14 @@ impl AssetArgs {
         }
     }
 
+    /// Whether texture coordinates of meshes that are read must be kept.
+    pub(crate) fn keeps_textures(&self) -> bool {
+        self.uv == Some(Uv::Source)
+    }
+
     /// Whether faces of different sources must stay apart; `Some(true)` for each face of a brush by itself.
     pub(crate) fn splits_by_face(&self) -> Option<bool> {
-        let by_texture = (self.uv == Some(Uv::Source)).then_some(false);
+        let by_texture = self.keeps_textures().then_some(false);
         if self.ids { Some(true) } else { by_texture }
     }
 }

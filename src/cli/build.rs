@@ -63,7 +63,7 @@ impl<'a> Plan<'a> {
         let needs_brushes = writes_brushes || self.args.cells || self.args.parts;
         let (input, begin) = (self.inputs.first(), Instant::now());
         progress.stage("reading");
-        let read = self.inputs.read(&self.args.reading)?;
+        let read = self.inputs.read(&self.args.reading.with_textures(assets.keeps_textures()))?;
         let mut solved = solve_split(input, self.kind, read, begin, splits_by_face, needs_brushes, progress)?;
         solved.report.set_inputs(self.inputs.told());
         let pieces = if self.args.cells {

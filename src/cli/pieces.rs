@@ -7,7 +7,8 @@ use std::time::Instant;
 use planecut::check::check_topology;
 use planecut::csg::polyhedron::{ConvexTreeError, convex_tree};
 use planecut::csg::{
-    Brush, EvaluateError, FaceSource, Material, Mesh, Model, Solid, Tree, convex_union, evaluate, evaluate_with,
+    Brush, EvaluateError, FaceSource, Material, Mesh, Model, Solid, Tree, UsedMaterials, convex_union, evaluate,
+    evaluate_with,
 };
 use planecut::export::Part;
 use rayon::prelude::*;
@@ -24,6 +25,8 @@ pub(crate) const NUMBER: &str = "{}";
 pub(crate) struct Pieces {
     meshes: Vec<Mesh>,
     names: Vec<String>,
+    /// The sources of each mesh's own materials, where these are not the materials of all.
+    sources: Vec<Vec<FaceSource>>,
 }
 
 impl Pieces {
@@ -35,13 +38,20 @@ impl Pieces {
         let begin = Instant::now();
         let tree = bounded_tree(kind, solved);
         let solid = Solid::from_tree(&*of_cells(&input.path, &tree)?);
-        let mut meshes = solid
-            .cell_meshes(&solved.model.materials)
-            .map_err(|source| CliError::of_evaluation(&input.path, source))?;
+        let materials = &solved.model.materials;
+        let cells: Result<Vec<(Mesh, Option<UsedMaterials>)>, EvaluateError> = if has_own_materials(&solved.sources) {
+            let cells = solid.cell_meshes_with_used_materials(materials);
+            cells.map(|cells| cells.into_iter().map(|(mesh, used)| (mesh, Some(used))).collect())
+        } else {
+            solid.cell_meshes(materials).map(|meshes| meshes.into_iter().map(|mesh| (mesh, None)).collect())
+        };
+        let mut cells = cells.map_err(|source| CliError::of_evaluation(&input.path, source))?;
         // Slivers between planes that differ by mere rounding: nothing of them is left once points of noise are joined.
-        meshes.retain(|mesh| !mesh.triangles.is_empty());
+        cells.retain(|(mesh, _)| !mesh.triangles.is_empty());
+        let sources = cells.iter().filter_map(|(_, used)| Some(used.as_ref()?.select(&solved.sources))).collect();
+        let meshes = cells.into_iter().map(|(mesh, _)| mesh).collect();
         let volume = solid.volume().ok_or_else(|| CliError::of_evaluation(&input.path, EvaluateError::Unbounded))?;
-        let cells = Self::named(meshes, "cell {}");
+        let cells = Self { sources, ..Self::named(meshes, "cell {}") };
         solved.report.set_cells(cells.meshes.len(), volume, cells.measured());
         solved.report.time_ms.evaluate += milliseconds(begin.elapsed());
         Ok(cells)
@@ -54,17 +64,24 @@ impl Pieces {
     pub(crate) fn parts(input: &Input, kind: InputKind, solved: &mut Solved) -> Result<Self, CliError> {
         let begin = Instant::now();
         let trees = bounded_tree(kind, solved).into_owned().into_named_parts();
-        let (mut meshes, mut names) = (Vec::new(), Vec::new());
+        let has_own = has_own_materials(&solved.sources);
+        let (mut meshes, mut names, mut sources) = (Vec::new(), Vec::new(), Vec::new());
         for (name, tree) in trees {
-            let model = Model { materials: solved.model.materials.clone(), tree };
+            let (model, used) = if has_own {
+                let (model, used) = tree.with_used_materials(&solved.model.materials);
+                (model, Some(used))
+            } else {
+                (Model { materials: solved.model.materials.clone(), tree }, None)
+            };
             let part = evaluate_with(&model, unbounded_of(kind))
                 .map_err(|source| CliError::of_evaluation(&input.path, source))?;
             if !part.mesh.triangles.is_empty() {
                 meshes.push(part.mesh);
                 names.push(name.unwrap_or_else(|| "solid".to_owned()));
+                sources.extend(used.map(|used| used.select(&solved.sources)));
             }
         }
-        let parts = Self { meshes, names };
+        let parts = Self { meshes, names, sources };
         solved.report.set_parts(parts.measured());
         solved.report.time_ms.evaluate += milliseconds(begin.elapsed());
         Ok(parts)
@@ -73,12 +90,14 @@ impl Pieces {
     /// Meshes whose names are a pattern with their numbers for `{}`.
     pub(crate) fn named(meshes: Vec<Mesh>, pattern: &str) -> Self {
         let names = (0..meshes.len()).map(|number| pattern.replace(NUMBER, &number.to_string())).collect();
-        Self { meshes, names }
+        Self { meshes, names, sources: Vec::new() }
     }
 
-    /// The same as writers want it; `sources` are those of the faces' materials.
+    /// The same as writers want it; `sources` are those of the faces' materials where pieces have none of their own.
     pub(crate) fn as_parts<'a>(&'a self, sources: &'a [FaceSource]) -> Vec<Part<'a>> {
-        self.names.iter().zip(&self.meshes).map(|(name, mesh)| Part { name, mesh, sources }).collect()
+        let own = |place: usize| self.sources.get(place).map_or(sources, Vec::as_slice);
+        let pieces = self.names.iter().zip(&self.meshes).enumerate();
+        pieces.map(|(place, (name, mesh))| Part { name, mesh, sources: own(place) }).collect()
     }
 
     /// The counts of all meshes together.
@@ -97,6 +116,11 @@ impl Pieces {
         }
         MeshPart::of_solid(&check_topology(&positions, &triangles), faces)
     }
+}
+
+/// Whether there may be as many materials as triangles, as of textured meshes: then pieces hold those that they use, not all.
+fn has_own_materials(sources: &[FaceSource]) -> bool {
+    sources.iter().any(|source| source.texture.is_some_and(|axes| axes.anchor.is_some()))
 }
 
 /// The mesh of each brush by itself, in their order.

@@ -13,7 +13,7 @@ use super::error::CliError;
 use super::input::{Input, InputKind};
 
 /// How to read the input.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 pub(crate) struct ReadingArgs {
     /// Format of the input; by default from the ending of its name, and json for `-`
     #[arg(long, value_enum, value_name = "FORMAT")]
@@ -25,6 +25,9 @@ pub(crate) struct ReadingArgs {
     /// before it is made
     #[arg(long, value_name = "N", default_value_t = DEFAULT_MAX_PIECES, value_parser = parse_pieces)]
     max_pieces: usize,
+    /// Whether texture coordinates of meshes are kept; this follows from what is written.
+    #[arg(skip)]
+    keeps_textures: bool,
     #[command(flatten)]
     model: ModelArgs,
     #[command(flatten)]
@@ -36,10 +39,15 @@ pub(crate) struct ReadingArgs {
 }
 
 impl ReadingArgs {
+    /// The same with texture coordinates of meshes, or without.
+    pub(crate) fn with_textures(&self, keeps_textures: bool) -> Self {
+        Self { keeps_textures, ..self.clone() }
+    }
+
     /// The options for model files; meshes that `input` names lie beside it.
     pub(crate) fn model_options(&self, input: &Input) -> ModelOptions {
         let (parameters, folder) = (self.model.set.clone(), folder_of(input));
-        ModelOptions { parameters, max_pieces: self.max_pieces, folder }
+        ModelOptions { parameters, max_pieces: self.max_pieces, folder, textures: self.keeps_textures }
     }
 
     /// The options for maps.
@@ -50,12 +58,22 @@ impl ReadingArgs {
     /// The options for OpenSCAD's trees; files that `input` names lie beside it.
     pub(crate) fn scad_options(&self, input: &Input) -> ScadOptions {
         let ScadArgs { keep_going, keep_touching } = self.scad;
-        ScadOptions { folder: folder_of(input), keep_going, keep_touching, max_pieces: self.max_pieces }
+        ScadOptions {
+            folder: folder_of(input),
+            keep_going,
+            keep_touching,
+            max_pieces: self.max_pieces,
+            textures: self.keeps_textures,
+        }
     }
 
     /// The options for meshes.
     pub(crate) fn solid_options(&self) -> SolidOptions {
-        SolidOptions { rule: self.mesh.winding.into(), close: self.mesh.close.unwrap_or(0.0) }
+        SolidOptions {
+            rule: self.mesh.winding.into(),
+            close: self.mesh.close.unwrap_or(0.0),
+            textures: self.keeps_textures,
+        }
     }
 
     /// The same for another input, of any kind: what is for one kind alone is left out.
@@ -64,6 +82,7 @@ impl ReadingArgs {
             input_format: None,
             allow_loss: self.allow_loss,
             max_pieces: self.max_pieces,
+            keeps_textures: self.keeps_textures,
             model: ModelArgs { set: Vec::new() },
             map: MapArgs { world_only: false, skip_texture: Vec::new(), skip_class: Vec::new() },
             scad: self.scad.clone(),
@@ -101,7 +120,8 @@ impl ReadingArgs {
             return refuse("--keep-touching", "an OpenSCAD tree (.csg)");
         }
         let has_mesh = kinds.iter().any(|kind| matches!(kind, InputKind::Mesh(_)));
-        if !has_mesh && self.solid_options() != SolidOptions::default() {
+        let asked = SolidOptions { textures: false, ..self.solid_options() };
+        if !has_mesh && asked != SolidOptions::default() {
             return refuse("--winding or --close", "a mesh (.obj, .stl, .ply, .glb, .gltf)");
         }
         Ok(())
@@ -114,7 +134,7 @@ fn folder_of(input: &Input) -> PathBuf {
 }
 
 /// What to change in a model file.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Options for .json")]
 struct ModelArgs {
     /// Give a parameter of the file another value; may be given several times
@@ -123,7 +143,7 @@ struct ModelArgs {
 }
 
 /// Which brushes of a map to take.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Options for .map")]
 struct MapArgs {
     /// Take only the brushes of the world, of `func_group` and of `func_detail…`

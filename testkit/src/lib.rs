@@ -2,6 +2,7 @@
 //!
 //! - [`random`]: the one seeded generator; a printed seed repeats a test on every machine.
 //! - [`data`]: files that others made, and tests that are ignored where these are absent;
+//! - [`textured`]: meshes with texture coordinates, as files, and what these must be where;
 //! - with the feature `csg`: [`scene`] builds, draws, shrinks and prints models, [`generate`] draws them at random,
 //!   [`pencils`] draws those with many faces around a line, [`soundness`] has what must hold of every mesh, [`sheets`] finds lines along which a surface passes through itself,
 //!   [`meshes`] has some that are made by hand;
@@ -28,3 +29,4 @@ pub mod shape;
 pub mod sheets;
 #[cfg(feature = "csg")]
 pub mod soundness;
+pub mod textured;

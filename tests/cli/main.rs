@@ -23,5 +23,6 @@ mod render;
 mod report;
 mod shared_maps;
 mod support;
+mod textures;
 mod usage;
 mod written;

@@ -1,7 +1,7 @@
 //! Meshes of a solid: its boundary, or its cells one by one.
 
 use planecut_csg::stages::{Body, check_materials, material_ranks, mesh_of_union};
-use planecut_csg::{EvaluateError, Material, MaterialId, Mesh, SolidMeasures};
+use planecut_csg::{EvaluateError, Material, MaterialId, Mesh, SolidMeasures, UsedMaterials};
 use planecut_kernel::PlaneIdx;
 use planecut_parallel::prelude::*;
 
@@ -39,6 +39,26 @@ impl Solid {
         let mesh = |cell: &Cell| {
             let body = self.body(cell, |material| material)?;
             Ok(mesh_of_union(&self.table, &[body], &rank, materials)?.0)
+        };
+        let cells: Vec<&Cell> = self.cells().collect();
+        cells.into_par_iter().map(mesh).collect()
+    }
+
+    /// The same where each has the materials of its own faces alone, and which these are: with as many materials as faces, a list of all of them in each
+    /// cell would fill memory.
+    ///
+    /// # Errors
+    /// As [`Solid::mesh`].
+    pub fn cell_meshes_with_used_materials(
+        &self,
+        materials: &[Material],
+    ) -> Result<Vec<(Mesh, UsedMaterials)>, EvaluateError> {
+        self.check_materials(materials.len())?;
+        let mesh = |cell: &Cell| {
+            let used = UsedMaterials::of(cell.planes().map(|(_, plane)| plane.material));
+            let own = used.select(materials);
+            let body = self.body(cell, |material| used.number(material))?;
+            Ok((mesh_of_union(&self.table, &[body], &material_ranks(&own), &own)?.0, used))
         };
         let cells: Vec<&Cell> = self.cells().collect();
         cells.into_par_iter().map(mesh).collect()

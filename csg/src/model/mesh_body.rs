@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{MaterialId, Transform, TransformError};
+use super::{MaterialId, TextureAxes, Transform, TransformError};
 use crate::closed_mesh::{ClosedMesh, WindingRule};
 
 /// A closed mesh as a leaf of a tree: where it lies, what of it is inside, and what its surfaces are made of. Copies share the mesh.
@@ -25,6 +25,8 @@ struct Parts {
     rule: WindingRule,
     /// The material of each surface that triangles of the mesh name.
     materials: Vec<MaterialId>,
+    /// How the texture of each surface lies on the mesh before it is moved; empty where nothing is known of any.
+    textures: Arc<[Option<TextureAxes>]>,
 }
 
 impl PartialEq for MeshBody {
@@ -33,6 +35,7 @@ impl PartialEq for MeshBody {
         is_one
             && (self.parts.transform, self.parts.rule) == (other.parts.transform, other.parts.rule)
             && self.parts.materials == other.parts.materials
+            && self.parts.textures == other.parts.textures
     }
 }
 
@@ -47,7 +50,8 @@ impl MeshBody {
         let surfaces = mesh.surfaces().iter().max().map_or(0, |last| *last as usize + 1);
         assert!(surfaces <= materials.len(), "found {surfaces} surfaces, expected a material for each");
         let transform = Transform::identity();
-        Self { parts: Box::new(Parts { mesh, transform, rule: WindingRule::default(), materials }) }
+        let textures = Arc::default();
+        Self { parts: Box::new(Parts { mesh, transform, rule: WindingRule::default(), materials, textures }) }
     }
 
     /// The mesh as it was given, before it is moved.
@@ -67,6 +71,39 @@ impl MeshBody {
     pub fn with_rule(mut self, rule: WindingRule) -> Self {
         self.parts.rule = rule;
         self
+    }
+
+    /// The same with how the texture of each surface lies on the mesh before it is moved, as far as that is known.
+    ///
+    /// # Panics
+    /// Where there are some, but not as many as materials.
+    #[must_use]
+    pub fn with_textures(mut self, textures: impl Into<Arc<[Option<TextureAxes>]>>) -> Self {
+        let textures = textures.into();
+        let surfaces = self.parts.materials.len();
+        assert!(
+            textures.is_empty() || textures.len() == surfaces,
+            "found {} textures for {surfaces} surfaces",
+            textures.len()
+        );
+        self.parts.textures = textures;
+        self
+    }
+
+    /// How the texture of each surface lies on the mesh before it is moved; empty where nothing is known of any.
+    #[must_use]
+    pub fn textures(&self) -> &[Option<TextureAxes>] {
+        &self.parts.textures
+    }
+
+    /// The same where the mesh ends up: textures go with it.
+    #[must_use]
+    pub fn moved_textures(&self) -> Vec<Option<TextureAxes>> {
+        if self.parts.transform == Transform::identity() {
+            return self.parts.textures.to_vec();
+        }
+        let moved = |axes: &TextureAxes| Some(axes.transformed(&self.parts.transform)).filter(TextureAxes::is_finite);
+        self.parts.textures.iter().map(|axes| axes.as_ref().and_then(moved)).collect()
     }
 
     /// Where the mesh goes: vertices are moved by all transforms at once, and rounded once.

@@ -9,18 +9,22 @@ mod parts;
 #[cfg(feature = "serde")]
 mod saved;
 mod source;
+mod texture;
 mod transform;
 mod tree;
+mod used_materials;
 
 pub use brush::{Brush, BrushFace};
 pub use cutaway::{CutMaterial, Cutaway};
 pub use material::{Material, MaterialId};
 pub use mesh_body::MeshBody;
-pub use source::{FaceSource, TextureAxes, TextureUnit};
+pub use source::FaceSource;
+pub use texture::{TextureAxes, TextureUnit};
 pub use transform::{Transform, TransformError, sine_and_cosine};
 #[cfg(test)]
 pub(crate) use tree::holds_outside;
 pub use tree::{Operation, Tree, TreeNode};
+pub use used_materials::UsedMaterials;
 
 /// A tree of brushes, and the materials that their faces name.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::tree::known_lines;
-use super::{Brush, MaterialId, MeshBody, Transform, TransformError, Tree, TreeNode};
+use super::{Brush, MaterialId, MeshBody, TextureAxes, Transform, TransformError, Tree, TreeNode};
 use crate::closed_mesh::{ClosedMesh, ClosedMeshError, WindingRule};
 
 /// What is read of a [`Tree`], which is written as it is.
@@ -97,6 +97,9 @@ pub(super) struct SavedMeshBody {
     surfaces: Vec<u32>,
     /// The material of each surface.
     materials: Vec<MaterialId>,
+    /// How the texture of each surface lies; left out where nothing is known of any.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    textures: Vec<Option<TextureAxes>>,
     transform: Transform,
     rule: WindingRule,
 }
@@ -110,6 +113,8 @@ pub(super) enum MeshDataError {
     Surfaces { surfaces: usize, triangles: usize },
     #[error("a triangle has surface {surface}, expected a number below {materials}, as many as there are materials")]
     NoMaterial { surface: u32, materials: usize },
+    #[error("the mesh has {textures} textures, but {materials} materials")]
+    Textures { textures: usize, materials: usize },
     #[error(transparent)]
     Transform(#[from] TransformError),
 }
@@ -121,6 +126,7 @@ impl From<MeshBody> for SavedMeshBody {
             triangles: body.mesh().triangles().to_vec(),
             surfaces: body.mesh().surfaces().to_vec(),
             materials: body.materials().to_vec(),
+            textures: body.textures().to_vec(),
             transform: *body.transform(),
             rule: body.rule(),
         }
@@ -131,14 +137,17 @@ impl TryFrom<SavedMeshBody> for MeshBody {
     type Error = MeshDataError;
 
     fn try_from(saved: SavedMeshBody) -> Result<Self, MeshDataError> {
-        let SavedMeshBody { positions, triangles, surfaces, materials, transform, rule } = saved;
+        let SavedMeshBody { positions, triangles, surfaces, materials, textures, transform, rule } = saved;
         if surfaces.len() != triangles.len() {
             return Err(MeshDataError::Surfaces { surfaces: surfaces.len(), triangles: triangles.len() });
         }
         if let Some(surface) = surfaces.iter().copied().find(|surface| *surface as usize >= materials.len()) {
             return Err(MeshDataError::NoMaterial { surface, materials: materials.len() });
         }
+        if !textures.is_empty() && textures.len() != materials.len() {
+            return Err(MeshDataError::Textures { textures: textures.len(), materials: materials.len() });
+        }
         let mesh = ClosedMesh::new(&positions, &triangles, |triangle| surfaces[triangle])?;
-        Ok(Self::new(mesh, materials).with_rule(rule).transformed(&transform)?)
+        Ok(Self::new(mesh, materials).with_rule(rule).with_textures(textures).transformed(&transform)?)
     }
 }

@@ -1,52 +1,9 @@
 //! Where the faces of a mesh come from.
 
 use crate::ids::number32;
-use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
 
-use super::{MaterialId, Model};
-
-/// What texture coordinates count.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum TextureUnit {
-    /// Texels, of which a picture has as many as it is wide or high; lengths where there is no picture.
-    #[default]
-    Texels,
-    /// Whole pictures, whatever their size.
-    Pictures,
-}
-
-/// How a texture lies on a plane: its coordinates are linear in space.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub struct TextureAxes {
-    /// By how much `u`, which runs to the right of a picture, grows along each axis of space.
-    pub u: DVec3,
-    /// By how much `v`, which runs down a picture, grows along each axis of space.
-    pub v: DVec3,
-    /// Both at the origin.
-    pub offset: DVec2,
-    /// What both count.
-    pub unit: TextureUnit,
-}
-
-impl TextureAxes {
-    /// The texture coordinates of a point, in [`TextureAxes::unit`].
-    #[must_use]
-    pub fn at(&self, point: DVec3) -> DVec2 {
-        DVec2::new(self.u.dot(point), self.v.dot(point)) + self.offset
-    }
-
-    /// Numbers that are equal for textures that lie alike.
-    fn bits(&self) -> [u64; 9] {
-        let [a, b, c] = self.u.to_array().map(f64::to_bits);
-        let [d, e, f] = self.v.to_array().map(f64::to_bits);
-        let [g, h] = self.offset.to_array().map(f64::to_bits);
-        [a, b, c, d, e, f, g, h, u64::from(self.unit == TextureUnit::Pictures)]
-    }
-}
+use super::{MaterialId, MeshBody, Model, TextureAxes};
 
 /// A face of a brush that faces of a mesh come from.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -66,15 +23,21 @@ impl Model {
     /// textures lie alike; and for each of the new materials where it comes from. Faces of a mesh are of one material: so each face of
     /// what is made of the new model comes from one source. New materials keep names and looks; several are alike.
     ///
-    /// `textures` has for each brush how the textures of its faces lie; what it lacks is not known.
+    /// `textures` has for each brush how the textures of its faces lie; what it lacks is not known. Closed meshes have [textures](MeshBody::textures) of
+    /// their own, which are taken where the meshes end up.
     #[must_use]
     pub fn split_by_source(&self, textures: &[Vec<Option<TextureAxes>>], by_face: bool) -> (Self, Vec<FaceSource>) {
         let mut split = Self { materials: Vec::new(), tree: self.tree.clone() };
         let mut sources = Vec::new();
-        let mut known: FxHashMap<(MaterialId, Option<[u64; 9]>), MaterialId> = FxHashMap::default();
+        let mut known: FxHashMap<(MaterialId, Option<[u64; 13]>), MaterialId> = FxHashMap::default();
         for (number, brush) in split.tree.brushes_mut().iter_mut().enumerate() {
+            let own = brush.mesh.as_ref().map(MeshBody::moved_textures).filter(|own| !own.is_empty());
+            let of_brush: &[Option<TextureAxes>] = match &own {
+                Some(own) => own,
+                None => textures.get(number).map_or(&[], Vec::as_slice),
+            };
             for (plane, material) in brush.materials_mut().enumerate() {
-                let texture = textures.get(number).and_then(|faces| faces.get(plane).copied().flatten());
+                let texture = of_brush.get(plane).copied().flatten();
                 let old = *material;
                 let mut new = || {
                     // a number that is not in the list stays out of it
@@ -101,14 +64,16 @@ impl Model {
 mod tests {
     use super::*;
     use crate::evaluate::evaluate;
-    use crate::model::{Brush, Material, Tree};
+    use crate::model::{Brush, Material, TextureUnit, Tree};
+    use glam::{DVec2, DVec3};
 
     #[test]
     fn each_face_of_a_mesh_has_one_source() {
         let block = |x: f64| Brush::cuboid(DVec3::new(x, 0.0, 0.0), DVec3::new(x + 1.0, 1.0, 1.0), MaterialId(0));
         let tree = Tree::union_of(vec![block(0.0), block(1.0)]);
         let model = Model { materials: vec![Material::named("stone")], tree };
-        let lying = TextureAxes { u: DVec3::X, v: DVec3::Y, offset: DVec2::ZERO, unit: TextureUnit::Texels };
+        let lying =
+            TextureAxes { u: DVec3::X, v: DVec3::Y, offset: DVec2::ZERO, unit: TextureUnit::Texels, anchor: None };
         let textures = vec![vec![None; 6], vec![Some(lying); 6]];
         for (by_face, count, faces) in [(false, 2, 10), (true, 12, 10)] {
             let (split, sources) = model.split_by_source(&textures, by_face);

@@ -148,6 +148,12 @@ impl Transform {
         self.linear * point + self.translation
     }
 
+    /// Where the gradient of a function goes that is linear in space: what it says of a point it says of where the point goes.
+    #[must_use]
+    pub fn gradient(&self, gradient: DVec3) -> DVec3 {
+        self.cofactors * gradient / self.determinant
+    }
+
     /// Where a half-space goes: its coefficients rounded once or twice, exact where they are small integers.
     ///
     /// # Errors

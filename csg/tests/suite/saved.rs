@@ -2,7 +2,8 @@
 
 use std::num::NonZeroU32;
 
-use planecut_csg::{Brush, Material, MaterialId, Model, Transform, Tree, evaluate};
+use glam::DVec3;
+use planecut_csg::{Brush, Material, MaterialId, Model, TextureAxes, Transform, Tree, evaluate};
 use planecut_testkit::saved::{refusal, through_data};
 use serde_json::{Value, json, to_value};
 
@@ -82,7 +83,13 @@ fn closed_meshes_come_back_and_are_checked() {
         data[key] = value;
         refusal::<MeshBody>(data)
     };
+    assert_eq!(data.get("textures"), None, "nothing is known of any");
     assert_eq!(changed("surfaces", json!([0])), "the mesh has 1 surfaces, but 12 triangles");
+    assert_eq!(changed("textures", json!([null])), "the mesh has 1 textures, but 2 materials");
+    let corners = [[0.1, 0.1, 0.1], [0.7, 0.1, 0.1], [0.1, 0.7, 0.1]].map(DVec3::from);
+    let texture = TextureAxes::of_triangle(corners, [[0.0, 0.0], [1.0, 0.0], [0.5, 1.0]].map(Into::into));
+    let textured = body.with_textures([texture, None]);
+    assert_eq!(through_data(&textured), textured);
     assert!(changed("materials", json!([0])).starts_with("a triangle has surface 1, expected a number below 1"));
     let mut triangles = data["triangles"].as_array().expect("triangles").clone();
     triangles[3] = triangles[2].clone();

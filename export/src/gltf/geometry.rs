@@ -65,7 +65,7 @@ impl<'a> Geometry<'a> {
             .collect();
         let look = |triangle: &u32| looks.of_face(&mesh, mesh.triangle_faces[*triangle as usize]);
         triangles.sort_by_key(look);
-        let mut vertices = Vertices::of(&mesh, part.sources, &triangles, options);
+        let mut vertices = Vertices::of(&mesh, part.sources, &triangles, true, options);
         if vertices.corners.len() >= NONE as usize {
             // numbers of vertices and of places among the corners must hold in 32 bits, with one value to spare
             let what = format!("{} triangle corners in a glTF mesh", vertices.corners.len());

@@ -81,7 +81,7 @@ fn write_part(
     triangles.sort_by_key(place);
     let is_smooth = options.shading != Shading::Flat;
     let has_attributes = is_smooth || options.texture.is_some();
-    let attributes = has_attributes.then(|| Vertices::of(mesh, sources, &triangles, options));
+    let attributes = has_attributes.then(|| Vertices::of(mesh, sources, &triangles, is_smooth, options));
     if let Some(vertices) = &attributes {
         write_attributes(vertices, is_smooth, out)?;
     }

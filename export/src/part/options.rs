@@ -131,7 +131,8 @@ pub struct TextureMapping {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Projection {
-    /// As the source says: the axes of a map's faces. Faces of which nothing is known get [`Projection::Box`].
+    /// As the source says: the axes of a map's faces, the coordinates of a mesh's triangles. Faces of which nothing is known get
+    /// [`Projection::Box`].
     Source,
     /// Each face along the axis that its normal is nearest to, upright on walls.
     Box,

@@ -19,7 +19,7 @@ pub(crate) fn write_ply(parts: &[Part<'_>], options: &ExportOptions, out: &mut d
         .map(|part| {
             let triangles: Vec<u32> = (0..part.mesh.triangles.len() as u32).collect();
             let is_split = has_normals || options.texture.is_some();
-            is_split.then(|| Vertices::of(part.mesh, part.sources, &triangles, options))
+            is_split.then(|| Vertices::of(part.mesh, part.sources, &triangles, has_normals, options))
         })
         .collect();
     let vertices =

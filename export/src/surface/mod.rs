@@ -13,6 +13,7 @@ use rustc_hash::FxHashMap;
 
 pub(crate) use single_precision::without_lost_edges;
 
+use crate::material::Looks;
 use crate::part::{ExportOptions, Shading};
 use smooth::SharedNormals;
 use texture::Texture;
@@ -37,10 +38,17 @@ pub(crate) struct Vertices {
 
 impl Vertices {
     /// The vertices of some triangles of a checked mesh, in the order in which they are used. Triangles of a face follow one another;
-    /// `sources` are those of the mesh's materials, where they are known.
-    pub(crate) fn of(mesh: &Mesh, sources: &[FaceSource], triangles: &[u32], options: &ExportOptions) -> Self {
+    /// `sources` are those of the mesh's materials, where they are known; `has_normals` says whether normals are written, also those of flat faces.
+    pub(crate) fn of(
+        mesh: &Mesh,
+        sources: &[FaceSource],
+        triangles: &[u32],
+        has_normals: bool,
+        options: &ExportOptions,
+    ) -> Self {
         let texture = options.texture.map(|mapping| Texture::new(mapping, sources));
         let mut splitter = Splitter::new(mesh, texture, options.vertex_colors, 3 * triangles.len());
+        splitter.has_normals = has_normals;
         match options.shading {
             Shading::Flat => splitter.push_flat(triangles),
             Shading::Smooth { crease } => splitter.push_smooth(triangles, &SharedNormals::of(mesh, crease)),
@@ -100,18 +108,31 @@ fn move_to<T: Copy>(values: &mut [T], new: &[u32], moved: &mut [bool]) {
 struct Splitter<'a> {
     mesh: &'a Mesh,
     texture: Option<Texture<'a>>,
+    has_normals: bool,
     has_materials: bool,
+    /// Which materials look alike, where textures go on from triangle to triangle.
+    continued: Option<Looks>,
     vertices: Vertices,
 }
+
+/// What tells copies of a vertex apart whose texture goes on in other triangles: the normal, the coordinates as they are written, and the material
+/// where vertices have one.
+type ContinuedKey = ([u32; 3], [u32; 2], u32);
 
 impl<'a> Splitter<'a> {
     fn new(mesh: &'a Mesh, texture: Option<Texture<'a>>, has_materials: bool, corners: usize) -> Self {
         let vertices = Vertices { corners: Vec::with_capacity(corners), ..Vertices::default() };
-        Self { mesh, texture, has_materials, vertices }
+        let is_continued = texture.is_some_and(|texture| texture.is_continued_somewhere());
+        let continued = is_continued.then(|| Looks::of(&mesh.materials));
+        Self { mesh, texture, has_normals: true, has_materials, continued, vertices }
     }
 
-    /// One copy of each vertex for each face that it belongs to.
+    /// One copy of each vertex for each face that it belongs to; where its texture goes on from face to face, for each normal and each place in the
+    /// picture.
     fn push_flat(&mut self, triangles: &[u32]) {
+        if self.continued.is_some() {
+            return self.push_flat_continued(triangles);
+        }
         let count = self.flat_count(triangles);
         self.vertices.origins.reserve_exact(count);
         self.vertices.normals.reserve_exact(count);
@@ -127,6 +148,44 @@ impl<'a> Splitter<'a> {
                 self.vertices.corners.push(latest[corner as usize].1);
             }
         }
+    }
+
+    /// The same where some textures go on.
+    fn push_flat_continued(&mut self, triangles: &[u32]) {
+        let mut latest = vec![(NONE, NONE); self.mesh.positions.len()];
+        let mut known: FxHashMap<(u32, ContinuedKey), u32> = FxHashMap::default();
+        for &triangle in triangles {
+            let face = self.mesh.triangle_faces[triangle as usize];
+            let normal = self.mesh.faces[face as usize].normal;
+            let told = if self.has_normals { unit(normal) } else { [0.0; 3] };
+            for corner in self.mesh.triangles[triangle as usize] {
+                if latest[corner as usize].0 != face {
+                    let vertex = match self.continued_key(corner, face, told) {
+                        None => self.push_vertex(corner, face, normal),
+                        Some(key) => match known.get(&(corner, key)) {
+                            Some(vertex) => *vertex,
+                            None => {
+                                let vertex = self.push_vertex(corner, face, normal);
+                                known.insert((corner, key), vertex);
+                                vertex
+                            }
+                        },
+                    };
+                    latest[corner as usize] = (face, vertex);
+                }
+                self.vertices.corners.push(latest[corner as usize].1);
+            }
+        }
+    }
+
+    /// What tells copies of a vertex apart at a face whose texture goes on; nothing at other faces.
+    fn continued_key(&self, corner: u32, face: u32, normal: [f32; 3]) -> Option<ContinuedKey> {
+        let looks = self.continued.as_ref()?;
+        let texture = self.texture.filter(|texture| texture.is_continued(self.mesh, face))?;
+        let at = texture.at(self.mesh, face, self.mesh.positions[corner as usize]);
+        let at = written(at).map(f32::to_bits);
+        let material = if self.has_materials { looks.of_face(self.mesh, face) } else { 0 };
+        Some((normal.map(f32::to_bits), at, material))
     }
 
     /// How many vertices there are with one copy for each face.
@@ -146,12 +205,26 @@ impl<'a> Splitter<'a> {
     /// One copy of each vertex for each normal, and for each way in which its texture lies.
     fn push_smooth(&mut self, triangles: &[u32], normals: &SharedNormals) {
         let mut known: FxHashMap<(u32, u32, u32), u32> = FxHashMap::default();
+        let mut known_continued: FxHashMap<(u32, ContinuedKey), u32> = FxHashMap::default();
         for &triangle in triangles {
             let face = self.mesh.triangle_faces[triangle as usize];
             let chart = self.texture.map_or(0, |texture| texture.chart(self.mesh, face));
             let material = if self.has_materials { self.mesh.faces[face as usize].material.0 } else { 0 };
             for (k, corner) in self.mesh.triangles[triangle as usize].into_iter().enumerate() {
                 let shared = normals.shared_by(triangle, k);
+                // the number of the normal stands for itself
+                if let Some(key) = self.continued_key(corner, face, [0.0; 3]) {
+                    let vertex = match known_continued.get(&(shared, key)) {
+                        Some(vertex) => *vertex,
+                        None => {
+                            let vertex = self.push_vertex(corner, face, normals.normal(shared));
+                            known_continued.insert((shared, key), vertex);
+                            vertex
+                        }
+                    };
+                    self.vertices.corners.push(vertex);
+                    continue;
+                }
                 let vertex = match known.get(&(shared, chart, material)) {
                     Some(vertex) => *vertex,
                     None => {
@@ -170,14 +243,18 @@ impl<'a> Splitter<'a> {
         self.vertices.origins.push(corner);
         self.vertices.normals.push(unit(normal));
         if let Some(texture) = self.texture {
-            let DVec2 { x, y } = texture.at(self.mesh, face, self.mesh.positions[corner as usize]);
-            self.vertices.texture.push([x as f32, y as f32]);
+            self.vertices.texture.push(written(texture.at(self.mesh, face, self.mesh.positions[corner as usize])));
         }
         if self.has_materials {
             self.vertices.materials.push(self.mesh.faces[face as usize].material.0);
         }
         vertex
     }
+}
+
+/// Texture coordinates as files have them.
+fn written(DVec2 { x, y }: DVec2) -> [f32; 2] {
+    [x as f32, y as f32]
 }
 
 /// In single precision, without the sign of zero.

@@ -29,6 +29,18 @@ impl<'a> Texture<'a> {
         }
     }
 
+    /// Whether some texture goes on from triangle to triangle.
+    pub(super) fn is_continued_somewhere(&self) -> bool {
+        let is_anchored = |source: &FaceSource| source.texture.is_some_and(|axes| axes.anchor.is_some());
+        self.mapping.projection == Projection::Source && self.sources.iter().any(is_anchored)
+    }
+
+    /// Whether the texture of a face goes on in others: then a vertex is split where coordinates differ, not wherever textures do.
+    pub(super) fn is_continued(&self, mesh: &Mesh, face: u32) -> bool {
+        self.mapping.projection == Projection::Source
+            && self.source(mesh, face).is_some_and(|axes| axes.anchor.is_some())
+    }
+
     /// A number that is the same for faces on which textures lie alike.
     pub(super) fn chart(&self, mesh: &Mesh, face: u32) -> u32 {
         let sides = Side::COUNT;
@@ -99,6 +111,6 @@ impl Side {
             Self::Up => (DVec3::X, -DVec3::Y),
             Self::Down => (DVec3::X, DVec3::Y),
         };
-        TextureAxes { u, v, offset: DVec2::ZERO, unit: TextureUnit::Texels }
+        TextureAxes { u, v, offset: DVec2::ZERO, unit: TextureUnit::Texels, anchor: None }
     }
 }

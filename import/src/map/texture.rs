@@ -35,18 +35,18 @@ impl Alignment {
             Self::Plain { shift, degrees, scale } => {
                 let (u, v) = turned(normal, degrees);
                 let (u, v) = (u / whole(scale.x), v / whole(scale.y));
-                TextureAxes { u, v, offset: shift, unit: TextureUnit::Texels }
+                TextureAxes { u, v, offset: shift, unit: TextureUnit::Texels, anchor: None }
             }
             Self::Axes { u, v, scale } => {
                 let offset = DVec2::new(u.1, v.1);
                 let (u, v) = (u.0 / whole(scale.x), v.0 / whole(scale.y));
-                TextureAxes { u, v, offset, unit: TextureUnit::Texels }
+                TextureAxes { u, v, offset, unit: TextureUnit::Texels, anchor: None }
             }
             Self::Matrix { u, v } => {
                 let (right, down) = axis_base(normal);
                 let offset = DVec2::new(u.z, v.z);
                 let along = |row: DVec3| row.x * right + row.y * down;
-                TextureAxes { u: along(u), v: along(v), offset, unit: TextureUnit::Pictures }
+                TextureAxes { u: along(u), v: along(v), offset, unit: TextureUnit::Pictures, anchor: None }
             }
         };
         (axes.u.is_finite() && axes.v.is_finite() && axes.offset.is_finite()).then_some(axes)

@@ -17,10 +17,11 @@ mod polygon;
 mod solid;
 mod stl;
 mod text;
+mod textures;
 
 use std::ops::Range;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use planecut_csg::Material;
 
 pub use error::{MeshError, Place};
@@ -89,6 +90,9 @@ pub struct IndexedMesh {
     /// Of each triangle its colour, linear RGB, where it has one: its own, or the mean of those of its vertices; empty where the file gives none.
     /// [`painted`](Self::painted) makes materials of them.
     pub colors: Vec<Option<[f32; 3]>>,
+    /// Of each triangle the texture coordinates at its corners, in whole pictures and `v` down, where all three have some; empty where the file gives
+    /// none, or they were not asked for.
+    pub textures: Vec<Option<[DVec2; 3]>>,
     /// Where in the file each triangle's facet begins; empty where that says nothing.
     pub places: Vec<Place>,
 }
@@ -97,20 +101,35 @@ impl IndexedMesh {
     /// A mesh of one object, without materials.
     fn plain(positions: Vec<DVec3>, triangles: Vec<[u32; 3]>, precision: Precision) -> Self {
         let objects = objects_from_starts(Vec::new(), triangles.len());
-        let (materials, material_of, colors, places) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        Self { positions, triangles, objects, precision, materials, material_of, colors, places }
+        let (materials, material_of, colors) = (Vec::new(), Vec::new(), Vec::new());
+        let (textures, places) = (Vec::new(), Vec::new());
+        Self { positions, triangles, objects, precision, materials, material_of, colors, textures, places }
     }
 }
 
 /// Reads a mesh; `name` is what errors call the file.
 ///
-/// Polygons are cut into triangles without adding or dropping vertices. Lines, points, normals and textures are passed over.
+/// Polygons are cut into triangles without adding or dropping vertices. Lines, points, normals and textures are passed over; [`read_textured_mesh`]
+/// reads texture coordinates, too.
 ///
 /// # Errors
 /// [`MeshError`] where the data is damaged, truncated or not of this format, refers to other files, or holds no triangle.
 pub fn read_mesh(bytes: &[u8], format: MeshFormat, name: &str) -> Result<IndexedMesh, MeshError> {
+    read_some(bytes, format, name, false)
+}
+
+/// Reads a mesh with its texture coordinates: `vt` of OBJ, `TEXCOORD_0` of glTF, and of PLY `s t`, `u v` or `texture_u texture_v` of vertices or
+/// `texcoord` of faces. Otherwise as [`read_mesh`].
+///
+/// # Errors
+/// [`MeshError`] as [`read_mesh`], and where texture coordinates are damaged.
+pub fn read_textured_mesh(bytes: &[u8], format: MeshFormat, name: &str) -> Result<IndexedMesh, MeshError> {
+    read_some(bytes, format, name, true)
+}
+
+fn read_some(bytes: &[u8], format: MeshFormat, name: &str, has_textures: bool) -> Result<IndexedMesh, MeshError> {
     let check = |mesh: IndexedMesh| if mesh.triangles.is_empty() { Err(no_triangles()) } else { Ok(mesh) };
-    read(bytes, format).and_then(check).map_err(|fault| fault.in_file(name))
+    read(bytes, format, has_textures).and_then(check).map_err(|fault| fault.in_file(name))
 }
 
 /// Reads a mesh that may be empty: without triangles and without vertices. Otherwise as [`read_mesh`].
@@ -122,15 +141,16 @@ pub fn read_mesh_or_empty(bytes: &[u8], format: MeshFormat, name: &str) -> Resul
         let is_empty = mesh.positions.is_empty();
         if mesh.triangles.is_empty() && !is_empty { Err(no_triangles()) } else { Ok(mesh) }
     };
-    read(bytes, format).and_then(check).map_err(|fault| fault.in_file(name))
+    read(bytes, format, false).and_then(check).map_err(|fault| fault.in_file(name))
 }
 
-fn read(bytes: &[u8], format: MeshFormat) -> Result<IndexedMesh, Fault> {
+/// Texture coordinates are passed over unless they are asked for: they take time and memory.
+fn read(bytes: &[u8], format: MeshFormat, has_textures: bool) -> Result<IndexedMesh, Fault> {
     match format {
-        MeshFormat::Obj => obj::read(bytes),
+        MeshFormat::Obj => obj::read(bytes, has_textures),
         MeshFormat::Stl => stl::read(bytes),
-        MeshFormat::Ply => ply::read(bytes),
-        MeshFormat::Gltf => gltf::read(bytes),
+        MeshFormat::Ply => ply::read(bytes, has_textures),
+        MeshFormat::Gltf => gltf::read(bytes, has_textures),
     }
 }
 

@@ -3,14 +3,17 @@
 use std::num::NonZeroU32;
 
 use glam::DVec3;
-use planecut_csg::{Brush, Material, MaterialId, Model, Tree, WindingRule};
+use planecut_csg::{Brush, Material, MaterialId, MeshBody, Model, Tree, WindingRule};
 use planecut_kernel::hull;
-use planecut_shapes::polyhedron::{PolyhedronError, SurfaceOptions, join_near, surface_body};
+use planecut_shapes::polyhedron::{
+    PolyhedronError, SurfaceBody, SurfaceOptions, join_near, surface_body, surface_mesh,
+};
 use rustc_hash::FxHashMap;
 use thiserror::Error;
 
 use super::error::{MeshError, Place};
-use super::{IndexedMesh, MeshFormat, MeshObject, read_mesh};
+use super::textures::Surfaces;
+use super::{IndexedMesh, MeshFormat, MeshObject, read_mesh, read_textured_mesh};
 use crate::Warning;
 
 /// How closed meshes are taken.
@@ -20,6 +23,9 @@ pub struct SolidOptions {
     pub rule: WindingRule,
     /// Vertices that differ by no more than this in each coordinate are joined before anything else, where it is above zero.
     pub close: f64,
+    /// Whether texture coordinates of the file are kept. An object that has some is a closed mesh then, also where it is a convex body: each triangle has
+    /// a surface of its own, or one with its neighbours, whose texture lies as the file says it ([`MeshBody::textures`]).
+    pub textures: bool,
 }
 
 /// A mesh file as a model, and what was noticed.
@@ -90,10 +96,11 @@ pub fn read_solid(
     name: &str,
     options: &SolidOptions,
 ) -> Result<MeshImport, SolidError> {
-    solid_of_mesh(read_mesh(bytes, format, name)?, format, name, options)
+    let read = if options.textures { read_textured_mesh } else { read_mesh };
+    solid_of_mesh(read(bytes, format, name)?, format, name, options)
 }
 
-/// The same for a mesh that was read already.
+/// The same for a mesh that was read already; textures are kept where it has some.
 ///
 /// # Errors
 /// [`SolidError::Surface`] where an object's surface is not closed or encloses nothing.
@@ -211,8 +218,14 @@ impl Reader<'_> {
         for object in objects {
             let (points, triangles) = own_points(self.mesh, object, &mut numbers);
             let options = SurfaceOptions { precision: self.mesh.precision, rule: self.rule };
-            let body = surface_body(&points, &triangles, &material_of[object.triangles.clone()], &options)
-                .map_err(|error| (object.clone(), error))?;
+            let materials = &material_of[object.triangles.clone()];
+            let textures = self.mesh.textures.get(object.triangles.clone()).unwrap_or_default();
+            let body = if textures.iter().any(Option::is_some) {
+                textured_body(&points, &triangles, &Surfaces::of(&points, &triangles, materials, textures), &options)
+            } else {
+                surface_body(&points, &triangles, materials, &options)
+            };
+            let body = body.map_err(|error| (object.clone(), error))?;
             let line = match self.mesh.places.get(object.triangles.start) {
                 Some(Place::Line(line)) => u32::try_from(*line).ok().and_then(NonZeroU32::new),
                 _ => None,
@@ -235,6 +248,25 @@ impl Reader<'_> {
         let tree = Tree::union_of(brushes).with_source_lines(lines);
         Ok(MeshImport { model: Model { materials, tree }, warnings })
     }
+}
+
+/// A closed mesh whose surfaces have textures.
+fn textured_body(
+    points: &[DVec3],
+    triangles: &[[u32; 3]],
+    surfaces: &Surfaces,
+    options: &SurfaceOptions,
+) -> Result<SurfaceBody, PolyhedronError> {
+    let numbers: Vec<MaterialId> = surfaces.of_triangle.iter().copied().map(MaterialId).collect();
+    let mut body = surface_mesh(points, triangles, &numbers, options)?;
+    body.brush.mesh = body.brush.mesh.map(|leaf| {
+        // numbers of surfaces stand for their materials so far
+        let places = || leaf.materials().iter().map(|surface| surface.0 as usize);
+        let materials = places().map(|surface| surfaces.materials[surface]).collect();
+        let textures: Vec<_> = places().map(|surface| surfaces.textures[surface]).collect();
+        MeshBody::new(leaf.mesh().clone(), materials).with_rule(leaf.rule()).with_textures(textures)
+    });
+    Ok(body)
 }
 
 /// The hull of points with the material of a body that is the same but for rounding; that body where there is no hull.

@@ -19,6 +19,8 @@ use crate::source::shorten;
 /// Mesh files that were read, and the materials that they brought.
 pub(super) struct Meshes<'n> {
     folder: &'n Path,
+    /// Whether texture coordinates are kept.
+    textures: bool,
     names: &'n Names,
     /// What each file gave, by its name and how it was taken: copies share it.
     read: FxHashMap<(String, WindingRule, u64), Tree>,
@@ -28,8 +30,8 @@ pub(super) struct Meshes<'n> {
 
 impl<'n> Meshes<'n> {
     /// Nothing read yet; files lie in this folder.
-    pub(super) fn new(folder: &'n Path, names: &'n Names) -> Self {
-        Self { folder, names, read: FxHashMap::default(), materials: Vec::new() }
+    pub(super) fn new(folder: &'n Path, textures: bool, names: &'n Names) -> Self {
+        Self { folder, textures, names, read: FxHashMap::default(), materials: Vec::new() }
     }
 
     /// The materials that are numbered after those of the model.
@@ -57,7 +59,7 @@ impl<'n> Meshes<'n> {
         let key = (name, rule, close.to_bits());
         let mut messages = Vec::new();
         if !self.read.contains_key(&key) {
-            let import = self.import(&key.0, file, &SolidOptions { rule, close })?;
+            let import = self.import(&key.0, file, &SolidOptions { rule, close, textures: self.textures })?;
             let message = |warning| format!("`{}`: {warning}", shorten(&key.0));
             messages = import.warnings.iter().map(message).collect();
             let tree = self.renamed(import);

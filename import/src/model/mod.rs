@@ -61,11 +61,13 @@ pub struct ModelOptions {
     pub max_pieces: usize,
     /// Where mesh files that the model names are looked for; the current folder by default.
     pub folder: PathBuf,
+    /// Whether texture coordinates of these files are kept, as [`SolidOptions::textures`](crate::mesh::SolidOptions::textures) says.
+    pub textures: bool,
 }
 
 impl Default for ModelOptions {
     fn default() -> Self {
-        Self { parameters: Vec::new(), max_pieces: DEFAULT_MAX_PIECES, folder: PathBuf::new() }
+        Self { parameters: Vec::new(), max_pieces: DEFAULT_MAX_PIECES, folder: PathBuf::new(), textures: false }
     }
 }
 
@@ -133,7 +135,7 @@ pub fn read_model(text: &[u8], name: &str, options: &ModelOptions) -> Result<Mod
     let environment = definitions.environment(&set).map_err(located)?;
     let mut materials = materials::read(&names, &definitions.values(&environment)).map_err(located)?;
     let parameters = names.parameters.names.iter().cloned().zip(environment.values.iter().copied()).collect();
-    let meshes = Meshes::new(&options.folder, &names);
+    let meshes = Meshes::new(&options.folder, options.textures, &names);
     let evaluator = Evaluator::new(&definitions, &names, &lines, &findings.uses, limit, meshes);
     let Evaluated { mut tree, materials: of_meshes, warnings: more } =
         evaluator.run(root, environment).map_err(located)?;

@@ -231,7 +231,7 @@ impl<'s, 'a> Evaluator<'s, 'a> {
             "square" => made_flat(leaf::square(node)),
             "circle" => made_flat(leaf::circle(node)),
             "polyhedron" => Ok(self.polyhedron(turn)),
-            "import" => Ok(self.imported(turn, import::mesh(node, &self.options.folder, material)?)),
+            "import" => Ok(self.imported(turn, import::mesh(node, self.options, material)?)),
             "surface" => Ok(self.imported(turn, surface::solid(node, &self.options.folder, material)?)),
             "polygon" => {
                 let (outline, message) = leaf::polygon(node)?;

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use planecut_csg::{MaterialId, Tree};
 
+use super::ScadOptions;
 use super::arguments::Arguments;
 use super::problem::Problem;
 use super::syntax::Node;
@@ -23,7 +24,7 @@ pub(super) enum Imported {
 ///
 /// # Errors
 /// [`Problem`] for a format that is not supported.
-pub(super) fn mesh(node: &Node<'_>, folder: &Path, material: MaterialId) -> Result<Imported, Problem> {
+pub(super) fn mesh(node: &Node<'_>, options: &ScadOptions, material: MaterialId) -> Result<Imported, Problem> {
     let arguments = Arguments::of(node, &["file"]);
     let file = arguments.text("file").unwrap_or_default();
     let format = Path::new(file).extension().and_then(|ending| MeshFormat::from_extension(ending.to_str()?));
@@ -33,7 +34,7 @@ pub(super) fn mesh(node: &Node<'_>, folder: &Path, material: MaterialId) -> Resu
             "a mesh: `.stl`, `.obj`, `.ply`, `.glb` or `.gltf`",
         ));
     };
-    let path = folder.join(file);
+    let path = options.folder.join(file);
     let bytes = match read_file(&path, MAX_MESH) {
         Ok(bytes) => bytes,
         Err(error) if error.kind() == ErrorKind::FileTooLarge => {
@@ -41,7 +42,8 @@ pub(super) fn mesh(node: &Node<'_>, folder: &Path, material: MaterialId) -> Resu
         }
         Err(error) => return Ok(Imported::LeftOut(format!("`{}` cannot be read ({error})", file.escape_debug()))),
     };
-    Ok(match read_solid(&bytes, format, file, &SolidOptions::default()) {
+    let taken = SolidOptions { textures: options.textures, ..SolidOptions::default() };
+    Ok(match read_solid(&bytes, format, file, &taken) {
         Ok(import) => {
             let messages = import.warnings.iter().map(|warning| format!("`{}`: {warning}", file.escape_debug()));
             // a line of the mesh file is none of this one

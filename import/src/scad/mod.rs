@@ -60,11 +60,19 @@ pub struct ScadOptions {
     /// Most convex bodies that are made, and most corners of all outlines, those included that later steps leave out;
     /// [`DEFAULT_MAX_PIECES`] unless it is set.
     pub max_pieces: usize,
+    /// Whether texture coordinates of files that `import` names are kept, as [`SolidOptions::textures`](crate::mesh::SolidOptions::textures) says.
+    pub textures: bool,
 }
 
 impl Default for ScadOptions {
     fn default() -> Self {
-        Self { folder: PathBuf::new(), keep_going: false, keep_touching: false, max_pieces: DEFAULT_MAX_PIECES }
+        Self {
+            folder: PathBuf::new(),
+            keep_going: false,
+            keep_touching: false,
+            max_pieces: DEFAULT_MAX_PIECES,
+            textures: false,
+        }
     }
 }
 

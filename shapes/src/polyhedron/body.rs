@@ -74,6 +74,29 @@ pub fn surface_body<F: AsRef<[u32]>>(
     materials: &[MaterialId],
     options: &SurfaceOptions,
 ) -> Result<SurfaceBody, PolyhedronError> {
+    let mut body = surface_mesh(points, facets, materials, options)?;
+    let is_tried = body.brush.mesh.as_ref().is_some_and(|leaf| {
+        let mesh = leaf.mesh();
+        mesh.triangles().len() <= MAX_CONVEX_TRIANGLES
+            && may_be_convex(mesh.positions(), mesh.triangles(), options.precision)
+    });
+    let convex = if is_tried { convex_body(points, facets, materials, options.precision) } else { None };
+    if let Some((brush, bent_facets)) = convex {
+        (body.brush, body.bent_facets) = (brush, bent_facets);
+    }
+    Ok(body)
+}
+
+/// The same as a closed mesh, also where it is a convex body: each triangle keeps its surface.
+///
+/// # Errors
+/// As [`surface_body`].
+pub fn surface_mesh<F: AsRef<[u32]>>(
+    points: &[DVec3],
+    facets: &[F],
+    materials: &[MaterialId],
+    options: &SurfaceOptions,
+) -> Result<SurfaceBody, PolyhedronError> {
     check_points(points)?;
     let material_of = material_of_facet(materials, facets.len())?;
     let (mut triangles, facet_of) = triangles_of(points, facets)?;
@@ -91,13 +114,8 @@ pub fn surface_body<F: AsRef<[u32]>>(
     if is_two_sided(&mesh, six_volumes) {
         return Err(PolyhedronError::NoVolume);
     }
-    let is_turned = six_volumes < 0.0;
-    let is_tried = mesh.triangles().len() <= MAX_CONVEX_TRIANGLES
-        && may_be_convex(mesh.positions(), mesh.triangles(), options.precision);
-    let convex = if is_tried { convex_body(points, facets, materials, options.precision) } else { None };
-    let of_mesh = || (Brush::of_mesh(MeshBody::new(mesh, of_surface).with_rule(options.rule)), 0);
-    let (brush, bent_facets) = convex.unwrap_or_else(of_mesh);
-    Ok(SurfaceBody { brush, is_turned, bent_facets, joined_corners })
+    let brush = Brush::of_mesh(MeshBody::new(mesh, of_surface).with_rule(options.rule));
+    Ok(SurfaceBody { brush, is_turned: six_volumes < 0.0, bent_facets: 0, joined_corners })
 }
 
 /// Whether each triangle lies on its own mirror image: a sheet of two sides, which winds around nothing.

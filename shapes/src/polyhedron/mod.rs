@@ -37,7 +37,7 @@ use planecut_csg::stages::DisjointSets;
 use planecut_csg::{Brush, MaterialId, Tree};
 use planecut_kernel::DVec3;
 
-pub use body::{MAX_CONVEX_TRIANGLES, SurfaceBody, SurfaceOptions, surface_body};
+pub use body::{MAX_CONVEX_TRIANGLES, SurfaceBody, SurfaceOptions, surface_body, surface_mesh};
 pub use convex_tree::{ConvexTreeError, convex_tree};
 pub use error::PolyhedronError;
 pub use joining::join_near;

@@ -1,9 +1,9 @@
 //! Trees some of whose leaves are closed meshes: cut open, split by source, with other leaves, and what does not take them.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use planecut_csg::{
-    BlockOptions, BlocksError, Brush, ClosedMesh, Material, MaterialId, MeshBody, Model, Transform, Tree, evaluate,
-    evaluate_in_blocks,
+    BlockOptions, BlocksError, Brush, ClosedMesh, Material, MaterialId, MeshBody, Model, TextureAxes, Transform, Tree,
+    evaluate, evaluate_in_blocks,
 };
 use planecut_kernel::HalfSpace;
 
@@ -65,6 +65,29 @@ fn surfaces_of_meshes_are_sources_as_faces_of_brushes_are() {
         assert_eq!(of_mesh, [(1, 0), (1, 1)]);
         let (walls, lids) = (count as u32 - 2, count as u32 - 1);
         assert_eq!((area_of(&split, walls), area_of(&split, lids)), (8.0, 6.0));
+    }
+}
+
+#[test]
+fn textures_of_meshes_are_those_where_the_mesh_ends_up() {
+    let lying = TextureAxes::of_triangle([DVec3::ZERO, DVec3::X, DVec3::Y], [DVec2::ZERO, DVec2::X, DVec2::Y]);
+    let leaf = l_shape([0, 1]).with_textures([None, lying]);
+    let turn =
+        Transform::from_columns([[0.0, 2.0, 0.0], [1.0, 0.5, 0.0], [0.0, 0.0, -3.0], [7.0, 0.0, 1.0]]).expect("a map");
+    let tree = Tree::from(leaf).transformed(&turn).expect("moved");
+    let (split, sources) = Model { materials: materials(), tree }.split_by_source(&[], false);
+    assert_eq!(sources.len(), 2);
+    let mesh = evaluate(&split).expect("a solid").mesh;
+    for (triangle, face) in mesh.triangles.iter().zip(&mesh.triangle_faces) {
+        let source = sources[mesh.faces[*face as usize].material.0 as usize];
+        for corner in triangle.map(|corner| mesh.positions[corner as usize]) {
+            // the inverse, by hand
+            let x = (corner.y - 0.5 * (corner.x - 7.0)) / 2.0;
+            let expected = DVec2::new(x, corner.x - 7.0);
+            let is_lid = source.plane == 1;
+            assert_eq!(source.texture.is_some(), is_lid);
+            assert!(source.texture.is_none_or(|axes| axes.at(corner).abs_diff_eq(expected, 1e-14)), "{corner}");
+        }
     }
 }
 

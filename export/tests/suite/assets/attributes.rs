@@ -78,6 +78,7 @@ fn sources_say_how_textures_lie_and_where_faces_come_from() {
         offset: DVec2::new(brush as f64, -(plane as f64)),
         // those of one brush count whole pictures, which have no size of texels
         unit: if brush == 1 { TextureUnit::Pictures } else { TextureUnit::Texels },
+        anchor: None,
     };
     let textures: Vec<Vec<_>> = (0..3).map(|brush| (0..6).map(|plane| Some(axes(brush, plane))).collect()).collect();
     let model = Model { materials: vec![Material::named("m")], tree: Tree::union_of(blocks.to_vec()) };

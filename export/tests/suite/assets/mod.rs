@@ -3,6 +3,7 @@
 
 mod attributes;
 mod held;
+mod mesh_textures;
 mod packages;
 #[cfg(feature = "meshopt")]
 mod packed;

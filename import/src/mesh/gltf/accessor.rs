@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::cell::{Cell, OnceCell};
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use gltf::accessor::Item;
 use gltf::accessor::util::{ItemIter, SparseIndicesIter};
 use gltf::json::accessor::sparse::Sparse;
@@ -68,6 +68,24 @@ impl<'a> Buffers<'a> {
         }
     }
 
+    /// The texture coordinates of an accessor of the type `VEC2`; all finite.
+    pub(super) fn coordinates(&self, accessor: usize) -> Result<Vec<DVec2>, Fault> {
+        let place = Place::Json(format!("accessors/{accessor}"));
+        let (stated, component) = self.accessor(accessor, Type::Vec2, "VEC2")?;
+        let values: Vec<[f64; 2]> = match component {
+            ComponentType::I8 => self.numbers::<i8, 2>(stated, &place, 127.0),
+            ComponentType::U8 => self.numbers::<u8, 2>(stated, &place, 255.0),
+            ComponentType::I16 => self.numbers::<i16, 2>(stated, &place, 32767.0),
+            ComponentType::U16 => self.numbers::<u16, 2>(stated, &place, 65535.0),
+            ComponentType::U32 => self.numbers::<u32, 2>(stated, &place, 1.0),
+            ComponentType::F32 => self.numbers::<f32, 2>(stated, &place, 1.0),
+        }?;
+        match values.iter().flatten().find(|value| !value.is_finite()) {
+            Some(value) => Err(Fault::new(place, format!("the texture coordinate {value}"), "finite ones")),
+            None => Ok(values.into_iter().map(DVec2::from_array).collect()),
+        }
+    }
+
     /// The colours of an accessor of the type `VEC3` or `VEC4`, linear; opacity is passed over.
     pub(super) fn colors(&self, accessor: usize) -> Result<Vec<[f32; 3]>, Fault> {
         let place = Place::Json(format!("accessors/{accessor}"));
@@ -100,17 +118,32 @@ impl<'a> Buffers<'a> {
         Ok(self.values::<[T; 3]>(accessor, place)?.into_iter().map(color).collect())
     }
 
-    /// Vectors of numbers; normalized, whole numbers stand for fractions of the largest. The crate's own reader of positions knows `f32` alone.
+    /// Vectors of numbers.
     fn vectors<T: Item + Copy + Into<f64>>(
         &self,
         accessor: &Accessor,
         place: &Place,
         largest: f64,
-    ) -> Result<Vec<DVec3>, Fault> {
+    ) -> Result<Vec<DVec3>, Fault>
+    where
+        [T; 3]: Item,
+    {
+        Ok(self.numbers::<T, 3>(accessor, place, largest)?.into_iter().map(DVec3::from_array).collect())
+    }
+
+    /// Some numbers at a time; normalized, whole ones stand for fractions of the largest. The crate's own reader of positions knows `f32` alone.
+    fn numbers<T: Item + Copy + Into<f64>, const N: usize>(
+        &self,
+        accessor: &Accessor,
+        place: &Place,
+        largest: f64,
+    ) -> Result<Vec<[f64; N]>, Fault>
+    where
+        [T; N]: Item,
+    {
         let is_fraction = accessor.normalized && largest > 1.0;
         let number = |value: T| if is_fraction { (value.into() / largest).max(-1.0) } else { value.into() };
-        let values = self.values::<[T; 3]>(accessor, place)?;
-        Ok(values.into_iter().map(|vector| DVec3::from_array(vector.map(number))).collect())
+        Ok(self.values::<[T; N]>(accessor, place)?.into_iter().map(|vector| vector.map(number)).collect())
     }
 
     /// The numbers of an accessor of the type `SCALAR` with whole, unsigned components.

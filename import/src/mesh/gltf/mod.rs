@@ -19,11 +19,11 @@ mod geometry;
 mod packed;
 mod transform;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use planecut_csg::Material;
 
 use super::error::{Fault, Place};
-use super::{IndexedMesh, MeshObject, Precision};
+use super::{IndexedMesh, MeshObject, Precision, textures};
 
 use accessor::Buffers;
 use document::Document;
@@ -36,8 +36,8 @@ const MAX_TRIANGLES: usize = 200_000_000;
 const HARMLESS: [&str; 3] = ["KHR_mesh_quantization", "EXT_mesh_manifold", "EXT_meshopt_compression"];
 const HARMLESS_PREFIXES: [&str; 4] = ["KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_"];
 
-/// Reads a glTF file.
-pub(super) fn read(bytes: &[u8]) -> Result<IndexedMesh, Fault> {
+/// Reads a glTF file, with `TEXCOORD_0` where texture coordinates are asked for.
+pub(super) fn read(bytes: &[u8], has_textures: bool) -> Result<IndexedMesh, Fault> {
     let (json, binary) = container::split(bytes)?;
     let document = document::parse(json)?;
     check_requirements(&document)?;
@@ -48,11 +48,12 @@ pub(super) fn read(bytes: &[u8]) -> Result<IndexedMesh, Fault> {
     for placed in transform::placed_meshes(&document)? {
         let slot = &mut geometries[placed.mesh];
         if slot.is_none() {
-            *slot = Some(geometry::read(&document, &buffers, placed.mesh)?);
+            *slot = Some(geometry::read(&document, &buffers, placed.mesh, has_textures)?);
         }
         let Some(geometry) = slot else { continue };
         append(&mut mesh, geometry, &placed)?;
     }
+    mesh.textures = textures::known(mesh.textures);
     Ok(mesh)
 }
 
@@ -101,6 +102,8 @@ fn append(mesh: &mut IndexedMesh, geometry: &Geometry, placed: &transform::Place
     mesh.triangles.extend(geometry.triangles.iter().map(|t| turned(t.map(|v| v + shift))));
     mesh.material_of.extend(&geometry.material_of);
     mesh.colors.extend(&geometry.colors);
+    let turned = |[a, b, c]: [DVec2; 3]| if mirrored { [a, c, b] } else { [a, b, c] };
+    mesh.textures.extend(geometry.textures.iter().map(|texture| texture.map(turned)));
     mesh.objects.push(MeshObject { name: placed.name.clone(), triangles: first..mesh.triangles.len() });
     Ok(())
 }

@@ -3,19 +3,20 @@
 mod body;
 mod header;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::colors::{Color, linear, mean};
 use super::error::{Fault, Place};
 use super::polygon::{MAX_CONCAVE_CORNERS, triangulate};
-use super::{IndexedMesh, Precision};
+use super::{IndexedMesh, Precision, textures};
 
 use body::Body;
 use header::{Element, Header, Property, Scalar};
 
 /// Reads a PLY file: `x`, `y`, `z` of its element `vertex` and the list `vertex_indices` (or `vertex_index`) of its element
-/// `face`, and `red`, `green`, `blue` of either; those of faces come first. All else is passed over.
-pub(super) fn read(bytes: &[u8]) -> Result<IndexedMesh, Fault> {
+/// `face`, and `red`, `green`, `blue` of either; those of faces come first. So do their texture coordinates, where these are asked for: the list
+/// `texcoord` of faces, or two properties of vertices. All else is passed over.
+pub(super) fn read(bytes: &[u8], has_textures: bool) -> Result<IndexedMesh, Fault> {
     let (header, mut body) = header::read(bytes)?;
     let mut positions = None;
     let mut triangles = None;
@@ -28,26 +29,28 @@ pub(super) fn read(bytes: &[u8]) -> Result<IndexedMesh, Fault> {
             return Err(Fault::new(body.place(), found, format!("at least {least}")));
         }
         match element.name.as_str() {
-            "vertex" if positions.is_none() => positions = Some(read_vertices(element, &mut body)?),
+            "vertex" if positions.is_none() => positions = Some(read_vertices(element, &mut body, has_textures)?),
             "face" if triangles.is_none() => {
                 let Some(positions) = &positions else {
                     return Err(Fault::new(body.place(), "element `face` first", "element `vertex` before it"));
                 };
-                triangles = Some(read_faces(element, &positions.positions, &mut body)?);
+                triangles = Some(read_faces(element, &positions.positions, &mut body, has_textures)?);
             }
             _ => skip(element, &mut body)?,
         }
     }
-    let Vertices { positions, colors: of_vertex } =
+    let Vertices { positions, colors: of_vertex, coordinates } =
         positions.ok_or_else(|| Fault::whole("no element `vertex`", "one"))?;
-    let Faces { triangles, places, colors } = triangles.ok_or_else(|| Fault::whole("no element `face`", "one"))?;
+    let Faces { triangles, places, colors, textures } =
+        triangles.ok_or_else(|| Fault::whole("no element `face`", "one"))?;
+    let textures = if textures.is_empty() { textures::of_vertices(&triangles, &coordinates) } else { textures };
     let of_corners = |triangle: &[u32; 3]| mean(triangle.map(|corner| of_vertex.get(corner as usize).copied()));
     let colors = match (colors.is_empty(), of_vertex.is_empty()) {
         (false, _) => colors.into_iter().map(Some).collect(),
         (true, false) => triangles.iter().map(of_corners).collect(),
         (true, true) => Vec::new(),
     };
-    Ok(IndexedMesh { places, colors, ..IndexedMesh::plain(positions, triangles, precision(&header)) })
+    Ok(IndexedMesh { places, colors, textures, ..IndexedMesh::plain(positions, triangles, precision(&header)) })
 }
 
 fn precision(header: &Header) -> Precision {
@@ -60,17 +63,30 @@ fn precision(header: &Header) -> Precision {
     }
 }
 
-/// Records of `vertex`; colours where they have them.
+/// Records of `vertex`; colours and texture coordinates where they have them.
 struct Vertices {
     positions: Vec<DVec3>,
     colors: Vec<Color>,
+    coordinates: Vec<DVec2>,
 }
 
-/// Records of `face`, cut into triangles: where the face of each begins, and its colour where they have one.
+/// Records of `face`, cut into triangles: where the face of each begins, and its colour and texture coordinates where they have some.
 struct Faces {
     triangles: Vec<[u32; 3]>,
     places: Vec<Place>,
     colors: Vec<Color>,
+    textures: Vec<Option<[DVec2; 3]>>,
+}
+
+/// Which of both texture coordinates each property is; none where one is missing.
+fn texture_axes(element: &Element) -> Vec<Option<usize>> {
+    const NAMES: [[&str; 2]; 3] = [["s", "t"], ["u", "v"], ["texture_u", "texture_v"]];
+    let axes = |names: [&str; 2]| -> Vec<Option<usize>> {
+        let axis = |p: &Property| names.iter().position(|&name| p.list_length.is_none() && p.name == name);
+        element.properties.iter().map(axis).collect()
+    };
+    let is_whole = |axes: &Vec<Option<usize>>| (0..2).all(|axis| axes.contains(&Some(axis)));
+    NAMES.into_iter().map(axes).find(is_whole).unwrap_or_else(|| vec![None; element.properties.len()])
 }
 
 /// Which channel of a colour each property is; none where a channel is missing.
@@ -92,7 +108,7 @@ fn channel_value(value: f64, scalar: Scalar) -> f32 {
     })
 }
 
-fn read_vertices(element: &Element, body: &mut Body<'_>) -> Result<Vertices, Fault> {
+fn read_vertices(element: &Element, body: &mut Body<'_>, has_textures: bool) -> Result<Vertices, Fault> {
     let axis = |p: &Property| ["x", "y", "z"].iter().position(|&name| p.list_length.is_none() && p.name == name);
     let axes: Vec<Option<usize>> = element.properties.iter().map(axis).collect();
     if let Some(missing) = (0..3).find(|&k| !axes.contains(&Some(k))) {
@@ -101,29 +117,45 @@ fn read_vertices(element: &Element, body: &mut Body<'_>) -> Result<Vertices, Fau
     }
     let channels = channels(element);
     let has_colors = channels.iter().any(Option::is_some);
+    let of_texture = if has_textures { texture_axes(element) } else { vec![None; axes.len()] };
+    let has_textures = of_texture.iter().any(Option::is_some);
     let mut positions = Vec::with_capacity(element.count);
-    let mut colors = Vec::new();
+    let (mut colors, mut coordinates) = (Vec::new(), Vec::new());
     for _ in 0..element.count {
-        let (mut position, mut color) = (DVec3::ZERO, Color::default());
-        for (property, part) in element.properties.iter().zip(axes.iter().zip(&channels)) {
+        let (mut position, mut color, mut at) = (DVec3::ZERO, Color::default(), DVec2::ZERO);
+        for (property, part) in element.properties.iter().zip(axes.iter().zip(&channels).zip(&of_texture)) {
             match part {
-                (Some(axis), _) => position[*axis] = body.scalar(property.scalar)?,
-                (_, Some(channel)) => color[*channel] = channel_value(body.scalar(property.scalar)?, property.scalar),
+                ((Some(axis), _), _) => position[*axis] = body.scalar(property.scalar)?,
+                ((_, Some(channel)), _) => {
+                    color[*channel] = channel_value(body.scalar(property.scalar)?, property.scalar);
+                }
+                (_, Some(axis)) => at[*axis] = body.scalar(property.scalar)?,
                 _ => skip_property(property, body)?,
             }
         }
         if has_colors {
             colors.push(color);
         }
+        if has_textures {
+            coordinates.push(finite_coordinates(at, body)?);
+        }
         if !position.is_finite() {
             return Err(Fault::new(body.place(), format!("the vertex {position}"), "finite coordinates"));
         }
         positions.push(position);
     }
-    Ok(Vertices { positions, colors })
+    Ok(Vertices { positions, colors, coordinates })
 }
 
-fn read_faces(element: &Element, positions: &[DVec3], body: &mut Body<'_>) -> Result<Faces, Fault> {
+/// Texture coordinates of the file, `v` down.
+fn finite_coordinates(at: DVec2, body: &Body<'_>) -> Result<DVec2, Fault> {
+    if at.is_finite() {
+        return Ok(DVec2::new(at.x, textures::turned(at.y)));
+    }
+    Err(Fault::new(body.place(), format!("the texture coordinates {at}"), "finite ones"))
+}
+
+fn read_faces(element: &Element, positions: &[DVec3], body: &mut Body<'_>, has_textures: bool) -> Result<Faces, Fault> {
     let is_indices =
         |p: &&Property| p.list_length.is_some() && ["vertex_indices", "vertex_index"].contains(&p.name.as_str());
     let Some(indices) = element.properties.iter().find(is_indices) else {
@@ -133,13 +165,24 @@ fn read_faces(element: &Element, positions: &[DVec3], body: &mut Body<'_>) -> Re
     let mut places = Vec::with_capacity(element.count);
     let channels = channels(element);
     let has_colors = channels.iter().any(Option::is_some);
+    let is_texture = |p: &&Property| p.list_length.is_some() && p.name == "texcoord";
+    let texture = if has_textures { element.properties.iter().find(is_texture) } else { None };
     let (mut corners, mut colors) = (Vec::new(), Vec::new());
+    let (mut numbers, mut textures) = (Vec::new(), Vec::new());
     for _ in 0..element.count {
         let before = body.place();
         let mut color = Color::default();
         for (property, channel) in element.properties.iter().zip(&channels) {
             if let Some(channel) = channel {
                 color[*channel] = channel_value(body.scalar(property.scalar)?, property.scalar);
+                continue;
+            }
+            if texture.is_some_and(|texture| std::ptr::eq(property, texture)) {
+                let length = list_length(property, body)?;
+                numbers.clear();
+                for _ in 0..length {
+                    numbers.push(body.scalar(property.scalar)?);
+                }
                 continue;
             }
             if !std::ptr::eq(property, indices) {
@@ -156,9 +199,15 @@ fn read_faces(element: &Element, positions: &[DVec3], body: &mut Body<'_>) -> Re
         if count < 3 {
             return Err(Fault::new(body.place(), format!("a face with {count} corners"), "at least 3"));
         }
-        if !triangulate(&corners, positions, &mut triangles) {
+        let Some(cut) = triangulate(&corners, positions) else {
             let expected = format!("at most {MAX_CONCAVE_CORNERS} where it is not convex");
             return Err(Fault::new(body.place(), format!("a face with {count} corners"), expected));
+        };
+        triangles.extend(cut.iter().map(|triangle| triangle.map(|k| corners[k])));
+        if texture.is_some() {
+            let of_face = coordinates_of_face(&numbers, count, body)?;
+            let at = |k: usize| of_face.get(k).copied();
+            textures.extend(cut.iter().map(|triangle| textures::of_corners(triangle.map(at))));
         }
         // of text the words are known once they are read
         let place = if matches!(body, Body::Ascii(_)) { body.place() } else { before };
@@ -167,7 +216,16 @@ fn read_faces(element: &Element, positions: &[DVec3], body: &mut Body<'_>) -> Re
             colors.resize(triangles.len(), color);
         }
     }
-    Ok(Faces { triangles, places, colors })
+    Ok(Faces { triangles, places, colors, textures: textures::known(textures) })
+}
+
+/// The texture coordinates of a face's corners: two numbers for each, or none at all.
+fn coordinates_of_face(numbers: &[f64], corners: usize, body: &Body<'_>) -> Result<Vec<DVec2>, Fault> {
+    if !numbers.is_empty() && numbers.len() != 2 * corners {
+        let found = format!("{} numbers of `texcoord`", numbers.len());
+        return Err(Fault::new(body.place(), found, format!("{} for {corners} corners", 2 * corners)));
+    }
+    numbers.chunks_exact(2).map(|at| finite_coordinates(DVec2::new(at[0], at[1]), body)).collect()
 }
 
 fn vertex_index(value: f64, count: usize, body: &Body<'_>) -> Result<u32, Fault> {

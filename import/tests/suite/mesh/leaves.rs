@@ -70,7 +70,7 @@ fn the_rule_says_what_is_inside() {
         ([(0.0, 3.0, false), (5.0, 6.0, true)], Positive, 27.0),
         ([(0.0, 3.0, false), (5.0, 6.0, true)], NonZero, 28.0),
     ] {
-        let import = read_as(&cubes(&shells), &SolidOptions { rule, close: 0.0 });
+        let import = read_as(&cubes(&shells), &SolidOptions { rule, ..SolidOptions::default() });
         assert_eq!(volume(&import), expected, "{shells:?} {rule:?}");
     }
 }
@@ -123,7 +123,7 @@ fn loose_cube(off: f64) -> String {
 fn vertices_are_joined_within_the_distance_that_is_asked_for() {
     let text = loose_cube(0.01);
     let open = |close| {
-        let options = SolidOptions { rule: WindingRule::Positive, close };
+        let options = SolidOptions { close, ..SolidOptions::default() };
         read_solid(text.as_bytes(), MeshFormat::Obj, "m.obj", &options).expect_err("open")
     };
     for close in [0.0, 0.001] {
@@ -134,7 +134,7 @@ fn vertices_are_joined_within_the_distance_that_is_asked_for() {
             line.starts_with("m.obj:5: the surface is not closed: found 24 open edges, the first one from (0, 0, 0) ")
         );
     }
-    let import = read_as(&text, &SolidOptions { rule: WindingRule::Positive, close: 0.01 });
+    let import = read_as(&text, &SolidOptions { close: 0.01, ..SolidOptions::default() });
     assert_eq!(import.warnings[0].message, "joined 16 vertices with others that are no farther than 0.01");
     assert!((volume(&import) - 1.0).abs() < 0.03);
 }

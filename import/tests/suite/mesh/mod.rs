@@ -10,3 +10,4 @@ mod leaves;
 mod packed;
 mod solid;
 mod support;
+mod textures;
