@@ -11,7 +11,6 @@ use super::pairs::Probe;
 use super::points::Key;
 use super::predicates::{Corner, orient};
 use super::surface::sorted;
-use super::triangle_tree::bounds_of;
 use crate::ids::{Id, InputTriangleId, InputVertexId, number32};
 
 /// What defines a point, in numbers of the input.
@@ -197,27 +196,6 @@ impl<'a> Pair<'a> {
         is_known && along[0].iter().all(|p| height(*p) > 1.0) && along[1].iter().all(|p| height(*p) < -1.0)
     }
 
-    /// Whether all corners have one coordinate in common.
-    fn are_in_plane_of_axes(&self) -> bool {
-        let [a, ..] = self.corners[0];
-        !self.input.has_bodies
-            && (0..3).any(|axis| self.corners.as_flattened().iter().all(|corner| corner.at[axis] == a.at[axis]))
-    }
-
-    /// Whether an edge of the face of one triangle may touch the other triangle.
-    fn has_edges_near(&self, faces: &FlatFaces<'_>) -> bool {
-        self.input.has_bodies
-            || (0..2).any(|k| {
-                let others = bounds_of(self.corners[1 - k].map(|corner| corner.at));
-                (0..3).any(|side| {
-                    let ends @ [a, b] = [self.corners[k][side].at, self.corners[k][(side + 1) % 3].at];
-                    bounds_of([a, b, b]).touches(&others)
-                        && !self.probes[k].is_within_face(faces, side)
-                        && !self.probes[1 - k].plane.tells_edge_apart(self.input, ends)
-                })
-            })
-    }
-
     /// Whether triangles one of which has corners nearly in the plane of the other, as neighbours of large flat faces have, are sure to lie
     /// side by side.
     fn are_side_by_side(&self) -> bool {
@@ -249,21 +227,19 @@ pub(super) fn touch(input: &Input<'_>, probes: [&Probe; 2], faces: Option<&FlatF
         1 if pair.are_apart() => return,
         _ => {}
     }
-    if pair.are_in_plane_of_axes() {
-        if faces.is_none_or(|faces| pair.has_edges_near(faces)) && !pair.are_side_by_side() {
-            coplanar::touch(&pair, out);
-        }
-        return;
-    }
     if pair.are_side_by_side() {
         return;
+    }
+    let [one, other] = probes;
+    if one.is_in_plane_of_axes(input, other) {
+        return coplanar::touch(&pair, out);
     }
     let of_second = [0, 1, 2].map(|k| pair.side(0, k));
     if all_on_one_side(of_second) {
         return;
     }
     if of_second == [Sign::Zero; 3] {
-        if faces.is_none_or(|faces| pair.has_edges_near(faces)) {
+        if faces.is_none_or(|faces| one.has_edges_near(input, other, faces)) {
             coplanar::touch(&pair, out);
         }
         return;

@@ -4,6 +4,7 @@
 
 use std::ops::Range;
 
+use glam::DVec3;
 use planecut_kernel::sign::Counts;
 use planecut_parallel::prelude::*;
 
@@ -12,7 +13,7 @@ use super::flat_faces::FlatFaces;
 use super::input::Input;
 use super::predicates::{EdgePlane, RoundedPlane, Triangle};
 use super::self_walk::SelfTree;
-use super::triangle_tree::{TreeNode, TriangleTree};
+use super::triangle_tree::{LEAF, TreeNode, TriangleTree, bounds_of};
 use crate::base::{Bounds, Boxes, map_chunks};
 use crate::ids::number32;
 
@@ -138,6 +139,7 @@ fn split(trees: &[&TriangleTree], task: &Task) -> Vec<Task> {
 pub(super) struct Probe {
     pub(super) triangle: Triangle,
     pub(super) plane: RoundedPlane,
+    edges: [EdgePlane; 3],
     bounds: Bounds,
     operand: usize,
     /// Its number in its operand, and the twins of its sides there.
@@ -149,15 +151,52 @@ impl Probe {
     fn new(input: &Input<'_>, operand: usize, own: u32) -> Self {
         let triangle = input.triangle(operand, own);
         let plane = RoundedPlane::new(input, &triangle);
+        let edges = plane.edge_planes(input);
         let first = 3 * own as usize;
         let twins = &input.operands[operand].twins()[first..first + 3];
         let twins = [twins[0], twins[1], twins[2]];
-        Self { triangle, plane, bounds: input.operands[operand].bounds(own), operand, own, twins }
+        Self { triangle, plane, edges, bounds: input.operands[operand].bounds(own), operand, own, twins }
     }
 
-    /// Whether an edge lies within a flat face of the operand.
-    pub(super) fn is_within_face(&self, faces: &FlatFaces<'_>, side: usize) -> bool {
-        faces.is_diagonal(self.operand, 3 * self.own + number32(side))
+    /// Whether a box is sure to be apart from it: misses its plane, or lies beyond one of its edges.
+    fn misses(&self, input: &Input<'_>, bounds: &Bounds) -> bool {
+        // far from the origin the middle is rounded by more than it is off the plane: the half is taken from where it is
+        let middle = 0.5 * bounds.min + 0.5 * bounds.max;
+        let half = (bounds.max - middle).max(middle - bounds.min);
+        input.is_safe && (self.plane.misses(middle, half) || self.edges.iter().any(|edge| edge.misses(middle, half)))
+    }
+
+    /// Whether another triangle is sure to be apart from it: on one side of its plane, or beyond one of its edges.
+    #[inline]
+    fn has_beyond(&self, input: &Input<'_>, places: &[DVec3; 3]) -> bool {
+        let size = || places[0].abs().max(places[1].abs()).max(places[2].abs());
+        // corners of bodies are not where they are said to be
+        input.is_safe
+            && (self.plane.has_on_one_side(input, places)
+                || !input.has_bodies && self.edges.iter().any(|edge| edge.has_beyond(places, size())))
+    }
+
+    /// Whether it has one coordinate alone along an axis, and another triangle the same.
+    pub(super) fn is_in_plane_of_axes(&self, input: &Input<'_>, other: &Self) -> bool {
+        let is_flat = |axis: usize| {
+            let height = self.bounds.min[axis];
+            [self.bounds.max, other.bounds.min, other.bounds.max].iter().all(|end| end[axis] == height)
+        };
+        !input.has_bodies && (is_flat(0) || is_flat(1) || is_flat(2))
+    }
+
+    /// Whether an edge of the flat face of one of two triangles of one plane may touch the other triangle.
+    pub(super) fn has_edges_near(&self, input: &Input<'_>, other: &Self, faces: &FlatFaces<'_>) -> bool {
+        let is_near = |own: &Self, other: &Self| {
+            let places = own.triangle.places();
+            (0..3).any(|side| {
+                let ends @ [a, b] = [places[side], places[(side + 1) % 3]];
+                bounds_of([a, b, b]).touches(&other.bounds)
+                    && !faces.is_diagonal(own.operand, 3 * own.own + number32(side))
+                    && !other.plane.tells_edge_apart(input, ends)
+            })
+        };
+        input.has_bodies || is_near(self, other) || is_near(other, self)
     }
 
     /// Whether another triangle is the one on the other side of an edge.
@@ -178,6 +217,11 @@ struct Walk<'a> {
 impl Walk<'_> {
     fn probe(&self, k: usize, triangle: u32) -> Probe {
         Probe::new(self.input, self.operands[k], triangle)
+    }
+
+    fn places(&self, k: usize, triangle: u32) -> [DVec3; 3] {
+        let own = &self.input.operands[self.operands[k]];
+        own.triangles()[triangle as usize].map(|vertex| own.positions()[vertex as usize])
     }
 
     fn bounds(&self, k: usize, triangle: u32) -> Bounds {
@@ -205,7 +249,7 @@ impl Walk<'_> {
     fn leaves(&mut self, a: TreeNode, b: TreeNode) {
         let (of_a, of_b) = (*self.one.bounds(a), *self.other.bounds(b));
         let near = |walk: &Self, k: usize, triangles: &[u32], other: &Bounds| {
-            let mut near = [(0, Bounds::EMPTY); super::triangle_tree::LEAF];
+            let mut near = [(0, Bounds::EMPTY); LEAF];
             let mut count = 0;
             for triangle in triangles {
                 let bounds = walk.bounds(k, *triangle);
@@ -221,20 +265,16 @@ impl Walk<'_> {
             return;
         }
         let (others, other_count) = near(self, 1, self.other.triangles(b), &of_a);
+        let mut probes: [Option<Probe>; LEAF] = [const { None }; LEAF];
         for (one, bounds) in &ones[..count] {
             let mut probe = None;
-            for (other, other_bounds) in &others[..other_count] {
+            for (k, (other, other_bounds)) in others[..other_count].iter().enumerate() {
                 if bounds.touches(other_bounds) {
-                    let (probe, edges) = probe.get_or_insert_with(|| {
-                        let probe = self.probe(0, *one);
-                        let edges = probe.plane.edge_planes(self.input);
-                        (probe, edges)
-                    });
-                    if misses(self.input, probe, edges, other_bounds) {
-                        continue;
+                    let probe = probe.get_or_insert_with(|| self.probe(0, *one));
+                    if !probe.has_beyond(self.input, &self.places(1, *other)) {
+                        let other = probes[k].get_or_insert_with(|| self.probe(1, *other));
+                        self.compare(probe, other);
                     }
-                    let other = self.probe(1, *other);
-                    self.compare(probe, &other);
                 }
             }
         }
@@ -254,47 +294,48 @@ impl Walk<'_> {
         for &triangle in tree.triangles(leaf) {
             if self.bounds(k, triangle).touches(other.bounds(node)) {
                 let probe = self.probe(k, triangle);
-                self.below(&probe, &probe.plane.edge_planes(self.input), node, is_first);
+                self.below(&probe, node, is_first);
             }
         }
     }
 
     /// Compares a triangle with those below a node of the other tree.
-    fn below(&mut self, probe: &Probe, edges: &[EdgePlane; 3], node: TreeNode, is_first: bool) {
+    fn below(&mut self, probe: &Probe, node: TreeNode, is_first: bool) {
         let tree = if is_first { self.other } else { self.one };
         let bounds = tree.bounds(node);
-        if !bounds.touches(&probe.bounds) || misses(self.input, probe, edges, bounds) {
+        if !bounds.touches(&probe.bounds) || probe.misses(self.input, bounds) {
             return;
         }
         if node.level > 0 {
             let (first, second) = tree.children(node);
-            self.below(probe, edges, first, is_first);
+            self.below(probe, first, is_first);
             if let Some(second) = second {
-                self.below(probe, edges, second, is_first);
+                self.below(probe, second, is_first);
             }
             return;
         }
         let k = usize::from(is_first);
         for &triangle in tree.triangles(node) {
-            let bounds = self.bounds(k, triangle);
-            if bounds.touches(&probe.bounds) && !misses(self.input, probe, edges, &bounds) {
+            if self.bounds(k, triangle).touches(&probe.bounds)
+                && !probe.has_beyond(self.input, &self.places(k, triangle))
+            {
                 let other = self.probe(k, triangle);
                 if is_first { self.compare(probe, &other) } else { self.compare(&other, probe) }
             }
         }
     }
 
+    /// Compares two triangles, the second of which is not sure to be apart from the first.
     fn compare(&mut self, one: &Probe, other: &Probe) {
-        if one.bounds.touches(&other.bounds) {
+        // the same triangle has the same box
+        if one.bounds != other.bounds
+            && one.is_in_plane_of_axes(self.input, other)
+            && !one.has_edges_near(self.input, other, self.faces)
+        {
+            return;
+        }
+        if !other.has_beyond(self.input, &one.triangle.places()) {
             touch(self.input, [one, other], Some(self.faces), self.out);
         }
     }
-}
-
-/// Whether a triangle is sure to be apart from a box: that misses its plane, or lies beyond one of its edges.
-fn misses(input: &Input<'_>, probe: &Probe, edges: &[EdgePlane; 3], bounds: &Bounds) -> bool {
-    // far from the origin the middle is rounded by more than it is off the plane: the half is taken from where it is
-    let middle = 0.5 * bounds.min + 0.5 * bounds.max;
-    let half = (bounds.max - middle).max(middle - bounds.min);
-    input.is_safe && (probe.plane.misses(middle, half) || edges.iter().any(|edge| edge.misses(middle, half)))
 }

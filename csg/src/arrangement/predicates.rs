@@ -170,6 +170,13 @@ impl RoundedPlane {
         self.normal.dot(along).abs() > self.normal.abs().dot(half) + slack
     }
 
+    /// Whether places are sure to lie on one side of the plane.
+    #[inline]
+    pub(super) fn has_on_one_side(&self, input: &Input<'_>, places: &[DVec3; 3]) -> bool {
+        let [(a, of_a), (b, of_b), (c, of_c)] = places.map(|place| self.height(input, place));
+        (a > of_a) & (b > of_b) & (c > of_c) || (a < -of_a) & (b < -of_b) & (c < -of_c)
+    }
+
     /// Planes through the edges along the normal, their normals pointing away from the triangle; and magnitudes that bound what rounding
     /// does to these.
     pub(super) fn edge_planes(&self, input: &Input<'_>) -> [EdgePlane; 3] {
@@ -214,6 +221,14 @@ impl EdgePlane {
         // the other corners are up to as far inside as rounding of the normal makes of their distance, which the permanent bounds
         let slack = EDGE_BOUND * self.permanent.dot(middle.abs() + half + self.at.abs());
         self.normal.dot(along) > self.normal.abs().dot(half) + slack
+    }
+
+    /// Whether places, whose coordinates have at most these magnitudes, are sure to lie beyond the edge.
+    #[inline]
+    pub(super) fn has_beyond(&self, places: &[DVec3; 3], size: DVec3) -> bool {
+        let slack = EDGE_BOUND * self.permanent.dot(size + self.at.abs());
+        let [a, b, c] = places.map(|place| self.normal.dot(place - self.at));
+        (a > slack) & (b > slack) & (c > slack)
     }
 }
 
