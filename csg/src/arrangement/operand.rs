@@ -182,7 +182,9 @@ impl<'a> Operand<'a> {
     /// A box that holds a triangle.
     #[inline]
     pub(super) fn bounds(&self, triangle: u32) -> Bounds {
-        let bounds = bounds_of(self.triangles[triangle as usize].map(|vertex| self.positions[vertex as usize]));
+        let [a, b, c] = self.triangles[triangle as usize];
+        let positions = &self.positions;
+        let bounds = bounds_of([positions[a as usize], positions[b as usize], positions[c as usize]]);
         if self.is_body() { grown(bounds) } else { bounds }
     }
 

@@ -221,7 +221,9 @@ impl Walk<'_> {
 
     fn places(&self, k: usize, triangle: u32) -> [DVec3; 3] {
         let own = &self.input.operands[self.operands[k]];
-        own.triangles()[triangle as usize].map(|vertex| own.positions()[vertex as usize])
+        let [a, b, c] = own.triangles()[triangle as usize];
+        let positions = own.positions();
+        [positions[a as usize], positions[b as usize], positions[c as usize]]
     }
 
     fn bounds(&self, k: usize, triangle: u32) -> Bounds {

@@ -141,9 +141,9 @@ impl RoundedPlane {
     pub(super) fn tells_edge_apart(&self, input: &Input<'_>, ends: [DVec3; 2]) -> bool {
         let places = self.triangle.places();
         let is_beyond = |side: usize| {
-            let [a, b, c] = [0, 1, 2].map(|k| places[(side + k) % 3]);
-            let height = |place: DVec3| self.height_over_edge(input, [a, b], place);
-            height(c) > 1.0 && ends.iter().all(|end| height(*end) < -1.0)
+            let ends_of_side = [places[side], places[(side + 1) % 3]];
+            let height = |place: DVec3| self.height_over_edge(input, ends_of_side, place);
+            height(ends[0]) < -1.0 && height(ends[1]) < -1.0 && height(places[(side + 2) % 3]) > 1.0
         };
         input.is_safe && (0..3).any(is_beyond)
     }
@@ -173,7 +173,9 @@ impl RoundedPlane {
     /// Whether places are sure to lie on one side of the plane.
     #[inline]
     pub(super) fn has_on_one_side(&self, input: &Input<'_>, places: &[DVec3; 3]) -> bool {
-        let [(a, of_a), (b, of_b), (c, of_c)] = places.map(|place| self.height(input, place));
+        let [a, b, c] = places;
+        let ((a, of_a), (b, of_b), (c, of_c)) =
+            (self.height(input, *a), self.height(input, *b), self.height(input, *c));
         (a > of_a) & (b > of_b) & (c > of_c) || (a < -of_a) & (b < -of_b) & (c < -of_c)
     }
 
@@ -227,8 +229,8 @@ impl EdgePlane {
     #[inline]
     pub(super) fn has_beyond(&self, places: &[DVec3; 3], size: DVec3) -> bool {
         let slack = EDGE_BOUND * self.permanent.dot(size + self.at.abs());
-        let [a, b, c] = places.map(|place| self.normal.dot(place - self.at));
-        (a > slack) & (b > slack) & (c > slack)
+        let height = |place: DVec3| self.normal.dot(place - self.at);
+        (height(places[0]) > slack) & (height(places[1]) > slack) & (height(places[2]) > slack)
     }
 }
 
