@@ -44,14 +44,6 @@ impl<'a> FlatFaces<'a> {
         self.of_operand[operand].get_or_init(|| faces(self.input, operand, &self.touching[operand]))
     }
 
-    /// Whether both triangles at a half-edge of an operand lie in one plane, and continue one another there.
-    pub(super) fn is_flat(&self, operand: usize, half_edge: u32) -> bool {
-        match self.of_operand[operand].get() {
-            Some(_) => self.is_diagonal(operand, half_edge),
-            None => is_within_face(self.input, operand, half_edge),
-        }
-    }
-
     /// Whether a half-edge of an operand lies within a face.
     #[inline]
     pub(super) fn is_diagonal(&self, operand: usize, half_edge: u32) -> bool {
@@ -101,7 +93,9 @@ fn faces(input: &Input<'_>, operand: usize, touching: &[[u32; 2]]) -> Vec<u32> {
     let own = &input.operands[operand];
     let count = own.triangles().len();
     let half_edges = (0..number32(3 * count)).into_par_iter().with_min_len(CHUNK);
-    let within: Vec<u32> = half_edges.filter(|half_edge| is_within_face(input, operand, *half_edge)).collect();
+    let is_within =
+        |half_edge: &u32| is_within_plane(input, operand, *half_edge) && is_within_face(input, operand, *half_edge);
+    let within: Vec<u32> = half_edges.filter(is_within).collect();
     let mut sets = DisjointSets::new(count);
     for half_edge in within {
         sets.join(half_edge / 3, own.twins()[half_edge as usize] / 3);
@@ -122,26 +116,30 @@ fn faces(input: &Input<'_>, operand: usize, touching: &[[u32; 2]]) -> Vec<u32> {
     first
 }
 
-/// Whether a half-edge, the smaller one of two along an edge, has triangles of one plane on both sides that continue one another.
-fn is_within_face(input: &Input<'_>, operand: usize, half_edge: u32) -> bool {
+/// Whether a half-edge, the smaller one of two along an edge, has triangles of one plane on both sides.
+pub(super) fn is_within_plane(input: &Input<'_>, operand: usize, half_edge: u32) -> bool {
     let own = &input.operands[operand];
     let twin = own.twins()[half_edge as usize];
     if twin == NO_TWIN || twin < half_edge {
         return false;
     }
     let (one, other) = (half_edge / 3, twin / 3);
-    if own.material(one) != own.material(other)
-        || !own.flat().is_empty() && [one, other].iter().any(|t| own.flat().binary_search(t).is_ok())
-    {
-        return false;
-    }
     if own.is_body() {
         return own.plane(one) == own.plane(other);
     }
+    let is_flat = |triangle: u32| own.flat().binary_search(&triangle).is_ok();
     let [a, b, c] = own.triangles()[one as usize].map(|vertex| own.positions()[vertex as usize]);
     let apex = own.positions()[own.triangles()[other as usize][(twin as usize + 2) % 3] as usize];
-    are_coplanar([a, b, c, apex]) && {
-        let [p, q] = [one, other].map(|triangle| input.triangle(operand, triangle));
-        best_axis(input, &p).is_some_and(|(axis, sign)| normal_component(input, &q, axis) == sign)
+    are_coplanar([a, b, c, apex]) && (own.flat().is_empty() || !is_flat(one) && !is_flat(other))
+}
+
+/// Whether the triangles of one plane at a half-edge are of one material, and continue one another.
+pub(super) fn is_within_face(input: &Input<'_>, operand: usize, half_edge: u32) -> bool {
+    let own = &input.operands[operand];
+    let [one, other] = [half_edge, own.twins()[half_edge as usize]].map(|side| side / 3);
+    if own.material(one) != own.material(other) {
+        return false;
     }
+    let [p, q] = [one, other].map(|triangle| input.triangle(operand, triangle));
+    own.is_body() || best_axis(input, &p).is_some_and(|(axis, sign)| normal_component(input, &q, axis) == sign)
 }

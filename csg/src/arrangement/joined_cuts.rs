@@ -3,6 +3,7 @@
 //! Two triangles share a segment of the line in which their planes meet. Where that ends at a diagonal, the next triangle of the polygon
 //! goes on. So segments of two polygons are joined where just two end in a point that a diagonal, or a vertex within a polygon, defines.
 
+use planecut_parallel::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::contact::{Contacts, InputKey};
@@ -167,7 +168,7 @@ impl Joining<'_> {
     /// Joins cuts of the same two polygons, sorted afterwards. Gives the points at which cuts along edges of others were joined, with these edges.
     fn join(&self, cuts: &mut Vec<KeyedCut>) -> FxHashSet<([PointId; 2], PointKey)> {
         let mut vanished = FxHashSet::default();
-        cuts.sort_unstable();
+        cuts.par_sort_unstable();
         cuts.dedup();
         if self.polygons.all().next().is_none() {
             return vanished;
@@ -220,7 +221,7 @@ impl Joining<'_> {
                 cuts.push(KeyedCut { ends, ..group[start] });
             }
         }
-        cuts.sort_unstable();
+        cuts.par_sort_unstable();
         vanished
     }
 }

@@ -56,8 +56,6 @@ use contact::{Contacts, InputKey};
 use crossings::{CutLine, Neighbours, crossings};
 use edge_points::EdgePoints;
 use facets::Facets;
-use flat::are_coplanar;
-use flat_faces::FlatFaces;
 use input::Input;
 use joined_cuts::{JoinedCuts, KeyedCut, joined_cuts};
 use patches::Patches;
@@ -94,7 +92,7 @@ impl<'a> Arranged<'a> {
     fn new(input: &'a Input<'a>) -> Result<Self, Contradiction> {
         let (contacts, faces) = pairs::contacts(input);
         let surface = Surface::new(input, &contacts, &faces);
-        let (arrangement, is_split, is_doubled) = Arrangement::new(surface, &contacts, &faces);
+        let (arrangement, is_split, is_doubled) = Arrangement::new(surface, &contacts);
         drop((contacts, faces));
         let facets = Facets::new(&arrangement, is_split, &is_doubled);
         let sheets = sheets(&arrangement, &facets)?;
@@ -104,7 +102,7 @@ impl<'a> Arranged<'a> {
 
 impl<'a> Arrangement<'a> {
     /// Cuts triangles along what they have in common. Also tells which of them are not whole any more, and which may have doubles.
-    fn new(surface: Surface<'a>, contacts: &Contacts, faces: &FlatFaces<'_>) -> (Self, Vec<bool>, Vec<bool>) {
+    fn new(surface: Surface<'a>, contacts: &Contacts) -> (Self, Vec<bool>, Vec<bool>) {
         let patches = Patches::new(&surface);
         let mut is_split = vec![false; surface.len()];
         for (operand, own) in surface.input.operands.iter().enumerate() {
@@ -112,8 +110,9 @@ impl<'a> Arrangement<'a> {
                 is_split[surface.triangle_of(surface.input.number(operand, *triangle)).index()] = true;
             }
         }
-        let planes = planes(&surface, contacts, &is_split);
-        let polygons = Polygons::new(&surface, contacts, faces, &is_split);
+        let flat_edges = surface.flat_edges();
+        let planes = planes(&surface, contacts, &flat_edges);
+        let polygons = Polygons::new(&surface, contacts, &flat_edges);
         let key = |key: InputKey| canonical(&surface, &planes, key);
         let JoinedCuts { cuts: keyed, on_edges, pairs } = joined_cuts(&surface, &polygons, &planes, contacts, key);
         let mut points = Points::new(&surface);
@@ -213,26 +212,15 @@ impl<'a> Arrangement<'a> {
 }
 
 /// For each triangle the first one that is known to lie in the same plane.
-fn planes(surface: &Surface<'_>, contacts: &Contacts, is_flat: &[bool]) -> Vec<TriangleId> {
+fn planes(surface: &Surface<'_>, contacts: &Contacts, flat_edges: &[u32]) -> Vec<TriangleId> {
     let mut sets = DisjointSets::new(surface.len());
     for pair in &contacts.coplanar {
         let [a, b] = pair.map(|triangle| surface.triangle_of(triangle).number());
         sets.join(a, b);
     }
     // large flat faces are made of many triangles
-    for (half_edge, &twin) in
-        (0..).zip(&surface.twins).filter(|(half_edge, twin)| **twin != NO_TWIN && half_edge < *twin)
-    {
-        let [one, other] = [half_edge, twin].map(|side: u32| TriangleId::from_index(side as usize / 3));
-        if is_flat[one.index()] || is_flat[other.index()] {
-            continue;
-        }
-        let [a, b, c] = surface.triangle(one).corners;
-        let apex = surface.corner(surface.corners(other)[(twin as usize + 2) % 3]);
-        let are_there = [a, b, c, apex].iter().all(|corner| surface.input.is_where_it_is_said(corner.vertex));
-        if are_there && are_coplanar([a.at, b.at, c.at, apex.at]) {
-            sets.join(one.number(), other.number());
-        }
+    for half_edge in flat_edges {
+        sets.join(half_edge / 3, surface.twins[*half_edge as usize] / 3);
     }
     // triangles of convex bodies know their planes
     if surface.input.has_bodies {

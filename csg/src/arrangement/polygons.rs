@@ -3,7 +3,7 @@
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::contact::Contacts;
-use super::flat_faces::FlatFaces;
+use super::flat_faces::is_within_face;
 use super::surface::Surface;
 use crate::base::DisjointSets;
 use crate::closed_mesh::connectivity::NO_TWIN;
@@ -25,8 +25,9 @@ pub(super) struct Polygons {
 }
 
 impl Polygons {
-    pub(super) fn new(surface: &Surface<'_>, contacts: &Contacts, faces: &FlatFaces<'_>, is_flat: &[bool]) -> Self {
-        let parts = Parts::new(surface, contacts, faces, is_flat);
+    /// `flat_edges` are half-edges with triangles of one plane on both sides.
+    pub(super) fn new(surface: &Surface<'_>, contacts: &Contacts, flat_edges: &[u32]) -> Self {
+        let parts = Parts::new(surface, contacts, flat_edges);
         let first = parts.cut(surface, contacts);
         let mut members: Vec<[TriangleId; 2]> = (TriangleId::all(first.len())).map(|t| [first[t.index()], t]).collect();
         members.sort_unstable();
@@ -140,19 +141,18 @@ struct Parts {
 }
 
 impl Parts {
-    fn new(surface: &Surface<'_>, contacts: &Contacts, faces: &FlatFaces<'_>, is_flat: &[bool]) -> Self {
+    fn new(surface: &Surface<'_>, contacts: &Contacts, flat_edges: &[u32]) -> Self {
         // triangles beside those that pass through stay as they are
-        let mut is_alone = is_flat.to_vec();
+        let mut is_alone = vec![false; surface.len()];
         surface.seams.iter().for_each(|(half_edge, _)| is_alone[*half_edge as usize / 3] = true);
         let mut sets = DisjointSets::new(surface.len());
-        for (half_edge, &twin) in (0..).zip(&surface.twins) {
-            if twin == NO_TWIN || twin < half_edge || is_alone[half_edge as usize / 3] || is_alone[twin as usize / 3] {
-                continue;
-            }
-            let triangle = TriangleId::from_index(half_edge as usize / 3);
-            let operand = surface.operands[triangle.index()] as usize;
-            let own = surface.number(triangle).number() - surface.input.number(operand, 0).number();
-            if faces.is_flat(operand, 3 * own + half_edge % 3) {
+        for half_edge in flat_edges {
+            let twin = surface.twins[*half_edge as usize];
+            let (operand, own) = surface.in_operand(*half_edge);
+            if !is_alone[*half_edge as usize / 3]
+                && !is_alone[twin as usize / 3]
+                && is_within_face(surface.input, operand, own)
+            {
                 sets.join(half_edge / 3, twin / 3);
             }
         }

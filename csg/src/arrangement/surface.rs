@@ -6,7 +6,7 @@ use rustc_hash::FxHashMap;
 
 use super::contact::Contacts;
 use super::exact::are_one;
-use super::flat_faces::FlatFaces;
+use super::flat_faces::{FlatFaces, is_within_plane};
 use super::input::Input;
 use super::predicates::{Corner, Triangle};
 use crate::closed_mesh::connectivity::NO_TWIN;
@@ -37,6 +37,8 @@ pub(super) struct Surface<'a> {
     numbers: Vec<InputTriangleId>,
     /// Whether floating-point filters and expansions hold for all coordinates.
     pub(super) is_safe: bool,
+    /// Of several vertices at one rounded place the one before each.
+    before: FxHashMap<PointId, PointId>,
     /// For each vertex of the input whether all of its triangles are here.
     is_core: Vec<bool>,
     /// For each vertex of the input one more than its number here, or 0.
@@ -59,6 +61,7 @@ impl<'a> Surface<'a> {
             operands: Vec::new(),
             numbers: Vec::new(),
             is_safe: input.is_safe,
+            before: FxHashMap::default(),
             is_core,
             vertex_number: vec![0; input.vertex_count()],
             triangle_number: vec![0; input.triangle_count()],
@@ -88,7 +91,7 @@ impl<'a> Surface<'a> {
 
     /// Numbers the vertices of all triangles; those at one place get one number.
     fn join_vertices(&mut self) {
-        let mut at_place: FxHashMap<[u64; 3], Vec<PointId>> = FxHashMap::default();
+        let mut at_place = FxHashMap::default();
         at_place.reserve(self.numbers.len());
         for k in 0..self.numbers.len() {
             let triangle = self.triangle(TriangleId::from_index(k));
@@ -104,15 +107,24 @@ impl<'a> Surface<'a> {
         }
     }
 
-    fn vertex_at(&mut self, corner: &Corner, at_place: &mut FxHashMap<[u64; 3], Vec<PointId>>) -> PointId {
+    /// The number of a vertex: that of one at the same place, where there is one. `at_place` has the last vertex at each rounded
+    /// place.
+    fn vertex_at(&mut self, corner: &Corner, at_place: &mut FxHashMap<[u64; 3], PointId>) -> PointId {
         let fresh = PointId::from_index(self.positions.len());
         let key = (corner.at + 0.0).to_array().map(f64::to_bits);
-        let there = at_place.entry(key).or_default();
-        let is_one = |other: &&PointId| are_one(self.input, self.origins[other.index()], corner.vertex);
-        if let Some(known) = there.iter().find(is_one) {
-            return *known;
+        let last = *at_place.entry(key).or_insert(fresh);
+        if last != fresh {
+            // corners of bodies may differ there
+            let mut there = Some(last);
+            while let Some(known) = there {
+                if are_one(self.input, self.origins[known.index()], corner.vertex) {
+                    return known;
+                }
+                there = self.before.get(&known).copied();
+            }
+            self.before.insert(fresh, last);
+            at_place.insert(key, fresh);
         }
-        there.push(fresh);
         self.positions.push(corner.at);
         self.origins.push(corner.vertex);
         fresh
@@ -141,6 +153,27 @@ impl<'a> Surface<'a> {
                 self.twins.push(twin);
             }
         }
+    }
+
+    /// The operand of a half-edge, and its number there.
+    #[inline]
+    pub(super) fn in_operand(&self, half_edge: u32) -> (usize, u32) {
+        let triangle = half_edge as usize / 3;
+        let operand = self.operands[triangle] as usize;
+        let own = self.numbers[triangle].number() - self.input.number(operand, 0).number();
+        (operand, 3 * own + half_edge % 3)
+    }
+
+    /// Half-edges, each the smaller one of two along an edge, with triangles of one plane on both sides.
+    pub(super) fn flat_edges(&self) -> Vec<u32> {
+        let is_flat = |half_edge: &u32| {
+            let twin = self.twins[*half_edge as usize];
+            twin != NO_TWIN && *half_edge < twin && {
+                let (operand, own) = self.in_operand(*half_edge);
+                is_within_plane(self.input, operand, own)
+            }
+        };
+        (0..number32(self.twins.len())).into_par_iter().with_min_len(CHUNK).filter(is_flat).collect()
     }
 
     /// The number of triangles.

@@ -217,12 +217,16 @@ impl Spread<'_> {
 
     /// Goes on to all facets at an edge from one that is known.
     fn go_around(&mut self, known: FacetId, edge: u32) -> Result<(), Contradiction> {
-        let mut sides = self.facets.sides_at(edge).to_vec();
-        if sides.len() > 2 {
-            let mut members = half_planes(self.arrangement, self.facets, &sides);
+        let sides = self.facets.sides_at(edge);
+        let sorted;
+        let sides = if sides.len() > 2 {
+            let mut members = half_planes(self.arrangement, self.facets, sides);
             Around::of_side(self.arrangement, &sides[0]).sort(&mut members);
-            sides = members.into_iter().map(|(_, side)| side).collect();
-        }
+            sorted = members.into_iter().map(|(_, side)| side).collect::<Vec<Side>>();
+            &sorted[..]
+        } else {
+            sides
+        };
         let start = sides.iter().position(|side| side.facet == known).expect("a facet is at its edges");
         let state = |sheets: &Sheets, side: &Side, is_above: bool| {
             if is_above { sheets.above[side.facet.index()] } else { sheets.below[side.facet.index()] }
