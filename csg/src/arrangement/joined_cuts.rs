@@ -41,7 +41,18 @@ pub(super) fn joined_cuts(
     contacts: &Contacts,
     key: impl Fn(InputKey) -> PointKey,
 ) -> JoinedCuts {
-    let joining = Joining { surface, polygons, planes };
+    let mut joining = Joining { surface, polygons, planes, edges_at: FxHashMap::default() };
+    for cut in &contacts.edge_cuts {
+        let side = surface.half_edge_of(cut.side);
+        if let PointKey::Vertex(vertex) = key(cut.key)
+            && polygons.around(vertex).is_some()
+            && !polygons.is_diagonal(surface, side)
+        {
+            let triangle = TriangleId::from_index(side as usize / 3);
+            let edges = joining.edges_at.entry((polygons.of(triangle), vertex)).or_default();
+            edges.push(surface.edge(triangle, side as usize % 3));
+        }
+    }
     let mut found = JoinedCuts::default();
     for cut in &contacts.cuts {
         let edge = cut.edge.map(|edge| joining.edge(edge));
@@ -76,6 +87,8 @@ struct Joining<'a> {
     surface: &'a Surface<'a>,
     polygons: &'a Polygons,
     planes: &'a [TriangleId],
+    /// For each polygon and vertex within another one the edges of the first that go through the vertex.
+    edges_at: FxHashMap<(TriangleId, PointId), Vec<[PointId; 2]>>,
 }
 
 impl Joining<'_> {
@@ -99,7 +112,9 @@ impl Joining<'_> {
             return None;
         }
         let ends = if ends[0] < ends[1] { ends } else { [ends[1], ends[0]] };
-        Some(KeyedCut { triangle, other, edge: edge.filter(|_| !is_along), ends })
+        // along a diagonal a cut may go on, unless that is an edge of something else
+        let edge = edge.filter(|edge| !is_along || self.polygons.is_shared(edge));
+        Some(KeyedCut { triangle, other, edge, ends })
     }
 
     /// Whether a point is none of two polygons' borders, but one that comes of how they are cut into triangles.
@@ -120,9 +135,18 @@ impl Joining<'_> {
         let is_diagonal =
             |edge: &[PointId; 2]| pair.iter().any(|polygon| self.polygons.has_mere_diagonal(*polygon, *edge));
         match key {
-            PointKey::Vertex(vertex) => self.polygons.around(*vertex).is_some_and(|polygon| pair.contains(&polygon)),
+            PointKey::Vertex(vertex) => {
+                let is_on_other = |polygon: &TriangleId| {
+                    let edges = self.edges_at.get(&(*polygon, *vertex));
+                    edges.is_some_and(|edges| edges.iter().any(|edge| Some(*edge) != cut.edge))
+                };
+                self.polygons.around(*vertex).is_some_and(|polygon| pair.contains(&polygon))
+                    && !pair.iter().any(is_on_other)
+            }
             PointKey::EdgePlane { edge, .. } => is_diagonal(edge),
-            PointKey::EdgeEdge(edges) => edges.iter().any(is_diagonal),
+            PointKey::EdgeEdge(edges) => {
+                edges.iter().any(is_diagonal) && edges.iter().all(|edge| is_diagonal(edge) || Some(*edge) == cut.edge)
+            }
             PointKey::ThreePlanes(_) => false,
         }
     }
@@ -131,9 +155,12 @@ impl Joining<'_> {
     fn along_diagonals(&self, contacts: &Contacts, key: &impl Fn(InputKey) -> PointKey, found: &mut JoinedCuts) {
         let surface = self.surface;
         for along in &contacts.along {
-            if self.polygons.is_diagonal(surface, surface.half_edge_of(along.side)) {
+            let side = surface.half_edge_of(along.side);
+            if self.polygons.is_diagonal(surface, side) {
                 let triangle = InputTriangleId::from_index(along.side as usize / 3);
+                let own = surface.edge(surface.triangle_of(triangle), along.side as usize % 3);
                 let edge = along.edge.map(|edge| self.edge(edge));
+                let edge = edge.or_else(|| self.polygons.is_shared(&own).then_some(own));
                 found.cuts.extend(self.cut([triangle, along.other], edge, along.ends.map(key)));
             }
         }

@@ -6,10 +6,11 @@
 //!    and [`stars`] knows neighbours that need not be compared.
 //! 2. [`pairs`] walks down the boxes, [`self_walk`] does within one operand, and [`contact`] and [`coplanar`] find what two triangles have in common.
 //! 3. [`surface`] takes the triangles that touch others; [`patches`] are what is left: they pass through as they are, or go.
-//! 4. [`points`] gives each point one number, whichever edges and planes meet there.
-//! 5. [`crossings`] finds where cuts of one triangle cross, and [`subdivide`] makes cells of it.
-//! 6. [`facets`] joins cells that lie upon each other, [`around`] sorts facets around edges, and [`winding`] goes from one to the next.
-//! 7. [`kept`] keeps the facets that have the solid on one side alone, [`merge`] makes faces of them, [`fill`] triangles of those ([`slits`] are left out),
+//! 4. [`polygons`] are what is cut of [`flat_faces`], and [`joined_cuts`] joins what triangles have in common to cuts of polygons.
+//! 5. [`points`] gives each point one number, whichever edges and planes meet there.
+//! 6. [`crossings`] finds where cuts of one polygon cross, and [`subdivide`] makes cells of it.
+//! 7. [`facets`] joins cells that lie upon each other, [`around`] sorts facets around edges, and [`winding`] goes from one to the next.
+//! 8. [`kept`] keeps the facets that have the solid on one side alone, [`merge`] makes faces of them, [`fill`] triangles of those ([`slits`] are left out),
 //!    [`pairing`] tells which of these are neighbours, and [`assemble`] puts them beside what passes through; [`combine`] asks for it.
 
 mod around;

@@ -111,7 +111,12 @@ impl Polygons {
 
     /// Whether the edge between two vertices lies within a polygon, and is no edge of anything else.
     pub(super) fn has_mere_diagonal(&self, polygon: TriangleId, edge: [PointId; 2]) -> bool {
-        self.has_diagonal(polygon, edge) && !self.shared.contains(&edge)
+        self.has_diagonal(polygon, edge) && !self.is_shared(&edge)
+    }
+
+    /// Whether a diagonal is an edge of something else, too.
+    pub(super) fn is_shared(&self, edge: &[PointId; 2]) -> bool {
+        self.shared.contains(edge)
     }
 
     /// The polygon within which a vertex lies, all of whose triangles are parts of it.

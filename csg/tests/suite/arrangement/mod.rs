@@ -3,6 +3,7 @@
 mod bodies;
 mod cases;
 mod coincidences;
+mod flat_faces;
 mod gears;
 mod holes;
 mod integers;
