@@ -6,7 +6,7 @@
 use planecut_parallel::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::contact::{Contacts, InputKey};
+use super::contact::{Contacts, EdgeCut, InputKey};
 use super::edge_points::PointOnEdge;
 use super::points::PointKey;
 use super::polygons::Polygons;
@@ -22,6 +22,12 @@ pub(super) struct KeyedCut {
     /// The edge of the other one that it lies on.
     pub(super) edge: Option<[PointId; 2]>,
     pub(super) ends: [PointKey; 2],
+}
+
+impl KeyedCut {
+    fn is_point(&self) -> bool {
+        self.ends[0] == self.ends[1]
+    }
 }
 
 /// What cuts polygons and edges.
@@ -59,7 +65,18 @@ pub(super) fn joined_cuts(
         found.cuts.extend(joining.cut([cut.triangle, cut.other], edge, cut.ends.map(&key)));
     }
     joining.along_diagonals(contacts, &key, &mut found);
-    let vanished = joining.join(&mut found.cuts);
+    found.cuts.par_sort_unstable();
+    found.cuts.dedup();
+    let mut vanished = FxHashSet::default();
+    if polygons.all().next().is_some() {
+        let on_edge = |cut: &EdgeCut| {
+            let side = surface.half_edge_of(cut.side);
+            let edge = surface.edge(TriangleId::from_index(side as usize / 3), side as usize % 3);
+            (!polygons.is_diagonal(surface, side)).then(|| (edge, key(cut.key)))
+        };
+        let stays = joining.ends(&found.cuts, contacts.edge_cuts.iter().filter_map(on_edge));
+        vanished = joining.join(&mut found.cuts, &stays);
+    }
     for cut in &contacts.edge_cuts {
         let side = surface.half_edge_of(cut.side);
         let triangle = TriangleId::from_index(side as usize / 3);
@@ -160,8 +177,10 @@ impl Joining<'_> {
                 let triangle = InputTriangleId::from_index(along.side as usize / 3);
                 let own = surface.edge(surface.triangle_of(triangle), along.side as usize % 3);
                 let edge = along.edge.map(|edge| self.edge(edge));
-                let edge = edge.or_else(|| self.polygons.is_shared(&own).then_some(own));
-                found.cuts.extend(self.cut([triangle, along.other], edge, along.ends.map(key)));
+                let cut = self.cut([triangle, along.other], edge, along.ends.map(key));
+                // a diagonal of the other one alone says less than one that is an edge of something else
+                let own = Some(own).filter(|own| self.polygons.is_shared(own));
+                found.cuts.extend(cut.map(|cut| KeyedCut { edge: cut.edge.or(own), ..cut }));
             }
         }
         let mut add = |one: u32, other: u32| {
@@ -192,56 +211,71 @@ impl Joining<'_> {
         }
     }
 
-    /// Joins cuts of the same two polygons, sorted afterwards. Gives the points at which cuts along edges of others were joined, with these edges.
-    fn join(&self, cuts: &mut Vec<KeyedCut>) -> FxHashSet<([PointId; 2], PointKey)> {
-        let mut vanished = FxHashSet::default();
-        cuts.par_sort_unstable();
-        cuts.dedup();
-        if self.polygons.all().next().is_none() {
-            return vanished;
+    /// The points at which no cuts are joined, although some might be: another cut ends there, or an edge is divided.
+    fn ends(&self, cuts: &[KeyedCut], edges: impl Iterator<Item = ([PointId; 2], PointKey)>) -> FxHashSet<PointKey> {
+        let mut ends = FxHashSet::default();
+        let mut within_edges = FxHashSet::default();
+        let mut degree: FxHashMap<PointKey, u32> = FxHashMap::default();
+        for group in self.groups(cuts).filter(|group| self.is_of_polygon(group)) {
+            degree.clear();
+            for cut in group.iter().filter(|cut| !cut.is_point()) {
+                cut.ends.iter().for_each(|end| *degree.entry(*end).or_insert(0) += 1);
+            }
+            for (end, degree) in &degree {
+                if *degree != 2 || !self.joins(&group[0], end) {
+                    ends.insert(*end);
+                } else if let Some(edge) = group[0].edge {
+                    within_edges.insert((edge, *end));
+                }
+            }
         }
+        ends.extend(edges.filter(|point| !within_edges.contains(point)).map(|(_, key)| key));
+        ends
+    }
+
+    /// Cuts of the same two polygons, and along the same edge.
+    fn groups<'b>(&self, cuts: &'b [KeyedCut]) -> impl Iterator<Item = &'b [KeyedCut]> {
+        cuts.chunk_by(|a, b| (a.triangle, a.other, a.edge) == (b.triangle, b.other, b.edge))
+    }
+
+    fn is_of_polygon(&self, group: &[KeyedCut]) -> bool {
+        [group[0].triangle, group[0].other].iter().any(|first| !self.polygons.members(*first).is_empty())
+    }
+
+    /// Joins cuts, sorted afterwards, but for those at some ends. Gives the points at which cuts along edges of others were joined, with
+    /// these edges.
+    fn join(&self, cuts: &mut Vec<KeyedCut>, stays: &FxHashSet<PointKey>) -> FxHashSet<([PointId; 2], PointKey)> {
+        let mut vanished = FxHashSet::default();
         let all = std::mem::take(cuts);
-        let mut at: FxHashMap<PointKey, [u32; 3]> = FxHashMap::default();
-        for group in all.chunk_by(|a, b| (a.triangle, a.other, a.edge) == (b.triangle, b.other, b.edge)) {
-            let is_of_polygon =
-                [group[0].triangle, group[0].other].iter().any(|first| !self.polygons.members(*first).is_empty());
-            if group.len() == 1 || !is_of_polygon {
+        // the two cuts of a group that end in a point
+        let mut at: FxHashMap<PointKey, [usize; 2]> = FxHashMap::default();
+        for group in self.groups(&all) {
+            if group.len() == 1 || !self.is_of_polygon(group) {
                 cuts.extend(group);
                 continue;
             }
             at.clear();
-            for (k, cut) in (0..).zip(group).filter(|(_, cut)| cut.ends[0] != cut.ends[1]) {
-                for end in cut.ends {
-                    let entry = at.entry(end).or_insert([0; 3]);
-                    if entry[0] < 2 {
-                        entry[1 + entry[0] as usize] = k;
-                    }
-                    entry[0] += 1;
+            for (k, cut) in group.iter().enumerate().filter(|(_, cut)| !cut.is_point()) {
+                for end in cut.ends.iter().filter(|end| !stays.contains(end)) {
+                    at.entry(*end).or_insert([k; 2])[1] = k;
                 }
             }
-            let next = |k: u32, end: &PointKey| {
-                let [count, one, other] = at[end];
-                (count == 2 && self.joins(&group[0], end)).then(|| if one == k { other } else { one })
-            };
             let mut is_done = vec![false; group.len()];
             for start in 0..group.len() {
-                if is_done[start] {
+                if std::mem::replace(&mut is_done[start], true) {
                     continue;
                 }
-                is_done[start] = true;
                 let mut ends = group[start].ends;
-                if ends[0] != ends[1] {
-                    for end in &mut ends {
-                        let mut k = start as u32;
-                        while let Some(other) = next(k, end).filter(|other| !is_done[*other as usize]) {
-                            is_done[other as usize] = true;
-                            if let Some(edge) = group[0].edge {
-                                vanished.insert((edge, *end));
-                            }
-                            let [a, b] = group[other as usize].ends;
-                            *end = if a == *end { b } else { a };
-                            k = other;
+                for end in ends.iter_mut().filter(|_| !group[start].is_point()) {
+                    let mut k = start;
+                    while let Some([one, other]) = at.get(end) {
+                        k = if *one == k { *other } else { *one };
+                        if std::mem::replace(&mut is_done[k], true) {
+                            break;
                         }
+                        vanished.extend(group[0].edge.map(|edge| (edge, *end)));
+                        let [a, b] = group[k].ends;
+                        *end = if a == *end { b } else { a };
                     }
                 }
                 let ends = if ends[0] < ends[1] { ends } else { [ends[1], ends[0]] };
