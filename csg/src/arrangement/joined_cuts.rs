@@ -1,17 +1,18 @@
 //! The cuts of polygons: what triangles have in common, joined across the diagonals of both.
 //!
 //! Two triangles share a segment of the line in which their planes meet. Where that ends at a diagonal, the next triangle of the polygon
-//! goes on. So segments of two polygons are joined where just two end in a point that a diagonal, or a vertex within a polygon, defines.
+//! goes on. So segments of two polygons are joined where just two end in a point that a diagonal, or a vertex within a polygon, defines;
+//! unless something else ends there, or an edge is divided: then all that know the point keep it.
 
 use planecut_parallel::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::contact::{Contacts, EdgeCut, InputKey};
+use super::contact::{Contacts, EdgeCut, InputKey, half_edge};
 use super::edge_points::PointOnEdge;
 use super::points::PointKey;
 use super::polygons::Polygons;
 use super::surface::{Surface, sorted};
-use crate::ids::{Id, InputTriangleId, PointId, TriangleId};
+use crate::ids::{Id, InputTriangleId, InputVertexId, PointId, TriangleId};
 
 /// A segment within a polygon or triangle; or a point, at which cuts through it are divided.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -47,16 +48,20 @@ pub(super) fn joined_cuts(
     contacts: &Contacts,
     key: impl Fn(InputKey) -> PointKey,
 ) -> JoinedCuts {
-    let mut joining = Joining { surface, polygons, planes, edges_at: FxHashMap::default() };
-    for cut in &contacts.edge_cuts {
+    let has_polygons = polygons.all().next().is_some();
+    let on_edge = |cut: &EdgeCut| {
         let side = surface.half_edge_of(cut.side);
-        if let PointKey::Vertex(vertex) = key(cut.key)
+        let edge = surface.edge(TriangleId::from_index(side as usize / 3), side as usize % 3);
+        (side, edge, key(cut.key))
+    };
+    let mut joining = Joining { surface, polygons, planes, edges_at: FxHashMap::default() };
+    for (side, edge, key) in contacts.edge_cuts.iter().filter(|_| has_polygons).map(on_edge) {
+        if let PointKey::Vertex(vertex) = key
             && polygons.around(vertex).is_some()
             && !polygons.is_diagonal(surface, side)
         {
-            let triangle = TriangleId::from_index(side as usize / 3);
-            let edges = joining.edges_at.entry((polygons.of(triangle), vertex)).or_default();
-            edges.push(surface.edge(triangle, side as usize % 3));
+            let polygon = polygons.of(TriangleId::from_index(side as usize / 3));
+            joining.edges_at.entry((polygon, vertex)).or_default().push(edge);
         }
     }
     let mut found = JoinedCuts::default();
@@ -68,19 +73,14 @@ pub(super) fn joined_cuts(
     found.cuts.par_sort_unstable();
     found.cuts.dedup();
     let mut vanished = FxHashSet::default();
-    if polygons.all().next().is_some() {
-        let on_edge = |cut: &EdgeCut| {
-            let side = surface.half_edge_of(cut.side);
-            let edge = surface.edge(TriangleId::from_index(side as usize / 3), side as usize % 3);
-            (!polygons.is_diagonal(surface, side)).then(|| (edge, key(cut.key)))
-        };
-        let stays = joining.ends(&found.cuts, contacts.edge_cuts.iter().filter_map(on_edge));
+    if has_polygons {
+        let divided = contacts.edge_cuts.iter().map(on_edge);
+        let divided = divided.filter(|(side, ..)| !polygons.is_diagonal(surface, *side));
+        let stays = joining.ends(&found.cuts, divided.map(|(_, edge, key)| (edge, key)));
         vanished = joining.join(&mut found.cuts, &stays);
     }
     for cut in &contacts.edge_cuts {
-        let side = surface.half_edge_of(cut.side);
-        let triangle = TriangleId::from_index(side as usize / 3);
-        let (edge, key) = (surface.edge(triangle, side as usize % 3), key(cut.key));
+        let (side, edge, key) = on_edge(cut);
         if !polygons.is_diagonal(surface, side) {
             if !vanished.contains(&(edge, key)) {
                 found.on_edges.push(PointOnEdge { side, key });
@@ -88,6 +88,7 @@ pub(super) fn joined_cuts(
             continue;
         }
         // a point within a polygon: other cuts may go through it
+        let triangle = TriangleId::from_index(side as usize / 3);
         let pair = [triangle, surface.triangle_of(cut.other)].map(|triangle| polygons.of(triangle));
         let is_gone = match key {
             PointKey::EdgeEdge(edges) => edges.iter().any(|edge| vanished.contains(&(*edge, key))),
@@ -109,7 +110,7 @@ struct Joining<'a> {
 }
 
 impl Joining<'_> {
-    fn edge(&self, [a, b]: [crate::ids::InputVertexId; 2]) -> [PointId; 2] {
+    fn edge(&self, [a, b]: [InputVertexId; 2]) -> [PointId; 2] {
         sorted(self.surface.vertex_of(a), self.surface.vertex_of(b))
     }
 
@@ -203,7 +204,7 @@ impl Joining<'_> {
             }
             for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {
                 if surface.edge(p, i) == surface.edge(q, j) {
-                    let sides = [(pair[0], i), (pair[1], j)].map(|(t, side)| super::contact::half_edge(t, side));
+                    let sides = [(pair[0], i), (pair[1], j)].map(|(t, side)| half_edge(t, side));
                     add(sides[0], sides[1]);
                     add(sides[1], sides[0]);
                 }
