@@ -57,7 +57,7 @@ pub(super) fn joined_cuts(
     let mut joining = Joining { surface, polygons, planes, edges_at: FxHashMap::default() };
     for (side, edge, key) in contacts.edge_cuts.iter().filter(|_| has_polygons).map(on_edge) {
         if let PointKey::Vertex(vertex) = key
-            && polygons.around(vertex).is_some()
+            && polygons.is_within(vertex)
             && !polygons.is_diagonal(surface, side)
         {
             let polygon = polygons.of(TriangleId::from_index(side as usize / 3));
@@ -140,7 +140,7 @@ impl Joining<'_> {
         let is_diagonal =
             |edge: &[PointId; 2]| pair.iter().any(|polygon| self.polygons.has_mere_diagonal(*polygon, *edge));
         match key {
-            PointKey::Vertex(vertex) => self.polygons.around(*vertex).is_some(),
+            PointKey::Vertex(vertex) => self.polygons.is_within(*vertex),
             PointKey::EdgePlane { edge, .. } => is_diagonal(edge),
             PointKey::EdgeEdge(edges) => edges.iter().all(is_diagonal),
             PointKey::ThreePlanes(_) => false,
@@ -158,8 +158,7 @@ impl Joining<'_> {
                     let edges = self.edges_at.get(&(*polygon, *vertex));
                     edges.is_some_and(|edges| edges.iter().any(|edge| Some(*edge) != cut.edge))
                 };
-                self.polygons.around(*vertex).is_some_and(|polygon| pair.contains(&polygon))
-                    && !pair.iter().any(is_on_other)
+                self.polygons.is_within(*vertex) && !pair.iter().any(is_on_other)
             }
             PointKey::EdgePlane { edge, .. } => is_diagonal(edge),
             PointKey::EdgeEdge(edges) => {

@@ -20,8 +20,8 @@ pub(super) struct Polygons {
     diagonals: FxHashSet<(TriangleId, [PointId; 2])>,
     /// Those of them that are edges of others, too.
     shared: FxHashSet<[PointId; 2]>,
-    /// For each vertex the polygon all of whose triangles around it are that polygon's.
-    within: Vec<Option<TriangleId>>,
+    /// For each vertex whether it lies within a polygon for all triangles that have it.
+    is_within: Vec<bool>,
 }
 
 impl Polygons {
@@ -33,14 +33,19 @@ impl Polygons {
         members.sort_unstable();
         let groups = members.chunk_by(|a, b| a[0] == b[0]).filter(|group| group.len() > 1);
         let members: Vec<[TriangleId; 2]> = groups.flatten().copied().collect();
-        let mut polygons =
-            Self { first, members, diagonals: FxHashSet::default(), shared: FxHashSet::default(), within: Vec::new() };
+        let mut polygons = Self {
+            first,
+            members,
+            diagonals: FxHashSet::default(),
+            shared: FxHashSet::default(),
+            is_within: Vec::new(),
+        };
         polygons.find_diagonals(surface);
         polygons
     }
 
     fn find_diagonals(&mut self, surface: &Surface<'_>) {
-        self.within = vec![None; surface.positions.len()];
+        self.is_within = vec![false; surface.positions.len()];
         if self.members.is_empty() {
             return;
         }
@@ -50,25 +55,23 @@ impl Polygons {
                     self.diagonals.insert((*polygon, surface.edge(*triangle, side)));
                 }
             }
-            surface.corners(*triangle).iter().for_each(|corner| self.within[corner.index()] = Some(*polygon));
+            surface.corners(*triangle).iter().for_each(|corner| self.is_within[corner.index()] = true);
         }
-        let is_corner: Vec<bool> = self.within.iter().map(Option::is_some).collect();
+        let is_corner = self.is_within.clone();
         let edges: FxHashSet<[PointId; 2]> = self.diagonals.iter().map(|(_, edge)| *edge).collect();
         for triangle in TriangleId::all(surface.len()) {
-            let polygon = self.of(triangle);
             let vertices = surface.triangle(triangle).corners;
             for (side, corner) in surface.corners(triangle).into_iter().enumerate() {
-                if self.within[corner.index()] != Some(polygon) || !surface.is_core(vertices[side].vertex) {
-                    self.within[corner.index()] = None;
+                if !surface.is_core(vertices[side].vertex) {
+                    self.is_within[corner.index()] = false;
                 }
-            }
-            for side in 0..3 {
-                if !self.is_diagonal(surface, 3 * triangle.number() + number32(side)) {
-                    let edge = surface.edge(triangle, side);
-                    edge.iter().for_each(|end| self.within[end.index()] = None);
-                    if edge.iter().all(|end| is_corner[end.index()]) && edges.contains(&edge) {
-                        self.shared.insert(edge);
-                    }
+                if self.is_diagonal(surface, 3 * triangle.number() + number32(side)) {
+                    continue;
+                }
+                let edge = surface.edge(triangle, side);
+                edge.iter().for_each(|end| self.is_within[end.index()] = false);
+                if edge.iter().all(|end| is_corner[end.index()]) && edges.contains(&edge) {
+                    self.shared.insert(edge);
                 }
             }
         }
@@ -119,9 +122,9 @@ impl Polygons {
         self.shared.contains(edge)
     }
 
-    /// The polygon within which a vertex lies, all of whose triangles are parts of it.
-    pub(super) fn around(&self, vertex: PointId) -> Option<TriangleId> {
-        self.within[vertex.index()]
+    /// Whether a vertex lies within a polygon for all triangles that have it: then nothing ends there.
+    pub(super) fn is_within(&self, vertex: PointId) -> bool {
+        self.is_within[vertex.index()]
     }
 
     /// The half-edges around a polygon, or around a triangle.
