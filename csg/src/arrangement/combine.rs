@@ -1,9 +1,9 @@
 //! Combinations of closed meshes.
 
-use super::Arranged;
 use super::input::Input;
 use super::operand::Operand;
 use super::winding::Windings;
+use super::{Arranged, Cutting};
 use crate::body::Body;
 use crate::closed_mesh::WindingRule;
 use crate::ids::number32;
@@ -97,17 +97,22 @@ pub(crate) fn combine_leaves(
     let (operand_of, different) = without_copies(leaves);
     let input = Input::new(different.par_iter().map(|leaf| operand(*leaf, table)).collect(), table);
     let rules: Vec<WindingRule> = input.operands.iter().map(Operand::rule).collect();
-    let arranged = Arranged::new(&input).map_err(|_| CombineError("winding numbers contradict one another"))?;
     let value = |windings: &Windings| {
         !windings.is_empty() && is_solid(&Inside { windings, rules: &rules, operand_of: &operand_of })
     };
-    let (mesh, solid, noise) = arranged.boundary(value).map_err(|flaw| {
-        CombineError(match flaw {
-            Flaw::Open => "the mesh is not closed",
-            Flaw::Folded => "a triangle of the mesh faces the wrong way",
-            Flaw::Measures => "the mesh has another volume or area than the solid",
+    let boundary = |cutting: Cutting| {
+        let arranged =
+            Arranged::new(&input, cutting).map_err(|_| CombineError("winding numbers contradict one another"))?;
+        arranged.boundary(value).map_err(|flaw| {
+            CombineError(match flaw {
+                Flaw::Open => "the mesh is not closed",
+                Flaw::Folded => "a triangle of the mesh faces the wrong way",
+                Flaw::Measures => "the mesh has another volume or area than the solid",
+            })
         })
-    })?;
+    };
+    // whatever goes wrong where cuts are joined, triangles one by one need no joining
+    let (mesh, solid, noise) = boundary(Cutting::Polygons).or_else(|_| boundary(Cutting::Triangles))?;
     Ok(CombinedMeshes { mesh: Mesh { materials, ..mesh }, solid, noise })
 }
 

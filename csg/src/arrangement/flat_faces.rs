@@ -7,6 +7,7 @@ use std::sync::OnceLock;
 use planecut_parallel::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 
+use super::Cutting;
 use super::flat::are_coplanar;
 use super::input::Input;
 use super::predicates::{best_axis, normal_component};
@@ -27,14 +28,20 @@ pub(super) struct FlatFaces<'a> {
 }
 
 impl<'a> FlatFaces<'a> {
-    /// `touching` are triangles of one operand each that have more in common than vertices and edges: these are of no face together.
-    pub(super) fn new(input: &'a Input<'a>, touching: &[[InputTriangleId; 2]]) -> Self {
+    /// `touching` are triangles of one operand each that have more in common than vertices and edges: these are of no face together. Where
+    /// triangles are cut one by one each is a face.
+    pub(super) fn new(input: &'a Input<'a>, touching: &[[InputTriangleId; 2]], cutting: Cutting) -> Self {
         let mut of_operand: Vec<Vec<[u32; 2]>> = vec![Vec::new(); input.operands.len()];
         for pair in touching {
             let [(operand, one), (_, other)] = pair.map(|triangle| input.of_triangle(triangle));
             of_operand[operand].push([one, other]);
         }
-        let of_none = of_operand.iter().map(|_| OnceLock::new()).collect();
+        let of_none: Vec<OnceLock<Vec<u32>>> = of_operand.iter().map(|_| OnceLock::new()).collect();
+        if cutting == Cutting::Triangles {
+            for (of_operand, own) in of_none.iter().zip(&input.operands) {
+                of_operand.get_or_init(|| (0..number32(own.triangles().len())).collect());
+            }
+        }
         Self { input, touching: of_operand, of_operand: of_none }
     }
 

@@ -67,6 +67,15 @@ use subdivide::{Cells, View, subdivide};
 use surface::{Surface, sorted};
 use winding::{Contradiction, Sheets, sheets};
 
+/// What is cut as one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Cutting {
+    /// Flat faces.
+    Polygons,
+    /// Triangles.
+    Triangles,
+}
+
 /// The triangles of all operands with the points and cells that they cut out of one another.
 #[derive(Debug)]
 struct Arrangement<'a> {
@@ -90,10 +99,10 @@ struct Arranged<'a> {
 
 impl<'a> Arranged<'a> {
     /// Arranges the triangles of operands.
-    fn new(input: &'a Input<'a>) -> Result<Self, Contradiction> {
-        let (contacts, faces) = pairs::contacts(input);
+    fn new(input: &'a Input<'a>, cutting: Cutting) -> Result<Self, Contradiction> {
+        let (contacts, faces) = pairs::contacts(input, cutting);
         let surface = Surface::new(input, &contacts, &faces);
-        let (arrangement, is_split, is_doubled) = Arrangement::new(surface, &contacts);
+        let (arrangement, is_split, is_doubled) = Arrangement::new(surface, &contacts, cutting);
         drop((contacts, faces));
         let facets = Facets::new(&arrangement, is_split, &is_doubled);
         let sheets = sheets(&arrangement, &facets)?;
@@ -103,7 +112,7 @@ impl<'a> Arranged<'a> {
 
 impl<'a> Arrangement<'a> {
     /// Cuts triangles along what they have in common. Also tells which of them are not whole any more, and which may have doubles.
-    fn new(surface: Surface<'a>, contacts: &Contacts) -> (Self, Vec<bool>, Vec<bool>) {
+    fn new(surface: Surface<'a>, contacts: &Contacts, cutting: Cutting) -> (Self, Vec<bool>, Vec<bool>) {
         let patches = Patches::new(&surface);
         let mut is_split = vec![false; surface.len()];
         for (operand, own) in surface.input.operands.iter().enumerate() {
@@ -113,7 +122,8 @@ impl<'a> Arrangement<'a> {
         }
         let flat_edges = surface.flat_edges();
         let planes = planes(&surface, contacts, &flat_edges);
-        let polygons = Polygons::new(&surface, contacts, &flat_edges);
+        let within_polygons = if cutting == Cutting::Polygons { &flat_edges[..] } else { &[] };
+        let polygons = Polygons::new(&surface, contacts, within_polygons);
         let key = |key: InputKey| canonical(&surface, &planes, key);
         let JoinedCuts { cuts: keyed, on_edges, pairs } = joined_cuts(&surface, &polygons, &planes, contacts, key);
         let mut points = Points::new(&surface);

@@ -8,6 +8,7 @@ use glam::DVec3;
 use planecut_kernel::sign::Counts;
 use planecut_parallel::prelude::*;
 
+use super::Cutting;
 use super::contact::{Contacts, touch};
 use super::flat_faces::FlatFaces;
 use super::input::Input;
@@ -35,7 +36,7 @@ struct Task {
 
 /// What the triangles of all operands have in common: of different ones, and of each one that is no convex body; and the flat faces of
 /// operands.
-pub(super) fn contacts<'a>(input: &'a Input<'a>) -> (Contacts, FlatFaces<'a>) {
+pub(super) fn contacts<'a>(input: &'a Input<'a>, cutting: Cutting) -> (Contacts, FlatFaces<'a>) {
     let mut all = Contacts::default();
     for operand in (0..input.operands.len()).filter(|k| !input.operands[*k].is_body()) {
         if input.operands[operand].triangles().len() > ALONE {
@@ -48,7 +49,7 @@ pub(super) fn contacts<'a>(input: &'a Input<'a>) -> (Contacts, FlatFaces<'a>) {
         .collect();
     let parts: Vec<Vec<Contacts>> = small.par_iter().map(|operand| contacts_within(input, *operand)).collect();
     parts.into_iter().flatten().for_each(|mut part| all.append(&mut part));
-    let faces = FlatFaces::new(input, &all.pairs);
+    let faces = FlatFaces::new(input, &all.pairs, cutting);
     all.append(&mut contacts_between(input, &faces));
     (all, faces)
 }
