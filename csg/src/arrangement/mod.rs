@@ -123,7 +123,7 @@ impl<'a> Arrangement<'a> {
         let flat_edges = surface.flat_edges();
         let planes = planes(&surface, contacts, &flat_edges);
         let within_polygons = if cutting == Cutting::Polygons { &flat_edges[..] } else { &[] };
-        let polygons = Polygons::new(&surface, contacts, within_polygons);
+        let polygons = Polygons::new(&surface, contacts, within_polygons, &is_split);
         let key = |key: InputKey| canonical(&surface, &planes, key);
         let JoinedCuts { cuts: keyed, on_edges, pairs } = joined_cuts(&surface, &polygons, &planes, contacts, key);
         let mut points = Points::new(&surface);

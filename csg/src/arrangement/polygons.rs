@@ -25,8 +25,8 @@ pub(super) struct Polygons {
 }
 
 impl Polygons {
-    /// `flat_edges` are half-edges with triangles of one plane on both sides.
-    pub(super) fn new(surface: &Surface<'_>, contacts: &Contacts, flat_edges: &[u32]) -> Self {
+    /// `flat_edges` are half-edges with triangles of one plane on both sides; `has_no_area` tells triangles that count for nothing.
+    pub(super) fn new(surface: &Surface<'_>, contacts: &Contacts, flat_edges: &[u32], has_no_area: &[bool]) -> Self {
         let parts = Parts::new(surface, contacts, flat_edges);
         let first = parts.cut(surface, contacts);
         let mut members: Vec<[TriangleId; 2]> = (TriangleId::all(first.len())).map(|t| [first[t.index()], t]).collect();
@@ -40,11 +40,11 @@ impl Polygons {
             shared: FxHashSet::default(),
             is_within: Vec::new(),
         };
-        polygons.find_diagonals(surface);
+        polygons.find_diagonals(surface, has_no_area);
         polygons
     }
 
-    fn find_diagonals(&mut self, surface: &Surface<'_>) {
+    fn find_diagonals(&mut self, surface: &Surface<'_>, has_no_area: &[bool]) {
         self.is_within = vec![false; surface.positions.len()];
         if self.members.is_empty() {
             return;
@@ -59,7 +59,7 @@ impl Polygons {
         }
         let is_corner = self.is_within.clone();
         let edges: FxHashSet<[PointId; 2]> = self.diagonals.iter().map(|(_, edge)| *edge).collect();
-        for triangle in TriangleId::all(surface.len()) {
+        for triangle in TriangleId::all(surface.len()).filter(|triangle| !has_no_area[triangle.index()]) {
             let vertices = surface.triangle(triangle).corners;
             for (side, corner) in surface.corners(triangle).into_iter().enumerate() {
                 if !surface.is_core(vertices[side].vertex) {

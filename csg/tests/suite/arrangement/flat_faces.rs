@@ -72,6 +72,54 @@ fn table(rng: &mut Rng) -> u32 {
     u32::try_from(rng.bits() >> 40).expect("24 bits") & !1
 }
 
+fn soup(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> Soup {
+    Soup { positions: positions.iter().copied().map(DVec3::from_array).collect(), triangles: triangles.to_vec() }
+}
+
+const TETRAHEDRON: [[u32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+
+fn assert_all_combined(soups: &[Soup]) {
+    for table in (0..1 << (1 << soups.len())).step_by(2) {
+        assert_combined(u64::from(table), soups, table);
+    }
+}
+
+/// An edge of a tetrahedron is the diagonal of a box's face that another box lies upon.
+#[test]
+fn a_diagonal_that_is_an_edge_of_another_mesh() {
+    let block = |max: DVec3| {
+        let corner = |k: u32| DVec3::new(f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2));
+        let min = DVec3::new(2.0, 1.0, 1.0);
+        let positions = (0..8).map(|k| min + corner(k) * (max - min)).collect();
+        let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [3, 7, 5, 1]];
+        let triangles = faces.into_iter().flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
+        Soup { positions, triangles }
+    };
+    let edge = soup(
+        &[[0.0, 2.0, 3.0], [3.0, 2.0, 1.0], [3.0, 1.0, 3.0], [0.0, 3.0, 3.0]],
+        &[[2, 0, 1], [0, 3, 1], [1, 3, 2], [2, 3, 0]],
+    );
+    assert_all_combined(&[block(DVec3::new(3.0, 2.0, 3.0)), block(DVec3::new(3.0, 3.0, 2.0)), edge]);
+}
+
+/// A flat tetrahedron, one of whose corners lies within its largest triangle, twice; and another one that passes through that corner.
+#[test]
+fn a_corner_within_two_copies_of_a_face() {
+    let flat = soup(&[[0.0, 0.0, 3.0], [2.0, 1.0, 2.0], [2.0, 3.0, 0.0], [3.0, 0.0, 3.0]], &TETRAHEDRON);
+    let mut both = soup(&[[3.0, 0.0, 3.0], [1.0, 2.0, 1.0], [0.0, 1.0, 0.0], [2.0, 3.0, 2.0]], &TETRAHEDRON);
+    both.push(&flat);
+    assert_all_combined(&[flat, both]);
+}
+
+/// Triangles without an area have the diagonal of a flat tetrahedron for an edge.
+#[test]
+fn a_diagonal_that_is_an_edge_of_triangles_without_area() {
+    let flat = soup(&[[0.0; 3], [0.0, 0.0, 1.0], [1.0, 1.0, 0.0], [1.0; 3]], &TETRAHEDRON);
+    let mut other = soup(&[[1.0; 3], [0.0; 3], [0.0; 3], [0.0; 3]], &TETRAHEDRON);
+    other.push(&soup(&[[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [1.0, 1.0, 0.0], [0.0, 1.0, 1.0]], &TETRAHEDRON));
+    assert_all_combined(&[flat, other]);
+}
+
 #[test]
 fn cubes_on_a_grid() {
     let mut asked = 0;
