@@ -21,6 +21,19 @@ pub fn mesh_volume(mesh: &Mesh) -> f64 {
     volume(mesh.triangles.iter().map(|t| t.map(|corner| mesh.positions[corner as usize] - base)))
 }
 
+/// Every directed edge occurs once, and so does its opposite.
+///
+/// # Panics
+///
+/// Panics if that is not so; `what` is said of the mesh.
+pub fn assert_closed(mesh: &Mesh, what: &str) {
+    let sides = |[a, b, c]: &[u32; 3]| [[*a, *b], [*b, *c], [*c, *a]];
+    let mut edges: Vec<[u32; 2]> = mesh.triangles.iter().flat_map(sides).collect();
+    edges.sort_unstable();
+    assert!(edges.windows(2).all(|pair| pair[0] != pair[1]), "{what}: an edge occurs twice");
+    assert!(edges.iter().all(|[a, b]| edges.binary_search(&[*b, *a]).is_ok()), "{what}: an edge is open");
+}
+
 /// An axis-aligned box of one material.
 #[must_use]
 pub fn box_mesh(min: DVec3, max: DVec3, material: &str) -> Mesh {

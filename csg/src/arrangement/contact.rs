@@ -114,6 +114,15 @@ impl Contacts {
         self.identical.append(&mut other.identical);
     }
 
+    /// Takes a segment that a triangle has in common with another one: a cut, unless it runs along a side of the triangle.
+    pub(super) fn divide(&mut self, cut: Cut, side: Option<usize>) {
+        let Cut { triangle, other, edge, ends } = cut;
+        match side {
+            None => self.cuts.push(cut),
+            Some(side) => self.along.push(Along { side: half_edge(triangle, side), other, edge, ends }),
+        }
+    }
+
     /// Edges are cut at a point that lies inside of them.
     pub(super) fn cut_edges(&mut self, pair: &Pair<'_>, touch: &Touch) {
         for (k, place) in touch.places.into_iter().enumerate() {
@@ -282,10 +291,7 @@ fn add(pair: &Pair<'_>, ends: [Touch; 2], out: &mut Contacts) {
         let shared_edge = |k: usize| ends[0].places[k].shared_edge(ends[1].places[k]);
         let edge = shared_edge(1 - k).map(|edge| pair.edge(1 - k, edge));
         let ends = ends.map(|end| end.key);
-        match shared_edge(k) {
-            None => out.cuts.push(Cut { triangle, other, edge, ends }),
-            Some(side) => out.along.push(Along { side: half_edge(triangle, side), other, edge, ends }),
-        }
+        out.divide(Cut { triangle, other, edge, ends }, shared_edge(k));
     }
 }
 

@@ -2,7 +2,7 @@
 
 use planecut_kernel::sign::Sign;
 
-use super::contact::{Along, Contacts, Cut, Pair, Place, Touch, half_edge};
+use super::contact::{Contacts, Cut, Pair, Place, Touch};
 use super::points::Key;
 use super::predicates::{Triangle, best_axis, normal_component, turn};
 
@@ -54,10 +54,7 @@ pub(super) fn touch(pair: &Pair<'_>, out: &mut Contacts) {
             let [from, to] = ends[..] else { continue };
             let (triangle, other) = (pair.number(k), pair.number(1 - k));
             let (edge, ends) = (Some(pair.edge(1 - k, edge)), [from.key, to.key]);
-            match from.places[k].shared_edge(to.places[k]) {
-                None => out.cuts.push(Cut { triangle, other, edge, ends }),
-                Some(side) => out.along.push(Along { side: half_edge(triangle, side), other, edge, ends }),
-            }
+            out.divide(Cut { triangle, other, edge, ends }, from.places[k].shared_edge(to.places[k]));
         }
     }
 }

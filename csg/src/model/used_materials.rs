@@ -4,7 +4,7 @@ use crate::ids::number32;
 
 use super::{Brush, Material, MaterialId, Model, Tree};
 
-/// The materials that something uses, numbered anew in the order that they have. Where each triangle of a mesh has a material of its own, so that one knows
+/// The materials that something uses, renumbered in the order that they have. Where each triangle of a mesh has a material of its own, so that one knows
 /// where it comes from, no part of it can hold them all.
 ///
 /// ```

@@ -3,7 +3,8 @@
 use std::f64::consts::TAU;
 
 use glam::{DVec2, DVec3};
-use planecut_csg::{ClosedMesh, CombinedMeshes, Inside, MaterialId, Mesh, MeshBody, combine_meshes};
+use planecut_csg::{ClosedMesh, CombinedMeshes, Inside, MaterialId, MeshBody, combine_meshes};
+use planecut_testkit::meshes::{assert_closed, volume};
 
 /// How the caps of a gear are cut into triangles.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -82,19 +83,6 @@ impl Gear {
     fn volume(&self) -> f64 {
         volume(self.triangles.iter().map(|t| t.map(|v| self.corners[v as usize])))
     }
-}
-
-fn volume(triangles: impl Iterator<Item = [DVec3; 3]>) -> f64 {
-    triangles.map(|[a, b, c]| a.dot(b.cross(c)) / 6.0).sum()
-}
-
-/// Every directed edge occurs once, and so does its opposite.
-fn assert_closed(mesh: &Mesh, what: &str) {
-    let sides = |[a, b, c]: &[u32; 3]| [[*a, *b], [*b, *c], [*c, *a]];
-    let mut edges: Vec<[u32; 2]> = mesh.triangles.iter().flat_map(sides).collect();
-    edges.sort_unstable();
-    assert!(edges.windows(2).all(|pair| pair[0] != pair[1]), "{what}: an edge occurs twice");
-    assert!(edges.iter().all(|[a, b]| edges.binary_search(&[*b, *a]).is_ok()), "{what}: an edge is open");
 }
 
 /// Unites, intersects and subtracts two gears; volumes follow from one another.

@@ -2,6 +2,7 @@
 
 use glam::{DVec2, DVec3};
 use planecut_csg::{ClosedMesh, Evaluation, MaterialId, Mesh, MeshBody, Model, Tree, evaluate};
+use planecut_testkit::meshes::{assert_closed, volume};
 use planecut_testkit::random::Rng;
 use planecut_testkit::scene::{brush, half_space, model, scaled};
 
@@ -48,15 +49,6 @@ fn outcome(tree: Tree, what: &str) -> Evaluation {
 
 fn corners(mesh: &Mesh) -> impl Iterator<Item = [DVec3; 3]> + '_ {
     mesh.triangles.iter().map(|triangle| triangle.map(|vertex| mesh.positions[vertex as usize]))
-}
-
-/// Every directed edge occurs once, and so does its opposite.
-fn assert_closed(mesh: &Mesh, what: &str) {
-    let sides = |[a, b, c]: &[u32; 3]| [[*a, *b], [*b, *c], [*c, *a]];
-    let mut edges: Vec<[u32; 2]> = mesh.triangles.iter().flat_map(sides).collect();
-    edges.sort_unstable();
-    assert!(edges.windows(2).all(|pair| pair[0] != pair[1]), "{what}: an edge occurs twice");
-    assert!(edges.iter().all(|[a, b]| edges.binary_search(&[*b, *a]).is_ok()), "{what}: an edge is open");
 }
 
 /// The area of what lies in a plane across an axis.
@@ -116,7 +108,7 @@ fn a_plate_with_holes_around_points() {
         assert_closed(&found.mesh, &what);
         // each takes 1.5 from the top, and half of that, or all of it, from the volume
         let expected = 112.0 - 0.75 * f64::from(count);
-        let volume: f64 = corners(&found.mesh).map(|[a, b, c]| a.dot(b.cross(c)) / 6.0).sum();
+        let volume = volume(corners(&found.mesh));
         assert!((volume - expected).abs() < 1e-9, "{what}: volume {volume}, expected {expected}");
         assert!((found.solid.volume - expected).abs() < 1e-9, "{what}: volume {}, {expected}", found.solid.volume);
     }

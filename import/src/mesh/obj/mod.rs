@@ -225,7 +225,7 @@ fn texture_index(word: &[u8], count: usize) -> Result<Option<u32>, ()> {
     }
 }
 
-/// A place in a list of which so many are defined.
+/// The zero-based index that an OBJ index means in a list with `count` entries so far; a negative one counts back from the end.
 fn index(number: &[u8], count: usize) -> Option<u32> {
     let number: i64 = std::str::from_utf8(number).ok()?.parse().ok()?;
     let count = i64::try_from(count).ok()?;
