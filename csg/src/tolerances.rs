@@ -28,6 +28,13 @@ pub const CONTRACTION: f64 = 1e-12;
 /// [`WeldError`](crate::WeldError).
 pub const PROOF: f64 = 1e-9;
 
+/// How far the coordinates of a mesh may have been rounded, as a share of the largest one of a triangle and its neighbour: by whoever turned
+/// or moved it.
+///
+/// Decides: which neighbouring triangles, once they were cut by others, are one face in the finished mesh, and which points on the edges of such faces are left out. Of the
+/// topology of the solid: nothing. Where volume, area or folds tell otherwise ([`PROOF`]), only what lies in one plane exactly is one face.
+pub const FLATNESS: f64 = 16.0 * f64::EPSILON;
+
 /// How deep a corner may lie in an ear that is cut where no ear is free of corners, relative to the largest coordinate of the face.
 ///
 /// Decides: how a face that noise has folded is triangulated. Of the topology: nothing, no vertex and no boundary edge comes or

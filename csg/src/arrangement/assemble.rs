@@ -9,7 +9,7 @@ use super::facets::FacetKind;
 use super::input::Input;
 use super::kept::{Kept, KeptFacets};
 use super::measures::{Sums, bounds_of, of_facets, of_triangles, total};
-use super::merge::Face;
+use super::merge::{Face, Merging};
 use super::operand::Operand;
 use super::pairing::{Fans, SEAM, fans};
 use super::winding::Windings;
@@ -37,8 +37,12 @@ impl Arranged<'_> {
     /// The boundary of what `is_solid` says of combinations of winding numbers, and its measures.
     pub(super) fn boundary(&self, is_solid: impl Fn(&Windings) -> bool) -> Result<(Mesh, SolidMeasures, Noise), Flaw> {
         let kept = self.kept(&is_solid);
-        let part = self.cut_part(&kept)?;
-        let passing = self.passing(&kept);
+        self.boundary_of(&kept, Merging::WithinRounding).or_else(|_| self.boundary_of(&kept, Merging::Exact))
+    }
+
+    fn boundary_of(&self, kept: &KeptFacets, merging: Merging) -> Result<(Mesh, SolidMeasures, Noise), Flaw> {
+        let part = self.cut_part(kept, merging)?;
+        let passing = self.passing(kept);
         let mesh = self.assembled(&passing, &part);
         if mesh.triangles.is_empty() {
             return Ok((mesh, SolidMeasures::default(), Noise::default()));
@@ -59,8 +63,8 @@ impl Arranged<'_> {
     }
 
     /// The triangles that were cut out of others, and those that are whole but share a vertex with these.
-    fn cut_part(&self, kept: &KeptFacets) -> Result<CutPart, Flaw> {
-        let faces = self.faces(kept);
+    fn cut_part(&self, kept: &KeptFacets, merging: Merging) -> Result<CutPart, Flaw> {
+        let faces = self.faces(kept, merging);
         let filled = self.filled(&faces);
         let triangles = &filled.triangles;
         let mut triangle_faces = Vec::with_capacity(triangles.len());

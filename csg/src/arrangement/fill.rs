@@ -89,7 +89,7 @@ impl Arranged<'_> {
         let exact = ArrangementPoints(&self.arrangement);
         let mut triangulator = Triangulator::new(&exact);
         let mut filled = FilledFaces::default();
-        for Face { kept, loops } in faces {
+        for Face { kept, loops, .. } in faces {
             let before = filled.triangles.len();
             if loops.is_empty() {
                 let [a, b, c] = self.arrangement.surface.corners[kept.facet.index()].map(|point| point.number());

@@ -5,6 +5,7 @@ use glam::{DVec3, Vec3Swizzles};
 use planecut_kernel::decompose;
 
 use super::exact::{Vector, cross, dot, integers, minus};
+use crate::tolerances::FLATNESS;
 
 /// Bound on the rounding of a component of a triangle's normal, in units of the magnitudes that it is a difference of.
 const BOUND: f64 = 4.0 * f64::EPSILON;
@@ -37,6 +38,17 @@ pub(super) fn are_coplanar(places: [DVec3; 4]) -> bool {
     }
     let [a, b, c, d] = in_one_unit(places);
     dot(&minus(&b, &a), &cross(&minus(&c, &a), &minus(&d, &a))) == IBig::ZERO
+}
+
+/// Whether four places are on one plane after moving each of their coordinates by a share [`FLATNESS`] of the largest at most: the volume that they span
+/// is one that this takes away.
+pub(super) fn are_nearly_coplanar([a, b, c, d]: [DVec3; 4]) -> bool {
+    let (p, q, r) = (b - a, c - a, d - a);
+    // the volume changes by the area opposite to a corner where that corner moves
+    let of_sides = [q.cross(r), r.cross(p), p.cross(q), (q - p).cross(r - p)];
+    let areas: f64 = of_sides.iter().map(|normal| normal.abs().element_sum()).sum();
+    let size = a.abs().max(b.abs()).max(c.abs()).max(d.abs()).max_element();
+    p.dot(of_sides[0]).abs() <= FLATNESS * size * areas
 }
 
 /// Places as integers in one unit.

@@ -6,7 +6,7 @@ use glam::DVec3;
 use planecut_kernel::{HalfSpace, decompose};
 use planecut_parallel::prelude::*;
 
-use super::flat::are_coplanar;
+use super::flat::are_nearly_coplanar;
 use super::operand::Operand;
 use super::predicates::{Corner, Triangle};
 use crate::ids::{Id, InputTriangleId, InputVertexId, number32};
@@ -145,16 +145,11 @@ impl<'a> Input<'a> {
         if is_flipped { -normal } else { normal }
     }
 
-    /// Whether two triangles of one operand lay in one plane before they were moved and rounded.
-    pub(super) fn were_coplanar(&self, one: InputTriangleId, other: InputTriangleId) -> bool {
-        let (operand, p) = self.of_triangle(one);
-        let (_, q) = self.of_triangle(other);
-        let own = &self.operands[operand];
-        if own.is_body() {
-            return own.plane(p).map(PlaneId::unsided) == own.plane(q).map(PlaneId::unsided);
-        }
-        let [a, b, c] = own.places_before(p);
-        own.places_before(q).iter().all(|corner| are_coplanar([a, b, c, *corner]))
+    /// Whether two triangles of one mesh may lie in one plane but for the rounding of their corners.
+    pub(super) fn are_nearly_coplanar(&self, [one, other]: [&Triangle; 2]) -> bool {
+        let is_mesh = || !self.operands[self.of_triangle(one.number).0].is_body();
+        let [a, b, c] = one.places();
+        is_mesh() && other.places().iter().all(|corner| are_nearly_coplanar([a, b, c, *corner]))
     }
 
     /// The exponent of the smallest unit of any coordinate: all are integers in it.

@@ -13,7 +13,7 @@ use super::predicates::{RoundedPlane, best_axis, normal_component};
 use super::surface::sorted;
 use super::{Arranged, Arrangement};
 use crate::base::DisjointSets;
-use crate::ids::{Id, PointId, TriangleId, number32};
+use crate::ids::{Id, PointId, number32};
 
 /// A face of the boundary.
 #[derive(Debug, Clone)]
@@ -22,6 +22,24 @@ pub(super) struct Face {
     pub(super) kept: Kept,
     /// Its loops, as seen from outside the solid; the first one goes around it. None for a whole triangle.
     pub(super) loops: Vec<Vec<PointId>>,
+    /// Whether all of it lies in one plane, not just but for rounding.
+    pub(super) is_plane: bool,
+}
+
+/// Which facets that meet are one face.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Merging {
+    /// Those in one plane, and neighbours of one mesh that are but for the rounding of its coordinates.
+    WithinRounding,
+    /// Those in one plane.
+    Exact,
+}
+
+/// How two facets of one face lie to one another.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Joint {
+    InOnePlane,
+    WithinRounding,
 }
 
 /// A half-edge of a kept cell.
@@ -37,13 +55,13 @@ struct CellEdge {
 
 impl Arranged<'_> {
     /// The faces of the boundary: whole triangles first, in their order, then those that cells make up.
-    pub(super) fn faces(&self, kept: &KeptFacets) -> Vec<Face> {
+    pub(super) fn faces(&self, kept: &KeptFacets, merging: Merging) -> Vec<Face> {
         let crossed = self.crossed(&kept.values);
         let kept = &kept.flat;
         let is_cell = |kept: &&Kept| matches!(self.facets.kind(kept.facet), FacetKind::Cell(_));
         let cells: Vec<Kept> = kept.iter().filter(is_cell).copied().collect();
         let whole = kept.iter().filter(|kept| !is_cell(kept));
-        let mut faces: Vec<Face> = whole.map(|kept| Face { kept: *kept, loops: Vec::new() }).collect();
+        let mut faces: Vec<Face> = whole.map(|kept| Face { kept: *kept, loops: Vec::new(), is_plane: true }).collect();
         let mut edges: Vec<CellEdge> = Vec::new();
         for (cell, kept) in (0..).zip(&cells) {
             for points in self.loops(kept, &crossed) {
@@ -57,7 +75,7 @@ impl Arranged<'_> {
                 }));
             }
         }
-        let twins = self.inner_twins(&cells, &faces, &edges);
+        let (twins, rounded) = self.inner_twins(&cells, &faces, &edges, merging);
         let mut sets = DisjointSets::new(cells.len());
         for (edge, twin) in edges.iter().zip(&twins) {
             if let Some(twin) = twin {
@@ -86,11 +104,15 @@ impl Arranged<'_> {
         for (cell, kept) in cells.iter().enumerate() {
             first_of[region[cell] as usize].get_or_insert(*kept);
         }
-        let polygons = first_of.into_iter().zip(loops);
+        let mut is_plane = vec![true; count];
+        for cell in rounded {
+            is_plane[region[cell as usize] as usize] = false;
+        }
+        let polygons = first_of.into_iter().zip(loops).zip(is_plane);
         let first = faces.len();
-        faces.extend(
-            polygons.filter_map(|(kept, loops)| kept.map(|kept| Face { kept, loops: self.outer_first(loops) })),
-        );
+        faces.extend(polygons.filter_map(|((kept, loops), is_plane)| {
+            kept.map(|kept| Face { kept, loops: self.outer_first(loops), is_plane })
+        }));
         self.straighten(&mut faces, first);
         faces
     }
@@ -105,8 +127,15 @@ impl Arranged<'_> {
         loops
     }
 
-    /// For each half-edge of a cell the one that runs back along it, where both cells are parts of one face.
-    fn inner_twins(&self, cells: &[Kept], whole: &[Face], edges: &[CellEdge]) -> Vec<Option<u32>> {
+    /// For each half-edge of a cell the one that runs back along it, where both cells are parts of one face; and the cells that lie in one plane
+    /// with another one but for rounding.
+    fn inner_twins(
+        &self,
+        cells: &[Kept],
+        whole: &[Face],
+        edges: &[CellEdge],
+        merging: Merging,
+    ) -> (Vec<Option<u32>>, Vec<u32>) {
         let mut uses: FxHashMap<[PointId; 2], Vec<u32>> = FxHashMap::default();
         for (k, edge) in (0..).zip(edges) {
             uses.entry(sorted(edge.from, edge.to)).or_default().push(k);
@@ -121,86 +150,47 @@ impl Arranged<'_> {
             }
         }
         let mut twins = vec![None; edges.len()];
+        let mut rounded = Vec::new();
         for pair in uses.values() {
-            if let [one, other] = pair[..]
-                && other != u32::MAX
-                && edges[one as usize].from == edges[other as usize].to
-                && self.are_one_face(
-                    &cells[edges[one as usize].cell as usize],
-                    &cells[edges[other as usize].cell as usize],
-                )
-            {
+            let [one, other] = pair[..] else { continue };
+            if other == u32::MAX || edges[one as usize].from != edges[other as usize].to {
+                continue;
+            }
+            let [p, q] = [one, other].map(|edge| edges[edge as usize].cell);
+            let joint = self.joint(&cells[p as usize], &cells[q as usize], merging);
+            if joint == Some(Joint::WithinRounding) {
+                rounded.push(p);
+            }
+            if joint.is_some() {
                 twins[one as usize] = Some(other);
                 twins[other as usize] = Some(one);
             }
         }
-        twins
+        (twins, rounded)
     }
 
-    /// Whether facets lie in one plane, face the same way, and are of one material.
-    fn are_one_face(&self, one: &Kept, other: &Kept) -> bool {
-        let [p, q] = [one, other].map(|kept| self.facets.triangle(&self.arrangement.cells, kept.facet));
-        one.material == other.material && (p == q || self.are_coplanar(p, q)) && {
-            let (input, [p, q]) =
-                (self.arrangement.surface.input, [p, q].map(|k| self.arrangement.surface.triangle(k)));
-            best_axis(input, &p).is_some_and(|(axis, sign)| {
-                (normal_component(input, &q, axis) == sign) == (one.is_flipped == other.is_flipped)
-            })
+    /// How facets lie to one another, where they are of one material, face the same way and are one face.
+    fn joint(&self, one: &Kept, other: &Kept, merging: Merging) -> Option<Joint> {
+        if one.material != other.material {
+            return None;
         }
-    }
-
-    /// Whether triangles lie in one plane; those of one operand also where they did before it was moved and rounded.
-    fn are_coplanar(&self, one: TriangleId, other: TriangleId) -> bool {
-        let Arrangement { surface, planes, .. } = &self.arrangement;
-        if planes[one.index()] == planes[other.index()] {
-            return true;
-        }
-        let (p, q) = (surface.triangle(one), surface.triangle(other));
-        if surface.operands[one.index()] == surface.operands[other.index()] {
-            return surface.input.were_coplanar(p.number, q.number);
-        }
-        let plane = RoundedPlane::new(surface.input, &p);
-        q.corners.iter().all(|corner| plane.side(surface.input, corner) == Sign::Zero)
-    }
-
-    /// Takes points out of polygons at which two faces alone meet, along a straight edge.
-    fn straighten(&self, faces: &mut [Face], first: usize) {
-        let surface = &self.arrangement.surface;
-        // of two polygons, once each: there it may go
-        let mut uses = vec![0_u32; self.arrangement.points.len()];
-        for point in faces[first..].iter().flat_map(|face| &face.loops).flatten() {
-            uses[point.index()] += 1;
-        }
-        // corners of triangles stay
-        for face in &faces[..first] {
-            for corner in surface.corners[face.kept.facet.index()] {
-                if uses[corner.index()] > 0 {
-                    uses[corner.index()] += 2;
-                }
-            }
-        }
-        let mut straight: FxHashMap<PointId, u32> = FxHashMap::default();
-        for face in &faces[first..] {
-            let triangle = self.facets.triangle(&self.arrangement.cells, face.kept.facet);
-            let Some((axis, _)) = best_axis(surface.input, &surface.triangle(triangle)) else { continue };
-            for points in &face.loops {
-                let count = points.len();
-                for k in 0..count {
-                    let [before, point, after] = [count - 1, 0, 1].map(|step| points[(k + step) % count]);
-                    if uses[point.index()] == 2
-                        // where a slit ends the turn is a whole one
-                        && before != after
-                        && self.arrangement.points.turn(surface, [before, point, after], axis) == Sign::Zero
-                    {
-                        *straight.entry(point).or_insert(0) += 1;
-                    }
-                }
-            }
-        }
-        for face in &mut faces[first..] {
-            for points in &mut face.loops {
-                points.retain(|point| straight.get(point) != Some(&2));
-            }
-        }
+        let Arrangement { surface, planes, cells, .. } = &self.arrangement;
+        let [first, second] = [one, other].map(|kept| self.facets.triangle(cells, kept.facet));
+        let [p, q] = [first, second].map(|triangle| surface.triangle(triangle));
+        let is_in_plane = || {
+            let plane = RoundedPlane::new(surface.input, &p);
+            q.corners.iter().all(|corner| plane.side(surface.input, corner) == Sign::Zero)
+        };
+        let joint = if planes[first.index()] == planes[second.index()] {
+            Joint::InOnePlane
+        } else if surface.operands[first.index()] == surface.operands[second.index()] {
+            let is_flat = merging == Merging::WithinRounding && surface.input.are_nearly_coplanar([&p, &q]);
+            is_flat.then_some(Joint::WithinRounding)?
+        } else {
+            is_in_plane().then_some(Joint::InOnePlane)?
+        };
+        let (axis, sign) = best_axis(surface.input, &p)?;
+        let is_alike = normal_component(surface.input, &q, axis) == sign;
+        (is_alike == (one.is_flipped == other.is_flipped)).then_some(joint)
     }
 }

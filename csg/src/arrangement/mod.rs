@@ -40,6 +40,7 @@ mod predicates;
 mod self_walk;
 mod slits;
 mod stars;
+mod straighten;
 mod subdivide;
 mod surface;
 mod triangle_tree;

@@ -253,15 +253,6 @@ impl<'a> Operand<'a> {
             Source::Body(planes) => planes.at_vertex[vertex as usize],
         }
     }
-
-    /// The places of a triangle's corners as they were given, before they were moved.
-    pub(super) fn places_before(&self, triangle: u32) -> [DVec3; 3] {
-        let positions = match &self.source {
-            Source::Mesh(body) => body.mesh().positions(),
-            Source::Nothing | Source::Body(_) => &self.positions,
-        };
-        self.triangles[triangle as usize].map(|vertex| positions[vertex as usize])
-    }
 }
 
 /// A box that holds corners whose rounded places another one holds.
