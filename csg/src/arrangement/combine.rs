@@ -112,7 +112,10 @@ pub(crate) fn combine_leaves(
         })
     };
     // whatever goes wrong where cuts are joined, triangles one by one need no joining
-    let (mesh, solid, noise) = boundary(Cutting::Polygons).or_else(|_| boundary(Cutting::Triangles))?;
+    let (mesh, solid, noise) = boundary(Cutting::Polygons).or_else(|error| {
+        debug_assert!(false, "{error}: cut as polygons");
+        boundary(Cutting::Triangles)
+    })?;
     Ok(CombinedMeshes { mesh: Mesh { materials, ..mesh }, solid, noise })
 }
 
