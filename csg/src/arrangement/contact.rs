@@ -102,16 +102,19 @@ pub(super) struct Contacts {
 }
 
 impl Contacts {
-    pub(super) fn append(&mut self, other: &mut Self) {
-        self.cuts.append(&mut other.cuts);
-        self.edge_cuts.append(&mut other.edge_cuts);
-        self.along.append(&mut other.along);
-        self.shared_edges.append(&mut other.shared_edges);
-        self.touched.append(&mut other.touched);
-        self.pairs.append(&mut other.pairs);
-        self.coplanar.append(&mut other.coplanar);
-        self.overlapping.append(&mut other.overlapping);
-        self.identical.append(&mut other.identical);
+    /// All of what parts hold, one after the other.
+    pub(super) fn joined(parts: &[Self]) -> Self {
+        Self {
+            cuts: joined(parts, |part| &part.cuts),
+            edge_cuts: joined(parts, |part| &part.edge_cuts),
+            along: joined(parts, |part| &part.along),
+            shared_edges: joined(parts, |part| &part.shared_edges),
+            touched: joined(parts, |part| &part.touched),
+            pairs: joined(parts, |part| &part.pairs),
+            coplanar: joined(parts, |part| &part.coplanar),
+            overlapping: joined(parts, |part| &part.overlapping),
+            identical: joined(parts, |part| &part.identical),
+        }
     }
 
     /// Takes a segment that a triangle has in common with another one: a cut, unless it runs along a side of the triangle.
@@ -132,6 +135,13 @@ impl Contacts {
             }
         }
     }
+}
+
+/// A list of all parts; it grows once, since moving what was found takes longer than finding it.
+fn joined<T: Copy>(parts: &[Contacts], list: impl Fn(&Contacts) -> &Vec<T>) -> Vec<T> {
+    let mut all = Vec::with_capacity(parts.iter().map(|part| list(part).len()).sum());
+    parts.iter().for_each(|part| all.extend_from_slice(list(part)));
+    all
 }
 
 /// The half-edge of a triangle that begins at a corner.

@@ -5,7 +5,6 @@
 use std::ops::Range;
 
 use glam::DVec3;
-use planecut_kernel::sign::Counts;
 use planecut_parallel::prelude::*;
 
 use super::Cutting;
@@ -16,7 +15,7 @@ use super::predicates::{EdgePlane, RoundedPlane, Triangle};
 use super::self_walk::SelfTree;
 use super::triangle_tree::{LEAF, TreeNode, TriangleTree, bounds_of};
 use crate::base::{Bounds, Boxes, map_chunks};
-use crate::ids::number32;
+use crate::ids::{InputTriangleId, number32};
 
 /// Operands of at most this many triangles are compared with themselves on one thread each.
 const ALONE: usize = 1 << 12;
@@ -37,10 +36,10 @@ struct Task {
 /// What the triangles of all operands have in common: of different ones, and of each one that is no convex body; and the flat faces of
 /// operands.
 pub(super) fn contacts<'a>(input: &'a Input<'a>, cutting: Cutting) -> (Contacts, FlatFaces<'a>) {
-    let mut all = Contacts::default();
+    let mut all: Vec<Contacts> = Vec::new();
     for operand in (0..input.operands.len()).filter(|k| !input.operands[*k].is_body()) {
         if input.operands[operand].triangles().len() > ALONE {
-            contacts_within(input, operand).iter_mut().for_each(|part| all.append(part));
+            all.extend(contacts_within(input, operand));
         }
     }
     // small ones side by side
@@ -48,10 +47,11 @@ pub(super) fn contacts<'a>(input: &'a Input<'a>, cutting: Cutting) -> (Contacts,
         .filter(|k| !input.operands[*k].is_body() && input.operands[*k].triangles().len() <= ALONE)
         .collect();
     let parts: Vec<Vec<Contacts>> = small.par_iter().map(|operand| contacts_within(input, *operand)).collect();
-    parts.into_iter().flatten().for_each(|mut part| all.append(&mut part));
-    let faces = FlatFaces::new(input, &all.pairs, cutting);
-    all.append(&mut contacts_between(input, &faces));
-    (all, faces)
+    all.extend(parts.into_iter().flatten());
+    let touching: Vec<[InputTriangleId; 2]> = all.iter().flat_map(|part| &part.pairs).copied().collect();
+    let faces = FlatFaces::new(input, &touching, cutting);
+    all.extend(contacts_between(input, &faces));
+    (Contacts::joined(&all), faces)
 }
 
 /// What the triangles of an operand have in common.
@@ -74,7 +74,7 @@ fn contacts_within(input: &Input<'_>, operand: usize) -> Vec<Contacts> {
 }
 
 /// What triangles of different operands have in common.
-fn contacts_between(input: &Input<'_>, faces: &FlatFaces<'_>) -> Contacts {
+fn contacts_between(input: &Input<'_>, faces: &FlatFaces<'_>) -> Vec<Contacts> {
     let trees: Vec<&TriangleTree> = input.operands.iter().map(|operand| operand.tree()).collect();
     let boxes = Boxes::new(trees.iter().map(|tree| tree.all_bounds()).collect());
     let (mut tasks, mut near) = (Vec::new(), Vec::new());
@@ -107,12 +107,7 @@ fn contacts_between(input: &Input<'_>, faces: &FlatFaces<'_>) -> Contacts {
         }
         out
     };
-    let (parts, _): (Vec<Contacts>, Counts) = map_chunks(&tasks, 1, work);
-    let mut all = Contacts::default();
-    for mut part in parts {
-        all.append(&mut part);
-    }
-    all
+    map_chunks(&tasks, 1, work).0
 }
 
 /// Parts of a task; the task itself where it is small.
