@@ -6,7 +6,6 @@ use rustc_hash::FxHashMap;
 use super::Arrangement;
 use super::subdivide::Cells;
 use super::surface::sorted;
-use crate::base::by_group;
 use crate::ids::{FacetId, Id, InputTriangleId, PatchId, PointId, TriangleId, number32};
 
 /// Facets that one thread looks at in a row.
@@ -53,9 +52,6 @@ pub(super) struct Facets {
     pub(super) sides: Vec<Side>,
     /// Where the sides of each edge end.
     pub(super) edge_ends: Vec<u32>,
-    /// The edges of each facet: where they begin, and they.
-    edge_starts: Vec<u32>,
-    edges: Vec<u32>,
 }
 
 impl Facets {
@@ -69,8 +65,6 @@ impl Facets {
             doubles: FxHashMap::default(),
             sides: Vec::new(),
             edge_ends: Vec::new(),
-            edge_starts: Vec::new(),
-            edges: Vec::new(),
         };
         facets.is_gone.resize(count, false);
         facets.join_doubles(arrangement, is_doubled);
@@ -130,11 +124,6 @@ impl Facets {
     /// Facets at the very place of one.
     pub(super) fn doubles(&self, facet: FacetId) -> &[Double] {
         self.doubles.get(&facet).map_or(&[], Vec::as_slice)
-    }
-
-    /// Edges at which a facet is among [`sides`](Self::sides).
-    pub(super) fn edges(&self, facet: FacetId) -> &[u32] {
-        &self.edges[self.edge_starts[facet.index()] as usize..self.edge_starts[facet.index() + 1] as usize]
     }
 
     /// The sides at an edge.
@@ -203,13 +192,7 @@ impl Facets {
             end += group.len();
             self.edge_ends.push(number32(end));
         }
-        let mut edge_of = Vec::with_capacity(sides.len());
-        for (edge, group) in (0..).zip(sides.chunk_by(|a, b| a.ends == b.ends)) {
-            edge_of.extend(group.iter().map(|_| edge));
-        }
-        let (starts, edges) =
-            by_group(self.len(), sides.iter().map(|side| side.facet.index()), |k| edge_of.get(k).copied().unwrap_or(0));
-        (self.edge_starts, self.edges, self.sides) = (starts, edges, sides);
+        self.sides = sides;
     }
 }
 

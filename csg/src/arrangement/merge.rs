@@ -4,7 +4,7 @@
 //! straight edges; these go, too, unless another face ends there.
 
 use planecut_kernel::sign::Sign;
-use rustc_hash::FxHashMap;
+use planecut_parallel::prelude::*;
 
 use super::facets::FacetKind;
 use super::fill::area;
@@ -14,6 +14,9 @@ use super::surface::sorted;
 use super::{Arranged, Arrangement};
 use crate::base::DisjointSets;
 use crate::ids::{Id, PointId, number32};
+
+/// Pairs of edges that one thread looks at in a row.
+const CHUNK: usize = 1 << 8;
 
 /// A face of the boundary.
 #[derive(Debug, Clone)]
@@ -136,35 +139,35 @@ impl Arranged<'_> {
         edges: &[CellEdge],
         merging: Merging,
     ) -> (Vec<Option<u32>>, Vec<u32>) {
-        let mut uses: FxHashMap<[PointId; 2], Vec<u32>> = FxHashMap::default();
-        for (k, edge) in (0..).zip(edges) {
-            uses.entry(sorted(edge.from, edge.to)).or_default().push(k);
-        }
+        let of_cells = (0..).zip(edges).map(|(k, edge)| (sorted(edge.from, edge.to), k));
         // of whole triangles, too: where more than two facets meet, they are told apart by the wedges between them
-        for face in whole {
+        let of_triangles = whole.iter().flat_map(|face| {
             let corners = self.arrangement.surface.corners[face.kept.facet.index()];
-            for k in 0..3 {
-                if let Some(uses) = uses.get_mut(&sorted(corners[k], corners[(k + 1) % 3])) {
-                    uses.push(u32::MAX);
-                }
-            }
-        }
+            (0..3).map(move |k| (sorted(corners[k], corners[(k + 1) % 3]), u32::MAX))
+        });
+        let mut uses: Vec<([PointId; 2], u32)> = of_cells.chain(of_triangles).collect();
+        uses.par_sort_unstable();
+        let pair = |uses: &[([PointId; 2], u32)]| match *uses {
+            [(_, one), (_, other)] if other != u32::MAX => Some([one, other]),
+            _ => None,
+        };
+        let pairs: Vec<[u32; 2]> = uses.chunk_by(|a, b| a.0 == b.0).filter_map(pair).collect();
+        let cells_of = |pair: [u32; 2]| pair.map(|edge| edges[edge as usize].cell);
+        let joint = |pair: &[u32; 2]| {
+            let [p, q] = cells_of(*pair).map(|cell| &cells[cell as usize]);
+            let is_opposite = edges[pair[0] as usize].from == edges[pair[1] as usize].to;
+            if is_opposite { self.joint(p, q, merging) } else { None }
+        };
+        let joints: Vec<Option<Joint>> = pairs.par_iter().with_min_len(CHUNK).map(joint).collect();
         let mut twins = vec![None; edges.len()];
         let mut rounded = Vec::new();
-        for pair in uses.values() {
-            let [one, other] = pair[..] else { continue };
-            if other == u32::MAX || edges[one as usize].from != edges[other as usize].to {
-                continue;
+        for (pair @ [one, other], joint) in pairs.into_iter().zip(joints) {
+            let Some(joint) = joint else { continue };
+            if joint == Joint::WithinRounding {
+                rounded.push(cells_of(pair)[0]);
             }
-            let [p, q] = [one, other].map(|edge| edges[edge as usize].cell);
-            let joint = self.joint(&cells[p as usize], &cells[q as usize], merging);
-            if joint == Some(Joint::WithinRounding) {
-                rounded.push(p);
-            }
-            if joint.is_some() {
-                twins[one as usize] = Some(other);
-                twins[other as usize] = Some(one);
-            }
+            twins[one as usize] = Some(other);
+            twins[other as usize] = Some(one);
         }
         (twins, rounded)
     }
