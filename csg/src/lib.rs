@@ -38,7 +38,7 @@ pub mod stages;
 pub mod tolerances;
 mod weld;
 
-pub use arrangement::{CombineError, CombinedMeshes, Inside, combine_meshes};
+pub use arrangement::{CombineError, CombinedMeshes, Inside, combine_meshes, unite_meshes};
 pub use blocks::{Block, BlockOptions, BlocksError, BlocksSummary, evaluate_in_blocks};
 pub use body::BuiltBodies;
 pub use closed_mesh::{ClosedMesh, ClosedMeshError, WindingRule};

@@ -1,9 +1,10 @@
 //! Combinations of closed meshes.
 
+use super::hidden::{Deciders, Hidden};
 use super::input::Input;
 use super::operand::Operand;
-use super::winding::Windings;
-use super::{Arranged, Cutting};
+use super::winding::{NoWindings, Windings};
+use super::{Arranged, Cutting, pairs};
 use crate::body::Body;
 use crate::closed_mesh::WindingRule;
 use crate::ids::number32;
@@ -73,7 +74,34 @@ pub fn combine_meshes(
     is_solid: impl Fn(&Inside<'_>) -> bool,
 ) -> Result<CombinedMeshes, CombineError> {
     let leaves: Vec<Leaf<'_>> = meshes.iter().map(Leaf::Mesh).collect();
-    combine_leaves(&leaves, None, materials, is_solid)
+    combine_leaves(&leaves, None, materials, is_solid, None)
+}
+
+/// The boundary of the union of closed meshes. The same as [`combine_meshes`] of all points that lie in any of them, and faster where many overlap:
+/// what lies inside of others is left out early.
+///
+/// # Errors
+/// None that the input can cause.
+pub fn unite_meshes(meshes: &[MeshBody], materials: Vec<Material>) -> Result<CombinedMeshes, CombineError> {
+    let leaves: Vec<Leaf<'_>> = meshes.iter().map(Leaf::Mesh).collect();
+    let all = DecidingLeaves { leaves: vec![true; leaves.len()], value: true };
+    combine_leaves(&leaves, None, materials, |inside| inside.all().next().is_some(), Some(&all))
+}
+
+/// Leaves that alone decide what is solid: inside of any of them the outcome is one and the same, whatever the others hold.
+#[derive(Debug, Clone)]
+pub(crate) struct DecidingLeaves {
+    /// For each leaf whether it is one.
+    pub(crate) leaves: Vec<bool>,
+    /// Whether the inside of these is solid.
+    pub(crate) value: bool,
+}
+
+/// Why an attempt failed.
+enum Failure {
+    /// Plain numbers do not tell what is decided.
+    Uncertain,
+    Defect(CombineError),
 }
 
 /// A leaf of a tree.
@@ -87,12 +115,17 @@ pub(crate) enum Leaf<'a> {
     Empty,
 }
 
-/// The boundary of a combination of leaves; `table` has the planes of those that are convex bodies. Otherwise as [`combine_meshes`].
+/// Operands from which on it is worth while to look for triangles that cannot be seen.
+const MANY: usize = 3;
+
+/// The boundary of a combination of leaves; `table` has the planes of those that are convex bodies. What lies inside of leaves that decide is left out early.
+/// Otherwise as [`combine_meshes`].
 pub(crate) fn combine_leaves(
     leaves: &[Leaf<'_>],
     table: Option<&PlaneTable>,
     materials: Vec<Material>,
     is_solid: impl Fn(&Inside<'_>) -> bool,
+    deciding: Option<&DecidingLeaves>,
 ) -> Result<CombinedMeshes, CombineError> {
     let (operand_of, different) = without_copies(leaves);
     let input = Input::new(different.par_iter().map(|leaf| operand(*leaf, table)).collect(), table);
@@ -100,23 +133,45 @@ pub(crate) fn combine_leaves(
     let value = |windings: &Windings| {
         !windings.is_empty() && is_solid(&Inside { windings, rules: &rules, operand_of: &operand_of })
     };
-    let boundary = |cutting: Cutting| {
-        let arranged =
-            Arranged::new(&input, cutting).map_err(|_| CombineError("winding numbers contradict one another"))?;
+    let boundary = |cutting: Cutting, deciders: Option<&Deciders>| {
+        let (contacts, faces) = pairs::contacts(&input, cutting);
+        let hidden = deciders.map_or_else(Hidden::default, |them| Hidden::new(&input, &contacts, &faces, them));
+        let arranged = Arranged::new(&input, (contacts, faces), cutting, &hidden).map_err(|error| match error {
+            NoWindings::Uncertain => Failure::Uncertain,
+            NoWindings::Contradiction => Failure::Defect(CombineError("winding numbers contradict one another")),
+        })?;
         arranged.boundary(value).map_err(|flaw| {
-            CombineError(match flaw {
+            Failure::Defect(CombineError(match flaw {
                 Flaw::Open => "the mesh is not closed",
                 Flaw::Folded => "a triangle of the mesh faces the wrong way",
                 Flaw::Measures => "the mesh has another volume or area than the solid",
-            })
+            }))
         })
     };
-    // whatever goes wrong where cuts are joined, triangles one by one need no joining
-    let (mesh, solid, noise) = boundary(Cutting::Polygons).or_else(|error| {
-        debug_assert!(false, "{error}: cut as polygons");
-        boundary(Cutting::Triangles)
-    })?;
-    Ok(CombinedMeshes { mesh: Mesh { materials, ..mesh }, solid, noise })
+    let mut is_decider = vec![false; different.len()];
+    for (leaf, operand) in operand_of.iter().enumerate() {
+        is_decider[*operand as usize] |= deciding.is_some_and(|deciding| deciding.leaves[leaf]);
+    }
+    let value_inside = deciding.is_some_and(|deciding| deciding.value);
+    let deciders = Deciders { value: value_inside, is_decider };
+    let is_worth_it = different.len() >= MANY && deciders.is_decider.contains(&true);
+    // whatever goes wrong with less work, more work need not go wrong: triangles one by one need no joining
+    let attempts =
+        [(Cutting::Polygons, is_worth_it.then_some(&deciders)), (Cutting::Polygons, None), (Cutting::Triangles, None)];
+    let mut error = CombineError("");
+    for (cutting, deciders) in &attempts[usize::from(!is_worth_it)..] {
+        match boundary(*cutting, *deciders) {
+            Ok((mesh, solid, noise)) => {
+                return Ok(CombinedMeshes { mesh: Mesh { materials, ..mesh }, solid, noise });
+            }
+            Err(Failure::Uncertain) => {}
+            Err(Failure::Defect(defect)) => {
+                debug_assert!(*cutting == Cutting::Triangles, "{defect}: cut as polygons");
+                error = defect;
+            }
+        }
+    }
+    Err(error)
 }
 
 /// For each leaf its place among those that differ, and these. The same mesh in the same place is arranged once.

@@ -117,6 +117,21 @@ impl Contacts {
         }
     }
 
+    /// What triangles of some kind have in common.
+    pub(super) fn of_triangles(mut self, is_one: impl Fn(InputTriangleId) -> bool) -> Self {
+        let is_pair = |pair: &[InputTriangleId; 2]| pair.iter().all(|triangle| is_one(*triangle));
+        let of_side = |side: u32| InputTriangleId::from_index(side as usize / 3);
+        self.cuts.retain(|cut| is_pair(&[cut.triangle, cut.other]));
+        self.edge_cuts.retain(|cut| is_pair(&[of_side(cut.side), cut.other]));
+        self.along.retain(|along| is_pair(&[of_side(along.side), along.other]));
+        self.shared_edges.retain(|sides| is_pair(&sides.map(of_side)));
+        self.touched.retain(|triangle| is_one(*triangle));
+        for pairs in [&mut self.pairs, &mut self.coplanar, &mut self.overlapping, &mut self.identical] {
+            pairs.retain(is_pair);
+        }
+        self
+    }
+
     /// Takes a segment that a triangle has in common with another one: a cut, unless it runs along a side of the triangle.
     pub(super) fn divide(&mut self, cut: Cut, side: Option<usize>) {
         let Cut { triangle, other, edge, ends } = cut;

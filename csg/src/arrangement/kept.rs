@@ -30,7 +30,11 @@ pub(super) struct KeptFacets {
 impl Arranged<'_> {
     /// The facets at which the solid ends, by what is said of combinations of winding numbers.
     pub(super) fn kept(&self, is_solid: &impl Fn(&Windings) -> bool) -> KeptFacets {
-        let values: Vec<bool> = self.sheets.states.windings.iter().map(is_solid).collect();
+        let value = |(k, windings): (usize, &Windings)| match self.sheets.decided {
+            Some((decided, value)) if decided.index() == k => value,
+            _ => is_solid(windings),
+        };
+        let values: Vec<bool> = self.sheets.states.windings.iter().enumerate().map(value).collect();
         // whether the solid is above, and below
         let sides = |facet: FacetId| {
             let [above, below] = [&self.sheets.above, &self.sheets.below].map(|states| states[facet.index()]);
@@ -38,7 +42,9 @@ impl Arranged<'_> {
         };
         let keep = |facet: FacetId| {
             let (above, below, is_flipped) = sides(facet)?;
-            let material = self.material(facet, if is_flipped { below } else { above }, is_flipped, is_solid);
+            // from the empty side to the solid one
+            let sides = if is_flipped { [below, above] } else { [above, below] };
+            let material = self.material(facet, sides, is_flipped, is_solid);
             Some(Kept { facet, is_flipped, material })
         };
         let flat = self.facets.flat_ones().filter_map(keep).collect();
@@ -53,7 +59,7 @@ impl Arranged<'_> {
     fn material(
         &self,
         facet: FacetId,
-        empty: StateId,
+        [empty, solid]: [StateId; 2],
         is_flipped: bool,
         is_solid: &impl Fn(&Windings) -> bool,
     ) -> MaterialId {
@@ -70,9 +76,18 @@ impl Arranged<'_> {
         let mut turns = vec![turn_of(facet, true)];
         turns.extend(doubles.iter().map(|double| turn_of(double.facet, double.is_same)));
         turns.sort_unstable();
-        let mut windings: FxHashMap<u32, i32> = self.sheets.states.windings[empty.index()].iter().copied().collect();
+        let by = |is_up: bool| if is_up { 1 } else { -1 };
+        let of_state = |state: StateId| self.sheets.states.windings[state.index()].iter().copied();
+        let mut windings: FxHashMap<u32, i32> = FxHashMap::default();
+        if self.sheets.decided.is_some_and(|(decided, _)| decided == empty) {
+            // known from the solid side alone
+            windings.extend(of_state(solid));
+            turns.iter().for_each(|(is_up, _, operand)| *windings.entry(*operand).or_insert(0) -= by(*is_up));
+        } else {
+            windings.extend(of_state(empty));
+        }
         for &(is_up, material, operand) in &turns {
-            *windings.entry(operand).or_insert(0) += if is_up { 1 } else { -1 };
+            *windings.entry(operand).or_insert(0) += by(is_up);
             let mut now: Windings =
                 windings.iter().map(|(k, v)| (*k, *v)).filter(|(_, winding)| *winding != 0).collect();
             now.sort_unstable();

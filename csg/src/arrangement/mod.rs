@@ -25,6 +25,7 @@ mod facets;
 mod fill;
 mod flat;
 mod flat_faces;
+mod hidden;
 mod input;
 mod joined_cuts;
 mod kept;
@@ -52,12 +53,14 @@ use rustc_hash::FxHashMap;
 use crate::base::{DisjointSets, map_chunks};
 use crate::closed_mesh::connectivity::NO_TWIN;
 use crate::ids::{Id, InputTriangleId, PointId, TriangleId, number32};
-pub use combine::{CombineError, CombinedMeshes, Inside, combine_meshes};
-pub(crate) use combine::{Leaf, combine_leaves};
+pub use combine::{CombineError, CombinedMeshes, Inside, combine_meshes, unite_meshes};
+pub(crate) use combine::{DecidingLeaves, Leaf, combine_leaves};
 use contact::{Contacts, InputKey};
 use crossings::{CutLine, Neighbours, crossings};
 use edge_points::EdgePoints;
 use facets::Facets;
+use flat_faces::FlatFaces;
+use hidden::Hidden;
 use input::Input;
 use joined_cuts::{JoinedCuts, KeyedCut, joined_cuts};
 use patches::Patches;
@@ -66,7 +69,7 @@ use polygons::Polygons;
 use predicates::best_axis;
 use subdivide::{Cells, View, subdivide};
 use surface::{Surface, sorted};
-use winding::{Contradiction, Sheets, sheets};
+use winding::{NoWindings, Sheets, sheets};
 
 /// What is cut as one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -99,10 +102,15 @@ struct Arranged<'a> {
 }
 
 impl<'a> Arranged<'a> {
-    /// Arranges the triangles of operands.
-    fn new(input: &'a Input<'a>, cutting: Cutting) -> Result<Self, Contradiction> {
-        let (contacts, faces) = pairs::contacts(input, cutting);
-        let surface = Surface::new(input, &contacts, &faces);
+    /// Arranges the triangles of operands, given what they have in common.
+    fn new(
+        input: &'a Input<'a>,
+        (contacts, faces): (Contacts, FlatFaces<'_>),
+        cutting: Cutting,
+        hidden: &'a Hidden,
+    ) -> Result<Self, NoWindings> {
+        let contacts = hidden.without(contacts);
+        let surface = Surface::new(input, &contacts, &faces, hidden);
         let (arrangement, is_split, is_doubled) = Arrangement::new(surface, &contacts, cutting);
         drop((contacts, faces));
         let facets = Facets::new(&arrangement, is_split, &is_doubled);

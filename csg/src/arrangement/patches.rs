@@ -19,7 +19,7 @@ pub(super) struct Patch {
 #[derive(Debug, Default)]
 pub(super) struct Patches {
     pub(super) all: Vec<Patch>,
-    /// For each operand and each of its triangles the patch, less the first of the operand; [`NO_PATCH`] for those that are touched.
+    /// For each operand and each of its triangles the patch, less the first of the operand; [`NO_PATCH`] for those that are touched or hidden.
     of_triangle: Vec<Vec<u32>>,
     /// The first patch of each operand.
     starts: Vec<u32>,
@@ -28,7 +28,7 @@ pub(super) struct Patches {
 const NO_PATCH: u32 = u32::MAX;
 
 impl Patches {
-    /// The parts of operands that are not in the surface of those that touch.
+    /// The parts of operands that are not in the surface of those that touch, and are not hidden.
     pub(super) fn new(surface: &Surface<'_>) -> Self {
         let input = surface.input;
         let of_operand = |operand: usize| flood(input, surface, operand);
@@ -42,7 +42,7 @@ impl Patches {
         patches
     }
 
-    /// The patch of a triangle of an operand; none for one that is touched.
+    /// The patch of a triangle of an operand; none for one that is touched or hidden.
     #[inline]
     pub(super) fn of(&self, operand: usize, triangle: u32) -> Option<PatchId> {
         match self.of_triangle[operand].get(triangle as usize) {
@@ -57,7 +57,10 @@ fn flood(input: &Input<'_>, surface: &Surface<'_>, operand: usize) -> (Vec<u32>,
     let own = &input.operands[operand];
     let count = number32(own.triangles().len());
     let first = input.number(operand, 0).index();
-    let is_touched = |triangle: u32| surface.has(InputTriangleId::from_index(first + triangle as usize));
+    let is_touched = |triangle: u32| {
+        let triangle = InputTriangleId::from_index(first + triangle as usize);
+        surface.has(triangle) || surface.hidden.has(triangle)
+    };
     let mut patch_of = vec![NO_PATCH; count as usize];
     let mut firsts = Vec::new();
     let mut waiting = Vec::new();

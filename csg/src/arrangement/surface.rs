@@ -7,6 +7,7 @@ use rustc_hash::FxHashMap;
 use super::contact::Contacts;
 use super::exact::are_one;
 use super::flat_faces::{FlatFaces, is_within_plane};
+use super::hidden::Hidden;
 use super::input::Input;
 use super::predicates::{Corner, Triangle};
 use crate::closed_mesh::connectivity::NO_TWIN;
@@ -20,6 +21,7 @@ const CHUNK: usize = 1 << 14;
 #[derive(Debug)]
 pub(super) struct Surface<'a> {
     pub(super) input: &'a Input<'a>,
+    pub(super) hidden: &'a Hidden,
     /// The places of vertices, correctly rounded.
     pub(super) positions: Vec<DVec3>,
     /// One of the vertices of operands that each vertex is.
@@ -48,11 +50,12 @@ pub(super) struct Surface<'a> {
 }
 
 impl<'a> Surface<'a> {
-    /// The triangles that contacts name, and those around their vertices.
-    pub(super) fn new(input: &'a Input<'a>, contacts: &Contacts, faces: &FlatFaces<'_>) -> Self {
+    /// The triangles that contacts name, and those around their vertices, but for those that are hidden.
+    pub(super) fn new(input: &'a Input<'a>, contacts: &Contacts, faces: &FlatFaces<'_>, hidden: &'a Hidden) -> Self {
         let is_core = core_vertices(input, contacts, faces);
         let mut surface = Self {
             input,
+            hidden,
             positions: Vec::new(),
             origins: Vec::new(),
             corners: Vec::new(),
@@ -74,11 +77,14 @@ impl<'a> Surface<'a> {
 
     /// The triangles with a vertex all of whose triangles are to be here.
     fn take_triangles(&mut self) {
-        let Self { input, is_core, .. } = self;
+        let Self { input, hidden, is_core, .. } = self;
         for (operand, own) in input.operands.iter().enumerate() {
             let first = input.vertex(operand, 0).index();
             let core = &is_core[first..first + own.positions().len()];
-            let is_taken = |triangle: &u32| own.triangles()[*triangle as usize].iter().any(|v| core[*v as usize]);
+            let is_taken = |triangle: &u32| {
+                own.triangles()[*triangle as usize].iter().any(|v| core[*v as usize])
+                    && !hidden.has(input.number(operand, *triangle))
+            };
             let all = (0..number32(own.triangles().len())).into_par_iter().with_min_len(CHUNK);
             let taken: Vec<u32> = all.filter(is_taken).collect();
             self.operands.extend(std::iter::repeat_n(number32(operand), taken.len()));
@@ -131,7 +137,7 @@ impl<'a> Surface<'a> {
     }
 
     fn link(&mut self) {
-        let Self { input, numbers, operands, triangle_number, .. } = self;
+        let Self { input, hidden, numbers, operands, triangle_number, .. } = self;
         for (k, (triangle, operand)) in numbers.iter().zip(&*operands).enumerate() {
             let operand = *operand as usize;
             let own = triangle.number() - input.number(operand, 0).number();
@@ -142,6 +148,7 @@ impl<'a> Surface<'a> {
                     twin => {
                         let twin = input.half_edge(operand, twin);
                         match triangle_number[twin as usize / 3] {
+                            0 if hidden.has(InputTriangleId::from_index(twin as usize / 3)) => NO_TWIN,
                             0 => {
                                 self.seams.push((half_edge, twin));
                                 NO_TWIN

@@ -4,6 +4,7 @@ use std::cell::RefCell;
 
 use planecut_kernel::sign::Counts;
 
+use super::deciding::deciding_leaves;
 use super::{EvaluateError, Evaluation, ModelSummary, StageTimes, UnboundedBrushes, summary_of};
 use crate::arrangement::{CombinedMeshes, Inside, Leaf, combine_leaves};
 use crate::base::Clock;
@@ -54,12 +55,14 @@ pub(super) fn evaluate_meshes(
     // where the tree holds what no leaf holds, the box is a leaf of its own, so that it ends somewhere
     let everything = outer.filter(|_| expression.base()).and_then(|outer| outer.cut(&table, &[], &[]).bounded());
     leaves.extend(everything.as_ref().map(Leaf::Body));
+    let is_boxed = everything.is_some();
+    let deciding = if is_boxed { None } else { deciding_leaves(model.tree.nodes()) };
     let restriction = RefCell::new(Restriction::default());
-    let (count, is_boxed) = (brushes.len(), everything.is_some());
+    let count = brushes.len();
     let holds = |inside: &Inside<'_>| {
         (!is_boxed || inside.of(count)) && holds(&mut restriction.borrow_mut(), &expression, inside, count)
     };
-    let combined = combine_leaves(&leaves, Some(&table), model.materials.clone(), holds)?;
+    let combined = combine_leaves(&leaves, Some(&table), model.materials.clone(), holds, deciding.as_ref())?;
     let CombinedMeshes { mesh, solid, noise } = combined;
     if outer.is_some_and(|outer| reaches(&mesh, &table, &outer)) {
         return Err(EvaluateError::Unbounded);

@@ -1,6 +1,7 @@
 //! From a model to its solid's mesh, stage by stage, with what each stage counted.
 
 mod convex;
+mod deciding;
 mod meshes;
 mod scattered;
 mod totals;

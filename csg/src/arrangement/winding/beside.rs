@@ -5,6 +5,7 @@ use std::cmp::Ordering;
 use planecut_kernel::sign::Sign;
 
 use super::states::Windings;
+use crate::arrangement::around::{Around, HalfPlane};
 use crate::arrangement::exact::compare_vertices;
 use crate::arrangement::input::Input;
 use crate::arrangement::predicates::{Corner, RoundedPlane, Triangle, sign, turn};
@@ -14,8 +15,13 @@ use crate::ids::number32;
 /// The winding numbers of operands at the first of two vertices, moved by `δ` towards the second and by `(ε, ε², ε³)`: both are as small
 /// as need be, `ε` far smaller than `δ`. What touches in the vertex alone is told apart by that.
 pub(super) fn beside(input: &Input<'_>, from: [Corner; 2]) -> Windings {
+    let all = (0..input.operands.len()).map(|operand| (number32(operand), winding_beside(input, operand, from)));
+    all.filter(|(_, winding)| *winding != 0).collect()
+}
+
+/// The winding number of one operand there.
+pub(in crate::arrangement) fn winding_beside(input: &Input<'_>, operand: usize, from: [Corner; 2]) -> i32 {
     let at = from[0].at;
-    let mut windings = Windings::new();
     // corners of bodies may be a little away
     let (low, high) = (at.to_array().map(f64::next_down), at.to_array().map(f64::next_up));
     let passes = |bounds: &Bounds| {
@@ -25,14 +31,22 @@ pub(super) fn beside(input: &Input<'_>, from: [Corner; 2]) -> Windings {
             && bounds.min.z <= high[2]
             && bounds.max.z >= low[2]
     };
-    for (operand, own) in input.operands.iter().enumerate() {
-        let mut winding = 0;
-        own.tree().for_each(passes, |triangle| winding += crossing(input, &input.triangle(operand, triangle), &from));
-        if winding != 0 {
-            windings.push((number32(operand), winding));
-        }
-    }
-    windings
+    let mut winding = 0;
+    let tree = input.operands[operand].tree();
+    tree.for_each(passes, |triangle| winding += crossing(input, &input.triangle(operand, triangle), &from));
+    winding
+}
+
+/// Whether a side of a triangle of an operand is beside the direction in which [`winding_beside`] moves from its first corner towards its second one,
+/// with nothing else of the triangle and its neighbour between: the side from which it is counter-clockwise, or else the other one.
+pub(in crate::arrangement) fn is_above_beside(input: &Input<'_>, operand: usize, triangle: u32) -> bool {
+    let twin = input.operands[operand].twins()[3 * triangle as usize];
+    let triangle = input.triangle(operand, triangle);
+    let (axis, order) = axis_between(input, &triangle.corners[0], &triangle.corners[1]);
+    let half_plane = |triangle: Triangle, is_forward: bool| HalfPlane { triangle, plane: None, is_forward };
+    let members = [(half_plane(triangle, true), true), (half_plane(input.triangle(operand, twin / 3), false), false)];
+    let around = Around::new(input, axis, order);
+    !members[around.after_direction(&members)].1
 }
 
 /// How a ray along x crosses a triangle, from the first of two vertices, moved towards the second and by `(ε, ε², ε³)`: 1 from below,
@@ -62,7 +76,7 @@ fn crossing(input: &Input<'_>, triangle: &Triangle, start: &[Corner; 2]) -> i32 
 }
 
 /// An axis along which two vertices differ, and their order along it.
-pub(super) fn axis_between(input: &Input<'_>, from: &Corner, to: &Corner) -> (usize, Ordering) {
+fn axis_between(input: &Input<'_>, from: &Corner, to: &Corner) -> (usize, Ordering) {
     let longest = (to.at - from.at).abs().max_position();
     let order = |axis: usize| match order_along(input, from, to, axis) {
         Sign::Positive => Ordering::Less,

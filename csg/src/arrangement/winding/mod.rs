@@ -6,20 +6,28 @@
 mod beside;
 mod regions;
 mod states;
+mod within;
 
-use beside::{axis_between, beside};
+use beside::beside;
+pub(super) use beside::{is_above_beside, winding_beside};
 use regions::{FacetSide, Regions};
 use states::States;
 pub(super) use states::Windings;
+use within::{Content, Places};
+
+use planecut_parallel::prelude::*;
 
 use super::Arrangement;
 use super::around::{Around, HalfPlane, half_planes};
 use super::facets::{FacetKind, Facets, Side};
+use super::hidden::Deciders;
 use super::patches::Patch;
-use super::predicates::Triangle;
 use super::surface::sorted;
 use crate::base::DisjointSets;
 use crate::ids::{FacetId, Id, InputTriangleId, PointId, StateId, TriangleId, number32};
+
+/// Facets of a region that are looked at for a place that tells its winding numbers.
+const TRIES: usize = 8;
 
 /// The winding numbers on both sides of each facet.
 #[derive(Debug)]
@@ -28,22 +36,29 @@ pub(super) struct Sheets {
     /// For each facet what is above it, from where its triangle is counter-clockwise, and below; none for those that are gone.
     pub(super) above: Vec<StateId>,
     pub(super) below: Vec<StateId>,
+    /// What stands for all winding numbers in operands that decide, and whether it is solid there.
+    pub(super) decided: Option<(StateId, bool)>,
 }
 
-/// Winding numbers that contradict one another: a defect of this program.
+/// Why there are no winding numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Contradiction;
+pub(super) enum NoWindings {
+    /// They contradict one another: a defect of this program.
+    Contradiction,
+    /// Plain numbers do not tell those of regions beside facets that were left out.
+    Uncertain,
+}
 
 /// The winding numbers on both sides of each facet.
-pub(super) fn sheets(arrangement: &Arrangement<'_>, facets: &Facets) -> Result<Sheets, Contradiction> {
+pub(super) fn sheets(arrangement: &Arrangement<'_>, facets: &Facets) -> Result<Sheets, NoWindings> {
     let regions = Regions::new(arrangement, facets);
     let states = vec![StateId::NONE; regions.len()];
-    let mut spread = Spread { arrangement, facets, regions, all: States::default(), states, waiting: Vec::new() };
-    for facet in spread.seeds() {
-        spread.begin(facet)?;
-        spread.run()?;
+    let spread =
+        Spread { arrangement, facets, regions, all: States::default(), states, waiting: Vec::new(), decided: None };
+    match arrangement.surface.hidden.deciders() {
+        Some(deciders) => spread.among(deciders),
+        None => spread.everywhere(),
     }
-    Ok(spread.sheets())
 }
 
 struct Spread<'a> {
@@ -55,9 +70,66 @@ struct Spread<'a> {
     states: Vec<StateId>,
     /// Regions that are known, and from which others have not been looked at.
     waiting: Vec<usize>,
+    /// What stands for the winding numbers of regions in operands that decide.
+    decided: Option<StateId>,
 }
 
 impl Spread<'_> {
+    /// The winding numbers of all regions.
+    fn everywhere(mut self) -> Result<Sheets, NoWindings> {
+        for facet in self.seeds() {
+            self.begin(facet)?;
+            self.run()?;
+        }
+        Ok(self.sheets(None))
+    }
+
+    /// The winding numbers of regions that lie in no operand that decides; facets in these may be missing.
+    fn among(mut self, deciders: &Deciders) -> Result<Sheets, NoWindings> {
+        // no operand has this number
+        let decided = self.all.number(vec![(u32::MAX, 1)]);
+        self.decided = Some(decided);
+        let regions = &self.regions;
+        let insides = |facet: FacetId| {
+            // each boundary has its inside below
+            let own = std::iter::once((self.operand(facet), false));
+            let doubles = self.facets.doubles(facet).iter();
+            let all = own.chain(doubles.map(|double| (self.operand(double.facet), !double.is_same)));
+            let deciding = all.filter(|(operand, _)| deciders.is_decider[*operand as usize]);
+            deciding.map(move |(_, is_above)| regions.of(FacetSide { facet, is_above }))
+        };
+        let present = FacetId::all(self.facets.len()).filter(|facet| !self.facets.is_gone(*facet));
+        let inside: Vec<usize> = present.flat_map(insides).collect();
+        inside.into_iter().for_each(|region| self.states[region] = decided);
+        let is_open = |region: &usize| {
+            let mut sides = self.regions.sides(*region);
+            self.states[*region] == StateId::NONE && sides.any(|side| !self.facets.is_gone(side.facet))
+        };
+        let open: Vec<usize> = (0..self.regions.len()).filter(is_open).collect();
+        let places = Places::new(self.arrangement, self.facets, deciders);
+        let content = |region: &usize| {
+            let sides = self.regions.sides(*region).filter(|side| !self.facets.is_gone(side.facet));
+            (*region, sides.take(TRIES).find_map(|side| places.content(side)))
+        };
+        let contents: Vec<(usize, Option<Content>)> = open.par_iter().map(content).collect();
+        for (region, content) in &contents {
+            if let Some(Content::Decided) = content {
+                self.states[*region] = decided;
+            }
+        }
+        for (region, content) in &contents {
+            if let Some(Content::Windings(windings)) = content {
+                let state = self.all.number(windings.clone());
+                self.set_region(*region, state)?;
+                self.run()?;
+            }
+        }
+        if open.iter().any(|region| self.states[*region] == StateId::NONE) {
+            return Err(NoWindings::Uncertain);
+        }
+        Ok(self.sheets(Some((decided, deciders.value))))
+    }
+
     /// A facet of each connected part.
     fn seeds(&self) -> Vec<FacetId> {
         let mut sets = DisjointSets::new(self.facets.len());
@@ -78,7 +150,7 @@ impl Spread<'_> {
     }
 
     /// Begins with a facet beside an edge of its triangle, or of one of its triangles: one ray tells the winding numbers there.
-    fn begin(&mut self, facet: FacetId) -> Result<(), Contradiction> {
+    fn begin(&mut self, facet: FacetId) -> Result<(), NoWindings> {
         let input = self.arrangement.surface.input;
         if let FacetKind::Patch(patch) = self.facets.kind(facet) {
             let Patch { operand, first } = self.arrangement.patches.all[patch.index()];
@@ -106,20 +178,11 @@ impl Spread<'_> {
     }
 
     /// Begins beside the first edge of a triangle of a patch.
-    fn begin_with_patch(&mut self, facet: FacetId, operand: usize, first: u32) -> Result<(), Contradiction> {
+    fn begin_with_patch(&mut self, facet: FacetId, operand: usize, first: u32) -> Result<(), NoWindings> {
         let input = self.arrangement.surface.input;
-        let triangle = input.triangle(operand, first);
-        let twin = input.operands[operand].twins()[3 * first as usize];
-        let [a, b, _] = triangle.corners;
-        let windings = beside(input, [a, b]);
-        let (axis, order) = axis_between(input, &a, &b);
-        let half_plane = |triangle: Triangle, is_forward: bool| HalfPlane { triangle, plane: None, is_forward };
-        let members =
-            [(half_plane(triangle, true), true), (half_plane(input.triangle(operand, twin / 3), false), false)];
-        let around = Around::new(input, axis, order);
-        let (_, is_forward) = members[around.after_direction(&members)];
-        let state = self.all.number(windings);
-        self.set(FacetSide { facet, is_above: !is_forward }, state)
+        let [a, b, _] = input.triangle(operand, first).corners;
+        let state = self.all.number(beside(input, [a, b]));
+        self.set(FacetSide { facet, is_above: is_above_beside(input, operand, first) }, state)
     }
 
     /// The triangle of a patch at a half-edge between two vertices.
@@ -135,22 +198,27 @@ impl Spread<'_> {
     }
 
     /// Notes the winding numbers on a side of a facet.
-    fn set(&mut self, side: FacetSide, state: StateId) -> Result<(), Contradiction> {
-        let region = self.regions.of(side);
+    fn set(&mut self, side: FacetSide, state: StateId) -> Result<(), NoWindings> {
+        self.set_region(self.regions.of(side), state)
+    }
+
+    fn set_region(&mut self, region: usize, state: StateId) -> Result<(), NoWindings> {
         if self.states[region] == StateId::NONE {
             self.states[region] = state;
             self.waiting.push(region);
         }
-        if self.states[region] == state { Ok(()) } else { Err(Contradiction) }
+        if self.states[region] == state { Ok(()) } else { Err(NoWindings::Contradiction) }
     }
 
     /// Goes on from regions that are known to those beside them.
-    fn run(&mut self) -> Result<(), Contradiction> {
+    fn run(&mut self) -> Result<(), NoWindings> {
         while let Some(region) = self.waiting.pop() {
             let sides: Vec<FacetSide> = self.regions.sides(region).collect();
             for side in sides.into_iter().filter(|side| !self.facets.is_gone(side.facet)) {
-                let state = self.across(side, self.states[region]);
-                self.set(side.across(), state)?;
+                if self.decided.is_none_or(|decided| self.states[self.regions.of(side.across())] != decided) {
+                    let state = self.across(side, self.states[region]);
+                    self.set(side.across(), state)?;
+                }
             }
         }
         Ok(())
@@ -178,11 +246,11 @@ impl Spread<'_> {
         }
     }
 
-    fn sheets(self) -> Sheets {
+    fn sheets(self, decided: Option<(StateId, bool)>) -> Sheets {
         let side = |is_above: bool| {
             let of_facet = |facet| self.states[self.regions.of(FacetSide { facet, is_above })];
             FacetId::all(self.facets.len()).map(of_facet).collect()
         };
-        Sheets { above: side(true), below: side(false), states: self.all }
+        Sheets { above: side(true), below: side(false), states: self.all, decided }
     }
 }
