@@ -1,5 +1,6 @@
 //! Combinations of closed meshes.
 
+use super::contact::Contacts;
 use super::hidden::{Deciders, Hidden};
 use super::input::Input;
 use super::operand::Operand;
@@ -136,6 +137,7 @@ pub(crate) fn combine_leaves(
     let boundary = |cutting: Cutting, deciders: Option<&Deciders>| {
         let (contacts, faces) = pairs::contacts(&input, cutting);
         let hidden = deciders.map_or_else(Hidden::default, |them| Hidden::new(&input, &contacts, &faces, them));
+        let contacts = Contacts::joined(&contacts, |triangle| !hidden.has(triangle));
         let arranged = Arranged::new(&input, (contacts, faces), cutting, &hidden).map_err(|error| match error {
             NoWindings::Uncertain => Failure::Uncertain,
             NoWindings::Contradiction => Failure::Defect(CombineError("winding numbers contradict one another")),

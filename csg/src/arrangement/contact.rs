@@ -102,34 +102,21 @@ pub(super) struct Contacts {
 }
 
 impl Contacts {
-    /// All of what parts hold, one after the other.
-    pub(super) fn joined(parts: &[Self]) -> Self {
-        Self {
-            cuts: joined(parts, |part| &part.cuts),
-            edge_cuts: joined(parts, |part| &part.edge_cuts),
-            along: joined(parts, |part| &part.along),
-            shared_edges: joined(parts, |part| &part.shared_edges),
-            touched: joined(parts, |part| &part.touched),
-            pairs: joined(parts, |part| &part.pairs),
-            coplanar: joined(parts, |part| &part.coplanar),
-            overlapping: joined(parts, |part| &part.overlapping),
-            identical: joined(parts, |part| &part.identical),
-        }
-    }
-
-    /// What triangles of some kind have in common.
-    pub(super) fn of_triangles(mut self, is_one: impl Fn(InputTriangleId) -> bool) -> Self {
-        let is_pair = |pair: &[InputTriangleId; 2]| pair.iter().all(|triangle| is_one(*triangle));
+    /// What triangles of some kind have in common, of all parts, one after the other.
+    pub(super) fn joined(parts: &[Self], is_one: impl Fn(InputTriangleId) -> bool) -> Self {
+        let is_pair = |[one, other]: [InputTriangleId; 2]| is_one(one) && is_one(other);
         let of_side = |side: u32| InputTriangleId::from_index(side as usize / 3);
-        self.cuts.retain(|cut| is_pair(&[cut.triangle, cut.other]));
-        self.edge_cuts.retain(|cut| is_pair(&[of_side(cut.side), cut.other]));
-        self.along.retain(|along| is_pair(&[of_side(along.side), along.other]));
-        self.shared_edges.retain(|sides| is_pair(&sides.map(of_side)));
-        self.touched.retain(|triangle| is_one(*triangle));
-        for pairs in [&mut self.pairs, &mut self.coplanar, &mut self.overlapping, &mut self.identical] {
-            pairs.retain(is_pair);
+        Self {
+            cuts: joined(parts, |part| &part.cuts, |cut| is_pair([cut.triangle, cut.other])),
+            edge_cuts: joined(parts, |part| &part.edge_cuts, |cut| is_pair([of_side(cut.side), cut.other])),
+            along: joined(parts, |part| &part.along, |along| is_pair([of_side(along.side), along.other])),
+            shared_edges: joined(parts, |part| &part.shared_edges, |sides| is_pair(sides.map(of_side))),
+            touched: joined(parts, |part| &part.touched, |triangle| is_one(*triangle)),
+            pairs: joined(parts, |part| &part.pairs, |pair| is_pair(*pair)),
+            coplanar: joined(parts, |part| &part.coplanar, |pair| is_pair(*pair)),
+            overlapping: joined(parts, |part| &part.overlapping, |pair| is_pair(*pair)),
+            identical: joined(parts, |part| &part.identical, |pair| is_pair(*pair)),
         }
-        self
     }
 
     /// Takes a segment that a triangle has in common with another one: a cut, unless it runs along a side of the triangle.
@@ -152,10 +139,10 @@ impl Contacts {
     }
 }
 
-/// A list of all parts; it grows once, since moving what was found takes longer than finding it.
-fn joined<T: Copy>(parts: &[Contacts], list: impl Fn(&Contacts) -> &Vec<T>) -> Vec<T> {
+/// What a list of each part has of some kind; it grows once, since moving what was found takes longer than finding it.
+fn joined<T: Copy>(parts: &[Contacts], list: impl Fn(&Contacts) -> &Vec<T>, is_one: impl Fn(&T) -> bool) -> Vec<T> {
     let mut all = Vec::with_capacity(parts.iter().map(|part| list(part).len()).sum());
-    parts.iter().for_each(|part| all.extend_from_slice(list(part)));
+    parts.iter().for_each(|part| all.extend(list(part).iter().filter(|item| is_one(item))));
     all
 }
 

@@ -1,11 +1,15 @@
 //! The points inside of edges, at which the triangles there are cut.
 
+use planecut_parallel::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::points::{PointKey, Points};
 use super::surface::{Surface, sorted};
 use crate::closed_mesh::connectivity::NO_TWIN;
 use crate::ids::{Id, PointId, TriangleId, number32};
+
+/// Points or edges that one thread looks at in a row.
+const CHUNK: usize = 1 << 9;
 
 /// A point inside an edge.
 #[derive(Debug, Clone, Copy)]
@@ -28,16 +32,21 @@ impl EdgePoints {
     pub(super) fn new(surface: &Surface<'_>, points: &Points, cuts: &[PointOnEdge]) -> (Self, Vec<TriangleId>) {
         let edge = |side: u32| surface.edge(TriangleId::from_index(side as usize / 3), side as usize % 3);
         let mut all: Vec<([PointId; 2], PointId)> =
-            cuts.iter().map(|cut| (edge(cut.side), points.of_key(&cut.key))).collect();
-        all.sort_unstable();
+            cuts.par_iter().with_min_len(CHUNK).map(|cut| (edge(cut.side), points.of_key(&cut.key))).collect();
+        all.par_sort_unstable();
         all.dedup();
-        let mut found = Self::default();
-        let mut within = Vec::new();
-        for group in all.chunk_by(|a, b| a.0 == b.0) {
+        let groups: Vec<&[([PointId; 2], PointId)]> = all.chunk_by(|a, b| a.0 == b.0).collect();
+        let sorted = |group: &&[([PointId; 2], PointId)]| {
             let ends = group[0].0;
-            within.clear();
-            within.extend(group.iter().map(|(_, point)| *point).filter(|point| !ends.contains(point)));
+            let mut within: Vec<PointId> =
+                group.iter().map(|(_, point)| *point).filter(|point| !ends.contains(point)).collect();
             points.sort_along(surface, ends[0], ends[1], &mut within);
+            (ends, within)
+        };
+        let along: Vec<([PointId; 2], Vec<PointId>)> = groups.par_iter().with_min_len(CHUNK).map(sorted).collect();
+        let mut found = Self::default();
+        found.ranges.reserve(along.len());
+        for (ends, within) in along {
             let start = number32(found.points.len());
             found.points.extend(&within);
             found.ranges.insert(ends, [start, number32(found.points.len())]);
@@ -56,7 +65,7 @@ impl EdgePoints {
             let cut = lone.filter(|side: &u32| found.ranges.contains_key(&edge(*side)));
             triangles.extend(cut.map(|side| TriangleId::from_index(side as usize / 3)));
         }
-        triangles.sort_unstable();
+        triangles.par_sort_unstable();
         triangles.dedup();
         (found, triangles)
     }

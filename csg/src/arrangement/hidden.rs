@@ -11,7 +11,7 @@ use super::contact::Contacts;
 use super::flat_faces::FlatFaces;
 use super::input::Input;
 use super::winding::{is_above_beside, winding_beside};
-use crate::base::Boxes;
+use crate::base::{Bounds, Boxes};
 use crate::closed_mesh::connectivity::NO_TWIN;
 use crate::ids::{Id, InputTriangleId, number32};
 
@@ -39,23 +39,23 @@ type Touched = (u32, u32, u32);
 
 impl Hidden {
     /// Finds triangles that lie inside of operands that decide.
-    pub(super) fn new(input: &Input<'_>, contacts: &Contacts, faces: &FlatFaces<'_>, deciders: &Deciders) -> Self {
+    pub(super) fn new(input: &Input<'_>, contacts: &[Contacts], faces: &FlatFaces<'_>, deciders: &Deciders) -> Self {
         let crossed_once = crossed_once(input, contacts, &deciders.is_decider);
         let touched = touched(input, contacts, faces, &crossed_once);
-        let mut groups: Vec<&[Touched]> = touched.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)).collect();
-        groups.sort_by_key(|group| (group[0].0, group[0].1));
+        let groups: Vec<&[Touched]> = touched.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)).collect();
         let boxes = Boxes::new(input.operands.iter().map(|operand| operand.tree().all_bounds()).collect());
         let hidden_of = |operand: usize| {
             let first = groups.partition_point(|group| (group[0].0 as usize) < operand);
             let own: Vec<&[Touched]> =
                 groups[first..].iter().take_while(|group| group[0].0 as usize == operand).copied().collect();
-            let mut hidden = vec![false; input.operands[operand].triangles().len()];
+            let count = input.operands[operand].triangles().len();
+            let (mut hidden, mut marks) = (vec![false; count], Marks::new(count));
             let mut near = Vec::new();
             boxes.touching(&input.operands[operand].tree().all_bounds(), &mut near);
             near.sort_unstable();
             for other in near.into_iter().filter(|other| *other as usize != operand && crossed_once[*other as usize]) {
-                let touched = own.iter().find(|group| group[0].1 == other).copied().unwrap_or_default();
-                Within { input, operand, other: other as usize }.find(touched, &mut hidden);
+                let touched = own.binary_search_by_key(&other, |group| group[0].1).map_or(&[][..], |k| own[k]);
+                Within { input, operand, other: other as usize }.find(touched, &mut marks, &mut hidden);
             }
             hidden
         };
@@ -74,23 +74,15 @@ impl Hidden {
     pub(super) fn deciders(&self) -> Option<&Deciders> {
         self.deciders.as_ref()
     }
-
-    /// What the other triangles have in common.
-    pub(super) fn without(&self, contacts: Contacts) -> Contacts {
-        if self.is_hidden.is_empty() {
-            return contacts;
-        }
-        contacts.of_triangles(|triangle| !self.has(triangle))
-    }
 }
 
 /// Which of the operands that decide have a boundary that is crossed once, from outside to inside: all that does not touch itself and is not
 /// inside out.
-fn crossed_once(input: &Input<'_>, contacts: &Contacts, is_decider: &[bool]) -> Vec<bool> {
+fn crossed_once(input: &Input<'_>, contacts: &[Contacts], is_decider: &[bool]) -> Vec<bool> {
     let mut is_possible = is_decider.to_vec();
-    let lists = [&contacts.pairs, &contacts.coplanar, &contacts.overlapping].into_iter().flatten().copied();
-    let of_edges = contacts.shared_edges.iter().map(|pair| pair.map(triangle_of));
-    for pair in lists.chain(of_edges) {
+    let lists = contacts.iter().flat_map(|part| [&part.pairs, &part.coplanar, &part.overlapping]);
+    let of_edges = contacts.iter().flat_map(|part| &part.shared_edges).map(|pair| pair.map(triangle_of));
+    for pair in lists.flatten().copied().chain(of_edges) {
         let [one, other] = pair.map(|triangle| input.of_triangle(triangle).0);
         if one == other {
             is_possible[one] = false;
@@ -139,7 +131,7 @@ fn triangle_of(half_edge: u32) -> InputTriangleId {
 }
 
 /// Triangles that other operands touch, those of `deciders`; sorted.
-fn touched(input: &Input<'_>, contacts: &Contacts, faces: &FlatFaces<'_>, deciders: &[bool]) -> Vec<Touched> {
+fn touched(input: &Input<'_>, contacts: &[Contacts], faces: &FlatFaces<'_>, deciders: &[bool]) -> Vec<Touched> {
     let place = |triangle: InputTriangleId| {
         let (operand, own) = input.of_triangle(triangle);
         (number32(operand), own)
@@ -150,14 +142,16 @@ fn touched(input: &Input<'_>, contacts: &Contacts, faces: &FlatFaces<'_>, decide
         both.into_iter().filter(move |(_, other, _)| i != j && deciders[*other as usize])
     };
     let of_edges = |pair: &[u32; 2]| of_pair(pair.map(triangle_of));
-    let chunk = 1 << 12;
-    let mut touched: Vec<Touched> =
-        contacts.pairs.par_iter().with_min_len(chunk).flat_map_iter(|pair| of_pair(*pair)).collect();
-    touched.par_extend(contacts.coplanar.par_iter().with_min_len(chunk).flat_map_iter(|pair| of_pair(*pair)));
-    touched.extend(contacts.shared_edges.iter().flat_map(of_edges));
+    let of_part = |part: &Contacts| {
+        let pairs = [&part.pairs, &part.coplanar].into_iter().flatten();
+        let touched = pairs.flat_map(|pair| of_pair(*pair)).chain(part.shared_edges.iter().flat_map(of_edges));
+        touched.collect::<Vec<Touched>>()
+    };
+    let mut touched: Vec<Touched> = contacts.par_iter().flat_map_iter(of_part).collect();
     // of flat faces upon each other not every triangle is named
     let mut of_faces: FxHashMap<(u32, u32), FxHashSet<u32>> = FxHashMap::default();
-    for (operand, other, own) in contacts.overlapping.iter().flat_map(|pair| of_pair(*pair)) {
+    let overlapping = contacts.iter().flat_map(|part| &part.overlapping);
+    for (operand, other, own) in overlapping.flat_map(|pair| of_pair(*pair)) {
         of_faces.entry((operand, faces.of(operand as usize)[own as usize])).or_default().insert(other);
     }
     let operands: FxHashSet<u32> = of_faces.keys().map(|(operand, _)| *operand).collect();
@@ -179,59 +173,94 @@ struct Within<'a> {
     other: usize,
 }
 
+/// What is known of the triangles of an operand beside another one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+enum Mark {
+    #[default]
+    Unknown,
+    /// The other one touches it.
+    Touched,
+    /// It was met, and may lie inside.
+    Met,
+    /// It does not lie inside.
+    Outside,
+}
+
+/// Marks of triangles, forgotten all at once.
+#[derive(Debug)]
+struct Marks {
+    of_triangle: Vec<(u32, Mark)>,
+    now: u32,
+}
+
+impl Marks {
+    fn new(count: usize) -> Self {
+        Self { of_triangle: vec![(0, Mark::Unknown); count], now: 0 }
+    }
+
+    fn forget(&mut self) {
+        self.now += 1;
+    }
+
+    fn of(&self, triangle: u32) -> Mark {
+        let (when, mark) = self.of_triangle[triangle as usize];
+        if when == self.now { mark } else { Mark::Unknown }
+    }
+
+    fn set(&mut self, triangle: u32, mark: Mark) {
+        self.of_triangle[triangle as usize] = (self.now, mark);
+    }
+}
+
 impl Within<'_> {
     /// Finds those that lie inside; `touched` are those that the other one touches.
-    fn find(&self, touched: &[Touched], hidden: &mut [bool]) {
+    fn find(&self, touched: &[Touched], marks: &mut Marks, hidden: &mut [bool]) {
         let own = &self.input.operands[self.operand];
         let space = self.input.operands[self.other].tree().all_bounds();
-        // what leaves the box of the other one is not inside of it
-        let is_near = |triangle: u32| {
-            let bounds = own.bounds(triangle);
-            bounds.min.cmpge(space.min).all() && bounds.max.cmple(space.max).all()
-        };
+        let is_within = |bounds: &Bounds| bounds.min.cmpge(space.min).all() && bounds.max.cmple(space.max).all();
         let neighbours = |triangle: u32| {
             let twins = &own.twins()[3 * triangle as usize..3 * triangle as usize + 3];
             twins.iter().filter(|twin| **twin != NO_TWIN).map(|twin| twin / 3)
         };
-        let is_barrier = |triangle: u32| {
-            own.flat().binary_search(&triangle).is_ok()
-                || touched.binary_search_by_key(&triangle, |(_, _, own)| *own).is_ok()
-        };
-        let starts: Vec<u32> = if touched.is_empty() {
-            let bounds = own.tree().all_bounds();
-            if !(bounds.min.cmpge(space.min).all() && bounds.max.cmple(space.max).all()) {
-                return;
-            }
+        let starts: Vec<u32> = if !touched.is_empty() {
+            touched.iter().flat_map(|(_, _, triangle)| neighbours(*triangle)).collect()
+        } else if is_within(&own.tree().all_bounds()) {
             shells(own.twins())
         } else {
-            touched.iter().flat_map(|(_, _, triangle)| neighbours(*triangle)).collect()
+            return;
         };
-        // whether what was met may lie inside; what leaves the box does not
-        let mut met: FxHashSet<u32> = FxHashSet::default();
-        let mut outside: FxHashSet<u32> = FxHashSet::default();
+        marks.forget();
+        touched.iter().for_each(|(_, _, triangle)| marks.set(*triangle, Mark::Touched));
+        // triangles without an area are not known to be touched
+        own.flat().iter().for_each(|triangle| marks.set(*triangle, Mark::Touched));
         let mut part = Vec::new();
         for start in starts {
-            if is_barrier(start) || !met.insert(start) {
+            if marks.of(start) != Mark::Unknown {
                 continue;
             }
+            marks.set(start, Mark::Met);
             part.clear();
             part.push(start);
             let mut next = 0;
+            // what leaves the box of the other one is not inside of it
             let mut leaves = false;
             while next < part.len() && !leaves {
                 let triangle = part[next];
                 next += 1;
-                leaves = !is_near(triangle);
-                for neighbour in neighbours(triangle).filter(|neighbour| !is_barrier(*neighbour)) {
-                    if met.insert(neighbour) {
-                        part.push(neighbour);
-                    } else if outside.contains(&neighbour) {
-                        leaves = true;
+                leaves = !is_within(&own.bounds(triangle));
+                for neighbour in neighbours(triangle) {
+                    match marks.of(neighbour) {
+                        Mark::Unknown => {
+                            marks.set(neighbour, Mark::Met);
+                            part.push(neighbour);
+                        }
+                        Mark::Outside => leaves = true,
+                        Mark::Met | Mark::Touched => {}
                     }
                 }
             }
             if leaves || !self.is_inside(part[0]) {
-                outside.extend(&part);
+                part.iter().for_each(|triangle| marks.set(*triangle, Mark::Outside));
             } else {
                 part.iter().for_each(|triangle| hidden[*triangle as usize] = true);
             }

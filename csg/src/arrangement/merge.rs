@@ -15,7 +15,7 @@ use super::{Arranged, Arrangement};
 use crate::base::DisjointSets;
 use crate::ids::{Id, PointId, number32};
 
-/// Pairs of edges that one thread looks at in a row.
+/// Cells, or pairs of edges, that one thread looks at in a row.
 const CHUNK: usize = 1 << 8;
 
 /// A face of the boundary.
@@ -66,8 +66,10 @@ impl Arranged<'_> {
         let whole = kept.iter().filter(|kept| !is_cell(kept));
         let mut faces: Vec<Face> = whole.map(|kept| Face { kept: *kept, loops: Vec::new(), is_plane: true }).collect();
         let mut edges: Vec<CellEdge> = Vec::new();
-        for (cell, kept) in (0..).zip(&cells) {
-            for points in self.loops(kept, &crossed) {
+        let loops: Vec<Vec<Vec<PointId>>> =
+            cells.par_iter().with_min_len(CHUNK).map(|kept| self.loops(kept, &crossed)).collect();
+        for (cell, loops) in (0..).zip(loops) {
+            for points in loops {
                 let first = number32(edges.len());
                 let count = number32(points.len());
                 edges.extend((0..points.len()).map(|k| CellEdge {

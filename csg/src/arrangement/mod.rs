@@ -48,6 +48,7 @@ mod triangle_tree;
 mod winding;
 
 use planecut_kernel::sign::Counts;
+use planecut_parallel::prelude::*;
 use rustc_hash::FxHashMap;
 
 use crate::base::{DisjointSets, map_chunks};
@@ -70,6 +71,9 @@ use predicates::best_axis;
 use subdivide::{Cells, View, subdivide};
 use surface::{Surface, sorted};
 use winding::{NoWindings, Sheets, sheets};
+
+/// Cuts that one thread looks at in a row.
+const CHUNK: usize = 1 << 10;
 
 /// What is cut as one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -109,7 +113,6 @@ impl<'a> Arranged<'a> {
         cutting: Cutting,
         hidden: &'a Hidden,
     ) -> Result<Self, NoWindings> {
-        let contacts = hidden.without(contacts);
         let surface = Surface::new(input, &contacts, &faces, hidden);
         let (arrangement, is_split, is_doubled) = Arrangement::new(surface, &contacts, cutting);
         drop((contacts, faces));
@@ -266,8 +269,8 @@ fn cut_lines(points: &Points, keyed: &[KeyedCut]) -> Vec<CutLine> {
         let [from, to] = cut.ends.map(|key| points.of_key(&key));
         CutLine { triangle: cut.triangle, other: cut.other, ends: sorted(from, to), edge: cut.edge }
     };
-    let mut cuts: Vec<CutLine> = keyed.iter().map(cut_line).collect();
-    cuts.sort_unstable();
+    let mut cuts: Vec<CutLine> = keyed.par_iter().with_min_len(CHUNK).map(cut_line).collect();
+    cuts.par_sort_unstable();
     cuts.dedup();
     cuts
 }
@@ -283,7 +286,7 @@ fn pairs_of<'a>(
         sorted(a, b)
     };
     let mut pairs: Vec<[TriangleId; 2]> = pairs.map(of).filter(|pair| pair[0] != pair[1]).collect();
-    pairs.sort_unstable();
+    pairs.par_sort_unstable();
     pairs.dedup();
     pairs
 }

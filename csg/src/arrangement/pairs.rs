@@ -33,9 +33,9 @@ struct Task {
     nodes: [TreeNode; 2],
 }
 
-/// What the triangles of all operands have in common: of different ones, and of each one that is no convex body; and the flat faces of
+/// What the triangles of all operands have in common, in parts: of different ones, and of each one that is no convex body; and the flat faces of
 /// operands.
-pub(super) fn contacts<'a>(input: &'a Input<'a>, cutting: Cutting) -> (Contacts, FlatFaces<'a>) {
+pub(super) fn contacts<'a>(input: &'a Input<'a>, cutting: Cutting) -> (Vec<Contacts>, FlatFaces<'a>) {
     let mut all: Vec<Contacts> = Vec::new();
     for operand in (0..input.operands.len()).filter(|k| !input.operands[*k].is_body()) {
         if input.operands[operand].triangles().len() > ALONE {
@@ -51,7 +51,7 @@ pub(super) fn contacts<'a>(input: &'a Input<'a>, cutting: Cutting) -> (Contacts,
     let touching: Vec<[InputTriangleId; 2]> = all.iter().flat_map(|part| &part.pairs).copied().collect();
     let faces = FlatFaces::new(input, &touching, cutting);
     all.extend(contacts_between(input, &faces));
-    (Contacts::joined(&all), faces)
+    (all, faces)
 }
 
 /// What the triangles of an operand have in common.

@@ -170,6 +170,10 @@ impl Points {
             let along = |axis: usize| p.at[axis].total_cmp(&q.at[axis]);
             along(0).then_with(|| along(1)).then_with(|| along(2)).then_with(|| one.cmp(other))
         });
+        self.number.reserve(placed.len());
+        self.at_place.reserve(placed.len());
+        self.keys.reserve(placed.len());
+        self.places.reserve(placed.len());
         for (place, key) in placed {
             let number = self.numbered(surface, key, place);
             self.number.insert(key, number);

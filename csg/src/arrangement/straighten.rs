@@ -2,13 +2,17 @@
 
 use glam::DVec3;
 use planecut_kernel::sign::Sign;
-use rustc_hash::{FxHashMap, FxHashSet};
+use planecut_parallel::prelude::*;
+use rustc_hash::FxHashSet;
 
 use super::Arranged;
 use super::merge::Face;
 use super::predicates::best_axis;
 use crate::ids::{Id, PointId};
 use crate::tolerances::FLATNESS;
+
+/// Faces that one thread looks at in a row.
+const CHUNK: usize = 1 << 7;
 
 impl Arranged<'_> {
     /// Takes points out of polygons, those from a place in the list of faces on, at which two faces alone meet, along a straight edge.
@@ -33,10 +37,10 @@ impl Arranged<'_> {
 
     fn straighten_exactly(&self, faces: &mut [Face], uses: &[u32]) {
         let surface = &self.arrangement.surface;
-        let mut straight: FxHashMap<PointId, u32> = FxHashMap::default();
-        for face in &*faces {
+        let of_face = |face: &Face| {
             let triangle = self.facets.triangle(&self.arrangement.cells, face.kept.facet);
-            let Some((axis, _)) = best_axis(surface.input, &surface.triangle(triangle)) else { continue };
+            let mut straight = Vec::new();
+            let Some((axis, _)) = best_axis(surface.input, &surface.triangle(triangle)) else { return straight };
             for points in &face.loops {
                 let count = points.len();
                 for k in 0..count {
@@ -46,13 +50,17 @@ impl Arranged<'_> {
                         && before != after
                         && self.arrangement.points.turn(surface, [before, point, after], axis) == Sign::Zero
                     {
-                        *straight.entry(point).or_insert(0) += 1;
+                        straight.push(point);
                     }
                 }
             }
-        }
+            straight
+        };
+        let straight: Vec<Vec<PointId>> = faces.par_iter().with_min_len(CHUNK).map(of_face).collect();
+        let mut times = vec![0_u8; self.arrangement.points.len()];
+        straight.iter().flatten().for_each(|point| times[point.index()] += 1);
         for points in faces.iter_mut().flat_map(|face| &mut face.loops) {
-            points.retain(|point| straight.get(point) != Some(&2));
+            points.retain(|point| times[point.index()] != 2);
         }
     }
 

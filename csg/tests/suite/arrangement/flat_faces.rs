@@ -12,7 +12,7 @@ use super::random::assert_combined;
 use super::soup::Soup;
 
 /// The boundary of unit cubes on a grid of `size`: each square of it is cut along either diagonal.
-fn cubes(rng: &mut Rng, size: i32) -> Soup {
+pub(super) fn cubes(rng: &mut Rng, size: i32) -> Soup {
     let share = rng.float(0.2, 0.9);
     let cells = (0..size).flat_map(|x| (0..size).flat_map(move |y| (0..size).map(move |z| [x, y, z])));
     let filled: Vec<[i32; 3]> = cells.filter(|_| rng.chance(share)).collect();
@@ -46,7 +46,7 @@ fn cubes(rng: &mut Rng, size: i32) -> Soup {
 }
 
 /// A prism over a polygon that is seen as a whole from the origin, its caps fans around the axis; upright or lying.
-fn fan_prism(outline: &[DVec2], heights: [f64; 2], axis: usize) -> Soup {
+pub(super) fn fan_prism(outline: &[DVec2], heights: [f64; 2], axis: usize) -> Soup {
     let count = u32::try_from(outline.len()).expect("few corners");
     let mut positions: Vec<DVec3> = heights.iter().flat_map(|z| outline.iter().map(|p| p.extend(*z))).collect();
     positions.extend(heights.map(|z| DVec3::new(0.0, 0.0, z)));
@@ -59,7 +59,7 @@ fn fan_prism(outline: &[DVec2], heights: [f64; 2], axis: usize) -> Soup {
 }
 
 /// Whole points around the origin, in order, with none of the gaps as wide as half a turn.
-fn star(rng: &mut Rng, size: usize) -> Vec<DVec2> {
+pub(super) fn star(rng: &mut Rng, size: usize) -> Vec<DVec2> {
     let directions = [[1, 0], [2, 1], [1, 1], [1, 2], [0, 1], [-1, 1], [-1, 0], [-1, -1], [0, -1], [1, -1]];
     let mut kept: Vec<[i32; 2]> = directions.into_iter().filter(|_| rng.chance(0.7)).collect();
     if kept.len() < 6 {

@@ -5,6 +5,7 @@ mod cases;
 mod coincidences;
 mod flat_faces;
 mod gears;
+mod hidden;
 mod holes;
 mod integers;
 mod mixed;
