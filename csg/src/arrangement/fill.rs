@@ -9,7 +9,7 @@ use super::predicates::best_axis;
 use super::slits::{Edges, without_slits};
 use super::surface::sorted;
 use super::{Arranged, Arrangement};
-use crate::base::map_chunks;
+use crate::base::map_weighed_chunks;
 use crate::ids::{HalfEdgeId, Id, LineId, PointId, number32};
 use crate::weld::Projection;
 use crate::weld::triangulate::{ExactPoints, LoopCorner, Triangles, Triangulator};
@@ -49,7 +49,9 @@ impl ExactPoints for ArrangementPoints<'_> {
 impl Arranged<'_> {
     /// The triangles of faces, by the numbers of points.
     pub(super) fn filled(&self, faces: &[Face]) -> FilledFaces {
-        let (parts, _): (Vec<FilledFaces>, Counts) = map_chunks(faces, 1 << 8, |faces| self.filled_in_a_row(faces));
+        let size = |face: &Face| face.loops.iter().map(Vec::len).sum::<usize>().max(3);
+        let (parts, _): (Vec<FilledFaces>, Counts) =
+            map_weighed_chunks(faces, 1 << 10, size, |faces| self.filled_in_a_row(faces));
         let mut all = FilledFaces::default();
         for part in parts {
             all.triangles.extend(part.triangles);

@@ -6,7 +6,7 @@
 //!    and [`stars`] knows neighbours that need not be compared.
 //! 2. [`pairs`] walks down the boxes, [`self_walk`] does within one operand, and [`contact`] and [`coplanar`] find what two triangles have in common.
 //! 3. [`surface`] takes the triangles that touch others; [`patches`] are what is left: they pass through as they are, or go.
-//! 4. [`polygons`] are what is cut of [`flat_faces`], and [`joined_cuts`] joins what triangles have in common to cuts of polygons.
+//! 4. [`polygons`] are what is cut of [`flat_faces`], and [`joined_cuts`] joins what triangles have in common to cuts of polygons, by [`chains`].
 //! 5. [`points`] gives each point one number, whichever edges and planes meet there.
 //! 6. [`crossings`] finds where cuts of one polygon cross, and [`subdivide`] makes cells of it.
 //! 7. [`facets`] joins cells that lie upon each other, [`around`] sorts facets around edges, and [`winding`] goes from one to the next.
@@ -15,6 +15,7 @@
 
 mod around;
 mod assemble;
+mod chains;
 mod combine;
 mod contact;
 mod coplanar;

@@ -2,6 +2,7 @@
 //!
 //! Slivers make boxes alone useless, so planes of triangles are tested against boxes, too, and the larger box is opened first.
 
+use std::cell::OnceCell;
 use std::ops::Range;
 
 use glam::DVec3;
@@ -135,7 +136,8 @@ fn split(trees: &[&TriangleTree], task: &Task) -> Vec<Task> {
 pub(super) struct Probe {
     pub(super) triangle: Triangle,
     pub(super) plane: RoundedPlane,
-    edges: [EdgePlane; 3],
+    /// Planes through its edges, once they are asked for.
+    edges: OnceCell<[EdgePlane; 3]>,
     bounds: Bounds,
     operand: usize,
     /// Its number in its operand, and the twins of its sides there.
@@ -147,11 +149,23 @@ impl Probe {
     fn new(input: &Input<'_>, operand: usize, own: u32) -> Self {
         let triangle = input.triangle(operand, own);
         let plane = RoundedPlane::new(input, &triangle);
-        let edges = plane.edge_planes(input);
         let first = 3 * own as usize;
         let twins = &input.operands[operand].twins()[first..first + 3];
         let twins = [twins[0], twins[1], twins[2]];
-        Self { triangle, plane, edges, bounds: input.operands[operand].bounds(own), operand, own, twins }
+        Self {
+            triangle,
+            plane,
+            edges: OnceCell::new(),
+            bounds: input.operands[operand].bounds(own),
+            operand,
+            own,
+            twins,
+        }
+    }
+
+    #[inline]
+    fn edges(&self, input: &Input<'_>) -> &[EdgePlane; 3] {
+        self.edges.get_or_init(|| self.plane.edge_planes(input))
     }
 
     /// Whether a box is sure to be apart from it: misses its plane, or lies beyond one of its edges.
@@ -159,7 +173,8 @@ impl Probe {
         // far from the origin the middle is rounded by more than it is off the plane: the half is taken from where it is
         let middle = 0.5 * bounds.min + 0.5 * bounds.max;
         let half = (bounds.max - middle).max(middle - bounds.min);
-        input.is_safe && (self.plane.misses(middle, half) || self.edges.iter().any(|edge| edge.misses(middle, half)))
+        input.is_safe
+            && (self.plane.misses(middle, half) || self.edges(input).iter().any(|edge| edge.misses(middle, half)))
     }
 
     /// Whether another triangle is sure to be apart from it: on one side of its plane, or beyond one of its edges.
@@ -169,7 +184,7 @@ impl Probe {
         // corners of bodies are not where they are said to be
         input.is_safe
             && (self.plane.has_on_one_side(input, places)
-                || !input.has_bodies && self.edges.iter().any(|edge| edge.has_beyond(places, size())))
+                || !input.has_bodies && self.edges(input).iter().any(|edge| edge.has_beyond(places, size())))
     }
 
     /// Whether it has one coordinate alone along an axis, and another triangle the same.

@@ -16,12 +16,23 @@ pub(super) struct Polygons {
     first: Vec<TriangleId>,
     /// The triangles of polygons, each after the first one of its polygon, sorted.
     members: Vec<[TriangleId; 2]>,
+    /// For each triangle whether it is of a polygon.
+    is_member: Vec<bool>,
     /// The edges within polygons.
-    diagonals: FxHashSet<(TriangleId, [PointId; 2])>,
-    /// Those of them that are edges of others, too.
-    shared: FxHashSet<[PointId; 2]>,
+    diagonals: FxHashMap<[PointId; 2], Diagonal>,
+    /// Those of further polygons at an edge that lies within several.
+    further: FxHashSet<(TriangleId, [PointId; 2])>,
     /// For each vertex whether it lies within a polygon for all triangles that have it.
     is_within: Vec<bool>,
+}
+
+/// An edge within a polygon.
+#[derive(Debug)]
+struct Diagonal {
+    /// The first polygon that it lies within.
+    polygon: TriangleId,
+    /// Whether it is an edge of something else, too.
+    is_shared: bool,
 }
 
 impl Polygons {
@@ -33,11 +44,14 @@ impl Polygons {
         members.sort_unstable();
         let groups = members.chunk_by(|a, b| a[0] == b[0]).filter(|group| group.len() > 1);
         let members: Vec<[TriangleId; 2]> = groups.flatten().copied().collect();
+        let mut is_member = vec![false; first.len()];
+        members.iter().for_each(|[_, triangle]| is_member[triangle.index()] = true);
         let mut polygons = Self {
             first,
             members,
-            diagonals: FxHashSet::default(),
-            shared: FxHashSet::default(),
+            is_member,
+            diagonals: FxHashMap::default(),
+            further: FxHashSet::default(),
             is_within: Vec::new(),
         };
         polygons.find_diagonals(surface, has_no_area);
@@ -52,13 +66,16 @@ impl Polygons {
         for [polygon, triangle] in &self.members {
             for side in 0..3 {
                 if self.is_diagonal(surface, 3 * triangle.number() + number32(side)) {
-                    self.diagonals.insert((*polygon, surface.edge(*triangle, side)));
+                    let edge = surface.edge(*triangle, side);
+                    let fresh = Diagonal { polygon: *polygon, is_shared: false };
+                    if self.diagonals.entry(edge).or_insert(fresh).polygon != *polygon {
+                        self.further.insert((*polygon, edge));
+                    }
                 }
             }
             surface.corners(*triangle).iter().for_each(|corner| self.is_within[corner.index()] = true);
         }
         let is_corner = self.is_within.clone();
-        let edges: FxHashSet<[PointId; 2]> = self.diagonals.iter().map(|(_, edge)| *edge).collect();
         for triangle in TriangleId::all(surface.len()).filter(|triangle| !has_no_area[triangle.index()]) {
             let vertices = surface.triangle(triangle).corners;
             for (side, corner) in surface.corners(triangle).into_iter().enumerate() {
@@ -70,8 +87,10 @@ impl Polygons {
                 }
                 let edge = surface.edge(triangle, side);
                 edge.iter().for_each(|end| self.is_within[end.index()] = false);
-                if edge.iter().all(|end| is_corner[end.index()]) && edges.contains(&edge) {
-                    self.shared.insert(edge);
+                if edge.iter().all(|end| is_corner[end.index()])
+                    && let Some(diagonal) = self.diagonals.get_mut(&edge)
+                {
+                    diagonal.is_shared = true;
                 }
             }
         }
@@ -107,19 +126,36 @@ impl Polygons {
         twin != NO_TWIN && self.first[half_edge as usize / 3] == self.first[twin as usize / 3]
     }
 
-    /// Whether the edge between two vertices lies within a polygon, given by its first triangle.
-    pub(super) fn has_diagonal(&self, polygon: TriangleId, edge: [PointId; 2]) -> bool {
-        !self.members.is_empty() && self.diagonals.contains(&(polygon, edge))
+    /// Whether a triangle is of a polygon, not alone.
+    #[inline]
+    pub(super) fn has(&self, triangle: TriangleId) -> bool {
+        self.is_member[triangle.index()]
     }
 
-    /// Whether the edge between two vertices lies within a polygon, and is no edge of anything else.
-    pub(super) fn has_mere_diagonal(&self, polygon: TriangleId, edge: [PointId; 2]) -> bool {
-        self.has_diagonal(polygon, edge) && !self.is_shared(&edge)
+    /// Whether the edge between two vertices lies within a polygon, given by its first triangle.
+    pub(super) fn has_diagonal(&self, polygon: TriangleId, edge: [PointId; 2]) -> bool {
+        self.diagonals.get(&edge).is_some_and(|diagonal| self.lies_within(diagonal, polygon, edge))
+    }
+
+    /// Whether the edge between two vertices lies within one of two polygons, and is no edge of anything else.
+    pub(super) fn have_mere_diagonal(&self, pair: [TriangleId; 2], edge: [PointId; 2]) -> bool {
+        self.diagonals.get(&edge).is_some_and(|diagonal| {
+            !diagonal.is_shared && pair.iter().any(|polygon| self.lies_within(diagonal, *polygon, edge))
+        })
+    }
+
+    fn lies_within(&self, diagonal: &Diagonal, polygon: TriangleId, edge: [PointId; 2]) -> bool {
+        diagonal.polygon == polygon || !self.further.is_empty() && self.further.contains(&(polygon, edge))
+    }
+
+    /// Whether the edge between two vertices lies within some polygon, and is no edge of anything else.
+    pub(super) fn is_mere_diagonal(&self, edge: [PointId; 2]) -> bool {
+        self.diagonals.get(&edge).is_some_and(|diagonal| !diagonal.is_shared)
     }
 
     /// Whether a diagonal is an edge of something else, too.
-    pub(super) fn is_shared(&self, edge: &[PointId; 2]) -> bool {
-        self.shared.contains(edge)
+    pub(super) fn is_shared(&self, edge: [PointId; 2]) -> bool {
+        self.diagonals.get(&edge).is_some_and(|diagonal| diagonal.is_shared)
     }
 
     /// Whether a vertex lies within a polygon for all triangles that have it: then nothing ends there.

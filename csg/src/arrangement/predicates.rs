@@ -4,6 +4,7 @@ use glam::{DVec2, DVec3, Vec3Swizzles};
 use planecut_kernel::sign::Sign;
 
 use super::exact;
+use super::flat::are_plainly_coplanar;
 use super::input::Input;
 use crate::ids::{InputTriangleId, InputVertexId};
 
@@ -103,6 +104,10 @@ impl RoundedPlane {
         }
         if input.half_space(self.triangle.number).is_some() {
             return exact::side(input, self.triangle.number, corner.vertex);
+        }
+        // corners of bodies are not where they are said to be
+        if !input.has_bodies && are_plainly_coplanar([a.at, b.at, c.at, corner.at]) {
+            return Sign::Zero;
         }
         orient(input, [a, b, c, *corner])
     }

@@ -12,6 +12,6 @@ pub use bounds::Bounds;
 pub use box_tree::Boxes;
 pub(crate) use clock::Clock;
 pub(crate) use interning::{WEIGHTS, by_group, intern, sortable};
-pub(crate) use parallel::map_chunks;
+pub(crate) use parallel::{map_chunks, map_weighed_chunks};
 pub use sum::CompensatedSum;
 pub use union_find::DisjointSets;

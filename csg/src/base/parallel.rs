@@ -14,7 +14,36 @@ pub(crate) fn map_chunks<T: Sync, R: Send>(
     work: impl Fn(&[T]) -> R + Sync,
 ) -> (Vec<R>, Counts) {
     let chunk = (items.len() / (PER_THREAD * planecut_parallel::current_num_threads())).max(least);
-    let counted: Vec<(R, Counts)> = items.par_chunks(chunk.max(1)).map(|chunk| counted(|| work(chunk))).collect();
+    in_order(items.par_chunks(chunk.max(1)).map(|chunk| counted(|| work(chunk))).collect())
+}
+
+/// The same for items of different sizes: each chunk but the last is at least of size `least`, the sizes of its items added.
+pub(crate) fn map_weighed_chunks<T: Sync, R: Send>(
+    items: &[T],
+    least: usize,
+    size: impl Fn(&T) -> usize,
+    work: impl Fn(&[T]) -> R + Sync,
+) -> (Vec<R>, Counts) {
+    let all: usize = items.iter().map(&size).sum();
+    let enough = (all / (PER_THREAD * planecut_parallel::current_num_threads())).max(least);
+    let mut sum = 0;
+    // a chunk ends where the sum of sizes passes what is enough
+    let ends = (1..=items.len()).filter(|end| {
+        sum += size(&items[end - 1]);
+        sum >= enough && std::mem::take(&mut sum) > 0
+    });
+    let mut chunks = Vec::new();
+    let mut start = 0;
+    for end in ends {
+        chunks.push(&items[start..end]);
+        start = end;
+    }
+    chunks.extend(Some(&items[start..]).filter(|rest| !rest.is_empty()));
+    in_order(chunks.into_par_iter().with_max_len(1).map(|chunk| counted(|| work(chunk))).collect())
+}
+
+/// The outcomes of chunks, and all signs that were asked for.
+fn in_order<R>(counted: Vec<(R, Counts)>) -> (Vec<R>, Counts) {
     let mut counts = Counts::default();
     let outcomes = counted.into_iter().map(|(outcome, part)| {
         counts += part;

@@ -1,144 +1,123 @@
 //! Flips diagonals towards the Delaunay criterion (Lawson 1977): fewer slivers, nicer meshes, the same boundary.
 
 use super::{Node, orient};
-use crate::ids::{Id, NodeId, TriangleId};
+use crate::closed_mesh::connectivity::{next, previous};
+use crate::ids::{Id, NodeId, number32};
 use crate::tolerances::{DELAUNAY_MARGIN, FLAT_TRIANGLE};
 use planecut_kernel::DVec2;
-use rustc_hash::FxHashMap;
 
-/// Boundaries of at most this many nodes have a table of all pairs.
-const FEW: usize = 48;
+/// No half-edge, no diagonal.
+const NONE: u32 = u32::MAX;
 
-/// A directed side of a triangle: where it begins and where it ends.
-type Side = (NodeId, NodeId);
+/// A diagonal by its ends, the smaller one first, and its number.
+type Numbered = (NodeId, NodeId, u32);
 
 /// Improves triangulations, reusing its buffers.
 #[derive(Debug, Default)]
 pub(super) struct Flips {
-    small: PairTable,
-    large: FxHashMap<Side, TriangleId>,
-    queue: Vec<Side>,
-}
-
-/// The triangle at each directed edge.
-trait Across {
-    fn get(&self, edge: Side) -> Option<TriangleId>;
-    fn set(&mut self, edge: Side, triangle: TriangleId);
-    fn remove(&mut self, edge: Side);
-}
-
-/// One for few nodes: an entry for every pair of them, the triangle plus 1.
-#[derive(Debug, Default)]
-struct PairTable {
-    nodes: usize,
-    triangles: Vec<u16>,
-}
-
-impl PairTable {
-    fn at(&self, (a, b): Side) -> usize {
-        a.index() * self.nodes + b.index()
-    }
-}
-
-impl Across for PairTable {
-    fn get(&self, edge: Side) -> Option<TriangleId> {
-        let next = usize::from(self.triangles[self.at(edge)]);
-        next.checked_sub(1).map(TriangleId::from_index)
-    }
-
-    fn set(&mut self, edge: Side, triangle: TriangleId) {
-        let at = self.at(edge);
-        self.triangles[at] = u16::try_from(triangle.number() + 1).expect("a table of pairs is for few nodes");
-    }
-
-    fn remove(&mut self, edge: Side) {
-        let at = self.at(edge);
-        self.triangles[at] = 0;
-    }
-}
-
-impl Across for FxHashMap<Side, TriangleId> {
-    fn get(&self, edge: Side) -> Option<TriangleId> {
-        self.get(&edge).copied()
-    }
-
-    fn set(&mut self, edge: Side, triangle: TriangleId) {
-        self.insert(edge, triangle);
-    }
-
-    fn remove(&mut self, edge: Side) {
-        self.remove(&edge);
-    }
+    /// For each half-edge, three for each triangle, the number of its diagonal.
+    diagonal_of: Vec<u32>,
+    /// The two half-edges of each diagonal.
+    sides: Vec<[u32; 2]>,
+    /// For each node the half-edge along the other side of the edge that leaves it, as ears are cut.
+    behind: Vec<u32>,
+    queue: Vec<Numbered>,
 }
 
 impl Flips {
-    /// Improves triangles of nodes, counter-clockwise, in place. Boundary edges and bridges between copies of one node stay.
+    /// Improves triangles of nodes, counter-clockwise, in place: ears in the order in which they were cut from one ring, each beginning with
+    /// the node before its tip. Boundary edges and bridges between copies of one node stay.
     pub(super) fn improve(&mut self, nodes: &[Node], triangles: &mut [[NodeId; 3]]) {
         if triangles.len() < 2 {
             return;
         }
-        if nodes.len() <= FEW {
-            self.small.nodes = nodes.len();
-            self.small.triangles.clear();
-            self.small.triangles.resize(nodes.len() * nodes.len(), 0);
-            improve(nodes, triangles, &mut self.small, &mut self.queue);
-        } else {
-            self.large.clear();
-            improve(nodes, triangles, &mut self.large, &mut self.queue);
+        self.find_diagonals(nodes.len(), triangles);
+        self.queue.clear();
+        for (number, [half_edge, _]) in (0..).zip(&self.sides) {
+            let (a, b) = ends(triangles, *half_edge);
+            self.queue.push((a.min(b), a.max(b), number));
         }
-    }
-}
-
-/// Improves triangles; `across` is empty.
-fn improve(nodes: &[Node], triangles: &mut [[NodeId; 3]], across: &mut impl Across, queue: &mut Vec<Side>) {
-    queue.clear();
-    for (t, triangle) in TriangleId::all(triangles.len()).zip(triangles.iter()) {
-        for k in 0..3 {
-            let (a, b) = (triangle[k], triangle[(k + 1) % 3]);
-            across.set((a, b), t);
-            // met for the second time
-            if across.get((b, a)).is_some() {
-                queue.push((a.min(b), a.max(b)));
+        self.queue.sort_unstable();
+        // Lawson's flips end; the cap guards against a cycle that rounding could make.
+        let mut budget = 20 * triangles.len();
+        while let Some((a, b, number)) = self.queue.pop() {
+            let [one, other] = self.sides[number as usize];
+            // a diagonal that was flipped meanwhile has other ends
+            let (left, right) = match ends(triangles, one) {
+                found if found == (a, b) => (one, other),
+                found if found == (b, a) => (other, one),
+                _ => continue,
+            };
+            let (c, d) = (apex(triangles, left), apex(triangles, right));
+            let at = |node: NodeId| nodes[node.index()].corner.at;
+            if budget > 0 && should_flip(at(a), at(b), at(c), at(d)) {
+                budget -= 1;
+                self.flip(triangles, number, [left, right], [a, b, c, d]);
             }
         }
     }
-    queue.sort_unstable();
-    // Lawson's flips end; the cap guards against a cycle that rounding could make.
-    let mut budget = 20 * triangles.len();
-    while let Some((a, b)) = queue.pop() {
-        let (Some(left), Some(right)) = (across.get((a, b)), across.get((b, a))) else { continue };
-        let (Some(c), Some(d)) = (apex(&triangles[left.index()], a, b), apex(&triangles[right.index()], b, a)) else {
-            continue;
-        };
-        let at = |node: NodeId| nodes[node.index()].corner.at;
-        if budget == 0 || c == d || across.get((c, d)).is_some() || across.get((d, c)).is_some() {
-            continue;
+
+    /// Numbers the edges that two triangles share.
+    fn find_diagonals(&mut self, nodes: usize, triangles: &[[NodeId; 3]]) {
+        self.diagonal_of.clear();
+        self.diagonal_of.resize(3 * triangles.len(), NONE);
+        self.sides.clear();
+        self.behind.clear();
+        self.behind.resize(nodes, NONE);
+        for (first, [a, b, c]) in (0..).step_by(3).zip(triangles) {
+            // the last triangle is all that was left of the ring
+            let is_last = first as usize + 3 == self.diagonal_of.len();
+            let left = [(*a, first), (*b, first + 1), (*c, first + 2)];
+            for (from, half_edge) in left.into_iter().take(if is_last { 3 } else { 2 }) {
+                let behind = self.behind[from.index()];
+                if behind != NONE {
+                    debug_assert_eq!(ends(triangles, behind).1, from, "both sides of a diagonal have the same ends");
+                    self.diagonal_of[half_edge as usize] = number32(self.sides.len());
+                    self.diagonal_of[behind as usize] = number32(self.sides.len());
+                    self.sides.push([behind, half_edge]);
+                }
+            }
+            self.behind[a.index()] = first + 2;
         }
-        if !should_flip(at(a), at(b), at(c), at(d)) {
-            continue;
+    }
+
+    /// Makes the diagonal `a b` of the quadrilateral `a d b c`, its half-edge in the triangle of `c` first, the diagonal `c d`.
+    fn flip(&mut self, triangles: &mut [[NodeId; 3]], number: u32, halves: [u32; 2], corners: [NodeId; 4]) {
+        let ([left, right], [a, b, c, d]) = (halves, corners);
+        let around = [next(right), previous(right), next(left), previous(left)];
+        let diagonals = around.map(|half_edge| self.diagonal_of[half_edge as usize]);
+        let (left, right) = (left / 3, right / 3);
+        triangles[left as usize] = [a, d, c];
+        triangles[right as usize] = [d, b, c];
+        let places = [3 * left, 3 * right, 3 * right + 1, 3 * left + 2];
+        for ((diagonal, from), to) in diagonals.into_iter().zip(around).zip(places) {
+            self.diagonal_of[to as usize] = diagonal;
+            if diagonal != NONE {
+                let sides = &mut self.sides[diagonal as usize];
+                sides[usize::from(sides[1] == from)] = to;
+            }
         }
-        budget -= 1;
-        triangles[left.index()] = [a, d, c];
-        triangles[right.index()] = [d, b, c];
-        across.remove((a, b));
-        across.remove((b, a));
-        for (edge, t) in
-            [((a, d), left), ((d, c), left), ((c, a), left), ((d, b), right), ((b, c), right), ((c, d), right)]
-        {
-            across.set(edge, t);
-        }
-        for (p, q) in [(a, d), (d, b), (b, c), (c, a)] {
-            if across.get((q, p)).is_some() {
-                queue.push((p.min(q), p.max(q)));
+        self.diagonal_of[(3 * left + 1) as usize] = number;
+        self.diagonal_of[(3 * right + 2) as usize] = number;
+        self.sides[number as usize] = [3 * left + 1, 3 * right + 2];
+        for ((p, q), diagonal) in [(a, d), (d, b), (b, c), (c, a)].into_iter().zip(diagonals) {
+            if diagonal != NONE {
+                self.queue.push((p.min(q), p.max(q), diagonal));
             }
         }
     }
 }
 
-fn apex(triangle: &[NodeId; 3], a: NodeId, b: NodeId) -> Option<NodeId> {
-    (0..3).find(|k| triangle[*k] == a && triangle[(k + 1) % 3] == b).map(|k| triangle[(k + 2) % 3])
+/// The nodes between which a half-edge runs.
+fn ends(triangles: &[[NodeId; 3]], half_edge: u32) -> (NodeId, NodeId) {
+    let corners = &triangles[half_edge as usize / 3];
+    (corners[half_edge as usize % 3], corners[(half_edge as usize + 1) % 3])
 }
 
+/// The node across from a half-edge.
+fn apex(triangles: &[[NodeId; 3]], half_edge: u32) -> NodeId {
+    triangles[half_edge as usize / 3][(half_edge as usize + 2) % 3]
+}
 /// Whether the diagonal `a b` of the quadrilateral `a d b c` should become `c d`.
 fn should_flip(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> bool {
     let longest =
