@@ -5,7 +5,6 @@ use std::borrow::Cow;
 use glam::DVec3;
 use planecut_kernel::compare_exactly;
 use planecut_parallel::prelude::*;
-use rustc_hash::FxHashMap;
 
 use super::flat::{are_collinear, is_surely_not_flat};
 use super::stars::simple_stars;
@@ -14,7 +13,7 @@ use crate::base::Bounds;
 use crate::body::Body;
 use crate::closed_mesh::connectivity::{HalfEdges, NO_TWIN, next, previous};
 use crate::closed_mesh::{Star, WindingRule};
-use crate::ids::number32;
+use crate::ids::{Id, number32};
 use crate::model::{MaterialId, MeshBody};
 use crate::plane_table::{PlaneId, PlaneTable};
 
@@ -60,36 +59,51 @@ struct BodyPlanes {
     at_vertex: Vec<Option<[PlaneId; 3]>>,
 }
 
-/// The corners of a convex body, each once: the planes of a face and its edges name those where more than three planes meet differently.
+/// The corners of a convex body, each once.
 #[derive(Debug, Default)]
 struct BodyCorners {
     positions: Vec<DVec3>,
+    /// The planes that meet in each vertex that is not at its rounded place.
     at_vertex: Vec<Option<[PlaneId; 3]>>,
-    /// The planes that meet in each vertex.
-    planes: Vec<[PlaneId; 3]>,
-    at_place: FxHashMap<[u64; 3], Vec<u32>>,
+    /// For each number that the body gives its corners the vertex: where more than three planes meet, it may give several to one.
+    of_number: Vec<u32>,
 }
 
 impl BodyCorners {
-    /// The number of the corner where three planes meet, near a place.
-    fn number(&mut self, table: &PlaneTable, planes: [PlaneId; 3], near: DVec3) -> u32 {
-        let at = table.position(planes).unwrap_or(near);
-        let there = self.at_place.entry((at + 0.0).to_array().map(f64::to_bits)).or_default();
-        let rows = |planes: [PlaneId; 3]| planes.map(|plane| table.row(plane));
-        let is_one = |other: &&u32| {
-            let own = self.planes[**other as usize];
-            own == planes || compare_exactly(rows(own), rows(planes), &[0, 1, 2]).is_eq()
-        };
-        if let Some(known) = there.iter().find(is_one) {
-            return *known;
+    fn new(table: &PlaneTable, body: &Body) -> Self {
+        let mut meeting: Vec<Option<([PlaneId; 3], DVec3)>> = vec![None; body.corner_count()];
+        for face in &body.faces {
+            let edges = body.edges(face);
+            for (k, corner) in body.corners(face).enumerate() {
+                let planes = || [face.plane, edges[k], edges[(k + 1) % edges.len()]];
+                meeting[corner.number.index()].get_or_insert_with(|| (planes(), corner.at));
+            }
         }
-        let fresh = number32(self.positions.len());
-        there.push(fresh);
-        let is_there = planes.iter().all(|plane| is_surely_on(table, *plane, at));
-        self.positions.push(at);
-        self.at_vertex.push((!is_there).then_some(planes));
-        self.planes.push(planes);
-        fresh
+        let corner = |(number, meeting): (usize, &Option<([PlaneId; 3], DVec3)>)| {
+            let (planes, near) = (*meeting)?;
+            // the zeros have one sign
+            let at = table.position(planes).unwrap_or(near) + 0.0;
+            let is_there = planes.iter().all(|plane| is_surely_on(table, *plane, at));
+            Some((at.to_array().map(f64::to_bits), number32(number), planes, (!is_there).then_some(planes)))
+        };
+        let mut corners: Vec<_> = meeting.par_iter().enumerate().with_min_len(CHUNK >> 3).filter_map(corner).collect();
+        corners.par_sort_unstable();
+        let mut out = Self { of_number: vec![0; meeting.len()], ..Self::default() };
+        let rows = |planes: [PlaneId; 3]| planes.map(|plane| table.row(plane));
+        for near in corners.chunk_by(|a, b| a.0 == b.0) {
+            let first = out.positions.len();
+            let mut known: Vec<[PlaneId; 3]> = Vec::new();
+            for (at, number, planes, meeting) in near {
+                let same = known.iter().position(|own| compare_exactly(rows(*own), rows(*planes), &[0, 1, 2]).is_eq());
+                out.of_number[*number as usize] = number32(first + same.unwrap_or(known.len()));
+                if same.is_none() {
+                    known.push(*planes);
+                    out.positions.push(DVec3::from_array(at.map(f64::from_bits)));
+                    out.at_vertex.push(*meeting);
+                }
+            }
+        }
+        out
     }
 }
 
@@ -131,22 +145,17 @@ impl<'a> Operand<'a> {
 
     /// A convex body whose planes are in a table.
     pub(super) fn of_body(table: &PlaneTable, body: &Body) -> Self {
-        let mut corners = BodyCorners::default();
+        let BodyCorners { positions, at_vertex, of_number } = BodyCorners::new(table, body);
         let (mut triangles, mut of_triangle) = (Vec::new(), Vec::new());
         let mut ring = Vec::new();
         for face in &body.faces {
-            let edges = body.edges(face);
             ring.clear();
-            for (k, corner) in body.corners(face).enumerate() {
-                let planes = [face.plane, edges[k], edges[(k + 1) % edges.len()]];
-                ring.push(corners.number(table, planes, corner.at));
-            }
+            ring.extend(body.corners(face).map(|corner| of_number[corner.number.index()]));
             for k in 1..ring.len().saturating_sub(1) {
                 triangles.push([ring[0], ring[k], ring[k + 1]]);
                 of_triangle.push((face.plane, face.material));
             }
         }
-        let BodyCorners { positions, at_vertex, .. } = corners;
         let twins = HalfEdges::new(positions.len(), &triangles).twins();
         let all: Vec<u32> = (0..number32(triangles.len())).collect();
         let tree = TriangleTree::new(&all, |t| {
