@@ -1,14 +1,14 @@
 //! What must hold of a scene.
 
 use planecut_check::{CheckOptions, check_mesh};
-use planecut_csg::{Evaluation, Material, Model, Tree, evaluate};
+use planecut_csg::{Evaluation, Material, MeshBody, Model, Tree, combine_meshes, evaluate, unite_meshes};
 
 use crate::decode::Scene;
 
 /// How far volumes may be off: they are of order 1, and sums of products of rounded corners.
 const TOLERANCE: f64 = 1e-9;
 
-/// Evaluates the tree, each of two operands, and what set algebra says of these.
+/// Evaluates the tree, each of two operands, what set algebra says of these, and the union of all meshes in two ways.
 pub(crate) fn check(scene: &Scene) -> Result<(), String> {
     sound("the tree", scene.tree(), scene.is_on_grid)?;
     let [a, b] = [0, 1].map(|k| Tree::from(scene.operands[k].clone()));
@@ -23,9 +23,21 @@ pub(crate) fn check(scene: &Scene) -> Result<(), String> {
     equal("|A − B| + |A ∩ B| and |A|", rest + common, of_a)?;
     equal("|A xor B| + |A ∩ B| and |A ∪ B|", either + common, union)?;
     match sound("A − A", a.clone() - a)?.mesh.triangles.len() {
-        0 => Ok(()),
+        0 => same_union(scene),
         count => Err(format!("found {count} triangles in A − A, expected none")),
     }
+}
+
+/// What leaves out early what lies inside of others must find the union that is found without.
+fn same_union(scene: &Scene) -> Result<(), String> {
+    let meshes: Vec<MeshBody> = scene.operands.iter().filter_map(|operand| operand.mesh.clone()).collect();
+    let materials = || vec![Material::named("any")];
+    let [early, whole] = [
+        unite_meshes(&meshes, materials()),
+        combine_meshes(&meshes, materials(), |inside| inside.all().next().is_some()),
+    ]
+    .map(|united| united.map_err(|error| format!("the union of all meshes: {error}")));
+    equal("the union of all meshes, found in two ways", early?.solid.volume, whole?.solid.volume)
 }
 
 fn equal(what: &str, found: f64, expected: f64) -> Result<(), String> {
