@@ -6,7 +6,7 @@ use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use planecut::csg::Tree;
-use planecut::csg::coarsen::{CoarsenOptions, LEAST_MAX_FACES, LEAST_MAX_VERTICES, Side};
+use planecut::csg::coarsen::{CoarsenOptions, DEFAULT_OVERLAP_WEIGHT, LEAST_MAX_FACES, LEAST_MAX_VERTICES, Side};
 use planecut::picture::{MAX_IMAGE_SIDE, PreviewOptions};
 
 use super::asset_args::AssetArgs;
@@ -182,9 +182,25 @@ pub(crate) struct CoarsenArgs {
     #[command(flatten)]
     pub(crate) limits: CoarsenLimits,
     #[command(flatten)]
+    pub(crate) surface: SurfaceArgs,
+    #[command(flatten)]
     pub(crate) reading: ReadingArgs,
     #[command(flatten)]
     pub(crate) common: CommonArgs,
+}
+
+/// What a mesh bounds.
+#[derive(Debug, Clone, Copy, Args)]
+#[command(
+    next_help_heading = "What a mesh bounds; by default what is inside of it, and nothing where it is not closed"
+)]
+pub(crate) struct SurfaceArgs {
+    /// Enclose the triangles alone, each as thick as --min-thickness says, by default 1/512 of the diagonal; this is how a mesh is taken that is not closed or bounds nothing
+    #[arg(long, conflicts_with = "inner")]
+    pub(crate) shell: bool,
+    /// Fill a mesh that is not closed: inside is what it goes around by more than half (generalized winding numbers)
+    #[arg(long, conflicts_with_all = ["shell", "inner"])]
+    pub(crate) solid: bool,
 }
 
 /// Limits on cells.
@@ -212,6 +228,13 @@ pub(crate) struct CoarsenLimits {
     /// Minimum thickness of a cell, in the units of the input; thinner cells are thickened
     #[arg(long, value_name = "T", value_parser = parse_thickness)]
     pub(crate) min_thickness: Option<f64>,
+    /// How much volume that cells share counts, relative to volume that is added: more for cells that overlap less
+    #[arg(long, value_name = "W", default_value_t = DEFAULT_OVERLAP_WEIGHT, value_parser = parse_weight)]
+    pub(crate) overlap_weight: f64,
+    /// Maximum empty distance between parts of one cell, in the units of the input, about, even if more cells are left then; by default 1/20 of the diagonal, as long
+    /// as there are other parts to merge
+    #[arg(long, value_name = "D", value_parser = parse_thickness)]
+    pub(crate) max_gap: Option<f64>,
     /// Cells within the solid instead of around it
     #[arg(long, conflicts_with_all = ["max_faces", "max_vertices", "min_thickness", "keep_clear"])]
     pub(crate) inner: bool,
@@ -229,6 +252,8 @@ impl CoarsenLimits {
             by_material: self.by_material,
             min_thickness: self.min_thickness,
             side: if self.inner { Side::Inner } else { Side::Outer },
+            overlap_weight: Some(self.overlap_weight),
+            max_gap: self.max_gap,
         }
     }
 }
@@ -347,6 +372,11 @@ fn parse_count<const LEAST: usize>(text: &str) -> Result<usize, String> {
 fn parse_ratio(text: &str) -> Result<f64, String> {
     let ratio = text.parse().ok().filter(|ratio: &f64| ratio.is_finite() && *ratio >= 0.0);
     ratio.ok_or_else(|| "expected a number that is not negative".to_owned())
+}
+
+fn parse_weight(text: &str) -> Result<f64, String> {
+    let weight = text.parse().ok().filter(|weight| (0.0..=1e6).contains(weight));
+    weight.ok_or_else(|| "expected a number between 0 and 1e6".to_owned())
 }
 
 fn parse_thickness(text: &str) -> Result<f64, String> {

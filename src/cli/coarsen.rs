@@ -1,13 +1,13 @@
 //! `planecut coarsen`: few convex cells for a solid or a convex decomposition.
 
 use std::path::PathBuf;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
-use planecut::csg::coarsen::{CoarsenOptions, Coarsened, Coarsener};
+use planecut::csg::coarsen::{Bounded, CoarsenOptions, Coarsened, Coarsener, Side};
 use planecut::csg::{Brush, EvaluateError, Material, MaterialId, Mesh, Model, Tree, evaluate};
 use planecut::export::{ExportOptions, Format, distinct_color};
 use planecut::import::Warning;
-use planecut::import::mesh::{MeshImport, read_parts};
+use planecut::import::mesh::{MeshImport, PartsImport, SolidError, read_parts};
 use planecut::kernel::DVec3;
 
 use super::args::CoarsenArgs;
@@ -19,7 +19,16 @@ use super::product::{Contents, Product, draw, encode, produce};
 use super::progress::Progress;
 use super::report::{CoarsenPart, milliseconds};
 use super::solve::{Read, Solved, read, solve_read};
+use super::surface::Triangles;
 use super::written_cells::{Request, WrittenCells};
+
+/// What cells are made of.
+enum Shape {
+    /// A solid; its cells must hold points that rounding may have left outside.
+    Solid { points: Vec<DVec3> },
+    /// Triangles that bound no solid.
+    Surface(Triangles),
+}
 
 /// What is to be written where.
 struct Plan<'a> {
@@ -52,6 +61,11 @@ impl<'a> Plan<'a> {
     fn resolve(args: &'a CoarsenArgs) -> Result<Self, CliError> {
         let (input, kind) = Input::resolve_any(&args.input, args.reading.input_format)?;
         args.reading.check(kind)?;
+        if (args.surface.shell || args.surface.solid) && !matches!(kind, InputKind::Mesh(_)) {
+            let message =
+                "found --shell or --solid with another input, expected it with a mesh (.obj, .stl, .ply, .glb, .gltf)";
+            return Err(CliError::Usage(message.to_owned()));
+        }
         args.output.assets.check_without_sources()?;
         let targets = args.output.targets()?;
         let first = targets.first().cloned();
@@ -86,16 +100,14 @@ impl<'a> Plan<'a> {
     fn carry_out(&self, progress: &Progress) -> Result<Product, CliError> {
         let begin = Instant::now();
         progress.stage("reading");
-        let (mut read, points) = self.read()?;
         let (clear, warnings) = self.read_clear()?;
-        read.warnings.extend(warnings);
-        let mut solved = solve_read(&self.input, self.kind, read, begin.elapsed(), progress)?;
+        let (mut solved, shape) = self.solve(warnings, begin, progress)?;
         progress.stage("coarsening");
         let begin = Instant::now();
-        let coarsened = self.coarsen(&solved, &points, &self.args.limits.options(clear))?;
+        let (coarsened, bounded) = self.coarsen(&solved, &shape, &self.args.limits.options(clear))?;
         let time = begin.elapsed();
         let cells = self.cells(&coarsened, &solved)?;
-        self.tell(&mut solved, &coarsened, &cells, time);
+        self.tell(&mut solved, CoarsenPart::new(&coarsened, bounded, time), &coarsened, &cells);
         solved.report.time_ms.evaluate += milliseconds(begin.elapsed());
         let begin = Instant::now();
         progress.stage("encoding");
@@ -113,15 +125,38 @@ impl<'a> Plan<'a> {
         Ok(Product { warnings: solved.warnings, report: Some(solved.report), outputs, encoding })
     }
 
-    /// The model, and the points that its cells must hold.
-    fn read(&self) -> Result<(Read, Vec<DVec3>), CliError> {
-        if let InputKind::Mesh(format) = self.kind {
-            let parts =
-                read_parts(&self.input.read()?, format, &self.input.name(), &self.args.reading.solid_options())?;
-            let MeshImport { model, warnings, .. } = parts.import;
-            return Ok((Read { model, warnings, ..Read::default() }, parts.points));
-        }
-        Ok((read(&self.input, self.kind, &self.args.reading)?, Vec::new()))
+    /// The solid, and what its cells are to be made of. `warnings` are those about other files.
+    fn solve(&self, warnings: Vec<Warning>, begin: Instant, progress: &Progress) -> Result<(Solved, Shape), CliError> {
+        let CoarsenArgs { reading, surface, limits, .. } = self.args;
+        let (mut read, points) = match self.kind {
+            InputKind::Mesh(format) => {
+                let parts = match surface.shell {
+                    true => Err(None),
+                    false => read_parts(&self.input.read()?, format, &self.input.name(), &reading.solid_options())
+                        .map_err(Some),
+                };
+                match parts {
+                    Ok(PartsImport { import: MeshImport { model, warnings, .. }, points }) => {
+                        (Read { model, warnings, ..Read::default() }, points)
+                    }
+                    Err(Some(error)) if limits.inner || matches!(error, SolidError::Mesh(_)) => {
+                        return Err(error.into());
+                    }
+                    Err(why) => {
+                        let (thickness, why) = (limits.min_thickness, why.as_ref());
+                        let (triangles, mut solved) =
+                            Triangles::read(&self.input, format, reading, *surface, thickness, why, begin)?;
+                        solved.report.warn(&warnings);
+                        solved.warnings.extend(warnings);
+                        return Ok((solved, Shape::Surface(triangles)));
+                    }
+                }
+            }
+            _ => (read(&self.input, self.kind, reading)?, Vec::new()),
+        };
+        read.warnings.extend(warnings);
+        let solved = solve_read(&self.input, self.kind, read, begin.elapsed(), progress)?;
+        Ok((solved, Shape::Solid { points }))
     }
 
     /// The union of what is to be kept clear, and the warnings about it, which name the file.
@@ -137,11 +172,34 @@ impl<'a> Plan<'a> {
         Ok(((!trees.is_empty()).then(|| Tree::union(trees)), warnings))
     }
 
-    fn coarsen(&self, solved: &Solved, points: &[DVec3], options: &CoarsenOptions) -> Result<Coarsened, CliError> {
+    /// The cells, and what a surface bounds, where they were made of one.
+    fn coarsen(
+        &self,
+        solved: &Solved,
+        shape: &Shape,
+        options: &CoarsenOptions,
+    ) -> Result<(Coarsened, Option<Bounded>), CliError> {
+        let failed = |source| CliError::Coarsen { path: self.input.path.clone(), source };
+        let points = match shape {
+            Shape::Surface(triangles) => {
+                let coarsened = triangles.coarsened(options).map_err(failed)?;
+                return Ok((coarsened, Some(triangles.bounded())));
+            }
+            Shape::Solid { points } => points,
+        };
         let tree = bounded_tree(self.kind, solved);
+        let is_coarse = options.max_cells.is_some() || options.max_excess.is_some();
+        if tree.has_meshes() && is_coarse && options.side == Side::Outer {
+            let triangles = Triangles::of_boundary(&solved.mesh);
+            let coarsened = triangles.coarsened(options).map_err(failed)?;
+            // pieces of a surface exceed it a little: what they cannot reach, exact cells may
+            if options.max_excess.is_none_or(|most| coarsened.excess() <= most) {
+                return Ok((coarsened, Some(Bounded::Solid)));
+            }
+        }
         let tree = of_cells(&self.input.path, &tree)?;
         let coarsened = Coarsener::new(&tree, points, options).and_then(|coarsener| coarsener.coarsened());
-        coarsened.map_err(|source| CliError::Coarsen { path: self.input.path.clone(), source })
+        Ok((coarsened.map_err(failed)?, None))
     }
 
     /// The cells as each of the formats holds them that are asked for.
@@ -166,8 +224,8 @@ impl<'a> Plan<'a> {
     }
 
     /// Tells the report and, where cells could not become so few, warns.
-    fn tell(&self, solved: &mut Solved, coarsened: &Coarsened, cells: &WrittenCells, time: Duration) {
-        solved.report.set_coarsen(CoarsenPart::new(coarsened, time), cells.measured());
+    fn tell(&self, solved: &mut Solved, part: CoarsenPart, coarsened: &Coarsened, cells: &WrittenCells) {
+        solved.report.set_coarsen(part, cells.measured());
         if let Some(asked) = self.args.limits.max_cells.filter(|asked| coarsened.cells.len() > *asked) {
             let found = coarsened.cells.len();
             let message =

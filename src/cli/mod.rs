@@ -24,6 +24,7 @@ mod render;
 mod report;
 mod schema;
 mod solve;
+mod surface;
 mod terminal;
 mod written_cells;
 

@@ -6,7 +6,7 @@
 use std::time::Duration;
 
 use planecut::check::{Measures, TopologyReport, check_topology, measure_triangles};
-use planecut::csg::coarsen::Coarsened;
+use planecut::csg::coarsen::{Bounded, Coarsened};
 use planecut::csg::{Evaluation, ModelSummary, Noise, SolidMeasures, StageTimes, Tree};
 use planecut::export::Written;
 use planecut::import::Warning;
@@ -353,13 +353,25 @@ pub(crate) struct CoarsenPart {
     volume_sum_in: f64,
     volume_sum_out: f64,
     sum_excess: f64,
+    /// What the input was taken for: `cells`, or the surface of a `solid`, one that was `filled`, or a `shell`.
+    taken_as: &'static str,
+    /// Of a shell.
+    thickness: Option<f64>,
     /// How long it took, in milliseconds; reading and evaluating the input are not in it.
     time_ms: f64,
 }
 
 impl CoarsenPart {
-    pub(crate) fn new(coarsened: &Coarsened, time: Duration) -> Self {
+    pub(crate) fn new(coarsened: &Coarsened, bounded: Option<Bounded>, time: Duration) -> Self {
+        let (taken_as, thickness) = match bounded {
+            None => ("cells", None),
+            Some(Bounded::Solid) => ("solid", None),
+            Some(Bounded::Filled) => ("filled", None),
+            Some(Bounded::Shell { thickness }) => ("shell", Some(thickness)),
+        };
         Self {
+            taken_as,
+            thickness,
             cells_in: coarsened.cells_in,
             cells_out: coarsened.cells.len(),
             volume_in: coarsened.volume_in,

@@ -207,10 +207,11 @@ impl<'a> Merger<'a> {
             if !self.search.may_join(a.parts[0], b.parts[0]) {
                 return None;
             }
-            let hull = self.search.joined_groups(a, b)?;
+            let (hull, is_near) = self.search.joined_groups(a, b)?;
             let own = hull.volume - a.hull.volume - b.hull.volume;
             let fresh = count_fresh(&self.covered, &hull.coverage);
-            Some(Pair { places: *places, fresh, cost: self.search.cost(fresh, own), hull, free: None })
+            let cost = self.search.cost(fresh, own);
+            Some(Pair { places: *places, fresh, cost, is_far: !is_near, hull, free: None })
         };
         // what a thread takes at once is worth the switch
         let found: Vec<Pair> = places.par_iter().with_min_len(4).filter_map(pair).collect();

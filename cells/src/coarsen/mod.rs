@@ -3,8 +3,9 @@
 //! A [`Coarsener`] takes the convex parts of a solid (brushes of a union, else disjoint cells) and groups them; each group becomes the hull of its parts.
 //! What a grouping costs is the volume of the *union* of its cells beyond the solid, not the sum of what single merges add.
 //!
+//! - `surface`: parts of a mesh, from the top down; `of_surface`: these instead of exact ones.
 //! - `part`: a convex part; `hull`, `probes`: hulls in floating point, and the points that say how much they add; `search`: what every
-//!   group must fulfil; `clear`: where nothing may grow.
+//!   group must fulfil; `clear`: where nothing may grow; `gaps`: what is far apart.
 //! - `free` merges what adds nothing, `merge` what adds least, with `pairs`; `relocate` and `regroup` better the groups.
 //! - `enclose` makes exact bodies of them, `shrink` draws these in where they overlap, with `subtract`; `limits` sees to engines' caps.
 //! - `inner`: cells within the solid.
@@ -15,10 +16,12 @@
 mod clear;
 mod enclose;
 mod free;
+mod gaps;
 mod hull;
 mod inner;
 mod limits;
 mod merge;
+mod of_surface;
 mod options;
 mod pairs;
 mod part;
@@ -28,17 +31,22 @@ mod relocate;
 mod search;
 mod shrink;
 mod subtract;
+mod surface;
 mod written;
 
 use planecut_csg::stages::{Bounds, Boxes, evaluate_shape};
 use planecut_csg::{Brush, Tree};
 use planecut_kernel::DVec3;
 
-pub use options::{CoarsenError, CoarsenOptions, LEAST_MAX_FACES, LEAST_MAX_VERTICES, Side};
+pub use options::{
+    CoarsenError, CoarsenOptions, DEFAULT_MAX_GAP, DEFAULT_OVERLAP_WEIGHT, LEAST_MAX_FACES, LEAST_MAX_VERTICES, Side,
+};
+pub use surface::{Bounded, SHELL_THICKNESS, Surface};
 pub use written::{Writing, written_meshes};
 
 use crate::solid::convex_union;
 use clear::Clear;
+use gaps::Gaps;
 use limits::Limits;
 use merge::{Merge, Merger};
 use part::{Part, boxes_of};
@@ -47,6 +55,7 @@ use regroup::regroup;
 use relocate::{Clock, relocate};
 use search::{Group, Hulls, MOST_PAIRS, Search};
 use shrink::Shrinking;
+use surface::Pieces;
 
 /// Fewest and most probes, and how many for each part.
 const PROBES: (usize, usize, usize) = (1 << 14, 1 << 17, 64);
@@ -99,6 +108,9 @@ pub struct Coarsener {
     clear: Clear,
     probes: Probes,
     hulls: Hulls,
+    gaps: Gaps,
+    /// What the parts were made of, where they are pieces of a surface.
+    pieces: Option<Pieces>,
     /// All merges of the free parts, one after another, until nothing can be merged, and the volume added after each, as far as probes tell.
     merges: Vec<(Merge, f64)>,
     volume: f64,
@@ -149,13 +161,16 @@ impl Coarsener {
         let free = match options.side {
             Side::Outer => {
                 let hulls = Hulls::of(&parts, &probes);
-                free::merge_freely(&Search::new(&parts, &hulls, &probes, &clear, options))?
+                free::merge_freely(&Search::new(&parts, &hulls, &probes, &clear, &Gaps::default(), options))?
             }
             Side::Inner => inner::grown(&parts, &boxes, options)?,
         };
         let (free_boxes, hulls) = (boxes_of(&free), Hulls::of(&free, &probes));
+        let gaps = Gaps::new(&free, &free_boxes, options);
         let options = options.clone();
-        let mut coarsener = Self { options, parts, free, free_boxes, clear, probes, hulls, merges: Vec::new(), volume };
+        let merges = Vec::new();
+        let mut coarsener =
+            Self { options, parts, free, free_boxes, clear, probes, hulls, gaps, pieces: None, merges, volume };
         coarsener.descend();
         Ok(coarsener)
     }
@@ -196,7 +211,7 @@ impl Coarsener {
         if self.options.side == Side::Inner {
             return self.finished(inner::chosen(&self.free, count), exact_merges);
         }
-        let search = Search::new(&self.free, &self.hulls, &self.probes, &self.clear, &self.options);
+        let search = self.search();
         let mut groups = self.groups_at(&search, count);
         if groups.len() < self.free.len() {
             better(&search, &mut groups);
@@ -209,7 +224,12 @@ impl Coarsener {
             by_material: self.options.by_material,
         };
         if groups.len() < self.free.len() {
-            shrinking.shrink(&mut bodies, &self.probes)?;
+            match &self.pieces {
+                Some(pieces) => {
+                    pieces.draw_in(&mut bodies, &self.free, &self.free_boxes, &self.probes, self.options.by_material)?
+                }
+                None => shrinking.shrink(&mut bodies, &self.probes)?,
+            }
         }
         self.finished(bodies, exact_merges)
     }
@@ -260,7 +280,7 @@ impl Coarsener {
         if self.options.side == Side::Inner {
             return;
         }
-        let search = Search::new(&self.free, &self.hulls, &self.probes, &self.clear, &self.options);
+        let search = self.search();
         let groups = (0..self.free.len() as u32).map(|part| search.single(part)).collect();
         let mut merger = Merger::new(&search, groups, vec![0; self.probes.words()]);
         let mut merges = Vec::new();
@@ -290,7 +310,14 @@ impl Coarsener {
         members.into_iter().filter(|parts| !parts.is_empty()).map(|parts| search.group(parts)).collect()
     }
 
+    fn search(&self) -> Search<'_> {
+        Search::new(&self.free, &self.hulls, &self.probes, &self.clear, &self.gaps, &self.options)
+    }
+
     fn body_around(&self, group: &Group) -> Result<Part, CoarsenError> {
+        if let Some(pieces) = &self.pieces {
+            return pieces.body_around(&self.free, &group.parts);
+        }
         let parts: Vec<&Part> = group.parts.iter().map(|part| &self.free[*part as usize]).collect();
         Part::around(&parts, &self.clear)
     }

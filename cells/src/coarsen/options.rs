@@ -9,6 +9,12 @@ pub const LEAST_MAX_FACES: usize = 6;
 /// Fewest vertices that a cell can be limited to: those of a box.
 pub const LEAST_MAX_VERTICES: usize = 8;
 
+/// What a volume counts that cells share, where one that is added counts 1: of covers that add the same, the one whose cells overlap less is
+/// better, and hulls that are smaller leave more choice.
+pub const DEFAULT_OVERLAP_WEIGHT: f64 = 1.0 / 8.0;
+/// Parts farther from each other than this share of the diagonal of all become one cell only where nothing else is left to merge.
+pub const DEFAULT_MAX_GAP: f64 = 0.05;
+
 /// On which side of the solid's boundary the cells stay.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Side {
@@ -39,6 +45,11 @@ pub struct CoarsenOptions {
     pub min_thickness: Option<f64>,
     /// Around the solid or within it.
     pub side: Side,
+    /// How much volume that cells share counts, relative to volume that is added; by default [`DEFAULT_OVERLAP_WEIGHT`].
+    pub overlap_weight: Option<f64>,
+    /// Maximum distance between parts of one cell, each from the nearest other, about: a cell that reaches across more empty space is a bar in the air. There may be more cells
+    /// then than `max_cells`. By default [`DEFAULT_MAX_GAP`] of the diagonal of all, unless that would leave more cells.
+    pub max_gap: Option<f64>,
 }
 
 /// Why parts were not coarsened.
@@ -97,6 +108,11 @@ impl CoarsenOptions {
         }
         if let Some(found) = self.max_vertices.filter(|vertices| *vertices < LEAST_MAX_VERTICES) {
             return refuse("max_vertices", found.to_string(), "at least 8");
+        }
+        for (option, found) in [("overlap_weight", self.overlap_weight), ("max_gap", self.max_gap)] {
+            if let Some(found) = found.filter(|value| !value.is_finite() || *value < 0.0) {
+                return refuse(option, found.to_string(), "a number that is not negative");
+            }
         }
         if let Some(found) = self.min_thickness.filter(|thickness| !thickness.is_finite() || *thickness < 0.0) {
             return refuse("min_thickness", found.to_string(), "a number that is not negative");

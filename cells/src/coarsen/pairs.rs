@@ -16,6 +16,8 @@ pub(super) struct Pair {
     /// How many probes it covers that nothing else does.
     pub(super) fresh: u32,
     pub(super) cost: f64,
+    /// Whether there is much empty space between both: such pairs come after all others.
+    pub(super) is_far: bool,
     /// The exact hull, once it is known that it adds nothing.
     pub(super) free: Option<Vec<HalfSpace>>,
 }
@@ -34,6 +36,7 @@ pub(super) struct Pairs {
 /// When a pair's turn is.
 #[derive(Debug, Clone, Copy)]
 struct Entry {
+    is_far: bool,
     cost: f64,
     places: [u32; 2],
     slot: u32,
@@ -41,8 +44,8 @@ struct Entry {
 
 impl Ord for Entry {
     fn cmp(&self, other: &Self) -> Ordering {
-        let (own, other) = ((self.places, self.slot, self.cost), (other.places, other.slot, other.cost));
-        own.2.total_cmp(&other.2).then_with(|| (own.0, own.1).cmp(&(other.0, other.1)))
+        let by_cost = self.is_far.cmp(&other.is_far).then(self.cost.total_cmp(&other.cost));
+        by_cost.then_with(|| (self.places, self.slot).cmp(&(other.places, other.slot)))
     }
 }
 
@@ -76,7 +79,7 @@ impl Pairs {
 
     pub(super) fn insert(&mut self, pair: Pair) {
         let slot = self.slots.len() as u32;
-        self.queue.push(Reverse(Entry { cost: pair.cost, places: pair.places, slot }));
+        self.queue.push(Reverse(Entry { is_far: pair.is_far, cost: pair.cost, places: pair.places, slot }));
         for place in pair.places {
             self.of_place[place as usize].push(slot);
         }
@@ -110,7 +113,8 @@ impl Pairs {
             let before = pair.cost;
             change(pair);
             let is_same = before.total_cmp(&pair.cost).is_eq();
-            (!is_same).then_some(Entry { cost: pair.cost, places: pair.places, slot: slot as u32 })
+            let (is_far, cost, places) = (pair.is_far, pair.cost, pair.places);
+            (!is_same).then_some(Entry { is_far, cost, places, slot: slot as u32 })
         });
         let changed: Vec<Entry> = changed.collect();
         self.queue.extend(changed.into_iter().map(Reverse));

@@ -30,6 +30,12 @@ pub(super) struct Probes {
     pub(super) unit: f64,
 }
 
+/// Points that fill the unit cube evenly, however many are taken.
+pub(super) fn spread(number: usize) -> DVec3 {
+    let step = DVec3::new(1.0 / ROOT, 1.0 / (ROOT * ROOT), 1.0 / (ROOT * ROOT * ROOT));
+    (step * number as f64 + 0.5).fract()
+}
+
 /// Some of the probes: the words that are not empty, in order.
 pub(super) type Coverage = Vec<(u32, u64)>;
 
@@ -42,8 +48,7 @@ impl Probes {
         let boxes = boxes_of(parts);
         let solids: Vec<Vec<(DVec3, f64)>> = parts.par_iter().map(|part| unit_planes(&part.half_spaces)).collect();
         let drawn = DRAWN * wanted;
-        let step = DVec3::new(1.0 / ROOT, 1.0 / (ROOT * ROOT), 1.0 / (ROOT * ROOT * ROOT));
-        let at = |k: usize| hull.bounds.min + (step * k as f64 + 0.5).fract() * size;
+        let at = |k: usize| hull.bounds.min + spread(k) * size;
         let is_free = |point: &DVec3, near: &mut Vec<u32>| {
             if !is_inside(&hull.planes, *point) {
                 return false;

@@ -156,6 +156,7 @@ fn targets(search: &Search, groups: &[Group], from: usize, part: u32) -> Vec<usi
         .iter()
         .enumerate()
         .filter(|(place, group)| *place != from && search.may_join(group.parts[0], part))
+        .filter(|(_, group)| search.is_near(part, &group.parts))
         .map(|(place, group)| {
             let both = own.union(&group.hull.bounds);
             (!group.hull.bounds.touches(own), (both.max - both.min).length_squared(), place)

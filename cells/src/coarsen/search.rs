@@ -4,18 +4,16 @@ use planecut_kernel::{DVec3, HalfSpace};
 use planecut_parallel::prelude::*;
 use rustc_hash::FxHashMap;
 
-use super::CoarsenOptions;
 use super::clear::Clear;
+use super::gaps::Gaps;
 use super::hull::Hull;
+use super::options::{CoarsenOptions, DEFAULT_OVERLAP_WEIGHT};
 use super::part::{Part, built};
 use super::probes::Probes;
 use crate::tolerances::CLEAR_TOUCHING;
 
-/// What a volume that is covered twice costs, where one that is added costs 1: of covers that add the same, the one whose cells overlap
-/// less is better, and hulls that are smaller leave more choice.
-const OVERLAP: f64 = 1.0 / 8.0;
-/// The same where nothing is left but to better what there is.
-const LAST_OVERLAP: f64 = 1.0 / 64.0;
+/// What a volume that is covered twice costs, relative to what it costs before, where nothing is left but to better what there is.
+const LAST_OVERLAP: f64 = 1.0 / 8.0;
 /// Maximum number of hulls of two parts that are kept, some kilobytes each.
 pub(super) const MOST_PAIRS: usize = 10_000;
 
@@ -27,6 +25,7 @@ pub(super) struct Search<'a> {
     clear: &'a Clear,
     by_material: bool,
     hulls: &'a Hulls,
+    gaps: &'a Gaps,
     overlap: f64,
 }
 
@@ -42,6 +41,12 @@ pub(super) struct Hulls {
 impl Hulls {
     pub(super) fn of(parts: &[Part], probes: &Probes) -> Self {
         let hull = |part: &Part| Hull::of(&part.all_points().collect::<Vec<_>>(), probes);
+        Self { singles: parts.par_iter().map(hull).collect(), pairs: FxHashMap::default() }
+    }
+
+    /// The same of those of their corners that are the farthest in some directions: a few say enough of parts that are small.
+    pub(super) fn of_few(parts: &[Part], probes: &Probes) -> Self {
+        let hull = |part: &Part| Hull::of(&farthest(&part.corners), probes);
         Self { singles: parts.par_iter().map(hull).collect(), pairs: FxHashMap::default() }
     }
 
@@ -64,14 +69,16 @@ impl<'a> Search<'a> {
         hulls: &'a Hulls,
         probes: &'a Probes,
         clear: &'a Clear,
+        gaps: &'a Gaps,
         options: &CoarsenOptions,
     ) -> Self {
-        Self { parts, probes, clear, by_material: options.by_material, hulls, overlap: OVERLAP }
+        let overlap = options.overlap_weight.unwrap_or(DEFAULT_OVERLAP_WEIGHT);
+        Self { parts, probes, clear, by_material: options.by_material, hulls, gaps, overlap }
     }
 
     /// The same with overlaps of less weight.
     pub(super) fn last(&self) -> Self {
-        Self { overlap: LAST_OVERLAP, ..*self }
+        Self { overlap: self.overlap * LAST_OVERLAP, ..*self }
     }
 
     /// The group of one part.
@@ -90,13 +97,23 @@ impl<'a> Search<'a> {
         Group { hull: Hull::of(&points, self.probes), parts }
     }
 
-    /// The hull of two groups; `None` where it may not be.
-    pub(super) fn joined_groups(&self, a: &Group, b: &Group) -> Option<Hull> {
+    /// The hull of two groups, and whether parts of both are near each other; `None` where it may not be.
+    pub(super) fn joined_groups(&self, a: &Group, b: &Group) -> Option<(Hull, bool)> {
+        let is_near = self.gaps.are_near(&a.parts, &b.parts);
+        if !is_near && self.gaps.is_strict() {
+            return None;
+        }
         let known = match (&a.parts[..], &b.parts[..]) {
             ([a], [b]) => self.hulls.pairs.get(&[*a.min(b), *a.max(b)]).cloned(),
             _ => None,
         };
-        known.or_else(|| self.joined(&a.hull, &b.hull))
+        let hull = known.or_else(|| self.joined(&a.hull, &b.hull))?;
+        Some((hull, is_near))
+    }
+
+    /// Whether a part is near one of others.
+    pub(super) fn is_near(&self, part: u32, others: &[u32]) -> bool {
+        self.gaps.are_near(&[part], others)
     }
 
     /// The hull of two hulls; `None` where it may not be.
@@ -133,4 +150,15 @@ impl<'a> Search<'a> {
             built(region.half_spaces.iter().copied().chain(shrunk)).is_empty()
         })
     }
+}
+
+/// The farthest points in the directions to corners, edges and sides of a cube, each once.
+pub(super) fn farthest(points: &[DVec3]) -> Vec<DVec3> {
+    let way = |k: i32| DVec3::from_array([k % 3, k / 3 % 3, k / 9].map(|v| f64::from(v - 1)));
+    let directions = (0..27).map(way).filter(|way| *way != DVec3::ZERO);
+    let in_direction = |way: DVec3| points.iter().copied().max_by(|a, b| way.dot(*a).total_cmp(&way.dot(*b)));
+    let mut found: Vec<DVec3> = directions.filter_map(in_direction).collect();
+    found.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z)));
+    found.dedup();
+    found
 }

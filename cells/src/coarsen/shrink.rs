@@ -106,7 +106,7 @@ fn left_of(part: &Part, cells: &[&Part]) -> Result<Option<Vec<Part>>, CoarsenErr
 }
 
 /// How many probes each cell alone covers.
-fn added_alone(bodies: &[Part], probes: &Probes) -> Vec<u32> {
+pub(super) fn added_alone(bodies: &[Part], probes: &Probes) -> Vec<u32> {
     let coverage: Vec<Coverage> =
         bodies.par_iter().map(|body| probes.within(&unit_planes(&body.half_spaces), &body.bounds)).collect();
     let (_, twice) = once_and_twice(probes.words(), coverage.iter());

@@ -28,7 +28,10 @@ pub use error::{MeshError, Place};
 pub use planecut_csg::WindingRule;
 pub use planecut_shapes::polyhedron::Precision;
 pub(crate) use solid::joined_message;
-pub use solid::{MeshImport, PartsImport, SolidError, SolidOptions, read_parts, read_solid, solid_of_mesh};
+pub use solid::{
+    MeshImport, PartsImport, SolidError, SolidOptions, TrianglesImport, read_parts, read_solid, read_triangles,
+    solid_of_mesh,
+};
 
 use error::Fault;
 

@@ -144,6 +144,38 @@ pub fn read_parts(
     Ok(PartsImport { import, points })
 }
 
+/// The triangles of a mesh, whatever they bound.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TrianglesImport {
+    /// Vertices, turned so that z is up.
+    pub positions: Vec<DVec3>,
+    /// Three numbers of vertices each.
+    pub triangles: Vec<[u32; 3]>,
+    /// The materials of the file, or one named `default`.
+    pub materials: Vec<Material>,
+    /// The material of each triangle.
+    pub material_of: Vec<MaterialId>,
+    /// What was done to them.
+    pub warnings: Vec<Warning>,
+}
+
+/// Reads the triangles of a mesh that need not bound anything. Of the options only `close` says something of them.
+///
+/// # Errors
+/// [`MeshError`] where the file cannot be read.
+pub fn read_triangles(
+    bytes: &[u8],
+    format: MeshFormat,
+    name: &str,
+    options: &SolidOptions,
+) -> Result<TrianglesImport, MeshError> {
+    let (mesh, notes) = prepared(read_mesh(bytes, format, name)?, format, options);
+    let (materials, material_of) = materials(&mesh);
+    let warnings = notes.into_iter().map(|note| Warning::note(0, note)).collect();
+    let IndexedMesh { positions, triangles, .. } = mesh;
+    Ok(TrianglesImport { positions, triangles, materials, material_of, warnings })
+}
+
 /// A mesh with z up, with materials for colours, and with vertices joined as the options say; and what is to be said of that.
 fn prepared(mesh: IndexedMesh, format: MeshFormat, options: &SolidOptions) -> (IndexedMesh, Vec<String>) {
     let (mut mesh, rounded) = mesh.painted();

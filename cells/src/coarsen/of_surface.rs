@@ -1,0 +1,89 @@
+//! Coarsening of what a mesh bounds, without its exact cells.
+
+use super::clear::Clear;
+use super::gaps::Gaps;
+use super::part::{Part, boxes_of};
+use super::probes::Probes;
+use super::search::Hulls;
+use super::surface::{Pieces, Points, Surface, pieces};
+use super::{CoarsenError, CoarsenOptions, Coarsener, PROBES, Side, part, parts_of};
+
+/// Fewest and most pieces that a surface is taken apart into, triangles for each, and pieces for each cell that is asked for.
+const PIECES: (usize, usize, usize, usize) = (128, 400, 16, 6);
+
+impl Coarsener {
+    /// Takes what a surface bounds apart from the top down, into some hundred convex pieces that may overlap and exceed it a little, instead of its
+    /// exact cells, of which there may be millions: for few cells around a mesh. `volume` is that of the solid, where it is known better than by [`Surface::volume`]; excess is
+    /// relative to it.
+    ///
+    /// Nothing is merged because it adds nothing, and cells are on the outer side.
+    ///
+    /// # Errors
+    /// As [`Coarsener::new`]; [`CoarsenError::Option`] for cells within the solid.
+    ///
+    /// ```
+    /// use planecut_cells::coarsen::{Bounded, CoarsenOptions, Coarsener, Surface};
+    /// use planecut_kernel::DVec3;
+    ///
+    /// # fn main() -> Result<(), planecut_cells::coarsen::CoarsenError> {
+    /// let positions = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
+    /// let triangles = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+    /// let surface =
+    ///     Surface { positions: &positions, triangles: &triangles, materials: &[], bounded: Bounded::Solid };
+    /// let cells = Coarsener::of_surface(&surface, None, &CoarsenOptions::default())?.to_cells(1)?;
+    /// assert!(cells.excess() < 1e-10);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn of_surface(
+        surface: &Surface<'_>,
+        volume: Option<f64>,
+        options: &CoarsenOptions,
+    ) -> Result<Self, CoarsenError> {
+        options.check()?;
+        if options.side == Side::Inner {
+            let (option, found) = ("side", "inner".to_owned());
+            return Err(CoarsenError::Option { option, found, expected: "outer, for cells of a surface" });
+        }
+        let (least, most, each, of_cell) = PIECES;
+        let of_cells = options.max_cells.unwrap_or(0).saturating_mul(of_cell);
+        let wanted = (surface.triangles.len() / each).clamp(least, most).max(of_cells);
+        let (parts, pieces) = pieces(surface, wanted)?;
+        if parts.is_empty() {
+            return Err(CoarsenError::Empty);
+        }
+        let boxes = boxes_of(&parts);
+        let regions = options.keep_clear.as_ref().map_or(Ok(Vec::new()), parts_of)?;
+        let clear = Clear::around(&parts, &boxes, &regions)?;
+        let (least, most, each) = PROBES;
+        let probes = Probes::around(&parts, (each * parts.len()).clamp(least, most));
+        let mut coarsener = Self {
+            options: options.clone(),
+            hulls: Hulls::of_few(&parts, &probes),
+            gaps: Gaps::new(&parts, &boxes, options),
+            // cells that must keep clear of something are made of the exact bodies of pieces
+            pieces: clear.is_empty().then_some(pieces),
+            free: parts.clone(),
+            parts,
+            free_boxes: boxes,
+            clear,
+            probes,
+            merges: Vec::new(),
+            volume: volume.unwrap_or_else(|| surface.volume()),
+        };
+        coarsener.descend();
+        Ok(coarsener)
+    }
+}
+
+impl Pieces {
+    /// The body around some of the pieces, of the material of most of them.
+    ///
+    /// # Errors
+    /// [`CoarsenError::OutOfRange`] for coordinates that no plane can have.
+    pub(super) fn body_around(&self, parts: &[Part], members: &[u32]) -> Result<Part, CoarsenError> {
+        let points = Points::joined(members.iter().map(|member| &self.points[*member as usize]));
+        let shares = members.iter().map(|member| &parts[*member as usize]).map(|part| (part.material, part.volume()));
+        points.body(&self.growth, part::most(shares))?.ok_or(CoarsenError::OutOfRange)
+    }
+}

@@ -1,0 +1,165 @@
+//! Where a box is best cut in two.
+
+use planecut_kernel::DVec3;
+
+use super::polygons::{Polygons, crossing};
+use super::region::{Inside, Region, hull_volume, normal};
+use super::{FACE_OFFSET, bounds};
+
+/// Places along each axis at which a cut is tried whatever is there.
+const EVEN: usize = 7;
+/// Faces across each axis beside which a cut is tried, those of the largest area.
+const FACES: usize = 6;
+/// Polygons that are looked at, at most: every second one of twice as many.
+const LOOKED_AT: usize = 600;
+/// A cut that saves less than this share of the volume is no better than one in the middle.
+const LEAST_SAVED: f64 = 0.01;
+/// A face lies across an axis where its normal has at least this cosine to it.
+const ACROSS: f64 = 1.0 - 1e-6;
+
+/// A plane across an axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct AxisCut {
+    pub(super) axis: usize,
+    pub(super) at: f64,
+}
+
+/// The cut after which the hulls of both parts have the least volume, as far as the farthest points in some directions tell; in the middle of
+/// the longest side where none is better.
+pub(super) fn best_cut(region: &Region, inside: &impl Inside) -> Option<AxisCut> {
+    let (low, high) = bounds(region.points().into_iter());
+    let size = high - low;
+    let longest = size.max_position();
+    if !(size[longest] > 8.0 * FACE_OFFSET) {
+        return None;
+    }
+    let looked_at = sample(&region.polygons);
+    let whole = Extremes::of(looked_at.corners().iter().copied().chain(region.inner_corners())).volume();
+    let middle = AxisCut { axis: longest, at: (low[longest] + high[longest]) / 2.0 };
+    let mut best = (whole * (1.0 - LEAST_SAVED), middle);
+    for axis in 0..3 {
+        if size[axis] <= 8.0 * FACE_OFFSET {
+            continue;
+        }
+        let even = (1..=EVEN).map(|k| low[axis] + size[axis] * k as f64 / (EVEN + 1) as f64);
+        for at in even.chain(beside_faces(&region.polygons, axis)) {
+            if at - low[axis] < 2.0 * FACE_OFFSET || high[axis] - at < 2.0 * FACE_OFFSET {
+                continue;
+            }
+            let cut = AxisCut { axis, at };
+            let volume = volume_after(region, &looked_at, cut, inside, best.0);
+            if volume < best.0 {
+                best = (volume, cut);
+            }
+        }
+    }
+    Some(best.1)
+}
+
+/// The volume of the hulls of both parts, about; any number that is not less than the limit where it is not.
+fn volume_after(region: &Region, polygons: &Polygons, cut: AxisCut, inside: &impl Inside, limit: f64) -> f64 {
+    let AxisCut { axis, at } = cut;
+    let mut sides = [Extremes::default(), Extremes::default()];
+    for (corners, _) in polygons.iter() {
+        let mut before = corners[corners.len() - 1];
+        for &corner in corners {
+            sides[usize::from(corner[axis] > at)].add(corner);
+            if (before[axis] > at) != (corner[axis] > at) {
+                let point = crossing(before, corner, axis, at);
+                sides.iter_mut().for_each(|side| side.add(point));
+            }
+            before = corner;
+        }
+    }
+    region.inner_corners().for_each(|corner| sides[usize::from(corner[axis] > at)].add(corner));
+    for k in 0..4 {
+        let mut corner = DVec3::ZERO;
+        corner[axis] = at;
+        for (bit, other) in [(axis + 1) % 3, (axis + 2) % 3].into_iter().enumerate() {
+            corner[other] = if k >> bit & 1 == 1 { region.high[other] } else { region.low[other] };
+        }
+        if inside.holds(corner) {
+            sides.iter_mut().for_each(|side| side.add(corner));
+        }
+    }
+    let below = sides[0].volume();
+    if below >= limit { below } else { below + sides[1].volume() }
+}
+
+/// Places just beside large faces across an axis, on the side where these have nothing: so a part ends with its face.
+fn beside_faces(polygons: &Polygons, axis: usize) -> Vec<f64> {
+    let mut faces: Vec<(f64, f64)> = Vec::new();
+    for (corners, _) in polygons.iter() {
+        let normal = normal(corners);
+        if normal[axis].abs() >= ACROSS * normal.length() && normal[axis] != 0.0 {
+            faces.push((corners[0][axis] + FACE_OFFSET.copysign(normal[axis]), normal[axis].abs()));
+        }
+    }
+    faces.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut joined: Vec<(f64, f64)> = Vec::new();
+    for (at, area) in faces {
+        match joined.last_mut() {
+            Some((last, sum)) if at - *last <= FACE_OFFSET / 2.0 => *sum += area,
+            _ => joined.push((at, area)),
+        }
+    }
+    joined.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.total_cmp(&b.0)));
+    joined.into_iter().take(FACES).map(|(at, _)| at).collect()
+}
+
+fn sample(polygons: &Polygons) -> Polygons {
+    polygons.every(polygons.len().div_ceil(LOOKED_AT))
+}
+
+/// The farthest points in some directions: to corners, edges and sides of a cube.
+#[derive(Debug, Clone)]
+struct Extremes {
+    points: [DVec3; 2 * DIRECTIONS.len()],
+    reach: [f64; 2 * DIRECTIONS.len()],
+}
+
+const DIRECTIONS: [[f64; 3]; 13] = [
+    [1.0, 0.0, 0.0],
+    [0.0, 1.0, 0.0],
+    [0.0, 0.0, 1.0],
+    [1.0, 1.0, 0.0],
+    [1.0, -1.0, 0.0],
+    [1.0, 0.0, 1.0],
+    [1.0, 0.0, -1.0],
+    [0.0, 1.0, 1.0],
+    [0.0, 1.0, -1.0],
+    [1.0, 1.0, 1.0],
+    [1.0, 1.0, -1.0],
+    [1.0, -1.0, 1.0],
+    [1.0, -1.0, -1.0],
+];
+
+impl Default for Extremes {
+    fn default() -> Self {
+        Self { points: [DVec3::ZERO; 2 * DIRECTIONS.len()], reach: [f64::NEG_INFINITY; 2 * DIRECTIONS.len()] }
+    }
+}
+
+impl Extremes {
+    fn of(points: impl Iterator<Item = DVec3>) -> Self {
+        let mut extremes = Self::default();
+        points.for_each(|point| extremes.add(point));
+        extremes
+    }
+
+    fn add(&mut self, point: DVec3) {
+        for (k, direction) in DIRECTIONS.iter().enumerate() {
+            let along = DVec3::from_array(*direction).dot(point);
+            for (place, along) in [(2 * k, along), (2 * k + 1, -along)] {
+                if along > self.reach[place] {
+                    self.reach[place] = along;
+                    self.points[place] = point;
+                }
+            }
+        }
+    }
+
+    fn volume(&self) -> f64 {
+        if self.reach[0] == f64::NEG_INFINITY { 0.0 } else { hull_volume(&self.points) }
+    }
+}

@@ -1,0 +1,339 @@
+//! Few convex pieces for what a surface bounds, from the top down: without the exact cells of it, of which there may be millions.
+//!
+//! Space is cut in two by planes across the axes, again and again ([`cut`]), always where the hull of what a box holds exceeds it most
+//! ([`region`]). The piece of a box is the hull of what it holds ([`polygons`], [`inside`]).
+//!
+//! **Why the pieces hold the solid.** The boxes cover all space. What a closed solid has in common with a box is a polyhedron; each corner of it is
+//! a corner of one of the clipped triangles or a corner of the box inside of the solid, so the hull of these holds all of it. That a surface may cross
+//! itself does not matter: then there are more corners. In numbers: coordinates are moved to the middle and scaled by a power of two, so that their magnitude is at most 1,
+//! which rounds each by at most half a unit in the last place of the largest coordinate. A clipped polygon is off the exact one by at most `2⁻⁵¹` more than the one before; 64 of these are
+//! `2⁻⁴⁵`, half of [`CLIP_MARGIN`], by which the boxes overlap. Each plane of a piece is moved outward by [`GROWTH`] of the size and a few units in the
+//! last place, more than all of that.
+
+mod body;
+mod cut;
+mod draw_in;
+mod filled;
+mod fragment;
+mod inside;
+mod polygons;
+mod region;
+
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
+use planecut_csg::MaterialId;
+use planecut_kernel::DVec3;
+use planecut_parallel::prelude::*;
+
+use super::CoarsenError;
+use super::part::{Part, most};
+use super::probes::spread;
+pub(super) use body::{Growth, Points};
+use cut::best_cut;
+use filled::SolidAngles;
+use inside::Winding;
+use polygons::Polygons;
+use region::{Inside, Region, hull_volume, normal};
+
+/// By how much boxes reach beyond the planes between them, where the size is 2.
+const CLIP_MARGIN: f64 = 1.0 / (1u64 << 44) as f64;
+/// By how much pieces are larger than what they hold, relative to the size.
+const GROWTH: f64 = 1.0 / (1u64 << 43) as f64;
+/// The same relative to the largest coordinate.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+/// How far from a face cuts are that go beside it, where the size is 2.
+const FACE_OFFSET: f64 = 1.0 / (1u64 << 30) as f64;
+/// Boxes are not cut any further whose hull exceeds what they hold by less than this share of the volume of all.
+const WORTH_CUTTING: f64 = 1e-7;
+/// Boxes that are cut at the same time, whatever the number of threads.
+const AT_A_TIME: usize = 8;
+/// Points by which a volume is estimated.
+const ESTIMATED: usize = 1 << 15;
+/// Thickness of a surface that bounds nothing where none is asked for, relative to the diagonal of its box.
+pub const SHELL_THICKNESS: f64 = 1.0 / 512.0;
+
+/// What a surface bounds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Bounded {
+    /// All points that a closed surface goes around more than zero times.
+    Solid,
+    /// All points that a surface, which need not be closed, goes around more than half, by generalized winding numbers; and the triangles themselves.
+    Filled,
+    /// Nothing: the triangles themselves, each this thick.
+    Shell {
+        /// Thickness in the units of the positions.
+        thickness: f64,
+    },
+}
+
+/// Triangles, and what they bound.
+#[derive(Debug, Clone, Copy)]
+pub struct Surface<'a> {
+    /// Vertices.
+    pub positions: &'a [DVec3],
+    /// Three numbers of vertices each, counter-clockwise seen from outside.
+    pub triangles: &'a [[u32; 3]],
+    /// The material of each triangle.
+    pub materials: &'a [MaterialId],
+    /// What they bound.
+    pub bounded: Bounded,
+}
+
+impl Bounded {
+    /// The thickness of a shell where none is asked for: [`SHELL_THICKNESS`] of the diagonal of the triangles' box.
+    #[must_use]
+    pub fn default_thickness(positions: &[DVec3], triangles: &[[u32; 3]]) -> f64 {
+        let (low, high) = bounds(triangles.iter().flatten().map(|corner| positions[*corner as usize]));
+        if triangles.is_empty() { 0.0 } else { SHELL_THICKNESS * (0.5 * high - 0.5 * low).length() * 2.0 }
+    }
+}
+
+impl Surface<'_> {
+    /// The volume of what is bounded: the signed volume of a closed surface, which must not cross itself; for a surface that is filled an estimate, good to about a hundredth; for a
+    /// shell its area times its thickness.
+    #[must_use]
+    pub fn volume(&self) -> f64 {
+        let corners = |triangle: &[u32; 3]| triangle.map(|corner| self.positions[corner as usize]);
+        match self.bounded {
+            Bounded::Solid => {
+                let first = self.positions.first().copied().unwrap_or_default();
+                let of_one = |triangle| {
+                    let [a, b, c] = corners(triangle).map(|p| p - first);
+                    a.dot(b.cross(c)) / 6.0
+                };
+                self.triangles.iter().map(of_one).sum()
+            }
+            Bounded::Filled => {
+                let angles = SolidAngles::new(self.positions, self.triangles);
+                let (low, high) = bounds(self.positions.iter().copied());
+                let size = high - low;
+                let is_inside = |k: &usize| angles.around(low + size * spread(*k)) > 0.5;
+                let inside = (0..ESTIMATED).into_par_iter().with_min_len(1 << 8).filter(is_inside).count();
+                size.element_product() * inside as f64 / ESTIMATED as f64
+            }
+            Bounded::Shell { thickness } => {
+                let area: f64 = self.triangles.iter().map(|triangle| normal(&corners(triangle)).length() / 2.0).sum();
+                area * thickness
+            }
+        }
+    }
+}
+
+/// What convex pieces of a surface were made of.
+#[derive(Debug)]
+pub(super) struct Pieces {
+    /// For each piece points whose hull, grown, it is.
+    pub(super) points: Vec<Points>,
+    pub(super) growth: Growth,
+}
+
+/// About as many convex pieces as are wanted, whose union holds what a surface bounds and exceeds it little.
+pub(super) fn pieces(surface: &Surface<'_>, wanted: usize) -> Result<(Vec<Part>, Pieces), CoarsenError> {
+    if surface.triangles.is_empty() {
+        return Err(CoarsenError::Empty);
+    }
+    let used = surface.triangles.iter().flatten().map(|corner| surface.positions[*corner as usize]);
+    let frame = Frame::around(used).ok_or(CoarsenError::OutOfRange)?;
+    let positions: Vec<DVec3> = surface.positions.iter().map(|p| frame.inward(*p)).collect();
+    let polygons = Polygons::of_triangles(&positions, surface.triangles);
+    let regions = match surface.bounded {
+        Bounded::Solid => divided(polygons, &Solid(Winding::new(&positions, surface.triangles)), wanted),
+        Bounded::Filled => divided(polygons, &Filled(SolidAngles::new(&positions, surface.triangles)), wanted),
+        Bounded::Shell { thickness } => divided(polygons, &Shell { thickness: thickness * frame.scale }, wanted),
+    };
+    let growth = Growth {
+        thickness: match surface.bounded {
+            Bounded::Solid | Bounded::Filled => 0.0,
+            Bounded::Shell { thickness } => 0.5 * thickness,
+        },
+        rounding: frame.growth(),
+    };
+    let pieces: Vec<Option<(Part, Points)>> = regions
+        .par_iter()
+        .with_max_len(1)
+        .map(|region| piece(region, surface, &frame, &growth))
+        .collect::<Result<_, _>>()?;
+    let (parts, points) = pieces.into_iter().flatten().unzip();
+    Ok((parts, Pieces { points, growth }))
+}
+
+/// Where positions are small numbers.
+struct Frame {
+    middle: DVec3,
+    /// A power of two.
+    scale: f64,
+    /// The largest coordinate.
+    reach: f64,
+}
+
+impl Frame {
+    /// `None` for positions out of range, and for those that are all one.
+    fn around(positions: impl Iterator<Item = DVec3>) -> Option<Self> {
+        let (low, high) = bounds(positions);
+        let reach = low.abs().max(high.abs()).max_element();
+        let half = (0.5 * high - 0.5 * low).max_element();
+        let is_in_range = half > f64::MIN_POSITIVE / f64::EPSILON && reach < planecut_kernel::MAX_COORDINATE;
+        // half of the largest exponent does, both ways
+        let exponent = half.to_bits() >> 52;
+        is_in_range.then(|| Self {
+            middle: 0.5 * low + 0.5 * high,
+            scale: f64::from_bits((2045 - exponent) << 52),
+            reach,
+        })
+    }
+
+    fn inward(&self, p: DVec3) -> DVec3 {
+        (p - self.middle) * self.scale
+    }
+
+    fn outward(&self, p: DVec3) -> DVec3 {
+        p / self.scale + self.middle
+    }
+
+    /// By how much a piece must be larger than its points.
+    fn growth(&self) -> f64 {
+        GROWTH / self.scale + ROUNDING * self.reach
+    }
+}
+
+struct Solid<'a>(Winding<'a>);
+
+impl Inside for Solid<'_> {
+    fn holds(&self, point: DVec3) -> bool {
+        self.0.around(point) > 0
+    }
+
+    fn thickness(&self) -> f64 {
+        0.0
+    }
+}
+
+struct Filled(SolidAngles);
+
+impl Inside for Filled {
+    fn holds(&self, point: DVec3) -> bool {
+        self.0.around(point) > 0.5
+    }
+
+    fn thickness(&self) -> f64 {
+        0.0
+    }
+}
+
+struct Shell {
+    thickness: f64,
+}
+
+impl Inside for Shell {
+    fn holds(&self, _: DVec3) -> bool {
+        false
+    }
+
+    fn thickness(&self) -> f64 {
+        self.thickness
+    }
+}
+
+/// A box in the queue, the one whose hull exceeds it most first.
+struct Waiting {
+    excess: f64,
+    number: usize,
+    region: Region,
+}
+
+impl Waiting {
+    fn new(region: Region, inside: &impl Inside) -> Self {
+        let volume = if inside.thickness() > 0.0 {
+            region.polygons.iter().map(|(corners, _)| normal(corners).length() / 2.0).sum::<f64>() * inside.thickness()
+        } else {
+            region.volume()
+        };
+        Self { excess: hull_volume(&region.points()) - volume, number: 0, region }
+    }
+}
+
+impl Ord for Waiting {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.excess.total_cmp(&other.excess).then(other.number.cmp(&self.number))
+    }
+}
+
+impl PartialOrd for Waiting {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Waiting {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Waiting {}
+
+/// Boxes that together hold all of a surface and what it bounds.
+fn divided(polygons: Polygons, inside: &impl Inside, wanted: usize) -> Vec<Region> {
+    let (low, high) = bounds(polygons.corners().iter().copied());
+    // beyond everything, so that no polygon lies in a side
+    let room = DVec3::splat(16.0 * FACE_OFFSET);
+    let first = Waiting::new(Region::new(low - room, high + room, polygons, inside), inside);
+    let least = WORTH_CUTTING * first.excess.abs();
+    let (mut waiting, mut done, mut number) = (BinaryHeap::from([first]), Vec::new(), 0);
+    while waiting.len() + done.len() < wanted {
+        let room = (wanted - waiting.len() - done.len()).min(AT_A_TIME);
+        let taken: Vec<Waiting> = (0..room).map_while(|_| waiting.pop()).collect();
+        if taken.is_empty() {
+            break;
+        }
+        let cut: Vec<Result<Vec<Waiting>, Waiting>> =
+            taken.into_par_iter().with_max_len(1).map(|one| in_two(one, least, inside)).collect();
+        for parts in cut {
+            match parts {
+                Ok(parts) => {
+                    waiting.extend(parts.into_iter().zip(number..).map(|(part, number)| Waiting { number, ..part }))
+                }
+                Err(whole) => done.push(whole),
+            }
+            number += 2;
+        }
+    }
+    done.into_iter().chain(waiting.into_sorted_vec()).map(|one| one.region).collect()
+}
+
+/// The parts of a box that are not empty; the box itself where it is not worth cutting.
+fn in_two(one: Waiting, least: f64, inside: &impl Inside) -> Result<Vec<Waiting>, Waiting> {
+    if one.excess <= least {
+        return Err(one);
+    }
+    let Some(cut) = best_cut(&one.region, inside) else { return Err(one) };
+    let parts = one.region.split(cut.axis, cut.at, inside);
+    Ok(parts.into_iter().filter(|part| !part.is_empty()).map(|part| Waiting::new(part, inside)).collect())
+}
+
+/// The piece of a box.
+fn piece(
+    region: &Region,
+    surface: &Surface<'_>,
+    frame: &Frame,
+    growth: &Growth,
+) -> Result<Option<(Part, Points)>, CoarsenError> {
+    let outward = |points: &mut dyn Iterator<Item = DVec3>| -> Vec<DVec3> {
+        let mut points: Vec<DVec3> = points.map(|p| frame.outward(p)).collect();
+        points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z)));
+        points.dedup();
+        points
+    };
+    let points = Points { vertices: outward(&mut region.vertices()), cuts: outward(&mut region.cut_points()) };
+    let points = points.without_inner();
+    let areas = region.polygons.iter().map(|(corners, triangle)| {
+        (surface.materials.get(triangle as usize).copied().unwrap_or(MaterialId(0)), normal(corners).length())
+    });
+    Ok(points.body(growth, most(areas))?.map(|part| (part, points)))
+}
+
+/// The box around points.
+fn bounds(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
+    points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)))
+}
