@@ -14,6 +14,8 @@ const FACES: usize = 6;
 const LOOKED_AT: usize = 600;
 /// A cut that saves less than this share of the volume is no better than one in the middle.
 const LEAST_SAVED: f64 = 0.01;
+/// Faces across an axis no farther from each other than this, where the size is 2, are one.
+const SAME_FACE: f64 = 1.0 / (1u64 << 20) as f64;
 /// A face lies across an axis where its normal has at least this cosine to it.
 const ACROSS: f64 = 1.0 - 1e-6;
 
@@ -88,19 +90,21 @@ fn volume_after(region: &Region, polygons: &Polygons, cut: AxisCut, inside: &imp
 
 /// Places just beside large faces across an axis, on the side where these have nothing: so a part ends with its face.
 fn beside_faces(polygons: &Polygons, axis: usize) -> Vec<f64> {
-    let mut faces: Vec<(f64, f64)> = Vec::new();
+    let (mut up, mut down): (Vec<(f64, f64)>, Vec<(f64, f64)>) = (Vec::new(), Vec::new());
     for (corners, _) in polygons.iter() {
         let normal = normal(corners);
         if normal[axis].abs() >= ACROSS * normal.length() && normal[axis] != 0.0 {
-            faces.push((corners[0][axis] + FACE_OFFSET.copysign(normal[axis]), normal[axis].abs()));
+            let highest = corners.iter().map(|p| p[axis] * normal[axis].signum()).fold(f64::NEG_INFINITY, f64::max);
+            if normal[axis] > 0.0 { &mut up } else { &mut down }.push((highest, normal[axis].abs()));
         }
     }
-    faces.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut joined: Vec<(f64, f64)> = Vec::new();
-    for (at, area) in faces {
-        match joined.last_mut() {
-            Some((last, sum)) if at - *last <= FACE_OFFSET / 2.0 => *sum += area,
-            _ => joined.push((at, area)),
+    for (mut faces, sign) in [(up, 1.0), (down, -1.0)] {
+        faces.sort_by(|a, b| a.0.total_cmp(&b.0));
+        // what rounding has moved a little is one face, cut beside its farthest part
+        for near in faces.chunk_by(|a, b| b.0 - a.0 <= SAME_FACE) {
+            let farthest = near.last().map_or(0.0, |(height, _)| *height);
+            joined.push((sign * (farthest + FACE_OFFSET), near.iter().map(|(_, area)| area).sum()));
         }
     }
     joined.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.total_cmp(&b.0)));

@@ -43,11 +43,15 @@ const GROWTH: f64 = 1.0 / (1u64 << 43) as f64;
 /// The same relative to the largest coordinate.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// How far from a face cuts are that go beside it, where the size is 2.
-const FACE_OFFSET: f64 = 1.0 / (1u64 << 30) as f64;
+const FACE_OFFSET: f64 = 1.0 / (1u64 << 40) as f64;
 /// Boxes are not cut any further whose hull exceeds what they hold by less than this share of the volume of all.
 const WORTH_CUTTING: f64 = 1e-7;
 /// Boxes that are cut at the same time, whatever the number of threads.
 const AT_A_TIME: usize = 8;
+/// Points by which it is estimated how much of a box is inside.
+const TRIED: usize = 32;
+/// How often an edge of a box is halved to find where it leaves what is filled.
+const HALVED: usize = 20;
 /// Points by which a volume is estimated.
 const ESTIMATED: usize = 1 << 15;
 /// Thickness of a surface that bounds nothing where none is asked for, relative to the diagonal of its box.
@@ -204,8 +208,8 @@ impl Inside for Solid<'_> {
         self.0.around(point) > 0
     }
 
-    fn thickness(&self) -> f64 {
-        0.0
+    fn volume_in(&self, region: &Region) -> f64 {
+        region.volume()
     }
 }
 
@@ -216,8 +220,24 @@ impl Inside for Filled {
         self.0.around(point) > 0.5
     }
 
-    fn thickness(&self) -> f64 {
-        0.0
+    fn volume_in(&self, region: &Region) -> f64 {
+        let size = region.high - region.low;
+        let inside = (0..TRIED).filter(|k| self.holds(region.low + size * spread(*k))).count();
+        size.element_product() * inside as f64 / TRIED as f64
+    }
+
+    /// Found by halves along each edge of the box that leads from inside to outside.
+    fn open_points(&self, region: &Region) -> Vec<DVec3> {
+        let mut points = Vec::new();
+        for (from, to) in region.edges() {
+            let (mut inner, mut outer) = (from, to);
+            for _ in 0..HALVED {
+                let middle = 0.5 * inner + 0.5 * outer;
+                *(if self.holds(middle) { &mut inner } else { &mut outer }) = middle;
+            }
+            points.push(inner);
+        }
+        points
     }
 }
 
@@ -230,8 +250,8 @@ impl Inside for Shell {
         false
     }
 
-    fn thickness(&self) -> f64 {
-        self.thickness
+    fn volume_in(&self, region: &Region) -> f64 {
+        self.thickness * region.polygons.iter().map(|(corners, _)| normal(corners).length() / 2.0).sum::<f64>()
     }
 }
 
@@ -244,11 +264,7 @@ struct Waiting {
 
 impl Waiting {
     fn new(region: Region, inside: &impl Inside) -> Self {
-        let volume = if inside.thickness() > 0.0 {
-            region.polygons.iter().map(|(corners, _)| normal(corners).length() / 2.0).sum::<f64>() * inside.thickness()
-        } else {
-            region.volume()
-        };
+        let volume = inside.volume_in(&region);
         Self { excess: hull_volume(&region.points()) - volume, number: 0, region }
     }
 }
@@ -336,4 +352,56 @@ fn piece(
 /// The box around points.
 fn bounds(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
     points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A ring of quadrilaterals around an axis, each two triangles.
+    fn torus(sides: u32) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+        let at = |k: u32| std::f64::consts::TAU * f64::from(k) / f64::from(sides);
+        let point = |k: u32| {
+            let (around, along) = (at(k / sides), at(k % sides));
+            let radius = 3.0 + along.cos();
+            DVec3::new(radius * around.cos(), radius * around.sin(), along.sin())
+        };
+        let number = |i: u32, j: u32| i % sides * sides + j % sides;
+        let two = |k: u32| {
+            let (i, j) = (k / sides, k % sides);
+            let [a, b, c, d] = [number(i, j), number(i + 1, j), number(i + 1, j + 1), number(i, j + 1)];
+            [[a, b, c], [a, c, d]]
+        };
+        ((0..sides * sides).map(point).collect(), (0..sides * sides).flat_map(two).collect())
+    }
+
+    #[test]
+    fn volumes_of_boxes_add_up() {
+        let (positions, triangles) = torus(9);
+        let surface = Surface { positions: &positions, triangles: &triangles, materials: &[], bounded: Bounded::Solid };
+        let frame = Frame::around(positions.iter().copied()).expect("in range");
+        let inward: Vec<DVec3> = positions.iter().map(|p| frame.inward(*p)).collect();
+        let inside = Solid(Winding::new(&inward, &triangles));
+        for wanted in [1, 2, 7, 100] {
+            let regions = divided(Polygons::of_triangles(&inward, &triangles), &inside, wanted);
+            let volume: f64 = regions.iter().map(Region::volume).sum();
+            let expected = surface.volume() * frame.scale.powi(3);
+            assert!((volume - expected).abs() < 1e-11, "{wanted}: {volume} {expected}");
+            assert!(regions.len() <= wanted);
+        }
+    }
+
+    #[test]
+    fn both_kinds_of_winding_numbers_agree() {
+        let (positions, triangles) = torus(12);
+        let (exact, about) = (Winding::new(&positions, &triangles), SolidAngles::new(&positions, &triangles));
+        let mut inside = 0;
+        for k in 0..2000 {
+            let point = DVec3::new(-4.5, -4.5, -1.5) + spread(k) * DVec3::new(9.0, 9.0, 3.0);
+            let (exact, about) = (exact.around(point), about.around(point));
+            assert!((about - f64::from(exact)).abs() < 0.2, "{point}: {exact} {about}");
+            inside += exact;
+        }
+        assert!(inside > 100);
+    }
 }

@@ -9,8 +9,12 @@ use super::polygons::Polygons;
 pub(super) trait Inside: Sync {
     /// Whether a point is inside.
     fn holds(&self, point: DVec3) -> bool;
-    /// The volume that lies within a polygon alone, where there is no inside.
-    fn thickness(&self) -> f64;
+    /// The volume of what is inside of a box, about.
+    fn volume_in(&self, region: &Region) -> f64;
+    /// Where edges of a box leave the inside although there is no surface.
+    fn open_points(&self, _: &Region) -> Vec<DVec3> {
+        Vec::new()
+    }
 }
 
 /// A box, and what of the surface lies in it.
@@ -21,12 +25,15 @@ pub(super) struct Region {
     pub(super) polygons: Polygons,
     /// Whether each corner of the box is inside; bit `k` of its number is set where the corner is high along axis `k`.
     pub(super) corners: [bool; 8],
+    /// Where edges of the box leave the inside although there is no surface.
+    open: Vec<DVec3>,
 }
 
 impl Region {
     pub(super) fn new(low: DVec3, high: DVec3, polygons: Polygons, inside: &impl Inside) -> Self {
         let corners = std::array::from_fn(|k| inside.holds(corner(low, high, k)));
-        Self { low, high, polygons, corners }
+        let region = Self { low, high, polygons, corners, open: Vec::new() };
+        Self { open: inside.open_points(&region), ..region }
     }
 
     /// The two parts at a plane across an axis. They overlap by twice the margin.
@@ -55,9 +62,17 @@ impl Region {
         self.polygons.corners().iter().filter(is_on_side).copied().chain(self.inner_corners())
     }
 
-    /// The corners of the box that are inside.
+    /// The corners of the box that are inside, and where its edges leave that although there is no surface.
     pub(super) fn inner_corners(&self) -> impl Iterator<Item = DVec3> {
-        (0..8).filter(|k| self.corners[*k]).map(|k| corner(self.low, self.high, k))
+        let inner = (0..8).filter(|k| self.corners[*k]).map(|k| corner(self.low, self.high, k));
+        inner.chain(self.open.iter().copied())
+    }
+
+    /// The edges of the box of which one end is inside, from there to the other end.
+    pub(super) fn edges(&self) -> impl Iterator<Item = (DVec3, DVec3)> {
+        let at = |k: usize| corner(self.low, self.high, k);
+        let ends = (0..8).flat_map(|k| (0..3).map(move |axis| (k, k ^ 1 << axis)));
+        ends.filter(|(from, to)| self.corners[*from] && !self.corners[*to]).map(move |(from, to)| (at(from), at(to)))
     }
 
     /// Whether there is nothing of the solid.

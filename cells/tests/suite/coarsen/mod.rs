@@ -2,7 +2,7 @@
 //!
 //! - [`judge`]: whether cells hold points, in exact rationals; whether they leave anything of the solid out.
 //! - [`cases`]: solids whose figures are known; [`limits`]: caps, regions kept clear, materials, thickness; [`inner`]: cells within;
-//!   [`random`]: hulls of random lattice points at every cap; [`data`]: decompositions that others made; [`written`]: cells as files hold them.
+//!   [`random`]: hulls of random lattice points at every cap; [`surface`]: meshes; [`data`]: decompositions that others made; [`written`]: cells as files hold them.
 
 mod cases;
 mod data;
@@ -10,4 +10,5 @@ mod inner;
 mod judge;
 mod limits;
 mod random;
+mod surface;
 mod written;
