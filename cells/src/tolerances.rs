@@ -109,3 +109,43 @@ pub const SHARP_CORNER: f64 = 0.125;
 ///
 /// Decides: which face of a written cell a triangle belongs to.
 pub const SAME_FACE: f64 = 0.9;
+
+/// The boxes that a surface is cut into overlap by twice this, where half of the size is between one half and one.
+///
+/// Decides: what of a surface belongs to two boxes; each piece is larger by more.
+pub const CLIP_MARGIN: f64 = 1.0 / (1u64 << 44) as f64;
+
+/// A piece of a surface is larger than what it holds by this share of the size, and some units in the last place of the largest coordinate.
+///
+/// Decides: how much cells of a surface exceed its hull.
+pub const GROWTH: f64 = 1.0 / (1u64 << 43) as f64;
+
+/// Cuts that go beside a face are this far from it, where half of the size is between one half and one.
+///
+/// Decides: how thin a slice of other faces such a cut leaves on the wrong side.
+pub const FACE_OFFSET: f64 = 1.0 / (1u64 << 40) as f64;
+
+/// Faces across an axis whose heights differ by no more than this, where half of the size is between one half and one, are one face to cut beside.
+///
+/// Decides: where a surface is cut.
+pub const SAME_HEIGHT: f64 = 1.0 / (1u64 << 20) as f64;
+
+/// A face whose normal has at least this cosine to an axis lies across it.
+///
+/// Decides: where a surface is cut.
+pub const FACE_ACROSS: f64 = 1.0 - 1e-6;
+
+/// A box whose hull exceeds what it holds by less than this share of what the first one's does is not cut.
+///
+/// Decides: when cutting a surface ends.
+pub const WORTH_CUTTING: f64 = 1e-7;
+
+/// Thickness of a surface that bounds nothing where none is asked for, relative to the diagonal of its box.
+///
+/// Decides: what is enclosed.
+pub const SHELL_THICKNESS: f64 = 1.0 / 512.0;
+
+/// Parts farther from each other than this share of the diagonal of all become one cell only where nothing else is left to merge.
+///
+/// Decides: which parts become one cell.
+pub const DEFAULT_MAX_GAP: f64 = 0.05;

@@ -7,7 +7,7 @@ use planecut::csg::coarsen::{Bounded, CoarsenOptions, Coarsened, Coarsener, Side
 use planecut::csg::{Brush, EvaluateError, Material, MaterialId, Mesh, Model, Tree, evaluate};
 use planecut::export::{ExportOptions, Format, distinct_color};
 use planecut::import::Warning;
-use planecut::import::mesh::{MeshImport, PartsImport, SolidError, read_parts};
+use planecut::import::mesh::{MeshImport, PartsImport, read_parts};
 use planecut::kernel::DVec3;
 
 use super::args::CoarsenArgs;
@@ -19,7 +19,7 @@ use super::product::{Contents, Product, draw, encode, produce};
 use super::progress::Progress;
 use super::report::{CoarsenPart, milliseconds};
 use super::solve::{Read, Solved, read, solve_read};
-use super::surface::Triangles;
+use super::surface::{NoSolid, Triangles};
 use super::written_cells::{Request, WrittenCells};
 
 /// What cells are made of.
@@ -128,35 +128,38 @@ impl<'a> Plan<'a> {
     /// The solid, and what its cells are to be made of. `warnings` are those about other files.
     fn solve(&self, warnings: Vec<Warning>, begin: Instant, progress: &Progress) -> Result<(Solved, Shape), CliError> {
         let CoarsenArgs { reading, surface, limits, .. } = self.args;
-        let (mut read, points) = match self.kind {
-            InputKind::Mesh(format) => {
-                let parts = match surface.shell {
-                    true => Err(None),
-                    false => read_parts(&self.input.read()?, format, &self.input.name(), &reading.solid_options())
-                        .map_err(Some),
-                };
-                match parts {
-                    Ok(PartsImport { import: MeshImport { model, warnings, .. }, points }) => {
-                        (Read { model, warnings, ..Read::default() }, points)
-                    }
-                    Err(Some(error)) if limits.inner || matches!(error, SolidError::Mesh(_)) => {
-                        return Err(error.into());
-                    }
-                    Err(why) => {
-                        let (thickness, why) = (limits.min_thickness, why.as_ref());
-                        let (triangles, mut solved) =
-                            Triangles::read(&self.input, format, reading, *surface, thickness, why, begin)?;
-                        solved.report.warn(&warnings);
-                        solved.warnings.extend(warnings);
-                        return Ok((solved, Shape::Surface(triangles)));
-                    }
-                }
-            }
-            _ => (read(&self.input, self.kind, reading)?, Vec::new()),
+        let InputKind::Mesh(format) = self.kind else {
+            let mut read = read(&self.input, self.kind, reading)?;
+            read.warnings.extend(warnings);
+            let solved = solve_read(&self.input, self.kind, read, begin.elapsed(), progress)?;
+            return Ok((solved, Shape::Solid { points: Vec::new() }));
         };
-        read.warnings.extend(warnings);
-        let solved = solve_read(&self.input, self.kind, read, begin.elapsed(), progress)?;
-        Ok((solved, Shape::Solid { points }))
+        let triangles = |why: Option<NoSolid>, warnings: Vec<Warning>| {
+            let (triangles, mut solved) =
+                Triangles::read(&self.input, format, reading, *surface, limits.min_thickness, why, begin)?;
+            solved.report.warn(&warnings);
+            solved.warnings.extend(warnings);
+            Ok((solved, Shape::Surface(triangles)))
+        };
+        if surface.shell {
+            return triangles(None, warnings);
+        }
+        let parts = read_parts(&self.input.read()?, format, &self.input.name(), &reading.solid_options());
+        match parts {
+            Ok(PartsImport { import: MeshImport { model, warnings: own, .. }, points }) => {
+                let warnings: Vec<Warning> = own.into_iter().chain(warnings).collect();
+                let read = Read { model, warnings: warnings.clone(), ..Read::default() };
+                let solved = solve_read(&self.input, self.kind, read, begin.elapsed(), progress)?;
+                if solved.mesh.triangles.is_empty() && !limits.inner {
+                    return triangles(Some(NoSolid::empty()), warnings);
+                }
+                Ok((solved, Shape::Solid { points }))
+            }
+            Err(error) => match NoSolid::of_error(&error) {
+                Some(why) if !limits.inner => triangles(Some(why), warnings),
+                _ => Err(error.into()),
+            },
+        }
     }
 
     /// The union of what is to be kept clear, and the warnings about it, which name the file.

@@ -42,14 +42,16 @@ impl Triangles {
         reading: &ReadingArgs,
         asked: SurfaceArgs,
         min_thickness: Option<f64>,
-        why: Option<&SolidError>,
+        why: Option<NoSolid>,
         begin: Instant,
     ) -> Result<(Self, Solved), CliError> {
         let import = read_triangles(&input.read()?, format, &input.name(), &reading.solid_options())?;
         let TrianglesImport { positions, triangles, materials, material_of, mut warnings } = import;
+        let bounded = |bounded| Surface { positions: &positions, triangles: &triangles, materials: &[], bounded };
+        let has_inside = asked.solid && bounded(Bounded::Filled).volume() > 0.0;
         let thickness = || min_thickness.unwrap_or_else(|| Bounded::default_thickness(&positions, &triangles));
-        let bounded = if asked.solid { Bounded::Filled } else { Bounded::Shell { thickness: thickness() } };
-        warnings.extend(why.and_then(|why| note(why, bounded)));
+        let bounded = if has_inside { Bounded::Filled } else { Bounded::Shell { thickness: thickness() } };
+        warnings.extend(why.map(|why| why.note(bounded, asked)));
         let topology = check_topology(&positions, &triangles);
         let mut report = Report::of_mesh(input.given(), InputKind::Mesh(format).name(), &topology);
         report.time_ms.import = milliseconds(begin.elapsed());
@@ -80,18 +82,39 @@ impl Triangles {
     }
 }
 
-/// Says that a mesh is no solid, and what it is taken for.
-fn note(why: &SolidError, bounded: Bounded) -> Option<Warning> {
-    let SolidError::Surface { place, source, .. } = why else { return None };
-    let line = match place {
-        Place::Line(line) => u32::try_from(*line).unwrap_or(0),
-        _ => 0,
-    };
-    let taken = match bounded {
-        Bounded::Shell { thickness } => format!(
-            "the triangles are enclosed as a shell {thickness} thick (--solid fills the mesh, --close EPS joins vertices, --min-thickness T is another thickness)"
-        ),
-        _ => "it is filled where it goes around more than half".to_owned(),
-    };
-    Some(Warning::note(line, format!("{source}; {taken}")))
+/// Why a mesh is not taken as a solid.
+pub(crate) struct NoSolid {
+    line: u32,
+    reason: String,
+}
+
+impl NoSolid {
+    /// What is wrong with a surface; nothing where a file cannot be read at all.
+    pub(crate) fn of_error(error: &SolidError) -> Option<Self> {
+        let SolidError::Surface { place, source, .. } = error else { return None };
+        let line = match place {
+            Place::Line(line) => u32::try_from(*line).unwrap_or(0),
+            _ => 0,
+        };
+        Some(Self { line, reason: source.to_string() })
+    }
+
+    /// Nothing is inside.
+    pub(crate) fn empty() -> Self {
+        Self { line: 0, reason: "found a surface with nothing inside".to_owned() }
+    }
+
+    /// Says so, and what the mesh is taken for.
+    fn note(self, bounded: Bounded, asked: SurfaceArgs) -> Warning {
+        let taken = match bounded {
+            Bounded::Shell { thickness } if asked.solid => format!(
+                "it goes around no point by more than half, either: the triangles are enclosed as a shell {thickness} thick (--min-thickness T is another thickness)"
+            ),
+            Bounded::Shell { thickness } => format!(
+                "the triangles are enclosed as a shell {thickness} thick (--solid fills the mesh, --close EPS joins vertices, --min-thickness T is another thickness)"
+            ),
+            _ => "it is filled where it goes around more than half".to_owned(),
+        };
+        Warning::note(self.line, format!("{}; {taken}", self.reason))
+    }
 }

@@ -4,6 +4,7 @@
 mod assets;
 mod check;
 mod coarsen;
+mod colliders;
 mod combine;
 mod damaged;
 mod determinism;

@@ -2,8 +2,9 @@
 
 use planecut_csg::stages::{Bounds, Boxes};
 
-use super::options::{CoarsenOptions, DEFAULT_MAX_GAP};
+use super::options::CoarsenOptions;
 use super::part::Part;
+use crate::tolerances::DEFAULT_MAX_GAP;
 
 /// For each part the others whose boxes are near its own.
 #[derive(Debug, Clone, Default)]

@@ -38,10 +38,8 @@ use planecut_csg::stages::{Bounds, Boxes, evaluate_shape};
 use planecut_csg::{Brush, Tree};
 use planecut_kernel::DVec3;
 
-pub use options::{
-    CoarsenError, CoarsenOptions, DEFAULT_MAX_GAP, DEFAULT_OVERLAP_WEIGHT, LEAST_MAX_FACES, LEAST_MAX_VERTICES, Side,
-};
-pub use surface::{Bounded, SHELL_THICKNESS, Surface};
+pub use options::{CoarsenError, CoarsenOptions, DEFAULT_OVERLAP_WEIGHT, LEAST_MAX_FACES, LEAST_MAX_VERTICES, Side};
+pub use surface::{Bounded, Surface};
 pub use written::{Writing, written_meshes};
 
 use crate::solid::convex_union;
@@ -226,7 +224,13 @@ impl Coarsener {
         if groups.len() < self.free.len() {
             match &self.pieces {
                 Some(pieces) => {
-                    pieces.draw_in(&mut bodies, &self.free, &self.free_boxes, &self.probes, self.options.by_material)?
+                    pieces.draw_in(
+                        &mut bodies,
+                        &self.free,
+                        &self.free_boxes,
+                        &self.probes,
+                        self.options.by_material,
+                    )?;
                 }
                 None => shrinking.shrink(&mut bodies, &self.probes)?,
             }

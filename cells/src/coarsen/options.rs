@@ -12,8 +12,6 @@ pub const LEAST_MAX_VERTICES: usize = 8;
 /// What a volume counts that cells share, where one that is added counts 1: of covers that add the same, the one whose cells overlap less is
 /// better, and hulls that are smaller leave more choice.
 pub const DEFAULT_OVERLAP_WEIGHT: f64 = 1.0 / 8.0;
-/// Parts farther from each other than this share of the diagonal of all become one cell only where nothing else is left to merge.
-pub const DEFAULT_MAX_GAP: f64 = 0.05;
 
 /// On which side of the solid's boundary the cells stay.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -48,7 +46,7 @@ pub struct CoarsenOptions {
     /// How much volume that cells share counts, relative to volume that is added; by default [`DEFAULT_OVERLAP_WEIGHT`].
     pub overlap_weight: Option<f64>,
     /// Maximum distance between parts of one cell, each from the nearest other, about: a cell that reaches across more empty space is a bar in the air. There may be more cells
-    /// then than `max_cells`. By default [`DEFAULT_MAX_GAP`] of the diagonal of all, unless that would leave more cells.
+    /// then than `max_cells`. By default [`DEFAULT_MAX_GAP`](crate::tolerances::DEFAULT_MAX_GAP) of the diagonal of all, unless that would leave more cells.
     pub max_gap: Option<f64>,
 }
 

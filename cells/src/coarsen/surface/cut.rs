@@ -2,9 +2,11 @@
 
 use planecut_kernel::DVec3;
 
+use super::bounds;
+use super::inside::Inside;
 use super::polygons::{Polygons, crossing};
-use super::region::{Inside, Region, hull_volume, normal};
-use super::{FACE_OFFSET, bounds};
+use super::region::{Region, hull_volume, normal};
+use crate::tolerances::{FACE_ACROSS, FACE_OFFSET, SAME_HEIGHT};
 
 /// Places along each axis at which a cut is tried whatever is there.
 const EVEN: usize = 7;
@@ -14,10 +16,6 @@ const FACES: usize = 6;
 const LOOKED_AT: usize = 600;
 /// A cut that saves less than this share of the volume is no better than one in the middle.
 const LEAST_SAVED: f64 = 0.01;
-/// Faces across an axis no farther from each other than this, where the size is 2, are one.
-const SAME_FACE: f64 = 1.0 / (1u64 << 20) as f64;
-/// A face lies across an axis where its normal has at least this cosine to it.
-const ACROSS: f64 = 1.0 - 1e-6;
 
 /// A plane across an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,7 +30,7 @@ pub(super) fn best_cut(region: &Region, inside: &impl Inside) -> Option<AxisCut>
     let (low, high) = bounds(region.points().into_iter());
     let size = high - low;
     let longest = size.max_position();
-    if !(size[longest] > 8.0 * FACE_OFFSET) {
+    if size[longest].is_nan() || size[longest] <= 8.0 * FACE_OFFSET {
         return None;
     }
     let looked_at = sample(&region.polygons);
@@ -44,7 +42,7 @@ pub(super) fn best_cut(region: &Region, inside: &impl Inside) -> Option<AxisCut>
             continue;
         }
         let even = (1..=EVEN).map(|k| low[axis] + size[axis] * k as f64 / (EVEN + 1) as f64);
-        for at in even.chain(beside_faces(&region.polygons, axis)) {
+        for at in even.chain(beside_faces(&region.polygons, axis, inside.is_thin())) {
             if at - low[axis] < 2.0 * FACE_OFFSET || high[axis] - at < 2.0 * FACE_OFFSET {
                 continue;
             }
@@ -88,27 +86,33 @@ fn volume_after(region: &Region, polygons: &Polygons, cut: AxisCut, inside: &imp
     if below >= limit { below } else { below + sides[1].volume() }
 }
 
-/// Places just beside large faces across an axis, on the side where these have nothing: so a part ends with its face.
-fn beside_faces(polygons: &Polygons, axis: usize) -> Vec<f64> {
-    let (mut up, mut down): (Vec<(f64, f64)>, Vec<(f64, f64)>) = (Vec::new(), Vec::new());
+/// Places just beside large faces across an axis, on the side where these have nothing: so a part ends with its face. Thin ones have nothing on both sides.
+fn beside_faces(polygons: &Polygons, axis: usize, is_thin: bool) -> Vec<f64> {
+    // height and area, by the side on which they have nothing
+    let mut faces: [Vec<(f64, f64)>; 2] = [Vec::new(), Vec::new()];
     for (corners, _) in polygons.iter() {
         let normal = normal(corners);
-        if normal[axis].abs() >= ACROSS * normal.length() && normal[axis] != 0.0 {
+        if normal[axis].abs() >= FACE_ACROSS * normal.length() && normal[axis] != 0.0 {
             let highest = corners.iter().map(|p| p[axis] * normal[axis].signum()).fold(f64::NEG_INFINITY, f64::max);
-            if normal[axis] > 0.0 { &mut up } else { &mut down }.push((highest, normal[axis].abs()));
+            faces[usize::from(normal[axis] < 0.0)].push((highest, normal[axis].abs()));
         }
     }
     let mut joined: Vec<(f64, f64)> = Vec::new();
-    for (mut faces, sign) in [(up, 1.0), (down, -1.0)] {
+    for (mut faces, sign) in faces.into_iter().zip([1.0, -1.0]) {
         faces.sort_by(|a, b| a.0.total_cmp(&b.0));
         // what rounding has moved a little is one face, cut beside its farthest part
-        for near in faces.chunk_by(|a, b| b.0 - a.0 <= SAME_FACE) {
+        for near in faces.chunk_by(|a, b| b.0 - a.0 <= SAME_HEIGHT) {
             let farthest = near.last().map_or(0.0, |(height, _)| *height);
-            joined.push((sign * (farthest + FACE_OFFSET), near.iter().map(|(_, area)| area).sum()));
+            let nearest = near.first().map_or(0.0, |(height, _)| *height);
+            let area: f64 = near.iter().map(|(_, area)| area).sum();
+            joined.push((sign * (farthest + FACE_OFFSET), area));
+            if is_thin {
+                joined.push((sign * (nearest - FACE_OFFSET), area));
+            }
         }
     }
     joined.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.total_cmp(&b.0)));
-    joined.into_iter().take(FACES).map(|(at, _)| at).collect()
+    joined.into_iter().take(if is_thin { 2 * FACES } else { FACES }).map(|(at, _)| at).collect()
 }
 
 fn sample(polygons: &Polygons) -> Polygons {

@@ -1,7 +1,8 @@
 //! Few convex pieces for what a surface bounds, from the top down: without the exact cells of it, of which there may be millions.
 //!
 //! Space is cut in two by planes across the axes, again and again ([`cut`]), always where the hull of what a box holds exceeds it most
-//! ([`region`]). The piece of a box is the hull of what it holds ([`polygons`], [`inside`]).
+//! ([`divide`], [`region`], [`polygons`]). What is inside is told by winding numbers ([`inside`]), of closed surfaces exactly ([`winding`]), of others by solid angles
+//! ([`solid_angles`]). The piece of a box is the hull of what it holds ([`body`]); cells of several pieces are drawn in where they overlap ([`draw_in`], [`fragment`]).
 //!
 //! **Why the pieces hold the solid.** The boxes cover all space. What a closed solid has in common with a box is a polyhedron; each corner of it is
 //! a corner of one of the clipped triangles or a corner of the box inside of the solid, so the hull of these holds all of it. That a surface may cross
@@ -12,15 +13,14 @@
 
 mod body;
 mod cut;
+mod divide;
 mod draw_in;
-mod filled;
 mod fragment;
 mod inside;
 mod polygons;
 mod region;
-
-use std::cmp::Ordering;
-use std::collections::BinaryHeap;
+mod solid_angles;
+mod winding;
 
 use planecut_csg::MaterialId;
 use planecut_kernel::DVec3;
@@ -29,33 +29,19 @@ use planecut_parallel::prelude::*;
 use super::CoarsenError;
 use super::part::{Part, most};
 use super::probes::spread;
+use crate::tolerances::{GROWTH, SHELL_THICKNESS};
 pub(super) use body::{Growth, Points};
-use cut::best_cut;
-use filled::SolidAngles;
-use inside::Winding;
+use divide::divided;
+use inside::{Filled, Shell, Solid};
 use polygons::Polygons;
-use region::{Inside, Region, hull_volume, normal};
+use region::{Region, normal};
+use solid_angles::SolidAngles;
+use winding::Winding;
 
-/// By how much boxes reach beyond the planes between them, where the size is 2.
-const CLIP_MARGIN: f64 = 1.0 / (1u64 << 44) as f64;
-/// By how much pieces are larger than what they hold, relative to the size.
-const GROWTH: f64 = 1.0 / (1u64 << 43) as f64;
 /// The same relative to the largest coordinate.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
-/// How far from a face cuts are that go beside it, where the size is 2.
-const FACE_OFFSET: f64 = 1.0 / (1u64 << 40) as f64;
-/// Boxes are not cut any further whose hull exceeds what they hold by less than this share of the volume of all.
-const WORTH_CUTTING: f64 = 1e-7;
-/// Boxes that are cut at the same time, whatever the number of threads.
-const AT_A_TIME: usize = 8;
-/// Points by which it is estimated how much of a box is inside.
-const TRIED: usize = 32;
-/// How often an edge of a box is halved to find where it leaves what is filled.
-const HALVED: usize = 20;
 /// Points by which a volume is estimated.
 const ESTIMATED: usize = 1 << 15;
-/// Thickness of a surface that bounds nothing where none is asked for, relative to the diagonal of its box.
-pub const SHELL_THICKNESS: f64 = 1.0 / 512.0;
 
 /// What a surface bounds.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -199,133 +185,6 @@ impl Frame {
     fn growth(&self) -> f64 {
         GROWTH / self.scale + ROUNDING * self.reach
     }
-}
-
-struct Solid<'a>(Winding<'a>);
-
-impl Inside for Solid<'_> {
-    fn holds(&self, point: DVec3) -> bool {
-        self.0.around(point) > 0
-    }
-
-    fn volume_in(&self, region: &Region) -> f64 {
-        region.volume()
-    }
-}
-
-struct Filled(SolidAngles);
-
-impl Inside for Filled {
-    fn holds(&self, point: DVec3) -> bool {
-        self.0.around(point) > 0.5
-    }
-
-    fn volume_in(&self, region: &Region) -> f64 {
-        let size = region.high - region.low;
-        let inside = (0..TRIED).filter(|k| self.holds(region.low + size * spread(*k))).count();
-        size.element_product() * inside as f64 / TRIED as f64
-    }
-
-    /// Found by halves along each edge of the box that leads from inside to outside.
-    fn open_points(&self, region: &Region) -> Vec<DVec3> {
-        let mut points = Vec::new();
-        for (from, to) in region.edges() {
-            let (mut inner, mut outer) = (from, to);
-            for _ in 0..HALVED {
-                let middle = 0.5 * inner + 0.5 * outer;
-                *(if self.holds(middle) { &mut inner } else { &mut outer }) = middle;
-            }
-            points.push(inner);
-        }
-        points
-    }
-}
-
-struct Shell {
-    thickness: f64,
-}
-
-impl Inside for Shell {
-    fn holds(&self, _: DVec3) -> bool {
-        false
-    }
-
-    fn volume_in(&self, region: &Region) -> f64 {
-        self.thickness * region.polygons.iter().map(|(corners, _)| normal(corners).length() / 2.0).sum::<f64>()
-    }
-}
-
-/// A box in the queue, the one whose hull exceeds it most first.
-struct Waiting {
-    excess: f64,
-    number: usize,
-    region: Region,
-}
-
-impl Waiting {
-    fn new(region: Region, inside: &impl Inside) -> Self {
-        let volume = inside.volume_in(&region);
-        Self { excess: hull_volume(&region.points()) - volume, number: 0, region }
-    }
-}
-
-impl Ord for Waiting {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.excess.total_cmp(&other.excess).then(other.number.cmp(&self.number))
-    }
-}
-
-impl PartialOrd for Waiting {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl PartialEq for Waiting {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other).is_eq()
-    }
-}
-
-impl Eq for Waiting {}
-
-/// Boxes that together hold all of a surface and what it bounds.
-fn divided(polygons: Polygons, inside: &impl Inside, wanted: usize) -> Vec<Region> {
-    let (low, high) = bounds(polygons.corners().iter().copied());
-    // beyond everything, so that no polygon lies in a side
-    let room = DVec3::splat(16.0 * FACE_OFFSET);
-    let first = Waiting::new(Region::new(low - room, high + room, polygons, inside), inside);
-    let least = WORTH_CUTTING * first.excess.abs();
-    let (mut waiting, mut done, mut number) = (BinaryHeap::from([first]), Vec::new(), 0);
-    while waiting.len() + done.len() < wanted {
-        let room = (wanted - waiting.len() - done.len()).min(AT_A_TIME);
-        let taken: Vec<Waiting> = (0..room).map_while(|_| waiting.pop()).collect();
-        if taken.is_empty() {
-            break;
-        }
-        let cut: Vec<Result<Vec<Waiting>, Waiting>> =
-            taken.into_par_iter().with_max_len(1).map(|one| in_two(one, least, inside)).collect();
-        for parts in cut {
-            match parts {
-                Ok(parts) => {
-                    waiting.extend(parts.into_iter().zip(number..).map(|(part, number)| Waiting { number, ..part }))
-                }
-                Err(whole) => done.push(whole),
-            }
-            number += 2;
-        }
-    }
-    done.into_iter().chain(waiting.into_sorted_vec()).map(|one| one.region).collect()
-}
-
-/// The parts of a box that are not empty; the box itself where it is not worth cutting.
-fn in_two(one: Waiting, least: f64, inside: &impl Inside) -> Result<Vec<Waiting>, Waiting> {
-    if one.excess <= least {
-        return Err(one);
-    }
-    let Some(cut) = best_cut(&one.region, inside) else { return Err(one) };
-    let parts = one.region.split(cut.axis, cut.at, inside);
-    Ok(parts.into_iter().filter(|part| !part.is_empty()).map(|part| Waiting::new(part, inside)).collect())
 }
 
 /// The piece of a box.

@@ -2,7 +2,7 @@
 
 use planecut_kernel::DVec3;
 
-use super::CLIP_MARGIN;
+use crate::tolerances::CLIP_MARGIN;
 
 /// Convex polygons, each what a box leaves of a triangle.
 #[derive(Debug, Clone, Default)]

@@ -2,20 +2,9 @@
 
 use planecut_kernel::{DVec3, hull_triangles};
 
-use super::CLIP_MARGIN;
+use super::inside::Inside;
 use super::polygons::Polygons;
-
-/// Which side of a surface points are on.
-pub(super) trait Inside: Sync {
-    /// Whether a point is inside.
-    fn holds(&self, point: DVec3) -> bool;
-    /// The volume of what is inside of a box, about.
-    fn volume_in(&self, region: &Region) -> f64;
-    /// Where edges of a box leave the inside although there is no surface.
-    fn open_points(&self, _: &Region) -> Vec<DVec3> {
-        Vec::new()
-    }
-}
+use crate::tolerances::CLIP_MARGIN;
 
 /// A box, and what of the surface lies in it.
 #[derive(Debug, Clone)]
