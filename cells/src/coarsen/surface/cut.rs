@@ -3,9 +3,10 @@
 use planecut_kernel::DVec3;
 
 use super::bounds;
+use super::extremes::Extremes;
 use super::inside::Inside;
 use super::polygons::{Polygons, crossing};
-use super::region::{Region, hull_volume, normal};
+use super::region::{Region, normal};
 use crate::tolerances::{FACE_ACROSS, FACE_OFFSET, SAME_HEIGHT};
 
 /// Places along each axis at which a cut is tried whatever is there.
@@ -117,57 +118,4 @@ fn beside_faces(polygons: &Polygons, axis: usize, is_thin: bool) -> Vec<f64> {
 
 fn sample(polygons: &Polygons) -> Polygons {
     polygons.every(polygons.len().div_ceil(LOOKED_AT))
-}
-
-/// The farthest points in some directions: to corners, edges and sides of a cube.
-#[derive(Debug, Clone)]
-struct Extremes {
-    points: [DVec3; 2 * DIRECTIONS.len()],
-    reach: [f64; 2 * DIRECTIONS.len()],
-}
-
-const DIRECTIONS: [[f64; 3]; 13] = [
-    [1.0, 0.0, 0.0],
-    [0.0, 1.0, 0.0],
-    [0.0, 0.0, 1.0],
-    [1.0, 1.0, 0.0],
-    [1.0, -1.0, 0.0],
-    [1.0, 0.0, 1.0],
-    [1.0, 0.0, -1.0],
-    [0.0, 1.0, 1.0],
-    [0.0, 1.0, -1.0],
-    [1.0, 1.0, 1.0],
-    [1.0, 1.0, -1.0],
-    [1.0, -1.0, 1.0],
-    [1.0, -1.0, -1.0],
-];
-
-impl Default for Extremes {
-    fn default() -> Self {
-        Self { points: [DVec3::ZERO; 2 * DIRECTIONS.len()], reach: [f64::NEG_INFINITY; 2 * DIRECTIONS.len()] }
-    }
-}
-
-impl Extremes {
-    fn of(points: impl Iterator<Item = DVec3>) -> Self {
-        let mut extremes = Self::default();
-        points.for_each(|point| extremes.add(point));
-        extremes
-    }
-
-    fn add(&mut self, point: DVec3) {
-        for (k, direction) in DIRECTIONS.iter().enumerate() {
-            let along = DVec3::from_array(*direction).dot(point);
-            for (place, along) in [(2 * k, along), (2 * k + 1, -along)] {
-                if along > self.reach[place] {
-                    self.reach[place] = along;
-                    self.points[place] = point;
-                }
-            }
-        }
-    }
-
-    fn volume(&self) -> f64 {
-        if self.reach[0] == f64::NEG_INFINITY { 0.0 } else { hull_volume(&self.points) }
-    }
 }

@@ -24,9 +24,8 @@ struct Waiting {
 }
 
 impl Waiting {
-    fn new(region: Region, inside: &impl Inside) -> Self {
-        let volume = inside.volume_in(&region);
-        Self { excess: hull_volume(&region.points()) - volume, number: 0, region }
+    fn new(region: Region) -> Self {
+        Self { excess: hull_volume(&region.points()) - region.filled, number: 0, region }
     }
 }
 
@@ -55,7 +54,7 @@ pub(super) fn divided(polygons: Polygons, inside: &impl Inside, wanted: usize) -
     let (low, high) = bounds(polygons.corners().iter().copied());
     // beyond everything, so that no polygon lies in a side
     let room = DVec3::splat(16.0 * FACE_OFFSET);
-    let first = Waiting::new(Region::new(low - room, high + room, polygons, inside), inside);
+    let first = Waiting::new(Region::new(low - room, high + room, polygons, inside));
     let least = WORTH_CUTTING * first.excess.abs();
     let (mut waiting, mut done, mut number) = (BinaryHeap::from([first]), Vec::new(), 0);
     while waiting.len() + done.len() < wanted {
@@ -91,5 +90,5 @@ fn in_two(one: Waiting, least: f64, inside: &impl Inside) -> Cut {
     }
     let Some(cut) = best_cut(&one.region, inside) else { return Cut::Whole(one) };
     let parts = one.region.split(cut.axis, cut.at, inside);
-    Cut::Parts(parts.into_iter().filter(|part| !part.is_empty()).map(|part| Waiting::new(part, inside)).collect())
+    Cut::Parts(parts.into_iter().filter(|part| !part.is_empty()).map(Waiting::new).collect())
 }

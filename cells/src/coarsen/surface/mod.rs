@@ -15,6 +15,7 @@ mod body;
 mod cut;
 mod divide;
 mod draw_in;
+mod extremes;
 mod fragment;
 mod inside;
 mod polygons;

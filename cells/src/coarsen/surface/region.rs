@@ -14,15 +14,18 @@ pub(super) struct Region {
     pub(super) polygons: Polygons,
     /// Whether each corner of the box is inside; bit `k` of its number is set where the corner is high along axis `k`.
     pub(super) corners: [bool; 8],
-    /// Where edges of the box leave the inside although there is no surface.
+    /// The volume of what is inside, about.
+    pub(super) filled: f64,
+    /// Points inside that no polygon and no corner of the box tells of.
     open: Vec<DVec3>,
 }
 
 impl Region {
     pub(super) fn new(low: DVec3, high: DVec3, polygons: Polygons, inside: &impl Inside) -> Self {
         let corners = std::array::from_fn(|k| inside.holds(corner(low, high, k)));
-        let region = Self { low, high, polygons, corners, open: Vec::new() };
-        Self { open: inside.open_points(&region), ..region }
+        let region = Self { low, high, polygons, corners, filled: 0.0, open: Vec::new() };
+        let (filled, open) = inside.fills(&region);
+        Self { filled, open, ..region }
     }
 
     /// The two parts at a plane across an axis. They overlap by twice the margin.
@@ -51,22 +54,22 @@ impl Region {
         self.polygons.corners().iter().filter(is_on_side).copied().chain(self.inner_corners())
     }
 
-    /// The corners of the box that are inside, and where its edges leave that although there is no surface.
+    /// The corners of the box that are inside, and the points inside that neither they nor polygons tell of.
     pub(super) fn inner_corners(&self) -> impl Iterator<Item = DVec3> {
         let inner = (0..8).filter(|k| self.corners[*k]).map(|k| corner(self.low, self.high, k));
         inner.chain(self.open.iter().copied())
     }
 
-    /// The edges of the box of which one end is inside, from there to the other end.
+    /// The ends of the edges of the box.
     pub(super) fn edges(&self) -> impl Iterator<Item = (DVec3, DVec3)> {
         let at = |k: usize| corner(self.low, self.high, k);
-        let ends = (0..8).flat_map(|k| (0..3).map(move |axis| (k, k ^ 1 << axis)));
-        ends.filter(|(from, to)| self.corners[*from] && !self.corners[*to]).map(move |(from, to)| (at(from), at(to)))
+        let ends = (0..8).flat_map(|k| (0..3).map(move |axis| (k, k | 1 << axis)));
+        ends.filter(|(from, to)| from != to).map(move |(from, to)| (at(from), at(to)))
     }
 
     /// Whether there is nothing of the solid.
     pub(super) fn is_empty(&self) -> bool {
-        self.polygons.is_empty() && !self.corners.contains(&true)
+        self.polygons.is_empty() && self.open.is_empty() && !self.corners.contains(&true)
     }
 
     /// The volume of the solid in the box, by the divergence theorem from its low corner: sides through that add nothing, each other one a third of its height

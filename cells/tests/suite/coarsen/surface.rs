@@ -9,8 +9,8 @@ use planecut_testkit::scene::{as_rust, cuboid, scaled};
 
 use super::judge::{assert_holds_points, holds, volume_outside};
 
-const TREES: u64 = 6;
-const SOUPS: u64 = 12;
+const TREES: u64 = 3;
+const SOUPS: u64 = 6;
 
 fn surface(mesh: &Mesh, bounded: Bounded) -> Surface<'_> {
     Surface { positions: &mesh.positions, triangles: &mesh.triangles, materials: &[], bounded }
