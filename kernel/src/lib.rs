@@ -65,7 +65,7 @@ pub mod sign;
 pub use arithmetic::{DoubleDouble, decompose, decompose_odd, round_quotient};
 pub use glam::{DMat3, DVec2, DVec3, DVec4};
 pub use half_space::{HalfSpace, HalfSpaceError, MAX_NORMAL, MAX_NORMAL_RATIO, MAX_OFFSET_RATIO, MIN_NORMAL};
-pub use hull::{HullError, MAX_COORDINATE, hull, hull_triangles};
+pub use hull::{HullError, MAX_COORDINATE, approximate_hull_triangles, hull, hull_triangles};
 pub use meet::{compare_exactly, direction_across, line_coordinates, line_direction, meet, planar_turn};
 pub use polytope::{
     AddPlaneResult, BoundaryLine, BoundingBox, ClippedLine, ClosestFeature, ClosestPoint, DEFAULT_EPSILON, Edge,

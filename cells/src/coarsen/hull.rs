@@ -3,7 +3,7 @@
 //! They propose what to merge. What is kept of a proposal is built again by exact signs ([`super::enclose`]).
 
 use planecut_csg::stages::Bounds;
-use planecut_kernel::{DVec3, hull_triangles};
+use planecut_kernel::{DVec3, approximate_hull_triangles};
 
 use super::part::bounds_of;
 use super::probes::{Coverage, Probes};
@@ -28,7 +28,7 @@ impl Hull {
         let bounds = bounds_of(points);
         let mut hull =
             Self { corners: Vec::new(), planes: Vec::new(), bounds, volume: 0.0, coverage: Coverage::default() };
-        match hull_triangles(points) {
+        match approximate_hull_triangles(points, HULL_TOUCHING * hull.size()) {
             Ok(triangles) => hull.take(points, &triangles),
             Err(_) => {
                 hull.corners = points.to_vec();

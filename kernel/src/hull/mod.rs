@@ -133,6 +133,34 @@ pub fn hull_triangles<P: Into<DVec3> + Copy>(points: &[P]) -> Result<Vec<[u32; 3
     Ok(Triangulation::of(&points)?.triangles().collect())
 }
 
+/// Triangles as [`hull_triangles`] has them, in floating point: points may stick out by the tolerance, about, or where facets are thinner than rounding by more. The triangles close all the
+/// same. Several times faster, above all where many points lie on a plane, for volumes and other measures.
+///
+/// # Errors
+/// As [`hull`].
+///
+/// ```
+/// use planecut_kernel::{HullError, approximate_hull_triangles};
+///
+/// # fn main() -> Result<(), HullError> {
+/// let corners: Vec<[f64; 3]> = (0..8).map(|k| [k & 1, k >> 1 & 1, k >> 2].map(f64::from)).collect();
+/// assert_eq!(approximate_hull_triangles(&corners, 1e-9)?.len(), 12);
+/// # Ok(())
+/// # }
+/// ```
+pub fn approximate_hull_triangles<P: Into<DVec3> + Copy>(
+    points: &[P],
+    tolerance: f64,
+) -> Result<Vec<[u32; 3]>, HullError> {
+    let points = vectors(points);
+    check_range(&points)?;
+    let hull = match Triangulation::within(&points, tolerance)? {
+        Some(hull) => hull,
+        None => Triangulation::of(&points)?,
+    };
+    Ok(hull.triangles().collect())
+}
+
 fn vectors<P: Into<DVec3> + Copy>(points: &[P]) -> Vec<DVec3> {
     points.iter().map(|point| (*point).into()).collect()
 }

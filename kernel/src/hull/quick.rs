@@ -2,6 +2,8 @@
 //!
 //! A point sees a triangle where it lies strictly outside its plane. What a point sees is then a disc whose border no new
 //! triangle meets in a line, so that no triangle ever degenerates, whatever the points are like.
+//!
+//! Or with a tolerance, in floating point: there a point sees a triangle from farther away than that alone. What it sees may then be no disc, and there is no hull.
 
 use glam::DVec3;
 use robust::{Coord, Coord3D, orient2d, orient3d};
@@ -20,6 +22,8 @@ struct Triangle {
     alive: bool,
     /// The last point that was asked whether it sees it, and the answer.
     asked: (u32, bool),
+    /// Unit normal and offset of its plane, about, where there is a tolerance.
+    plane: (DVec3, f64),
 }
 
 const NOBODY: u32 = u32::MAX;
@@ -31,6 +35,8 @@ const SHARP: f64 = -0.9994;
 pub(super) struct Triangulation<'a> {
     points: &'a [DVec3],
     triangles: Vec<Triangle>,
+    /// How far outside of a triangle's plane a point may lie without seeing it; exact where there is none.
+    tolerance: Option<f64>,
 }
 
 /// An edge of the border of what a point sees, named from the side that stays.
@@ -43,31 +49,44 @@ struct Border {
 impl<'a> Triangulation<'a> {
     /// The hull of points in the accepted range.
     pub(super) fn of(points: &'a [DVec3]) -> Result<Self, HullError> {
-        let simplex = first_simplex(points)?;
-        let mut hull = Self { points, triangles: Vec::new() };
+        let mut hull = Self { points, triangles: Vec::new(), tolerance: None };
+        hull.begin(first_simplex(points)?);
+        // what a point sees by exact signs is a disc
+        hull.grow();
+        Ok(hull)
+    }
+
+    /// A hull of points in the accepted range from which none sticks out by more than a tolerance, about; nothing where rounding would have it cross itself.
+    pub(super) fn within(points: &'a [DVec3], tolerance: f64) -> Result<Option<Self>, HullError> {
+        let mut hull = Self { points, triangles: Vec::new(), tolerance: Some(tolerance) };
+        hull.begin(first_simplex(points)?);
+        Ok(hull.grow().then_some(hull))
+    }
+
+    /// Makes a tetrahedron.
+    fn begin(&mut self, simplex: [u32; 4]) {
         let [a, b, c, d] = simplex;
-        let faces = if hull.is_outside([a, b, c], d) {
+        let faces = if self.turn([a, b, c], d) < 0.0 {
             [[a, c, b], [a, b, d], [b, c, d], [c, a, d]]
         } else {
             [[a, b, c], [a, d, b], [b, d, c], [c, d, a]]
         };
         for corners in faces {
-            hull.push(corners);
+            self.push(corners);
         }
         for i in 0..4u32 {
             for k in 0..3 {
-                let (from, to) = hull.edge(i, k);
-                hull.triangles[i as usize].across[k] =
-                    (0..4).find(|j| (0..3).any(|l| hull.edge(*j, l) == (to, from))).unwrap_or(i);
+                let (from, to) = self.edge(i, k);
+                self.triangles[i as usize].across[k] =
+                    (0..4).find(|j| (0..3).any(|l| self.edge(*j, l) == (to, from))).unwrap_or(i);
             }
         }
-        let all: Vec<u32> = (0..points.len() as u32).filter(|p| !simplex.contains(p)).collect();
-        hull.distribute(all, &[0, 1, 2, 3]);
-        hull.grow();
-        Ok(hull)
+        let all: Vec<u32> = (0..self.points.len() as u32).filter(|p| !simplex.contains(p)).collect();
+        self.distribute(all, &[0, 1, 2, 3]);
     }
 
-    fn grow(&mut self) {
+    /// Takes in all points; false where what one of them sees is no disc.
+    fn grow(&mut self) -> bool {
         let mut open: Vec<u32> = (0..4).collect();
         while let Some(triangle) = open.pop() {
             if !self.triangles[triangle as usize].alive || self.triangles[triangle as usize].waiting.is_empty() {
@@ -76,17 +95,22 @@ impl<'a> Triangulation<'a> {
             let point = self.farthest(triangle);
             let first_new = self.triangles.len() as u32;
             let (visible, border) = self.visible_from(point, triangle);
-            self.cover(point, &border);
+            if !self.cover(point, &border) {
+                return false;
+            }
             let mut orphans = Vec::new();
             for gone in visible {
                 let gone = &mut self.triangles[gone as usize];
                 gone.alive = false;
                 orphans.append(&mut gone.waiting);
             }
+            // it may seem to see a sliver that it is a corner of
+            orphans.retain(|orphan| *orphan != point);
             let new: Vec<u32> = (first_new..self.triangles.len() as u32).collect();
             self.distribute(orphans, &new);
             open.extend(new);
         }
+        true
     }
 
     fn edge(&self, triangle: u32, k: usize) -> (u32, u32) {
@@ -96,13 +120,25 @@ impl<'a> Triangulation<'a> {
 
     fn push(&mut self, corners: [u32; 3]) -> u32 {
         let asked = (NOBODY, false);
-        self.triangles.push(Triangle { corners, across: [NOBODY; 3], waiting: Vec::new(), alive: true, asked });
+        let plane = if self.tolerance.is_some() { self.plane_of(corners) } else { (DVec3::ZERO, 0.0) };
+        self.triangles.push(Triangle { corners, across: [NOBODY; 3], waiting: Vec::new(), alive: true, asked, plane });
         self.triangles.len() as u32 - 1
     }
 
-    /// Whether a point lies strictly outside the plane of a triangle.
-    fn is_outside(&self, corners: [u32; 3], point: u32) -> bool {
-        self.turn(corners, point) < 0.0
+    /// Unit normal and offset; zero for a line.
+    fn plane_of(&self, corners: [u32; 3]) -> (DVec3, f64) {
+        let [a, b, c] = corners.map(|p| self.points[p as usize]);
+        let normal = (b - a).cross(c - a).normalize_or_zero();
+        (normal, normal.dot(a))
+    }
+
+    /// Whether a point lies strictly outside the plane of a triangle, or by more than the tolerance.
+    fn is_outside(&self, triangle: u32, point: u32) -> bool {
+        let Triangle { corners, plane: (normal, offset), .. } = &self.triangles[triangle as usize];
+        match self.tolerance {
+            None => self.turn(*corners, point) < 0.0,
+            Some(tolerance) => normal.dot(self.points[point as usize]) - offset > tolerance,
+        }
     }
 
     /// Negative outside the plane of three points that are counter-clockwise seen from there, exactly.
@@ -139,7 +175,7 @@ impl<'a> Triangulation<'a> {
                 let seen = match self.triangles[other as usize].asked {
                     (asked, seen) if asked == point => seen,
                     _ => {
-                        let seen = self.is_outside(self.triangles[other as usize].corners, point);
+                        let seen = self.is_outside(other, point);
                         self.triangles[other as usize].asked = (point, seen);
                         if seen {
                             visible.push(other);
@@ -156,30 +192,34 @@ impl<'a> Triangulation<'a> {
         (visible, border)
     }
 
-    /// Joins a point to the border of what it sees.
-    fn cover(&mut self, point: u32, border: &[Border]) {
+    /// Joins a point to the border of what it sees; false, with nothing done, where that is not one loop.
+    fn cover(&mut self, point: u32, border: &[Border]) -> bool {
         let first = self.triangles.len() as u32;
+        // the triangle that begins where another ends is its neighbour
+        let mut begins: Vec<(u32, u32)> = border.iter().map(|edge| edge.from).zip(first..).collect();
+        begins.sort_unstable();
+        if self.tolerance.is_some() && !is_loop(border, &begins, first) {
+            return false;
+        }
         for Border { from, to, outside } in border {
             let new = self.push([*from, *to, point]);
             self.triangles[new as usize].across[0] = *outside;
             let back = (0..3).find(|k| self.edge(*outside, *k) == (*to, *from)).unwrap_or(0);
             self.triangles[*outside as usize].across[back] = new;
         }
-        // the triangle that begins where another ends is its neighbour
-        let mut begins: Vec<(u32, u32)> = border.iter().map(|edge| edge.from).zip(first..).collect();
-        begins.sort_unstable();
         for (edge, new) in border.iter().zip(first..) {
             let Ok(place) = begins.binary_search_by_key(&edge.to, |(from, _)| *from) else { continue };
             let following = begins[place].1;
             self.triangles[new as usize].across[1] = following;
             self.triangles[following as usize].across[2] = new;
         }
+        true
     }
 
     /// Gives each point to one of some triangles that sees it; one that sees none is inside.
     fn distribute(&mut self, points: Vec<u32>, triangles: &[u32]) {
         for point in points {
-            let sees = |t: &&u32| self.is_outside(self.triangles[**t as usize].corners, point);
+            let sees = |t: &&u32| self.is_outside(**t, point);
             if let Some(&triangle) = triangles.iter().find(sees) {
                 self.triangles[triangle as usize].waiting.push(point);
             }
@@ -267,6 +307,23 @@ impl<'a> Triangulation<'a> {
         })
         .map(move |triangle| self.corners(triangle)[(place(triangle) + 1) % 3])
     }
+}
+
+/// Whether edges, by the points where they begin with numbers from the first one on, are one closed loop that passes no point twice.
+fn is_loop(border: &[Border], begins: &[(u32, u32)], first: u32) -> bool {
+    let next = |edge: &Border| {
+        let place = begins.binary_search_by_key(&edge.to, |(from, _)| *from).ok()?;
+        Some((begins[place].1 - first) as usize)
+    };
+    let mut at = 0;
+    for (passed, _) in (1..).zip(border) {
+        match next(&border[at]) {
+            Some(0) => return passed == border.len(),
+            Some(following) => at = following,
+            None => return false,
+        }
+    }
+    false
 }
 
 fn coordinates(p: DVec3) -> Coord3D<f64> {

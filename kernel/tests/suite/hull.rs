@@ -5,7 +5,7 @@
 use std::collections::BTreeSet;
 
 use dashu_ratio::RBig;
-use planecut_kernel::{DVec3, HullError, IncrementalPolytope, hull, hull_triangles};
+use planecut_kernel::{DVec3, HullError, IncrementalPolytope, approximate_hull_triangles, hull, hull_triangles};
 use planecut_oracle::random::Rng;
 use planecut_oracle::settings::first_seed;
 
@@ -184,6 +184,7 @@ fn small_sets_of_points() {
                 if let Err(error) = check_triangles(&triangles, &exact, &facets) {
                     panic!("{}", report(&error));
                 }
+                check_approximation(&points, &triangles).unwrap_or_else(|error| panic!("{}", report(&error)));
                 assert!(polytope.is_bounded(), "{}", report("unbounded"));
                 // where facets are nearly coplanar, rounded planes meet anywhere along them: count where all is exact
                 if matches!(k % 6, 0 | 2) {
@@ -193,6 +194,30 @@ fn small_sets_of_points() {
         }
     }
     assert!(by_dimension.iter().all(|n| *n > 20), "sets by dimension: {by_dimension:?}");
+}
+
+/// That a hull in floating point closes and has the volume of the exact one.
+fn check_approximation(points: &[DVec3], exact: &[[u32; 3]]) -> Result<(), String> {
+    let size = points.iter().flat_map(|p| points.iter().map(|q| p.distance(*q))).fold(0.0, f64::max);
+    let tolerance = 1e-9 * size;
+    let triangles = approximate_hull_triangles(points, tolerance).map_err(|error| error.to_string())?;
+    let edges: Vec<(u32, u32)> = triangles.iter().flat_map(|[a, b, c]| [(*a, *b), (*b, *c), (*c, *a)]).collect();
+    for (k, (a, b)) in edges.iter().enumerate() {
+        if edges[..k].contains(&(*a, *b)) || !edges.contains(&(*b, *a)) {
+            return Err(format!("the edge from {a} to {b} does not close in {triangles:?}"));
+        }
+    }
+    let volume = |triangles: &[[u32; 3]]| {
+        let of = |[a, b, c]: [DVec3; 3]| a.dot(b.cross(c)) / 6.0;
+        triangles.iter().map(|corners| of(corners.map(|p| points[p as usize] - points[0]))).sum::<f64>()
+    };
+    let (found, expected) = (volume(&triangles), volume(exact));
+    // no larger than a sphere of that radius has
+    let layer = 4.0 * std::f64::consts::PI * size * size * tolerance;
+    if (found - expected).abs() > layer {
+        return Err(format!("found a volume of {found}, expected {expected}"));
+    }
+    Ok(())
 }
 
 #[test]

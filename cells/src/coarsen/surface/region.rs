@@ -1,10 +1,10 @@
 //! A box of space with what it holds of a solid.
 
-use planecut_kernel::{DVec3, hull_triangles};
+use planecut_kernel::{DVec3, approximate_hull_triangles};
 
 use super::inside::Inside;
 use super::polygons::Polygons;
-use crate::tolerances::CLIP_MARGIN;
+use crate::tolerances::{CLIP_MARGIN, HULL_TOUCHING};
 
 /// A box, and what of the surface lies in it.
 #[derive(Debug, Clone)]
@@ -108,9 +108,9 @@ impl Region {
     }
 }
 
-/// The volume of the hull of points; none where it has none.
+/// The volume of the hull of points, about; none where it has none. All points are within a box of size 1.
 pub(super) fn hull_volume(points: &[DVec3]) -> f64 {
-    let Ok(triangles) = hull_triangles(points) else { return 0.0 };
+    let Ok(triangles) = approximate_hull_triangles(points, HULL_TOUCHING) else { return 0.0 };
     let origin = points[triangles[0][0] as usize];
     let sum: f64 = triangles
         .iter()
