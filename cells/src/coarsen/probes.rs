@@ -129,7 +129,9 @@ impl Probes {
             let offset = (offset - normal.dot(self.origin)) as f32;
             let [a, b, c] = normal.to_array().map(|v| v as f32);
             for k in 0..WORD {
-                farthest[k] = farthest[k].max(a * x[k] + b * y[k] + c * z[k] - offset);
+                let distance = a * x[k] + b * y[k] + c * z[k] - offset;
+                // one instruction, where `max` also asks for NaN
+                farthest[k] = if distance > farthest[k] { distance } else { farthest[k] };
             }
         }
         (0..WORD).fold(0, |bits, k| bits | u64::from(farthest[k] <= 0.0) << k)
