@@ -32,6 +32,11 @@ impl Gaps {
         self.is_strict
     }
 
+    /// The parts that are near one; nothing where nothing is known.
+    pub(super) fn near(&self, part: u32) -> Option<&[u32]> {
+        self.near.get(part as usize).map(Vec::as_slice)
+    }
+
     /// Whether any of some parts is near any of others. Where nothing is known of parts, all are.
     pub(super) fn are_near(&self, some: &[u32], others: &[u32]) -> bool {
         if self.near.is_empty() {

@@ -143,12 +143,10 @@ impl<'a> Merger<'a> {
         let groups = &self.groups;
         let volume = |place: u32| groups[place as usize].as_ref().map_or(0.0, |group| group.hull.volume);
         if adds {
-            self.pairs.update(|pair| {
-                if pair.fresh > 0 && pair.hull.bounds.touches(&bounds) {
-                    let own = pair.hull.volume - volume(pair.places[0]) - volume(pair.places[1]);
-                    pair.fresh = count_fresh(covered, &pair.hull.coverage);
-                    pair.cost = search.cost(pair.fresh, own);
-                }
+            self.pairs.update(&bounds, |pair| {
+                let own = pair.hull.volume - volume(pair.places[0]) - volume(pair.places[1]);
+                let fresh = count_fresh(covered, &pair.hull.coverage);
+                (fresh, search.cost(fresh, own))
             });
         }
         let new: Vec<[u32; 2]> = partners.into_iter().map(|place| [place.min(kept), place.max(kept)]).collect();

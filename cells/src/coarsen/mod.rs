@@ -37,6 +37,7 @@ mod written;
 use planecut_csg::stages::{Bounds, Boxes, evaluate_shape};
 use planecut_csg::{Brush, Tree};
 use planecut_kernel::DVec3;
+use planecut_parallel::prelude::*;
 
 pub use options::{CoarsenError, CoarsenOptions, DEFAULT_OVERLAP_WEIGHT, LEAST_MAX_FACES, LEAST_MAX_VERTICES, Side};
 pub use surface::{Bounded, Surface};
@@ -279,7 +280,7 @@ impl Coarsener {
         self.free.len() - gone
     }
 
-    /// Merges greedily to the end, and notes how.
+    /// Merges greedily, to the number of cells that is asked for or else to the end, and notes how.
     fn descend(&mut self) {
         if self.options.side == Side::Inner {
             return;
@@ -289,7 +290,8 @@ impl Coarsener {
         let mut merger = Merger::new(&search, groups, vec![0; self.probes.words()]);
         let mut merges = Vec::new();
         let pairs = merger.hulls().take(MOST_PAIRS).collect();
-        while merger.count() > 1 {
+        let least = if self.options.max_excess.is_none() { self.options.max_cells.unwrap_or(1) } else { 1 };
+        while merger.count() > least {
             let Some(merge) = merger.step() else { break };
             merges.push((merge, merger.added()));
         }
@@ -311,7 +313,15 @@ impl Coarsener {
             }
             left -= gone.len();
         }
-        members.into_iter().filter(|parts| !parts.is_empty()).map(|parts| search.group(parts)).collect()
+        let members = members.into_iter().filter(|parts| !parts.is_empty()).collect::<Vec<_>>();
+        let groups: Vec<Group> = members.into_par_iter().map(|parts| search.group(parts)).collect();
+        if left <= count {
+            return groups;
+        }
+        // fewer than were asked for at first
+        let mut merger = Merger::new(search, groups, vec![0; self.probes.words()]);
+        while merger.count() > count && merger.step().is_some() {}
+        merger.into_groups()
     }
 
     fn search(&self) -> Search<'_> {

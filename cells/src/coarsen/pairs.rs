@@ -3,6 +3,7 @@
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
+use planecut_csg::stages::Bounds;
 use planecut_kernel::HalfSpace;
 use planecut_parallel::prelude::*;
 
@@ -26,7 +27,11 @@ pub(super) struct Pair {
 #[derive(Debug, Default)]
 pub(super) struct Pairs {
     slots: Vec<Option<Pair>>,
-    /// The slots of each place's pairs, some of them empty by now.
+    /// The box of each slot's hull where that covers probes which nothing else does; else nothing. All are looked through often.
+    reach: Vec<Bounds>,
+    /// Empty slots.
+    vacant: Vec<u32>,
+    /// The slots of each place's pairs; some are empty by now, or another pair's.
     of_place: Vec<Vec<u32>>,
     /// Some are out of date: their pair is gone or costs something else.
     queue: BinaryHeap<Reverse<Entry>>,
@@ -78,12 +83,17 @@ impl Pairs {
     }
 
     pub(super) fn insert(&mut self, pair: Pair) {
-        let slot = self.slots.len() as u32;
+        let slot = self.vacant.pop().unwrap_or(self.slots.len() as u32);
+        if slot as usize == self.slots.len() {
+            self.slots.push(None);
+            self.reach.push(Bounds::EMPTY);
+        }
         self.queue.push(Reverse(Entry { is_far: pair.is_far, cost: pair.cost, places: pair.places, slot }));
         for place in pair.places {
             self.of_place[place as usize].push(slot);
         }
-        self.slots.push(Some(pair));
+        self.reach[slot as usize] = if pair.fresh > 0 { pair.hull.bounds } else { Bounds::EMPTY };
+        self.slots[slot as usize] = Some(pair);
         self.count += 1;
     }
 
@@ -92,37 +102,57 @@ impl Pairs {
         loop {
             let Reverse(entry) = self.queue.pop()?;
             if self.get(&entry).is_some() {
-                self.count -= 1;
-                return self.slots[entry.slot as usize].take();
+                return self.take(entry.slot);
             }
         }
     }
 
-    /// Takes all pairs of a place out and returns who the other ones are.
-    pub(super) fn take_of(&mut self, place: u32) -> Vec<u32> {
-        let slots = std::mem::take(&mut self.of_place[place as usize]);
-        let taken: Vec<Pair> = slots.into_iter().filter_map(|slot| self.slots[slot as usize].take()).collect();
-        self.count -= taken.len();
-        taken.into_iter().map(|Pair { places: [a, b], .. }| if a == place { b } else { a }).collect()
+    fn take(&mut self, slot: u32) -> Option<Pair> {
+        let pair = self.slots[slot as usize].take()?;
+        self.reach[slot as usize] = Bounds::EMPTY;
+        self.vacant.push(slot);
+        self.count -= 1;
+        Some(pair)
     }
 
-    /// Changes what pairs cost.
-    pub(super) fn update(&mut self, change: impl Fn(&mut Pair) + Sync) {
-        let changed = self.slots.par_iter_mut().enumerate().with_min_len(64).filter_map(|(slot, pair)| {
-            let pair = pair.as_mut()?;
-            let before = pair.cost;
-            change(pair);
-            let is_same = before.total_cmp(&pair.cost).is_eq();
-            let (is_far, cost, places) = (pair.is_far, pair.cost, pair.places);
-            (!is_same).then_some(Entry { is_far, cost, places, slot: slot as u32 })
-        });
-        let changed: Vec<Entry> = changed.collect();
-        self.queue.extend(changed.into_iter().map(Reverse));
+    /// Takes all pairs of a place out and returns who the other ones are.
+    pub(super) fn take_of(&mut self, place: u32) -> Vec<u32> {
+        let mut others = Vec::new();
+        for slot in std::mem::take(&mut self.of_place[place as usize]) {
+            let is_own = |pair: &Pair| pair.places.contains(&place);
+            if self.slots[slot as usize].as_ref().is_some_and(is_own)
+                && let Some(Pair { places: [a, b], .. }) = self.take(slot)
+            {
+                others.push(if a == place { b } else { a });
+            }
+        }
+        others
+    }
+
+    /// Sets anew what pairs cost whose hulls cover fresh probes and reach into a box: what is asked for says how many of these are left, and the cost.
+    pub(super) fn update(&mut self, bounds: &Bounds, cost: impl Fn(&Pair) -> (u32, f64) + Sync) {
+        let touching = self.reach.par_iter().with_min_len(1024).enumerate().filter(|(_, reach)| reach.touches(bounds));
+        let touching: Vec<usize> = touching.map(|(slot, _)| slot).collect();
+        let slots = &self.slots;
+        let costs = touching.par_iter().with_min_len(32).map(|slot| slots[*slot].as_ref().map(&cost));
+        let costs: Vec<Option<(u32, f64)>> = costs.collect();
+        for (slot, found) in touching.into_iter().zip(costs) {
+            let (Some(pair), Some((fresh, cost))) = (self.slots[slot].as_mut(), found) else { continue };
+            let is_same = pair.cost.total_cmp(&cost).is_eq();
+            (pair.fresh, pair.cost) = (fresh, cost);
+            if fresh == 0 {
+                self.reach[slot] = Bounds::EMPTY;
+            }
+            if !is_same {
+                let (is_far, places) = (pair.is_far, pair.places);
+                self.queue.push(Reverse(Entry { is_far, cost, places, slot: slot as u32 }));
+            }
+        }
     }
 
     /// The pair of an entry that is not out of date.
     fn get(&self, entry: &Entry) -> Option<&Pair> {
         let pair = self.slots[entry.slot as usize].as_ref()?;
-        pair.cost.total_cmp(&entry.cost).is_eq().then_some(pair)
+        (pair.places == entry.places && pair.cost.total_cmp(&entry.cost).is_eq()).then_some(pair)
     }
 }

@@ -64,8 +64,8 @@ pub(super) fn relocate(search: &Search, groups: &mut [Group], clock: &mut Clock,
             clock.looked[*part as usize] = clock.now;
         }
         let others: Vec<Vec<u64>> = covered_by_others(search, groups);
-        let view: &[Group] = groups;
-        let best = |(from, part): &(usize, u32)| best_move(search, view, &others[*from], *from, *part);
+        let view = View { search, group_of: group_of_parts(search, groups), groups };
+        let best = |(from, part): &(usize, u32)| view.best_move(&others[*from], *from, *part);
         let mut moves: Vec<Move> = asked.par_iter().with_min_len(2).filter_map(best).collect();
         moves.sort_by(|a, b| b.gain.total_cmp(&a.gain).then(a.part.cmp(&b.part)));
         // a move is good for the groups that it was found for
@@ -120,50 +120,76 @@ fn covered_by_others(search: &Search, groups: &[Group]) -> Vec<Vec<u64>> {
     groups.par_iter().map(others).collect()
 }
 
-fn best_move(search: &Search, groups: &[Group], others: &[u64], from: usize, part: u32) -> Option<Move> {
-    let (own, old) = (&search.parts[part as usize], &groups[from]);
-    if !own.corners.iter().any(|corner| old.hull.corners.contains(corner)) {
-        return None;
+/// The group of each part.
+fn group_of_parts(search: &Search, groups: &[Group]) -> Vec<u32> {
+    let mut group_of = vec![0; search.parts.len()];
+    for (group, part) in groups.iter().enumerate().flat_map(|(k, group)| group.parts.iter().map(move |part| (k, *part)))
+    {
+        group_of[part as usize] = group as u32;
     }
-    let rest = search.group(old.parts.iter().copied().filter(|other| *other != part).collect());
-    if rest.hull.volume > old.hull.volume * SAME_HULL {
-        return None;
-    }
-    let mut covered = others.to_vec();
-    add(&mut covered, &rest.hull.coverage);
-    let freed = count_fresh(&covered, &old.hull.coverage);
-    let mut best: Option<(f64, usize, Hull)> = None;
-    for to in targets(search, groups, from, part) {
-        let target = &groups[to];
-        let is_held = target.hull.holds(&own.bounds, &own.corners);
-        let joined = if is_held { Some(target.hull.clone()) } else { search.joined(&target.hull, search.hull(part)) };
-        let Some(joined) = joined else { continue };
-        let added = count_fresh(&covered, &joined.coverage);
-        let grown = rest.hull.volume + joined.volume - old.hull.volume - target.hull.volume;
-        let gain = search.cost(freed, 0.0) - search.cost(added, grown);
-        if best.as_ref().is_none_or(|(most, ..)| gain > *most) {
-            best = Some((gain, to, joined));
-        }
-    }
-    let (gain, to, joined) = best?;
-    (gain > search.least_gain()).then_some(Move { gain, from, to, part, rest, joined })
+    group_of
 }
 
-/// The groups that a part may go to.
-fn targets(search: &Search, groups: &[Group], from: usize, part: u32) -> Vec<usize> {
-    let own = &search.parts[part as usize].bounds;
-    let mut near: Vec<(bool, f64, usize)> = groups
-        .iter()
-        .enumerate()
-        .filter(|(place, group)| *place != from && search.may_join(group.parts[0], part))
-        .filter(|(_, group)| search.is_near(part, &group.parts))
-        .map(|(place, group)| {
-            let both = own.union(&group.hull.bounds);
-            (!group.hull.bounds.touches(own), (both.max - both.min).length_squared(), place)
-        })
-        .collect();
-    near.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
-    let touching = near.partition_point(|(is_apart, ..)| !is_apart);
-    near.truncate(touching.max(NEAREST));
-    near.into_iter().map(|(.., place)| place).collect()
+/// All groups at some time.
+struct View<'a> {
+    search: &'a Search<'a>,
+    groups: &'a [Group],
+    group_of: Vec<u32>,
+}
+
+impl View<'_> {
+    /// The best move of a part out of its group; `others` are the probes that other groups cover.
+    fn best_move(&self, others: &[u64], from: usize, part: u32) -> Option<Move> {
+        let (search, groups) = (self.search, self.groups);
+        let (own, old) = (&search.parts[part as usize], &groups[from]);
+        if !own.corners.iter().any(|corner| old.hull.corners.contains(corner)) {
+            return None;
+        }
+        let rest = search.group(old.parts.iter().copied().filter(|other| *other != part).collect());
+        if rest.hull.volume > old.hull.volume * SAME_HULL {
+            return None;
+        }
+        let mut covered = others.to_vec();
+        add(&mut covered, &rest.hull.coverage);
+        let freed = count_fresh(&covered, &old.hull.coverage);
+        let mut best: Option<(f64, usize, Hull)> = None;
+        for to in self.targets(from, part) {
+            let target = &groups[to];
+            let is_held = target.hull.holds(&own.bounds, &own.corners);
+            let joined =
+                if is_held { Some(target.hull.clone()) } else { search.joined(&target.hull, search.hull(part)) };
+            let Some(joined) = joined else { continue };
+            let added = count_fresh(&covered, &joined.coverage);
+            let grown = rest.hull.volume + joined.volume - old.hull.volume - target.hull.volume;
+            let gain = search.cost(freed, 0.0) - search.cost(added, grown);
+            if best.as_ref().is_none_or(|(most, ..)| gain > *most) {
+                best = Some((gain, to, joined));
+            }
+        }
+        let (gain, to, joined) = best?;
+        (gain > search.least_gain()).then_some(Move { gain, from, to, part, rest, joined })
+    }
+
+    /// The groups that a part may go to.
+    fn targets(&self, from: usize, part: u32) -> Vec<usize> {
+        let (search, groups) = (self.search, self.groups);
+        let own = &search.parts[part as usize].bounds;
+        let mut places: Vec<usize> = match search.near(part) {
+            Some(near) => near.iter().map(|other| self.group_of[*other as usize] as usize).collect(),
+            None => (0..groups.len()).collect(),
+        };
+        places.sort_unstable();
+        places.dedup();
+        places.retain(|place| *place != from && search.may_join(groups[*place].parts[0], part));
+        let away = |place: usize| {
+            let bounds = &groups[place].hull.bounds;
+            let both = own.union(bounds);
+            (!bounds.touches(own), (both.max - both.min).length_squared(), place)
+        };
+        let mut near: Vec<(bool, f64, usize)> = places.into_iter().map(away).collect();
+        near.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        let touching = near.partition_point(|(is_apart, ..)| !is_apart);
+        near.truncate(touching.max(NEAREST));
+        near.into_iter().map(|(.., place)| place).collect()
+    }
 }

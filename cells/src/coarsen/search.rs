@@ -111,9 +111,9 @@ impl<'a> Search<'a> {
         Some((hull, is_near))
     }
 
-    /// Whether a part is near one of others.
-    pub(super) fn is_near(&self, part: u32, others: &[u32]) -> bool {
-        self.gaps.are_near(&[part], others)
+    /// The parts that are near one; nothing where that does not matter.
+    pub(super) fn near(&self, part: u32) -> Option<&[u32]> {
+        self.gaps.near(part)
     }
 
     /// The hull of two hulls; `None` where it may not be.
