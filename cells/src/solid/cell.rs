@@ -11,6 +11,10 @@ const EVERYWHERE: Bounds = Bounds { min: DVec3::NEG_INFINITY, max: DVec3::INFINI
 /// Widens coordinates that were rounded once.
 const COORDINATE_BOUND: f64 = 4.0 * f64::EPSILON;
 
+/// From this number of planes on a polytope is built anew where it has this many times as many places for planes as planes.
+const MANY_PLANES: usize = 64;
+const COMPACTED: usize = 4;
+
 /// A plane of a [`Cell`], and where it comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct CellPlane {
@@ -148,6 +152,20 @@ impl Cell {
             self.remove(handle);
         }
         self.bounds = self.bounds_of(&corners);
+        self.compact(table);
+    }
+
+    /// Builds the polytope anew where most of its memory is that of planes which are no longer there: a piece cut off a body of thousands of planes may have ten.
+    fn compact(&mut self, table: &PlaneTable) {
+        let count = self.planes().count();
+        if self.planes.len() < MANY_PLANES || self.planes.len() < COMPACTED * count {
+            return;
+        }
+        let mut compact = Self { bounds: self.bounds, ..Self::everything() };
+        for (_, plane) in self.planes() {
+            compact.add(table, *plane);
+        }
+        *self = compact;
     }
 
     fn bounds_of(&self, corners: &[Corner]) -> Bounds {

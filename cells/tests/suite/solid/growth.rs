@@ -44,6 +44,22 @@ fn cells_do_not_depend_on_the_number_of_threads() {
     assert!(single.len() > 120 && [2, 3, 7].into_iter().all(|threads| planes_with(threads) == single));
 }
 
+/// A block cut out of the middle of a body with thousands of faces: each piece has few of these, and none of the memory of the others.
+#[test]
+fn pieces_of_a_body_of_many_faces_are_as_small_as_they_are() {
+    let mut rng = Rng::spread(3);
+    let body = Tree::from(ball(&mut rng, DVec3::ZERO, 10.0, 2000));
+    let block = block(DVec3::new(-20.0, -4.0, -4.0), DVec3::new(20.0, 4.0, 4.0));
+    let whole = Solid::from_tree(&body);
+    let (left, taken) = (Solid::from_tree(&(body.clone() - block.clone())), Solid::from_tree(&(body & block)));
+    let volume = |solid: &Solid| solid.volume().expect("bounded");
+    assert!((volume(&left) + volume(&taken) - volume(&whole)).abs() < 1e-12 * volume(&whole));
+    for cell in left.cells() {
+        let (count, last) = (cell.planes().count(), cell.planes().last().expect("planes").0);
+        assert!(last.0 < 64.max(4 * count), "{count} planes have handles up to {last:?}");
+    }
+}
+
 /// Bars through all square holes of a Menger sponge of side `3^depth`, none within another.
 fn menger_bars(depth: u32) -> Vec<Tree> {
     let side = 3_u32.pow(depth);
