@@ -15,7 +15,7 @@ from .mujoco_engine import measure_mujoco
 from .page import write_page
 from .results import Results
 from .setting import Setting
-from .whole_mesh import measure_whole_mesh
+from .whole_mesh import measure_whole_meshes
 
 _PROJECT = Path(__file__).resolve().parents[3]
 
@@ -45,7 +45,7 @@ def _measured(arguments: argparse.Namespace) -> Results:
         setting = Setting(arguments.planecut, arguments.data, arguments.quick, Path(scratch))
         return Results(
             decompositions=measure_decompositions(setting),
-            whole=measure_whole_mesh(setting),
+            whole=measure_whole_meshes(setting),
             exact=measure_exact_merges(setting),
             mujoco=measure_mujoco(setting),
             bullet=measure_bullet(setting),

@@ -5,7 +5,7 @@ from pathlib import Path
 from .decompositions import INPUTS, KNOWN
 from .plot import Line, plot
 from .setting import Row
-from .whole_mesh import NAME
+from .whole_mesh import MESHES
 
 _COLORS = {"planecut": "#1b6ca8", "greedy": "#d9822b", "CoACD": "#d9822b", "V-HACD": "#5a9a6e"}
 _KNOWN = {"greedy, whole union": "#b03a48", "greedy, another": "#8a8f98"}
@@ -22,9 +22,13 @@ def write_charts(folder: Path, decompositions: list[Row], whole: list[Row]) -> d
             lines += [Line(known, _KNOWN[known], list(points.items()), loose=True) for known, points in KNOWN.items()]
         title = f"{name}: {max(row.measure.cells for row in rows)} hulls made fewer"
         charts[name] = _written(folder / f"coarsen-{name.lower()}.svg", title, lines)
-    lines = [line for entrant in ("planecut", "CoACD", "V-HACD") for line in _lines(whole, entrant)]
-    title = "SnowFlake, a closed mesh, in few hulls"
-    charts[NAME] = _written(folder / "coarsen-snowflake-mesh.svg", title, lines)
+    for name in MESHES:
+        rows = [row for row in whole if row.input == name]
+        if not rows:
+            continue
+        lines = [line for entrant in ("planecut", "CoACD", "V-HACD") for line in _lines(rows, entrant)]
+        path = folder / f"coarsen-{name.lower()}-mesh.svg"
+        charts[f"{name}, a mesh"] = _written(path, f"{name}, a closed mesh, in few hulls", lines)
     return charts
 
 

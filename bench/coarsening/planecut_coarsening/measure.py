@@ -1,25 +1,32 @@
 """How far hulls are from what they stand for."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from manifold3d import Manifold, OpType
-from scipy.spatial import ConvexHull
+from scipy.spatial import ConvexHull, cKDTree
 
 from .bodies import Body
+from .meshes import boundary, surface_points
 
 ON_THE_PLANE = 1e-12
 """Part of the diameter by which a point may lie beyond a plane and still count as inside."""
 
 
+_ON_REFERENCE = 200_000
+_ON_HULLS = 20_000
+"""Random points on both surfaces between which distances are measured."""
+
+
 @dataclass(frozen=True)
 class Reference:
-    """A solid that hulls shall cover: its volume, the corners of its surface and their diameter."""
+    """A solid that hulls shall cover: its volume, the corners of its surface, their diameter, and points on its surface."""
 
     solid: Manifold
     corners: np.ndarray
     volume: float
     diameter: float
+    surface: cKDTree | None = None
 
     @classmethod
     def of(cls, solid: Manifold, bodies: list[Body]) -> "Reference":
@@ -28,6 +35,12 @@ class Reference:
         diameter = float(np.linalg.norm(np.ptp(corners, axis=0)))
         return cls(solid, corners, solid.volume(), diameter)
 
+    @classmethod
+    def of_mesh(cls, mesh: Body) -> "Reference":
+        """That of a closed mesh, to whose surface distances are measured. Raises `ValueError` where it is not closed."""
+        found = cls.of(mesh.solid(), [mesh])
+        return replace(found, surface=cKDTree(surface_points(mesh, _ON_REFERENCE)))
+
 
 @dataclass(frozen=True)
 class Measure:
@@ -35,7 +48,8 @@ class Measure:
 
     `union_excess`, `sum_excess`: volume of the hulls' union, and sum of their volumes, less the reference's. `missing`:
     volume of the reference in no hull. `outside`: corners of the reference in no hull, `farthest` the one farthest off.
-    `flat`: hulls without an inside.
+    `flat`: hulls without an inside. `hausdorff`: how far the farthest point of the union's surface is from that of the reference, a part of its diameter, by
+    random points; `None` where that was not asked for.
     """
 
     cells: int
@@ -46,6 +60,7 @@ class Measure:
     missing: float
     outside: int
     farthest: float
+    hausdorff: float | None = None
 
 
 def measure(bodies: list[Body], reference: Reference) -> Measure:
@@ -63,12 +78,20 @@ def measure(bodies: list[Body], reference: Reference) -> Measure:
         missing=(reference.solid - whole).volume() / reference.volume,
         outside=int((beyond > ON_THE_PLANE).sum()),
         farthest=float(max(beyond.max(), 0.0)),
+        hausdorff=_hausdorff(whole, reference),
     )
 
 
 def union(solids: list[Manifold]) -> Manifold:
     """All of them as one."""
     return Manifold.batch_boolean(solids, OpType.Add)
+
+
+def _hausdorff(whole: Manifold, reference: Reference) -> float | None:
+    if reference.surface is None:
+        return None
+    distances, _ = reference.surface.query(surface_points(boundary(whole), _ON_HULLS))
+    return float(distances.max()) / reference.diameter
 
 
 def _beyond(bodies: list[Body], points: np.ndarray) -> np.ndarray:

@@ -19,10 +19,11 @@ def write_page(path: Path, results: Results, charts: dict[str, Path]) -> None:
     """Writes the page, with the pictures where they lie from there."""
     places = {name: os.path.relpath(chart, path.parent).replace(os.sep, "/") for name, chart in charts.items()}
     text = _TEMPLATE.read_text(encoding="utf-8")
+    meshes = dict.fromkeys(row.input for row in results.whole)
     parts = {
         "run": f"{machine.processor()}, shared with other work; {machine.versions()}; {results.seconds:.0f} s",
         "decompositions": "\n\n".join(_decomposition(name, results.decompositions, places) for name in INPUTS),
-        "whole": _picture("SnowFlake.obj", places) + _whole(results.whole),
+        "whole": "\n\n".join(_whole(name, results.whole, places) for name in meshes),
         "exact": _exact(results.exact),
         "mujoco": _mujoco(results.mujoco),
         "bullet": _bullet(results.bullet),
@@ -60,18 +61,21 @@ def _decomposition(name: str, rows: list[Row], places: dict[str, str]) -> str:
     )
 
 
-def _whole(rows: list[Row]) -> str:
-    head = ["asked", "by", "hulls", "corners", "union %", "sum %", "missing %", "outside", "farthest", "s", "settings"]
+def _whole(name: str, rows: list[Row], places: dict[str, str]) -> str:
+    head = ["asked", "by", "hulls", "corners", "union %", "sum %", "missing %", "outside", "farthest", "Hausdorff %", "s"]
     table = []
     for row in rows:
+        if row.input != name:
+            continue
         found = row.measure
         settings = row.settings + (f"; flat hulls: {found.flat}" if found.flat else "")
         table.append(
             [str(row.asked), row.entrant, str(found.cells), str(found.corners), _percent(found.union_excess)]
             + [_percent(found.sum_excess), _percent(found.missing), str(found.outside)]
-            + [f"{found.farthest:.0e}", f"{row.seconds:.2f}", settings]
+            + [f"{found.farthest:.0e}", _percent(found.hausdorff or 0.0), f"{row.seconds:.2f}", settings]
         )
-    return _table(head, table, left=("by", "settings"))
+    table_of = _table([*head, "settings"], table, left=("by", "settings"))
+    return f"### {name}, a mesh\n\n{_picture(f'{name}, a mesh', places)}{table_of}"
 
 
 def _exact(rows: list[Merged]) -> str:
