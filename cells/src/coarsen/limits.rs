@@ -1,11 +1,11 @@
 //! Cells with few faces and vertices, as physics engines want them, and none too thin.
 
-use planecut_kernel::{DVec3, HalfSpace, IncrementalPolytope, PlaneIdx};
-use rustc_hash::FxHashMap;
+use planecut_kernel::DVec3;
 
 use super::clear::Clear;
 use super::enclose::enclose;
-use super::part::{Part, built};
+use super::lower::lower_beside;
+use super::part::Part;
 use super::{CoarsenError, CoarsenOptions};
 use crate::tolerances::{ONE_VERTEX, PARALLEL_EDGES, THICK_ENOUGH};
 
@@ -33,43 +33,18 @@ impl Limits<'_> {
 
     /// The body of fewest faces and vertices that is left when planes are taken out, always the one that adds least.
     fn reduced(&self, body: Part) -> Result<Part, CoarsenError> {
-        let most_faces = self.options.max_faces.unwrap_or(usize::MAX);
-        let most_vertices = self.options.max_vertices.unwrap_or(usize::MAX);
-        if most_faces == usize::MAX && most_vertices == usize::MAX {
+        let CoarsenOptions { max_faces, max_vertices, .. } = *self.options;
+        if max_faces.is_none() && max_vertices.is_none() {
             return Ok(body);
         }
-        let mut polytope = IncrementalPolytope::with_epsilon(ONE_VERTEX * body.size());
-        for half_space in &body.half_spaces {
-            polytope.add_plane(*half_space);
-        }
-        let mut is_changed = false;
-        let mut known: FxHashMap<usize, Removal> = FxHashMap::default();
-        loop {
-            let (faces, vertices) = (polytope.faces().len(), polytope.vertex_count());
-            if faces <= most_faces && vertices <= most_vertices {
-                break;
-            }
-            let facets = polytope.facets();
-            known.retain(|plane, removal| facets.iter().any(|(p, around)| p.0 == *plane && *around == removal.around));
-            let mut order: Vec<(f64, PlaneIdx)> = Vec::with_capacity(facets.len());
-            for (plane, around) in facets {
-                let removal = known.entry(plane.0).or_insert_with(|| Removal::new(&polytope, plane, around));
-                order.extend(removal.added.map(|added| (added, plane)));
-            }
-            order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.0.cmp(&b.1.0)));
-            let without = |(_, plane): (f64, PlaneIdx)| {
-                let mut wider = polytope.clone();
-                wider.remove_plane(plane);
-                (wider.is_bounded() && self.clear.allows(&wider)).then_some(wider)
-            };
-            polytope = order.into_iter().find_map(without).ok_or(CoarsenError::Blocked { faces, vertices })?;
-            is_changed = true;
-        }
-        if !is_changed {
+        let faces = body.half_spaces.len();
+        let mut polytope = body.polytope.clone();
+        polytope.set_epsilon(ONE_VERTEX * body.size());
+        lower_beside(&mut polytope, max_faces, max_vertices, self.clear)?;
+        if polytope.planes().count() == faces {
             return Ok(body);
         }
-        let facets = polytope.facets();
-        Part::of_cell(facets.iter().filter_map(|(plane, _)| polytope.plane(*plane).copied()), body.material)
+        Part::of_cell(polytope.planes().map(|(_, plane)| *plane), body.material)
     }
 
     /// The cell swept along the direction in which it is thinnest, until it is nowhere thinner than `least`; on one side alone where the other
@@ -101,24 +76,6 @@ impl Limits<'_> {
     fn swept(&self, body: &Part, forth: DVec3, back: DVec3) -> Result<Part, CoarsenError> {
         let points = body.corners.iter().flat_map(|corner| [*corner + forth, *corner - back]).collect();
         Part::of_cell(enclose(&[&Part { points, ..body.clone() }], self.clear)?, body.material)
-    }
-}
-
-/// What taking out a plane adds.
-struct Removal {
-    /// The planes around its face.
-    around: Vec<Option<PlaneIdx>>,
-    /// The volume; `None` where there is no end to it.
-    added: Option<f64>,
-}
-
-impl Removal {
-    /// Beyond a face, a body without its plane is bounded by the planes around it alone.
-    fn new(polytope: &IncrementalPolytope, plane: PlaneIdx, around: Vec<Option<PlaneIdx>>) -> Self {
-        let sides = around.iter().flatten().filter_map(|side| polytope.plane(*side).copied());
-        let below = polytope.plane(plane).map(HalfSpace::flipped);
-        let added = built(sides.chain(below)).measures().map(|measures| measures.volume);
-        Self { around, added }
     }
 }
 

@@ -7,7 +7,7 @@
 //! - `part`: a convex part; `hull`, `probes`: hulls in floating point, and the points that say how much they add; `search`: what every
 //!   group must fulfil; `clear`: where nothing may grow; `gaps`: what is far apart.
 //! - `free` merges what adds nothing, `merge` what adds least, with `pairs`; `relocate` and `regroup` better the groups.
-//! - `enclose` makes exact bodies of them, `shrink` draws these in where they overlap, with `subtract`; `limits` sees to engines' caps.
+//! - `enclose` makes exact bodies of them, `shrink` draws these in where they overlap, with `subtract`; `limits` sees to engines' caps, with `lower`.
 //! - `inner`: cells within the solid.
 //! - `written`: cells as a file holds them.
 //!
@@ -20,6 +20,7 @@ mod gaps;
 mod hull;
 mod inner;
 mod limits;
+mod lower;
 mod merge;
 mod of_surface;
 mod options;
@@ -39,6 +40,7 @@ use planecut_csg::{Brush, Tree};
 use planecut_kernel::DVec3;
 use planecut_parallel::prelude::*;
 
+pub use lower::lower;
 pub use options::{CoarsenError, CoarsenOptions, DEFAULT_OVERLAP_WEIGHT, LEAST_MAX_FACES, LEAST_MAX_VERTICES, Side};
 pub use surface::{Bounded, Surface};
 pub use written::{Writing, written_meshes};

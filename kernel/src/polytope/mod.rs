@@ -18,11 +18,12 @@
 //! - [`climb`] finds the extreme vertex, [`add`] cuts, [`redundant`] keeps the certificates, [`empty`] remembers why a
 //!   set has no interior;
 //! - [`remove`] removes a plane, [`remove_many`] several; [`fill`] closes the hole from its ring, [`remove_large`] by
-//!   a cap; [`move_plane`] and [`rebuild`] are made of these;
+//!   a cap; [`move_plane`] and [`rebuild`] are made of these, and [`beyond`] tells what a removal would add;
 //! - [`view`] reports with coincident vertices merged, [`query`] answers questions, [`measure`] sums up, [`validate`]
 //!   checks all of it.
 
 mod add;
+mod beyond;
 mod climb;
 mod cut;
 mod empty;
@@ -278,6 +279,19 @@ impl IncrementalPolytope {
         };
         polytope.close_by_infinity_planes();
         polytope
+    }
+
+    /// The tolerance of what is reported, a length in the units of the planes.
+    #[inline]
+    #[must_use]
+    pub fn epsilon(&self) -> f64 {
+        self.epsilon
+    }
+
+    /// Changes the tolerance of what is reported ([`with_epsilon`](Self::with_epsilon)); the structure does not depend on it.
+    #[inline]
+    pub fn set_epsilon(&mut self, epsilon: f64) {
+        self.epsilon = epsilon;
     }
 
     /// Back to all of space, keeping the memory; stamps and handles start again.

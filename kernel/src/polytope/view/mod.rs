@@ -25,7 +25,7 @@ use glam::DVec4;
 
 use super::IncrementalPolytope;
 use super::infinity::is_infinity;
-use super::{PlaneIdx, external};
+use super::{PlaneIdx, VertexIdx, external};
 use crate::meet::{direction, meet};
 
 impl IncrementalPolytope {
@@ -39,8 +39,21 @@ impl IncrementalPolytope {
             .map(|slot| self.vertices.planes(slot).map(|p| (!is_infinity(p)).then(|| external(p))))
     }
 
+    /// The three planes of a vertex of the simple structure, counter-clockwise seen from outside, and the vertices across the edges that do not lie on
+    /// the first, the second and the third of them; `None` stands for an infinity plane. `None` where there is no such vertex, and where the set is empty.
+    ///
+    /// Cost: constant. It may be asked of the new vertices of an operation.
+    #[must_use]
+    pub fn simple_vertex(&self, idx: VertexIdx) -> Option<([Option<PlaneIdx>; 3], [VertexIdx; 3])> {
+        if self.is_empty() || !self.vertices.is_live(idx.0) {
+            return None;
+        }
+        let planes = self.vertices.planes(idx.0).map(|p| (!is_infinity(p)).then(|| external(p)));
+        Some((planes, self.vertices.neighbours(idx.0).map(VertexIdx)))
+    }
+
     /// The homogeneous position of a vertex of the simple structure.
-    fn position(&self, slot: u32) -> DVec4 {
+    pub(super) fn position(&self, slot: u32) -> DVec4 {
         let planes = self.vertices.planes(slot);
         if let Some(k) = planes.iter().position(|p| is_infinity(*p)) {
             // of the planes (M, b, c) the last two carry the ray, which runs along their cross product
