@@ -4,7 +4,7 @@
 //! What a grouping costs is the volume of the *union* of its cells beyond the solid, not the sum of what single merges add.
 //!
 //! - `surface`: parts of a mesh, from the top down; `of_surface`: these instead of exact ones.
-//! - `part`: a convex part; `hull`, `probes`: hulls in floating point, and the points that say how much they add; `search`: what every
+//! - `part`: a convex part; `point_tree`: many points and planes; `hull`, `probes`: hulls in floating point, and the points that say how much they add; `search`: what every
 //!   group must fulfil; `clear`: where nothing may grow; `gaps`: what is far apart.
 //! - `free` merges what adds nothing, `merge` what adds least, with `pairs`; `relocate` and `regroup` better the groups.
 //! - `enclose` makes exact bodies of them, `shrink` draws these in where they overlap, with `subtract`; `limits` sees to engines' caps, with `lower`.
@@ -26,6 +26,7 @@ mod of_surface;
 mod options;
 mod pairs;
 mod part;
+mod point_tree;
 mod probes;
 mod regroup;
 mod relocate;
@@ -51,6 +52,7 @@ use gaps::Gaps;
 use limits::Limits;
 use merge::{Merge, Merger};
 use part::{Part, boxes_of};
+use point_tree::PointTree;
 use probes::Probes;
 use regroup::regroup;
 use relocate::{Clock, relocate};
@@ -158,15 +160,20 @@ impl Coarsener {
         let regions = options.keep_clear.as_ref().map_or(Ok(Vec::new()), parts_of)?;
         let clear = Clear::around(&parts, &boxes, &regions)?;
         let (least, most, each) = PROBES;
-        let probes = Probes::around(&parts, (each * parts.len()).clamp(least, most));
+        // a single part that grows is merged with nothing
+        let is_single = parts.len() == 1 && options.side == Side::Outer;
+        let probes =
+            if is_single { Probes::default() } else { Probes::around(&parts, (each * parts.len()).clamp(least, most)) };
         let free = match options.side {
+            Side::Outer if is_single => parts.clone(),
             Side::Outer => {
                 let hulls = Hulls::of(&parts, &probes);
                 free::merge_freely(&Search::new(&parts, &hulls, &probes, &clear, &Gaps::default(), options))?
             }
             Side::Inner => inner::grown(&parts, &boxes, options)?,
         };
-        let (free_boxes, hulls) = (boxes_of(&free), Hulls::of(&free, &probes));
+        let free_boxes = boxes_of(&free);
+        let hulls = if is_single { Hulls::of_few(&free, &probes) } else { Hulls::of(&free, &probes) };
         let gaps = Gaps::new(&free, &free_boxes, options);
         let options = options.clone();
         let merges = Vec::new();
@@ -391,6 +398,10 @@ fn held_exactly(part: &Part) -> Result<Part, CoarsenError> {
 /// Gives each point that no part holds exactly to the nearest one, however far it is: a mesh's vertices may be off the planes of its cells by as much
 /// as the rounding of its file leaves open.
 fn give_points(parts: &mut [Part], points: &[DVec3]) {
+    if let [part] = parts {
+        part.points = PointTree::new(points.to_vec()).outside(&part.half_spaces);
+        return;
+    }
     let boxes = boxes_of(parts);
     let mut near = Vec::new();
     for point in points {

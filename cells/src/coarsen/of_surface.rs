@@ -5,7 +5,7 @@ use super::gaps::Gaps;
 use super::part::{Part, boxes_of};
 use super::probes::Probes;
 use super::search::Hulls;
-use super::surface::{Pieces, Points, Surface, pieces};
+use super::surface::{Bounded, Pieces, Points, Surface, pieces};
 use super::{CoarsenError, CoarsenOptions, Coarsener, PROBES, Side, part, parts_of};
 
 /// Fewest and most pieces that a surface is taken apart into, triangles for each, and pieces for each cell that is asked for.
@@ -48,7 +48,14 @@ impl Coarsener {
         let (least, most, each, of_cell) = PIECES;
         let of_cells = options.max_cells.unwrap_or(0).saturating_mul(of_cell);
         let wanted = (surface.triangles.len() / each).clamp(least, most).max(of_cells);
-        let (parts, pieces) = pieces(surface, wanted)?;
+        // the hull of all of it is the only cell that there can be
+        let is_one = options.max_cells == Some(1)
+            && options.max_excess.is_none()
+            && options.keep_clear.is_none()
+            && options.max_gap.is_none()
+            && !options.by_material
+            && !matches!(surface.bounded, Bounded::Filled);
+        let (parts, pieces) = pieces(surface, if is_one { 1 } else { wanted })?;
         if parts.is_empty() {
             return Err(CoarsenError::Empty);
         }
@@ -56,7 +63,11 @@ impl Coarsener {
         let regions = options.keep_clear.as_ref().map_or(Ok(Vec::new()), parts_of)?;
         let clear = Clear::around(&parts, &boxes, &regions)?;
         let (least, most, each) = PROBES;
-        let probes = Probes::around(&parts, (each * parts.len()).clamp(least, most));
+        let probes = if parts.len() == 1 {
+            Probes::default()
+        } else {
+            Probes::around(&parts, (each * parts.len()).clamp(least, most))
+        };
         let mut coarsener = Self {
             options: options.clone(),
             hulls: Hulls::of_few(&parts, &probes),

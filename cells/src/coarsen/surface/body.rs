@@ -73,7 +73,8 @@ impl Points {
             chosen.extend_from_slice(&self.vertices);
             chosen = corners_of(chosen);
         }
-        let mut rest = all;
+        // vertices are held already, exactly
+        let mut rest = if self.vertices.is_empty() { all } else { self.cuts.clone() };
         loop {
             let Ok(triangles) = hull_triangles(&chosen) else {
                 // flat so far
@@ -124,14 +125,14 @@ impl Points {
         Part::of_half_spaces(self.moved_outward(&body, growth), material)
     }
 
-    /// The planes of a body, moved outward until the points are as far within as they must be.
+    /// The planes of a body, moved outward until the points are as far within as they must be. The body holds the vertices, as thick as they are.
     fn moved_outward(&self, body: &IncrementalPolytope, growth: &Growth) -> Vec<HalfSpace> {
         let facets = body.facets();
         let planes = facets.iter().filter_map(|(plane, _)| body.plane(*plane));
         let moved = planes.filter_map(|plane| {
             let normal = plane.normal();
             let thick = growth.thickness * (normal.x.abs() + normal.y.abs() + normal.z.abs());
-            let farthest = self.all().map(|p| normal.dot(*p)).fold(f64::NEG_INFINITY, f64::max) + thick;
+            let farthest = self.cuts.iter().map(|p| normal.dot(*p)).fold(f64::NEG_INFINITY, f64::max) + thick;
             let offset = farthest.max(plane.offset()) + normal.length() * growth.rounding;
             HalfSpace::new(normal, offset + ROUNDING * offset.abs()).ok()
         });
