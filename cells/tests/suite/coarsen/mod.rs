@@ -2,13 +2,14 @@
 //!
 //! - [`judge`]: whether cells hold points, in exact rationals; whether they leave anything of the solid out.
 //! - [`cases`]: solids whose figures are known; [`limits`]: caps, regions kept clear, materials, thickness; [`inner`]: cells within;
-//!   [`random`]: hulls of random lattice points at every cap; [`surface`]: meshes; [`data`]: decompositions that others made; [`written`]: cells as files hold them.
+//!   [`lower`]: polytopes with fewer planes; [`random`]: hulls of random lattice points at every cap; [`surface`]: meshes; [`data`]: decompositions that others made; [`written`]: cells as files hold them.
 
 mod cases;
 mod data;
 mod inner;
 mod judge;
 mod limits;
+mod lower;
 mod random;
 mod surface;
 mod written;

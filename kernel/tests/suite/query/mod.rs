@@ -8,6 +8,7 @@
 mod ball;
 mod cases;
 mod cone;
+mod gain;
 mod measure;
 mod points;
 mod truth;
