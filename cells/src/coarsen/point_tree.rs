@@ -39,8 +39,8 @@ impl PointTree {
                     waiting.extend([(2 * place + 1, from, middle), (2 * place + 2, middle, to)]);
                     continue;
                 }
-                for number in from..to {
-                    is_outside[number] = is_outside[number] || !holds(half_space, self.points[number]);
+                for (is_outside, point) in is_outside[from..to].iter_mut().zip(&self.points[from..to]) {
+                    *is_outside = *is_outside || !holds(half_space, *point);
                 }
             }
         }
@@ -81,11 +81,11 @@ mod tests {
     fn the_points_outside_are_those_that_are_asked_one_by_one() {
         for count in [0, 1, 15, 16, 17, 500] {
             // some on a lattice, so that many lie just on a plane
-            let rounded = |k: usize| if k % 2 == 0 { spread(k) } else { (spread(k) * 4.0).round() / 4.0 };
+            let rounded = |k: usize| if k.is_multiple_of(2) { spread(k) } else { (spread(k) * 4.0).round() / 4.0 };
             let points: Vec<DVec3> = (0..count).map(rounded).collect();
             let plane = |k: usize| {
                 let normal = spread(3 * k + 1) * 2.0 - 1.0;
-                HalfSpace::new(if k % 3 == 0 { normal.round() } else { normal }, 0.5)
+                HalfSpace::new(if k.is_multiple_of(3) { normal.round() } else { normal }, 0.5)
             };
             let planes: Vec<HalfSpace> = (0..6).filter_map(|k| plane(k).ok()).collect();
             let mut found = PointTree::new(points.clone()).outside(&planes);
