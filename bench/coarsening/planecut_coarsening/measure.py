@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from manifold3d import Manifold, OpType
-from scipy.spatial import ConvexHull, cKDTree
+from scipy.spatial import ConvexHull, QhullError, cKDTree
 
 from .bodies import Body
 from .meshes import boundary, surface_points
@@ -101,6 +101,10 @@ def _beyond(bodies: list[Body], points: np.ndarray) -> np.ndarray:
     """
     least = np.full(len(points), np.inf)
     for body in bodies:
-        planes = ConvexHull(body.corners).equations
+        try:
+            planes = ConvexHull(body.corners).equations
+        except QhullError:
+            # It is flat but for rounding: it holds nothing.
+            continue
         least = np.minimum(least, (points @ planes[:, :3].T + planes[:, 3]).max(axis=1))
     return least

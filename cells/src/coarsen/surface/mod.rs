@@ -125,6 +125,10 @@ pub(super) fn pieces(surface: &Surface<'_>, wanted: usize) -> Result<(Vec<Part>,
         return Err(CoarsenError::Empty);
     }
     let used = surface.triangles.iter().flatten().map(|corner| surface.positions[*corner as usize]);
+    let (low, high) = bounds(used.clone());
+    if low == high {
+        return Err(CoarsenError::Empty);
+    }
     let frame = Frame::around(used).ok_or(CoarsenError::OutOfRange)?;
     let positions: Vec<DVec3> = surface.positions.iter().map(|p| frame.inward(*p)).collect();
     let polygons = Polygons::of_triangles(&positions, surface.triangles);
