@@ -145,7 +145,6 @@ fn every_command_that_reads_meshes_joins_vertices_on_request() {
         "build o.obj -o a.glb",
         "build o.obj -o a.map",
         "build o.obj -o a.glb --cells",
-        "coarsen o.obj -o a.glb",
         "coarsen o.obj -o a.glb --inner --max-cells 2",
         "render o.obj -o a.png --size 64x64 --style exploded",
         "render o.obj -o a.png --size 64x64 --section x",
@@ -159,6 +158,12 @@ fn every_command_that_reads_meshes_joins_vertices_on_request() {
     }
     let info = run(folder.path(), "info o.obj --close 0.01").json();
     assert_eq!(info["solid"]["volume"], json!(3.0));
+    // cells are made around what is open as well, and that is said
+    for (options, words) in [("", "found 4 open edges, the first one from ("), (" --close 0.01", "joined 1 vertex")] {
+        let cells = run(folder.path(), &format!("coarsen o.obj -o a.glb{options}"));
+        assert_eq!(cells.status, 0, "{options}: {}", cells.stderr);
+        assert!(cells.stderr.contains(words) && cells.stderr.lines().count() == 1, "{options}: {}", cells.stderr);
+    }
 }
 
 #[test]
