@@ -19,6 +19,15 @@ pub enum ExportError {
         /// The ending as given, without the dot.
         extension: String,
     },
+    /// The file name ends in something that no writer of rigid bodies makes.
+    #[error("unknown format of rigid bodies '.{extension}', expected .xml, .urdf or .usda")]
+    UnknownPhysicsFormat {
+        /// The ending as given, without the dot.
+        extension: String,
+    },
+    /// A rigid body has nothing to collide with.
+    #[error("found a rigid body without colliders, expected one at least")]
+    NoColliders,
     /// A brush is a closed mesh.
     #[error("brush {brush} (counted from 0) is a closed mesh, expected convex bodies alone")]
     MeshBrush {

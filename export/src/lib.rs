@@ -6,6 +6,8 @@
 //! - [`stored_positions`] finds positions that such a file stores without rounding.
 //! - [`write_brushes`] puts convex bodies back into formats that editors open: a Quake map, or OpenSCAD's evaluated tree
 //!   ([`BrushFormat`]).
+//! - [`physics_files`] describes a rigid body for physics engines: MJCF, URDF or USD, with the meshes beside it ([`PhysicsFormat`]); [`MassProperties`]
+//!   are its mass and inertia, [`Cuboid`] finds boxes among its colliders, [`Engine`] says what engines accept.
 //! - [`AtomicFile`] and [`write_atomic`] put bytes under a file name, completely or not at all.
 //!
 //! Every writer gives the same bytes for the same input, whatever the number of threads.
@@ -21,11 +23,13 @@ mod gltf;
 mod material;
 mod obj;
 mod part;
+mod physics;
 mod ply;
 mod stl;
 mod stored;
 mod surface;
 mod threemf;
+mod xml;
 
 pub use brushes::{BrushFormat, write_brushes};
 pub use error::ExportError;
@@ -34,6 +38,10 @@ pub use format::{Format, encode, encode_parts, write_parts, written};
 pub use material::{distinct_color, material_color};
 pub use obj::write_mtl;
 pub use part::{ExportOptions, Part, Projection, Shading, TextureMapping, Unit, Written};
+pub use physics::{
+    Collider, Cuboid, Engine, EngineLimits, MassProperties, PhysicsFile, PhysicsFormat, PrincipalInertia, RigidBody,
+    physics_files,
+};
 pub use stored::stored_positions;
 
 /// The example of the README, run as a test.

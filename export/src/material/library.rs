@@ -49,7 +49,7 @@ pub(crate) fn unique_names(materials: &[Material], name: impl Fn(&str) -> String
 }
 
 /// The name, numbered where it is taken.
-fn unique(wanted: &str, taken: &mut FxHashSet<String>) -> String {
+pub(crate) fn unique(wanted: &str, taken: &mut FxHashSet<String>) -> String {
     let mut name = wanted.to_owned();
     let mut copy = 2;
     while !taken.insert(name.clone()) {

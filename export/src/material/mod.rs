@@ -6,5 +6,5 @@ mod looks;
 
 pub(crate) use color::linear_to_srgb;
 pub use color::{distinct_color, material_color};
-pub(crate) use library::{Library, unique_names};
+pub(crate) use library::{Library, unique, unique_names};
 pub(crate) use looks::{Looks, looks};

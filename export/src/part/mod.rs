@@ -6,7 +6,7 @@ mod written;
 
 use planecut_csg::{FaceSource, Mesh};
 
-pub(crate) use check::check_parts;
+pub(crate) use check::{check_mesh, check_parts};
 pub use options::{ExportOptions, Projection, Shading, TextureMapping, Unit};
 pub use written::Written;
 

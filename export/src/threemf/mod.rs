@@ -11,6 +11,7 @@ use crate::decimal::{write_decimal, write_digits};
 use crate::material::Library;
 use crate::material::{linear_to_srgb, material_color};
 use crate::part::{ExportOptions, Unit};
+use crate::xml::escaped;
 use crate::{ExportError, Part};
 
 const CONTENT_TYPES: &str = concat!(
@@ -129,31 +130,4 @@ fn write_object(
 /// The number of a part's object.
 fn object(part: usize) -> usize {
     MATERIALS + 1 + part
-}
-
-/// Text for an attribute in XML; characters that XML has no place for are replaced.
-fn escaped(text: &str) -> String {
-    let mut safe = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => safe.push_str("&amp;"),
-            '<' => safe.push_str("&lt;"),
-            '>' => safe.push_str("&gt;"),
-            '"' => safe.push_str("&quot;"),
-            '\u{fffe}' | '\u{ffff}' => safe.push('\u{fffd}'),
-            c if c.is_control() => safe.push('\u{fffd}'),
-            c => safe.push(c),
-        }
-    }
-    safe
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn names_are_legal_in_attributes() {
-        assert_eq!(escaped("a<b>&\"c\"\n\0 Wände"), "a&lt;b&gt;&amp;&quot;c&quot;\u{fffd}\u{fffd} Wände");
-    }
 }

@@ -1,0 +1,89 @@
+//! MJCF: MuJoCo's model file.
+
+use std::io::{self, Write};
+
+use glam::DVec3;
+
+use super::files::collision;
+use super::names::{VISUAL, collider_names};
+use super::{RigidBody, main_color};
+use crate::decimal::write_decimal;
+use crate::material::linear_to_srgb;
+use crate::xml::escaped;
+
+/// Writes a model with one free body, whose meshes are in `folder`.
+pub(super) fn write_mjcf(body: &RigidBody<'_>, folder: &str, out: &mut dyn Write) -> io::Result<()> {
+    let (name, has_visual) = (escaped(body.name), !body.visual.triangles.is_empty());
+    writeln!(out, r#"<?xml version="1.0" encoding="UTF-8"?>"#)?;
+    writeln!(out, r#"<mujoco model="{name}">"#)?;
+    writeln!(out, r#"  <compiler angle="radian" meshdir="{}"/>"#, escaped(folder))?;
+    out.write_all(
+        b"  <default>
+    <default class=\"visual\">
+      <geom type=\"mesh\" group=\"2\" contype=\"0\" conaffinity=\"0\" density=\"0\"/>
+    </default>
+    <default class=\"collision\">
+      <geom group=\"3\"/>
+    </default>
+  </default>
+  <asset>
+",
+    )?;
+    // a surface says where a mesh is also where it has no volume, or next to none
+    if has_visual {
+        writeln!(out, r#"    <mesh name="{VISUAL}" file="{VISUAL}.obj" inertia="shell"/>"#)?;
+    }
+    for number in (0..body.colliders.len()).filter(|number| body.colliders[*number].cuboid.is_none()) {
+        let mesh = collision(number);
+        writeln!(out, r#"    <mesh name="{mesh}" file="{mesh}.obj" inertia="shell"/>"#)?;
+    }
+    writeln!(out, "  </asset>\n  <worldbody>\n    <body name=\"{name}\">\n      <freejoint name=\"{name}\"/>")?;
+    let mass = &body.mass;
+    out.write_all(b"      <inertial")?;
+    write_numbers("pos", &mass.center.to_array(), out)?;
+    write_numbers("mass", &[mass.mass], out)?;
+    write_numbers("fullinertia", &[mass.moments.to_array(), mass.products.to_array()].concat(), out)?;
+    out.write_all(b"/>\n")?;
+    if has_visual {
+        write!(out, r#"      <geom name="{VISUAL}" class="visual" mesh="{VISUAL}""#)?;
+        if let Some(color) = main_color(body.visual) {
+            let [r, g, b] = color.map(linear_to_srgb);
+            write!(out, r#" rgba="{r:.4} {g:.4} {b:.4} 1""#)?;
+        }
+        out.write_all(b"/>\n")?;
+    }
+    for (number, (collider, name)) in body.colliders.iter().zip(collider_names(body, escaped)).enumerate() {
+        write!(out, r#"      <geom name="{name}" class="collision""#)?;
+        match &collider.cuboid {
+            Some(cuboid) => {
+                out.write_all(b" type=\"box\"")?;
+                write_numbers("size", &cuboid.half_sizes.to_array(), out)?;
+                write_numbers("pos", &cuboid.center.to_array(), out)?;
+                if !cuboid.is_along_axes() {
+                    write_numbers("quat", &cuboid.rotation, out)?;
+                }
+            }
+            None => write!(out, r#" type="mesh" mesh="{}""#, collision(number))?,
+        }
+        out.write_all(b"/>\n")?;
+    }
+    out.write_all(b"    </body>\n  </worldbody>\n</mujoco>\n")
+}
+
+/// An attribute of numbers.
+pub(super) fn write_numbers(name: &str, numbers: &[f64], out: &mut dyn Write) -> io::Result<()> {
+    write!(out, " {name}=\"")?;
+    for (place, number) in numbers.iter().enumerate() {
+        if place > 0 {
+            out.write_all(b" ")?;
+        }
+        // adding zero turns `-0` into `0`
+        write_decimal(*number + 0.0, out)?;
+    }
+    out.write_all(b"\"")
+}
+
+/// The same for a vector.
+pub(super) fn write_vector(name: &str, vector: DVec3, out: &mut dyn Write) -> io::Result<()> {
+    write_numbers(name, &vector.to_array(), out)
+}
