@@ -28,6 +28,12 @@ pub enum ExportError {
     /// A rigid body has nothing to collide with.
     #[error("found a rigid body without colliders, expected one at least")]
     NoColliders,
+    /// Neither the mesh nor its colliders enclose a volume that has a mass.
+    #[error("found no volume that has a mass at a density of {density} kg/m³, expected a body that has one")]
+    NoMass {
+        /// In kilograms per cubic metre.
+        density: f64,
+    },
     /// A brush is a closed mesh.
     #[error("brush {brush} (counted from 0) is a closed mesh, expected convex bodies alone")]
     MeshBrush {

@@ -10,6 +10,7 @@ use planecut::csg::coarsen::{CoarsenOptions, DEFAULT_OVERLAP_WEIGHT, LEAST_MAX_F
 use planecut::picture::{MAX_IMAGE_SIDE, PreviewOptions};
 
 use super::asset_args::AssetArgs;
+use super::engine_args::EngineArgs;
 use super::error::CliError;
 use super::output::{MeshTarget, OutputFormat};
 use super::reading_args::ReadingArgs;
@@ -89,11 +90,11 @@ pub(crate) enum Combine {
 /// Where meshes and the report go.
 #[derive(Debug, Args)]
 pub(crate) struct OutputArgs {
-    /// Output file: a mesh (.glb, .gltf, .obj, .stl, .3mf or .ply) or convex bodies (.map or .csg); may be given several times; `-` is standard output. With `coarsen`,
-    /// a name with `{}` writes a file for each cell, `{}` standing for its number
+    /// Output file: a mesh (.glb, .gltf, .obj, .stl, .3mf or .ply) or convex bodies (.map or .csg); may be given several times; `-` is standard output. With `coarsen`
+    /// also a rigid body for a physics engine (.xml: MJCF, .urdf or .usda), and a name with `{}` writes a file for each cell, `{}` standing for its number
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1)]
     pub(crate) outputs: Vec<PathBuf>,
-    /// Format of `-o -`: glb, gltf, obj, stl, 3mf, ply, map or csg
+    /// Format of `-o -`: glb, gltf, obj, stl, 3mf, ply, map or csg; with `coarsen` also usda
     #[arg(long, value_name = "FORMAT", value_parser = parse_format)]
     pub(crate) format: Option<OutputFormat>,
     /// Factor from the input's units to those of the meshes
@@ -107,11 +108,25 @@ pub(crate) struct OutputArgs {
 }
 
 impl OutputArgs {
-    /// The places of meshes.
+    /// The places of meshes and convex bodies.
+    ///
+    /// # Errors
+    /// As [`MeshTarget::resolve_all`], and [`CliError::Usage`] for a rigid body.
+    pub(crate) fn targets(&self) -> Result<Vec<MeshTarget>, CliError> {
+        let targets = self.all_targets()?;
+        match targets.iter().find(|place| matches!(place.format, OutputFormat::Physics(_))) {
+            Some(MeshTarget { target, .. }) => Err(CliError::Usage(format!(
+                "{target}: found a rigid body as the output of another command, expected it of coarsen, which makes convex colliders"
+            ))),
+            None => Ok(targets),
+        }
+    }
+
+    /// The places of meshes, convex bodies and rigid bodies.
     ///
     /// # Errors
     /// As [`MeshTarget::resolve_all`].
-    pub(crate) fn targets(&self) -> Result<Vec<MeshTarget>, CliError> {
+    pub(crate) fn all_targets(&self) -> Result<Vec<MeshTarget>, CliError> {
         MeshTarget::resolve_all(&self.outputs, self.format, self.assets.mtl)
     }
 }
@@ -174,9 +189,11 @@ pub(crate) struct CoarsenArgs {
     pub(crate) input: PathBuf,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
-    /// Names of the cells, `{}` standing for their numbers: `cell{}-convcolonly` for Godot, `UCX_part_{}` for Unreal
-    #[arg(long, value_name = "PATTERN", default_value = "cell {}")]
-    pub(crate) name: String,
+    /// Names of the cells, `{}` standing for their numbers; by default `cell {}`, or what --engine wants
+    #[arg(long, value_name = "PATTERN")]
+    pub(crate) name: Option<String>,
+    #[command(flatten)]
+    pub(crate) engine: EngineArgs,
     #[command(flatten)]
     pub(crate) picture: PictureArgs,
     #[command(flatten)]
@@ -241,13 +258,13 @@ pub(crate) struct CoarsenLimits {
 }
 
 impl CoarsenLimits {
-    /// The same as the library wants it.
-    pub(crate) fn options(&self, keep_clear: Option<Tree>) -> CoarsenOptions {
+    /// The same as the library wants it, with the caps of an engine where there are no others.
+    pub(crate) fn options(&self, keep_clear: Option<Tree>, engine: &EngineArgs) -> CoarsenOptions {
         CoarsenOptions {
             max_cells: self.max_cells,
             max_excess: self.max_excess,
-            max_faces: self.max_faces,
-            max_vertices: self.max_vertices,
+            max_faces: self.max_faces.or_else(|| engine.limits()?.max_faces),
+            max_vertices: self.max_vertices.or_else(|| engine.limits()?.max_vertices),
             keep_clear,
             by_material: self.by_material,
             min_thickness: self.min_thickness,
@@ -351,7 +368,8 @@ fn in_one_line(message: &str) -> String {
 }
 
 fn parse_format(text: &str) -> Result<OutputFormat, String> {
-    OutputFormat::from_extension(text).ok_or_else(|| "expected glb, gltf, obj, stl, 3mf, ply, map or csg".to_owned())
+    OutputFormat::from_extension(text)
+        .ok_or_else(|| "expected glb, gltf, obj, stl, 3mf, ply, map, csg or usda".to_owned())
 }
 
 fn parse_scale(text: &str) -> Result<f64, String> {

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use planecut::csg::coarsen::{Bounded, CoarsenOptions, Coarsened, Coarsener, Side};
 use planecut::csg::{Brush, EvaluateError, Material, MaterialId, Mesh, Model, Tree, evaluate};
-use planecut::export::{ExportOptions, Format, distinct_color};
+use planecut::export::{Collider, ExportOptions, Format, distinct_color};
 use planecut::import::Warning;
 use planecut::import::mesh::{MeshImport, PartsImport, read_parts};
 use planecut::kernel::DVec3;
@@ -18,9 +18,10 @@ use super::pieces::{NUMBER, bounded_tree, of_cells};
 use super::product::{Contents, Product, draw, encode, produce};
 use super::progress::Progress;
 use super::report::{CoarsenPart, milliseconds};
+use super::rigid_body::{Body, BodyTarget, colliders};
 use super::solve::{Read, Solved, read, solve_read};
 use super::surface::{NoSolid, Triangles};
-use super::written_cells::{Request, WrittenCells};
+use super::written_cells::{Numbers, Request, WrittenCells, meters};
 
 /// What cells are made of.
 enum Shape {
@@ -41,6 +42,10 @@ struct Plan<'a> {
     meshes: Vec<MeshTarget>,
     /// Where each goes alone: names in which its number stands for `{}`.
     patterns: Vec<MeshTarget>,
+    /// Where they are the colliders of a body.
+    bodies: Vec<BodyTarget>,
+    /// A pattern for the names of cells.
+    name: String,
     clear: Vec<(Input, InputKind)>,
     preview: Option<Target>,
     report: Option<Target>,
@@ -67,8 +72,12 @@ impl<'a> Plan<'a> {
             return Err(CliError::Usage(message.to_owned()));
         }
         args.output.assets.check_without_sources()?;
-        let targets = args.output.targets()?;
+        let targets = args.output.all_targets()?;
         let first = targets.first().cloned();
+        let name = cell_name(args, &targets, &input);
+        let (bodies, targets): (Vec<MeshTarget>, Vec<MeshTarget>) =
+            targets.into_iter().partition(|place| matches!(place.format, OutputFormat::Physics(_)));
+        let bodies = bodies.into_iter().map(body_target).collect::<Result<_, _>>()?;
         let (patterns, meshes) = targets.into_iter().partition(|mesh| pattern_of(mesh).is_some());
         let clear = |path: &PathBuf| Input::resolve_any(path, None);
         let plan = Self {
@@ -78,12 +87,15 @@ impl<'a> Plan<'a> {
             first,
             meshes,
             patterns,
+            bodies,
+            name,
             clear: args.limits.keep_clear.iter().map(clear).collect::<Result<_, _>>()?,
             preview: args.picture.preview.as_deref().map(Target::picture).transpose()?,
             report: args.output.report.as_deref().map(Target::new),
         };
         let meshes: Vec<Target> = plan.meshes.iter().flat_map(MeshTarget::targets).collect();
-        plan.check(&meshes.iter().chain(&plan.preview).collect::<Vec<_>>())?;
+        let bodies = plan.bodies.iter().map(|place| &place.target);
+        plan.check(&meshes.iter().chain(bodies).chain(&plan.preview).collect::<Vec<_>>())?;
         Ok(plan)
     }
 
@@ -104,14 +116,25 @@ impl<'a> Plan<'a> {
         let (mut solved, shape) = self.solve(warnings, begin, progress)?;
         progress.stage("coarsening");
         let begin = Instant::now();
-        let (coarsened, bounded) = self.coarsen(&solved, &shape, &self.args.limits.options(clear))?;
+        let (coarsened, bounded) =
+            self.coarsen(&solved, &shape, &self.args.limits.options(clear, &self.args.engine))?;
         let time = begin.elapsed();
         let cells = self.cells(&coarsened, &solved)?;
-        self.tell(&mut solved, CoarsenPart::new(&coarsened, bounded, time), &coarsened, &cells);
+        let body = self.body(&coarsened, &solved, &shape)?;
+        let colliders = self.colliders(&cells);
+        let mut part = CoarsenPart::new(&coarsened, bounded, time).for_engine(self.args.engine.engine());
+        if let Some(body) = &body {
+            let boxes = colliders.iter().filter(|collider| collider.cuboid.is_some()).count();
+            part = part.with_body(boxes, body.told());
+        }
+        self.tell(&mut solved, part, &coarsened, &cells);
         solved.report.time_ms.evaluate += milliseconds(begin.elapsed());
         let begin = Instant::now();
         progress.stage("encoding");
         let mut outputs = self.encode(&cells, &solved)?;
+        if let Some(body) = &body {
+            outputs.extend(body.encode(&colliders, &self.bodies, &stem_of(&self.input))?);
+        }
         let encoding = begin.elapsed();
         if let Some(target) = &self.preview {
             let drawing = Instant::now();
@@ -207,23 +230,46 @@ impl<'a> Plan<'a> {
 
     /// The cells as each of the formats holds them that are asked for.
     fn cells(&self, coarsened: &Coarsened, solved: &Solved) -> Result<WrittenCells, CliError> {
-        let mesh_format = |target: &MeshTarget| match target.format {
-            OutputFormat::Mesh(format) => Some(format),
-            OutputFormat::Brushes(_) => None,
-        };
-        // double precision where the first output holds bodies, and for what is thinner than rounding among these
-        let formats = [self.first.as_ref().and_then(mesh_format).unwrap_or(Format::Obj), Format::Obj];
-        let formats = formats.into_iter().chain(self.meshes.iter().chain(&self.patterns).filter_map(mesh_format));
+        // double precision where the first output holds planes, and for what is thinner than rounding among these
+        let first = self.first.as_ref().and_then(|place| Numbers::of(place.format));
+        let formats = [first.unwrap_or(Numbers::In(Format::Obj)), Numbers::In(Format::Obj)];
+        let places = || self.meshes.iter().chain(&self.patterns);
+        let formats = formats.into_iter().chain(places().filter_map(|place| Numbers::of(place.format)));
+        let formats = formats.chain(self.bodies.first().map(|_| Numbers::Meters));
+        let limits = self.args.limits.options(None, &self.args.engine);
         let request = Request {
             materials: &solved.model.materials,
-            name: &self.args.name,
+            name: &self.name,
             encloses: !self.args.limits.inner,
-            max_vertices: self.args.limits.max_vertices,
+            max_vertices: limits.max_vertices,
             options: self.options(),
-            has_bodies: self.meshes.iter().chain(&self.patterns).any(|target| mesh_format(target).is_none()),
+            has_bodies: places().any(|place| matches!(place.format, OutputFormat::Brushes(_))),
+            is_single: self.args.engine.engine().is_some(),
         };
         WrittenCells::of(&coarsened.cells, formats, &request)
             .map_err(|source| CliError::Coarsen { path: self.input.path.clone(), source })
+    }
+
+    /// What the colliders belong to, where that is asked for.
+    fn body(&self, coarsened: &Coarsened, solved: &Solved, shape: &Shape) -> Result<Option<Body>, CliError> {
+        if self.bodies.is_empty() {
+            return Ok(None);
+        }
+        let materials = &solved.model.materials;
+        let (visual, is_closed) = match shape {
+            Shape::Solid { .. } => (solved.mesh.clone(), true),
+            Shape::Surface(triangles) => (triangles.mesh(materials), false),
+        };
+        let measures = (meters(&self.options()), self.args.engine.density);
+        Body::new(visual, is_closed, coarsened, materials, measures, &self.input.path).map(Some)
+    }
+
+    /// The cells as colliders of a body, where that is asked for.
+    fn colliders<'b>(&self, cells: &'b WrittenCells) -> Vec<Collider<'b>> {
+        match self.bodies.first() {
+            Some(place) => colliders(cells.in_format(OutputFormat::Physics(place.format)).0),
+            None => Vec::new(),
+        }
     }
 
     /// Tells the report and, where cells could not become so few, warns.
@@ -271,6 +317,35 @@ fn in_colors(coarsened: &Coarsened) -> Result<Mesh, EvaluateError> {
     let tree = Tree::union((0..).zip(&coarsened.cells).map(colored));
     let material = |number| Material { color: Some(distinct_color(number)), ..Material::named(format!("{number:09}")) };
     Ok(evaluate(&Model { materials: (0..coarsened.cells.len()).map(material).collect(), tree })?.mesh)
+}
+
+/// The pattern for the names of cells: what is asked for, what an engine wants, or a plain one.
+fn cell_name(args: &CoarsenArgs, targets: &[MeshTarget], input: &Input) -> String {
+    let wanted = || {
+        let stem = targets.iter().find_map(|place| place.target.stem()).unwrap_or_else(|| stem_of(input));
+        Some(args.engine.limits()?.name?.replace("{stem}", &stem.replace(NUMBER, "")))
+    };
+    args.name.clone().or_else(wanted).unwrap_or_else(|| "cell {}".to_owned())
+}
+
+/// The name of an input without its ending.
+fn stem_of(input: &Input) -> String {
+    match input.path.file_stem() {
+        Some(stem) if input.file().is_some() => stem.to_string_lossy().into_owned(),
+        _ => "body".to_owned(),
+    }
+}
+
+/// The place of a rigid body, which holds all cells.
+fn body_target(place: MeshTarget) -> Result<BodyTarget, CliError> {
+    if let Some(name) = pattern_of(&place) {
+        let message = format!(
+            "{name}: found {NUMBER} in the name of a rigid body, expected one name: all cells are its colliders"
+        );
+        return Err(CliError::Usage(message));
+    }
+    let OutputFormat::Physics(format) = place.format else { unreachable!("only rigid bodies have such places") };
+    Ok(BodyTarget { target: place.target, format })
 }
 
 /// The name of a place for single cells.

@@ -5,7 +5,7 @@ use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use planecut::export::{AtomicFile, BrushFormat, ExportError, Format};
+use planecut::export::{AtomicFile, BrushFormat, ExportError, Format, PhysicsFormat};
 use planecut::picture::{AnimationFormat, PictureError};
 
 use super::error::CliError;
@@ -43,6 +43,22 @@ impl Target {
         match self {
             Self::File(path) => Some(path.file_name()?.to_string_lossy().into_owned()),
             Self::Stdout => None,
+        }
+    }
+
+    /// The same without its ending.
+    pub(crate) fn stem(&self) -> Option<String> {
+        match self {
+            Self::File(path) => Some(path.file_stem()?.to_string_lossy().into_owned()),
+            Self::Stdout => None,
+        }
+    }
+
+    /// The place that a path relative to its folder names; itself for an empty one.
+    pub(crate) fn beside(&self, path: &str) -> Self {
+        match self {
+            Self::File(own) if !path.is_empty() => Self::File(own.with_file_name(path)),
+            target => target.clone(),
         }
     }
 
@@ -209,16 +225,19 @@ pub(crate) enum OutputFormat {
     Mesh(Format),
     /// Convex bodies.
     Brushes(BrushFormat),
+    /// A rigid body with convex colliders; only `coarsen` makes one.
+    Physics(PhysicsFormat),
 }
 
 impl OutputFormat {
     /// The endings that there are, for errors.
-    const ENDINGS: &'static str = "`.glb`, `.gltf`, `.obj`, `.stl`, `.3mf`, `.ply`, `.map` or `.csg`";
+    const ENDINGS: &'static str = "`.glb`, `.gltf`, `.obj`, `.stl`, `.3mf`, `.ply`, `.map` or `.csg` (of coarsen also `.xml`, `.urdf` or `.usda`)";
 
     /// The format of an ending, without the dot.
     pub(crate) fn from_extension(extension: &str) -> Option<Self> {
         let brushes = || BrushFormat::from_extension(extension).ok().map(Self::Brushes);
-        Format::from_extension(extension).ok().map(Self::Mesh).or_else(brushes)
+        let physics = || PhysicsFormat::from_extension(extension).ok().map(Self::Physics);
+        Format::from_extension(extension).ok().map(Self::Mesh).or_else(brushes).or_else(physics)
     }
 }
 
@@ -265,6 +284,10 @@ impl MeshTarget {
     ) -> Result<Vec<Self>, CliError> {
         let resolve = |path: &PathBuf| match Target::new(path) {
             Target::Stdout => match stdout_format {
+                Some(OutputFormat::Physics(format)) if format.has_mesh_files() => Err(CliError::Usage(format!(
+                    "found -o - with --format {}, which has meshes in files beside it, expected the name of a file",
+                    format.extension()
+                ))),
                 Some(format) => Ok(Self::alone(Target::Stdout, format)),
                 None => Err(CliError::Usage("found -o - without a format, expected --format beside it".to_owned())),
             },

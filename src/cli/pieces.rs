@@ -100,6 +100,11 @@ impl Pieces {
         pieces.map(|(place, (name, mesh))| Part { name, mesh, sources: own(place) }).collect()
     }
 
+    /// The names and the meshes.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (&str, &Mesh)> {
+        self.names.iter().map(String::as_str).zip(&self.meshes)
+    }
+
     /// The counts of all meshes together.
     pub(crate) fn measured(&self) -> MeshPart {
         self.measured_at(1.0)

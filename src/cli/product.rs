@@ -106,6 +106,7 @@ pub(crate) fn encode(
         outputs.push(place.target.begin(|out| match place.format {
             OutputFormat::Mesh(format) => write_parts(contents.parts, format, &options, out),
             OutputFormat::Brushes(format) => write_brushes(&brushes, contents.materials, format, options.scale, out),
+            OutputFormat::Physics(_) => unreachable!("rigid bodies have files of their own: `rigid_body`"),
         })?);
         if let Some(library) = library {
             outputs.push(library.begin(|out| write_mtl(contents.parts, out))?);

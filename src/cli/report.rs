@@ -8,7 +8,7 @@ use std::time::Duration;
 use planecut::check::{Measures, TopologyReport, check_topology, measure_triangles};
 use planecut::csg::coarsen::{Bounded, Coarsened};
 use planecut::csg::{Evaluation, ModelSummary, Noise, SolidMeasures, StageTimes, Tree};
-use planecut::export::Written;
+use planecut::export::{Engine, MassProperties, Written};
 use planecut::import::Warning;
 use planecut::kernel::DVec3;
 use planecut::kernel::sign::Counts;
@@ -359,6 +359,37 @@ pub(crate) struct CoarsenPart {
     thickness: Option<f64>,
     /// How long it took, in milliseconds; reading and evaluating the input are not in it.
     time_ms: f64,
+    /// The engine that limits were taken from.
+    engine: Option<&'static str>,
+    /// How many cells rigid bodies have as boxes; `null` where none is written.
+    boxes: Option<usize>,
+    /// Of rigid bodies.
+    mass: Option<MassPart>,
+}
+
+/// Mass and inertia, in metres and kilograms.
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct MassPart {
+    density: f64,
+    volume: f64,
+    mass: f64,
+    center: [f64; 3],
+    /// About the centre: xx, yy, zz, xy, xz and yz of the tensor.
+    inertia: [f64; 6],
+    /// What it was integrated over: the `input`, or the union of the `colliders`.
+    of: &'static str,
+}
+
+impl MassPart {
+    pub(crate) fn new(mass: &MassProperties, density: f64, is_of_input: bool) -> Self {
+        let MassProperties { volume, mass, center, moments, products } = *mass;
+        // adding zero turns `-0` into `0`
+        let [x, y, z] = (moments + DVec3::ZERO).to_array();
+        let [xy, xz, yz] = (products + DVec3::ZERO).to_array();
+        let of = if is_of_input { "input" } else { "colliders" };
+        let center = (center + DVec3::ZERO).to_array();
+        Self { density, volume, mass, center, inertia: [x, y, z, xy, xz, yz], of }
+    }
 }
 
 impl CoarsenPart {
@@ -382,7 +413,20 @@ impl CoarsenPart {
             volume_sum_out: coarsened.volume_sum_out,
             sum_excess: coarsened.sum_excess(),
             time_ms: milliseconds(time),
+            engine: None,
+            boxes: None,
+            mass: None,
         }
+    }
+
+    /// Says what the colliders are for.
+    pub(crate) fn for_engine(self, engine: Option<Engine>) -> Self {
+        Self { engine: engine.map(Engine::name), ..self }
+    }
+
+    /// Says what rigid bodies are made of.
+    pub(crate) fn with_body(self, boxes: usize, mass: MassPart) -> Self {
+        Self { boxes: Some(boxes), mass: Some(mass), ..self }
     }
 }
 

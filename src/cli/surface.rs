@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use planecut::check::check_topology;
 use planecut::csg::coarsen::{Bounded, CoarsenError, CoarsenOptions, Coarsened, Coarsener, Surface};
-use planecut::csg::{MaterialId, Mesh, Model, Tree};
+use planecut::csg::{Material, MaterialId, Mesh, MeshFace, Model, Tree};
 use planecut::import::Warning;
 use planecut::import::mesh::{MeshFormat, Place, SolidError, TrianglesImport, read_triangles};
 use planecut::kernel::DVec3;
@@ -65,6 +65,21 @@ impl Triangles {
     /// What they bound.
     pub(crate) fn bounded(&self) -> Bounded {
         self.bounded
+    }
+
+    /// The triangles as they are, each a face of its own.
+    pub(crate) fn mesh(&self, materials: &[Material]) -> Mesh {
+        let face = |(corners, material): (&[u32; 3], &MaterialId)| {
+            let [a, b, c] = corners.map(|corner| self.positions[corner as usize]);
+            MeshFace { normal: (b - a).cross(c - a).normalize_or(DVec3::Z), material: *material }
+        };
+        Mesh {
+            positions: self.positions.clone(),
+            triangles: self.triangles.clone(),
+            triangle_faces: (0..self.triangles.len() as u32).collect(),
+            faces: self.triangles.iter().zip(&self.material_of).map(face).collect(),
+            materials: materials.to_vec(),
+        }
     }
 
     /// Few cells around what they bound.

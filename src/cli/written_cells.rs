@@ -2,7 +2,7 @@
 
 use planecut::csg::coarsen::{CoarsenError, Writing, written_meshes};
 use planecut::csg::{Brush, Material, Mesh};
-use planecut::export::{ExportOptions, Format, TextureMapping, stored_positions};
+use planecut::export::{ExportOptions, Format, TextureMapping, Unit, stored_positions};
 use planecut::kernel::{DVec3, hull};
 
 use super::output::OutputFormat;
@@ -20,19 +20,52 @@ pub(crate) struct Request<'a> {
     pub(crate) options: ExportOptions,
     /// Whether they are written as convex bodies, too.
     pub(crate) has_bodies: bool,
+    /// Whether vertices are values of single precision in all formats.
+    pub(crate) is_single: bool,
+}
+
+/// What vertices are rounded to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Numbers {
+    /// As a file has them.
+    In(Format),
+    /// Metres in single precision, for rigid bodies.
+    Meters,
+}
+
+impl Numbers {
+    /// Those of an output; nothing where it holds planes.
+    pub(crate) fn of(format: OutputFormat) -> Option<Self> {
+        match format {
+            OutputFormat::Mesh(format) => Some(Self::In(format)),
+            OutputFormat::Physics(_) => Some(Self::Meters),
+            OutputFormat::Brushes(_) => None,
+        }
+    }
+
+    /// Where a reader finds positions.
+    fn stored(self, positions: &[DVec3], is_single: bool, options: &ExportOptions) -> Vec<DVec3> {
+        match self {
+            Self::In(format @ (Format::Glb | Format::Gltf | Format::Stl)) => {
+                stored_positions(positions, format, options)
+            }
+            Self::In(format) if !is_single => stored_positions(positions, format, options),
+            Self::In(_) | Self::Meters => positions.iter().map(|position| position.as_vec3().as_dvec3()).collect(),
+        }
+    }
 }
 
 /// The cells in some formats.
 pub(crate) struct WrittenCells {
     /// The first is what the report tells of. Cells have the same numbers in all.
-    formats: Vec<InFormat>,
+    formats: Vec<Rounded>,
     bodies: Vec<Brush>,
     /// Those to write bodies with.
     options: ExportOptions,
 }
 
-struct InFormat {
-    format: Format,
+struct Rounded {
+    numbers: Numbers,
     /// In the units of the file, where these are not left to a node.
     pieces: Pieces,
     /// With what is left of the scale.
@@ -47,14 +80,14 @@ impl WrittenCells {
     /// [`CoarsenError::OutOfRange`] where a format has no numbers for a cell.
     pub(crate) fn of(
         cells: &[Brush],
-        formats: impl Iterator<Item = Format>,
+        formats: impl Iterator<Item = Numbers>,
         request: &Request<'_>,
     ) -> Result<Self, CoarsenError> {
-        let mut known: Vec<(Format, ExportOptions, f64, Vec<Mesh>)> = Vec::new();
-        for format in formats {
-            if !known.iter().any(|(other, ..)| *other == format) {
-                let (options, scale) = left_of_scale(format, &request.options);
-                let stored = |positions: &[DVec3]| stored_positions(positions, format, &options);
+        let mut known: Vec<(Numbers, ExportOptions, f64, Vec<Mesh>)> = Vec::new();
+        for numbers in formats {
+            if !known.iter().any(|(other, ..)| *other == numbers) {
+                let (options, scale) = left_of_scale(numbers, &request.options);
+                let stored = |positions: &[DVec3]| numbers.stored(positions, request.is_single, &options);
                 let writing = Writing {
                     scale,
                     max_vertices: request.max_vertices.unwrap_or(usize::MAX),
@@ -62,7 +95,7 @@ impl WrittenCells {
                     stored: &stored,
                 };
                 let meshes = written_meshes(cells, request.materials, &writing)?;
-                known.push((format, options, scale, meshes));
+                known.push((numbers, options, scale, meshes));
             }
         }
         // within a solid a cell may be thinner than rounding: it has no number in any format
@@ -70,7 +103,8 @@ impl WrittenCells {
         let kept: Vec<usize> = (0..cells.len()).filter(is_kept).collect();
         let mut bodies: Vec<Brush> = kept.iter().map(|cell| cells[*cell].clone()).collect();
         if request.has_bodies {
-            let (_, _, scale, meshes) = &known[known.iter().position(|known| known.0 == Format::Obj).unwrap_or(0)];
+            let (_, _, scale, meshes) =
+                &known[known.iter().position(|known| known.0 == Numbers::In(Format::Obj)).unwrap_or(0)];
             let own = brush_meshes(&bodies, request.materials)?;
             for ((body, own), cell) in bodies.iter_mut().zip(own).zip(&kept) {
                 if own.triangles.is_empty() {
@@ -78,22 +112,22 @@ impl WrittenCells {
                 }
             }
         }
-        let in_format = |(format, options, scale, mut meshes): (Format, ExportOptions, f64, Vec<Mesh>)| {
+        let rounded = |(numbers, options, scale, mut meshes): (Numbers, ExportOptions, f64, Vec<Mesh>)| {
             let meshes = kept.iter().map(|cell| std::mem::take(&mut meshes[*cell])).collect();
             let pieces = Pieces::named(meshes, request.name);
-            InFormat { format, measured: pieces.measured_at(1.0 / scale), pieces, options }
+            Rounded { numbers, measured: pieces.measured_at(1.0 / scale), pieces, options }
         };
-        Ok(Self { formats: known.into_iter().map(in_format).collect(), bodies, options: request.options.clone() })
+        Ok(Self { formats: known.into_iter().map(rounded).collect(), bodies, options: request.options.clone() })
     }
 
     /// The cells for a format, and the options to write them with.
     pub(crate) fn in_format(&self, format: OutputFormat) -> (&Pieces, &ExportOptions) {
-        match format {
-            OutputFormat::Mesh(format) => {
-                let known = self.formats.iter().find(|known| known.format == format).unwrap_or(&self.formats[0]);
+        match Numbers::of(format) {
+            Some(numbers) => {
+                let known = self.formats.iter().find(|known| known.numbers == numbers).unwrap_or(&self.formats[0]);
                 (&known.pieces, &known.options)
             }
-            OutputFormat::Brushes(_) => (&self.formats[0].pieces, &self.options),
+            None => (&self.formats[0].pieces, &self.options),
         }
     }
 
@@ -116,14 +150,18 @@ fn thicker(body: &Brush, written: &Mesh, scale: f64) -> Brush {
     Brush::from_half_spaces(half_spaces, face.material)
 }
 
+/// Metres for each unit of what is written with some options.
+pub(crate) fn meters(options: &ExportOptions) -> f64 {
+    options.scale * options.unit.unwrap_or(Unit::Meter).meters()
+}
+
 /// The options of a format without the scale that its positions have already, and that scale: glTF has its scale in a node.
-fn left_of_scale(format: Format, options: &ExportOptions) -> (ExportOptions, f64) {
-    match format {
-        Format::Glb | Format::Gltf => (options.clone(), 1.0),
-        Format::Obj | Format::Stl | Format::ThreeMf | Format::Ply => {
-            let texture =
-                options.texture.map(|texture| TextureMapping { size: texture.size * options.scale, ..texture });
-            (ExportOptions { scale: 1.0, texture, ..options.clone() }, options.scale)
-        }
-    }
+fn left_of_scale(numbers: Numbers, options: &ExportOptions) -> (ExportOptions, f64) {
+    let scale = match numbers {
+        Numbers::In(Format::Glb | Format::Gltf) => return (options.clone(), 1.0),
+        Numbers::In(Format::Obj | Format::Stl | Format::ThreeMf | Format::Ply) => options.scale,
+        Numbers::Meters => meters(options),
+    };
+    let texture = options.texture.map(|texture| TextureMapping { size: texture.size * scale, ..texture });
+    (ExportOptions { scale: 1.0, texture, ..options.clone() }, scale)
 }
