@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use planecut::csg::coarsen::{Bounded, CoarsenOptions, Coarsened, Coarsener, Side};
 use planecut::csg::{Brush, EvaluateError, Material, MaterialId, Mesh, Model, Tree, evaluate};
-use planecut::export::{Collider, ExportOptions, Format, distinct_color};
+use planecut::export::{Collider, ExportOptions, Format, PhysicsFormat, distinct_color};
 use planecut::import::Warning;
 use planecut::import::mesh::{MeshImport, PartsImport, read_parts};
 use planecut::kernel::DVec3;
@@ -128,6 +128,11 @@ impl<'a> Plan<'a> {
             part = part.with_body(boxes, body.told());
         }
         self.tell(&mut solved, part, &coarsened, &cells);
+        let is_mjcf = self.bodies.iter().any(|place| place.format == PhysicsFormat::Mjcf);
+        if let Some(doubt) = body.as_ref().filter(|_| is_mjcf).and_then(Body::doubt) {
+            solved.report.warn(std::slice::from_ref(&doubt));
+            solved.warnings.push(doubt);
+        }
         solved.report.time_ms.evaluate += milliseconds(begin.elapsed());
         let begin = Instant::now();
         progress.stage("encoding");

@@ -5,11 +5,15 @@ use std::path::Path;
 use planecut::csg::coarsen::Coarsened;
 use planecut::csg::{Material, Mesh, Model, Tree, evaluate};
 use planecut::export::{Collider, ExportError, MassProperties, PhysicsFormat, RigidBody, physics_files};
+use planecut::import::Warning;
 
 use super::error::CliError;
 use super::output::{Output, OutputError, Target};
 use super::pieces::Pieces;
 use super::report::MassPart;
+
+/// MuJoCo refuses moving bodies whose mass or moments of inertia are smaller (`mjMINVAL`).
+const LEAST_OF_MUJOCO: f64 = 1e-15;
 
 /// A body without a name: what is seen, and its mass.
 pub(crate) struct Body {
@@ -62,6 +66,17 @@ impl Body {
     /// Mass and inertia, for the report.
     pub(crate) fn told(&self) -> MassPart {
         MassPart::new(&self.mass, self.density, self.is_of_input)
+    }
+
+    /// What there is to warn of, where it is written as MJCF.
+    pub(crate) fn doubt(&self) -> Option<Warning> {
+        let least = self.mass.principal().moments.min_element().min(self.mass.mass);
+        let found = format!(
+            "found a mass of {:.3e} kg and a least moment of inertia of {:.3e} kg m², MuJoCo refuses bodies with less than {LEAST_OF_MUJOCO:e} of either: see --unit and --density",
+            self.mass.mass,
+            self.mass.principal().moments.min_element()
+        );
+        (least < LEAST_OF_MUJOCO).then(|| Warning::note(0, found))
     }
 
     /// Writes the body with some colliders to some places, each name once; `unnamed` is what it is called on standard output.

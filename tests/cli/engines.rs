@@ -207,6 +207,18 @@ fn meshes_replace_no_other_output() {
 }
 
 #[test]
+fn a_mass_that_mujoco_refuses_is_told() {
+    let folder = folder();
+    let folder = folder.path();
+    fs::write(folder.join("m.json"), PARTS).expect("written");
+    let (run, _) = coarsen(folder, "m.json -o a.xml --unit um");
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    assert!(run.stderr.lines().count() == 1 && run.stderr.contains("MuJoCo refuses"), "{}", run.stderr);
+    // others do not
+    coarsen(folder, "m.json -o a.urdf --unit um").0.expect_quiet_success();
+}
+
+#[test]
 fn bodies_settle_in_rapier_and_enclose_what_is_seen() {
     let folder = folder();
     let folder = folder.path();
