@@ -1,4 +1,10 @@
-//! Text in XML.
+//! Attributes in XML: text and numbers.
+
+use std::io::{self, Write};
+
+use glam::DVec3;
+
+use crate::decimal::write_decimal;
 
 /// Text for an attribute in XML; characters that XML has no place for are replaced.
 pub(crate) fn escaped(text: &str) -> String {
@@ -15,6 +21,24 @@ pub(crate) fn escaped(text: &str) -> String {
         }
     }
     safe
+}
+
+/// An attribute of numbers.
+pub(crate) fn write_numbers(name: &str, numbers: &[f64], out: &mut dyn Write) -> io::Result<()> {
+    write!(out, " {name}=\"")?;
+    for (place, number) in numbers.iter().enumerate() {
+        if place > 0 {
+            out.write_all(b" ")?;
+        }
+        // adding zero turns `-0` into `0`
+        write_decimal(*number + 0.0, out)?;
+    }
+    out.write_all(b"\"")
+}
+
+/// The same for a vector.
+pub(crate) fn write_vector(name: &str, vector: DVec3, out: &mut dyn Write) -> io::Result<()> {
+    write_numbers(name, &vector.to_array(), out)
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use std::io::Write;
 
 use planecut_csg::Mesh;
 
-use super::names::{VISUAL, path_name};
+use super::names::{VISUAL, collision, path_name};
 use super::{RigidBody, mesh_file, mjcf, urdf, usda};
 use crate::ExportError;
 use crate::part::check_mesh;
@@ -117,9 +117,4 @@ pub fn physics_files<'a>(
     }
     files.insert(0, PhysicsFile { path: String::new(), content: Content::Document { body, format, folder } });
     Ok(files)
-}
-
-/// The name of a collider's mesh.
-pub(super) fn collision(number: usize) -> String {
-    format!("collision_{number}")
 }

@@ -2,14 +2,10 @@
 
 use std::io::{self, Write};
 
-use glam::DVec3;
-
-use super::files::collision;
-use super::names::{VISUAL, collider_names};
+use super::names::{VISUAL, collider_names, collision};
 use super::{RigidBody, main_color};
-use crate::decimal::write_decimal;
 use crate::material::linear_to_srgb;
-use crate::xml::escaped;
+use crate::xml::{escaped, write_numbers, write_vector};
 
 /// Writes a model with one free body, whose meshes are in `folder`.
 pub(super) fn write_mjcf(body: &RigidBody<'_>, folder: &str, out: &mut dyn Write) -> io::Result<()> {
@@ -40,7 +36,7 @@ pub(super) fn write_mjcf(body: &RigidBody<'_>, folder: &str, out: &mut dyn Write
     writeln!(out, "  </asset>\n  <worldbody>\n    <body name=\"{name}\">\n      <freejoint name=\"{name}\"/>")?;
     let mass = &body.mass;
     out.write_all(b"      <inertial")?;
-    write_numbers("pos", &mass.center.to_array(), out)?;
+    write_vector("pos", mass.center, out)?;
     write_numbers("mass", &[mass.mass], out)?;
     write_numbers("fullinertia", &[mass.moments.to_array(), mass.products.to_array()].concat(), out)?;
     out.write_all(b"/>\n")?;
@@ -57,8 +53,8 @@ pub(super) fn write_mjcf(body: &RigidBody<'_>, folder: &str, out: &mut dyn Write
         match &collider.cuboid {
             Some(cuboid) => {
                 out.write_all(b" type=\"box\"")?;
-                write_numbers("size", &cuboid.half_sizes.to_array(), out)?;
-                write_numbers("pos", &cuboid.center.to_array(), out)?;
+                write_vector("size", cuboid.half_sizes, out)?;
+                write_vector("pos", cuboid.center, out)?;
                 if !cuboid.is_along_axes() {
                     write_numbers("quat", &cuboid.rotation, out)?;
                 }
@@ -68,22 +64,4 @@ pub(super) fn write_mjcf(body: &RigidBody<'_>, folder: &str, out: &mut dyn Write
         out.write_all(b"/>\n")?;
     }
     out.write_all(b"    </body>\n  </worldbody>\n</mujoco>\n")
-}
-
-/// An attribute of numbers.
-pub(super) fn write_numbers(name: &str, numbers: &[f64], out: &mut dyn Write) -> io::Result<()> {
-    write!(out, " {name}=\"")?;
-    for (place, number) in numbers.iter().enumerate() {
-        if place > 0 {
-            out.write_all(b" ")?;
-        }
-        // adding zero turns `-0` into `0`
-        write_decimal(*number + 0.0, out)?;
-    }
-    out.write_all(b"\"")
-}
-
-/// The same for a vector.
-pub(super) fn write_vector(name: &str, vector: DVec3, out: &mut dyn Write) -> io::Result<()> {
-    write_numbers(name, &vector.to_array(), out)
 }

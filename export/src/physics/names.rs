@@ -8,6 +8,11 @@ use crate::material::unique;
 /// What the mesh is called that is seen.
 pub(super) const VISUAL: &str = "visual";
 
+/// The name of a collider's mesh.
+pub(super) fn collision(number: usize) -> String {
+    format!("collision_{number}")
+}
+
 /// The names of a body's colliders, each once, and none that of what is seen.
 pub(super) fn collider_names(body: &RigidBody<'_>, legal: impl Fn(&str) -> String) -> Vec<String> {
     let mut taken = FxHashSet::default();

@@ -4,12 +4,10 @@ use std::io::{self, Write};
 
 use glam::{DMat3, DVec3};
 
-use super::files::collision;
-use super::mjcf::{write_numbers, write_vector};
-use super::names::{VISUAL, collider_names};
+use super::names::{VISUAL, collider_names, collision};
 use super::{Cuboid, RigidBody, main_color};
 use crate::material::linear_to_srgb;
-use crate::xml::escaped;
+use crate::xml::{escaped, write_numbers, write_vector};
 
 /// Writes a robot, whose meshes are in `folder`.
 pub(super) fn write_urdf(body: &RigidBody<'_>, folder: &str, out: &mut dyn Write) -> io::Result<()> {
