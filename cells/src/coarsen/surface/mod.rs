@@ -28,11 +28,13 @@ use planecut_kernel::DVec3;
 use planecut_parallel::prelude::*;
 
 use super::CoarsenError;
+use super::hull::Hull;
 use super::part::{Part, most};
-use super::probes::spread;
+use super::probes::{Probes, spread};
+use super::reachable::Reachable;
 use crate::tolerances::{GROWTH, SHELL_THICKNESS};
 pub(super) use body::{Growth, Points};
-use divide::divided;
+use divide::{Wanted, divided};
 use inside::{Filled, Shell, Solid};
 use polygons::Polygons;
 use region::{Region, normal};
@@ -111,6 +113,26 @@ impl Surface<'_> {
     }
 }
 
+impl Surface<'_> {
+    /// What a ball that comes from outside can reach.
+    ///
+    /// # Errors
+    /// [`CoarsenError::Option`] for a surface that is filled, of which it is not known where the ball enters what is inside; [`CoarsenError::Radius`].
+    pub(super) fn reachable(&self, radius: f64) -> Result<Reachable, CoarsenError> {
+        let half = match self.bounded {
+            Bounded::Solid => 0.0,
+            // a cube around each point
+            Bounded::Shell { thickness } => 0.5 * thickness * 3.0_f64.sqrt(),
+            Bounded::Filled => {
+                let (option, found) = ("clear_radius", "a mesh that is filled although it is open".to_owned());
+                return Err(CoarsenError::Option { option, found, expected: "a closed one, or a shell" });
+            }
+        };
+        let corners = |triangle: &[u32; 3]| triangle.map(|corner| self.positions[corner as usize]);
+        Reachable::new(&self.triangles.iter().map(corners).collect::<Vec<_>>(), half, radius)
+    }
+}
+
 /// What convex pieces of a surface were made of.
 #[derive(Debug)]
 pub(super) struct Pieces {
@@ -119,8 +141,13 @@ pub(super) struct Pieces {
     pub(super) growth: Growth,
 }
 
-/// About as many convex pieces as are wanted, whose union holds what a surface bounds and exceeds it little.
-pub(super) fn pieces(surface: &Surface<'_>, wanted: usize) -> Result<(Vec<Part>, Pieces), CoarsenError> {
+/// About as many convex pieces as are wanted, whose union holds what a surface bounds and exceeds it little. Where space is to stay clear, as many more as
+/// it takes to keep out of it.
+pub(super) fn pieces(
+    surface: &Surface<'_>,
+    wanted: usize,
+    reachable: Option<&Reachable>,
+) -> Result<(Vec<Part>, Pieces), CoarsenError> {
     if surface.triangles.is_empty() {
         return Err(CoarsenError::Empty);
     }
@@ -132,17 +159,25 @@ pub(super) fn pieces(surface: &Surface<'_>, wanted: usize) -> Result<(Vec<Part>,
     let frame = Frame::around(used).ok_or(CoarsenError::OutOfRange)?;
     let positions: Vec<DVec3> = surface.positions.iter().map(|p| frame.inward(*p)).collect();
     let polygons = Polygons::of_triangles(&positions, surface.triangles);
-    let regions = match surface.bounded {
-        Bounded::Solid => divided(polygons, &Solid(Winding::new(&positions, surface.triangles)), wanted),
-        Bounded::Filled => divided(polygons, &Filled(SolidAngles::new(&positions, surface.triangles)), wanted),
-        Bounded::Shell { thickness } => divided(polygons, &Shell { thickness: thickness * frame.scale }, wanted),
-    };
     let growth = Growth {
         thickness: match surface.bounded {
             Bounded::Solid | Bounded::Filled => 0.0,
             Bounded::Shell { thickness } => 0.5 * thickness,
         },
         rounding: frame.growth(),
+    };
+    let is_blocked = |region: &Region| {
+        let points =
+            || Points { vertices: Vec::new(), cuts: region.points().iter().map(|p| frame.outward(*p)).collect() };
+        reachable.is_some_and(|reachable| {
+            !reachable.allows_hull(&Hull::of(&points().thick(growth.thickness), &Probes::default()))
+        })
+    };
+    let wanted = Wanted { pieces: wanted, is_blocked: &is_blocked };
+    let regions = match surface.bounded {
+        Bounded::Solid => divided(polygons, &Solid(Winding::new(&positions, surface.triangles)), &wanted),
+        Bounded::Filled => divided(polygons, &Filled(SolidAngles::new(&positions, surface.triangles)), &wanted),
+        Bounded::Shell { thickness } => divided(polygons, &Shell { thickness: thickness * frame.scale }, &wanted),
     };
     let pieces: Vec<Option<(Part, Points)>> = regions
         .par_iter()
@@ -247,7 +282,11 @@ mod tests {
         let inward: Vec<DVec3> = positions.iter().map(|p| frame.inward(*p)).collect();
         let inside = Solid(Winding::new(&inward, &triangles));
         for wanted in [1, 2, 7, 100] {
-            let regions = divided(Polygons::of_triangles(&inward, &triangles), &inside, wanted);
+            let regions = divided(
+                Polygons::of_triangles(&inward, &triangles),
+                &inside,
+                &Wanted { pieces: wanted, is_blocked: &|_| false },
+            );
             let volume: f64 = regions.iter().map(Region::volume).sum();
             let expected = surface.volume() * frame.scale.powi(3);
             assert!((volume - expected).abs() < 1e-11, "{wanted}: {volume} {expected}");
