@@ -78,8 +78,7 @@ impl Cuboid {
                 | usize::from(point.y > middle.y) << 1
                 | usize::from(point.z > middle.z) << 2;
             let off = point.distance(middle + sign_of(corner) * half);
-            // not a number fails as well
-            if !(off <= tolerance) {
+            if off > tolerance {
                 return None;
             }
             taken |= 1 << corner;

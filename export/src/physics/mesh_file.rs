@@ -19,12 +19,11 @@ pub(super) fn write_mesh(mesh: &Mesh, name: &str, out: &mut dyn Write) -> io::Re
         write_point(*position, out)?;
         out.write_all(b"\n")?;
     }
-    for [a, b, c] in &mesh.triangles {
-        match middle {
-            Some(_) => {
-                [[*a, *b, 3], [*b, *c, 3], [*c, *a, 3]].iter().try_for_each(|corners| write_face(*corners, out))?
-            }
-            None => write_face([*a, *b, *c], out)?,
+    for corners @ [a, b, c] in &mesh.triangles {
+        if middle.is_some() {
+            [[*a, *b, 3], [*b, *c, 3], [*c, *a, 3]].into_iter().try_for_each(|corners| write_face(corners, out))?;
+        } else {
+            write_face(*corners, out)?;
         }
     }
     Ok(())

@@ -19,10 +19,7 @@ pub(super) fn principal_axes(matrix: DMat3) -> (DVec3, DMat3) {
             is_diagonal = false;
             let (cosine, sine) = rotation(a[p][p], a[q][q], a[p][q]);
             turn(&mut a, p, q, cosine, sine);
-            for column in 0..3 {
-                (a[p][column], a[q][column]) =
-                    (cosine * a[p][column] - sine * a[q][column], sine * a[p][column] + cosine * a[q][column]);
-            }
+            (a[p], a[q]) = (mixed(a[p], a[q], cosine, -sine), mixed(a[p], a[q], sine, cosine));
             (axes[p], axes[q]) = (mixed(axes[p], axes[q], cosine, -sine), mixed(axes[p], axes[q], sine, cosine));
             (a[p][q], a[q][p]) = (0.0, 0.0);
         }
