@@ -144,7 +144,7 @@ fn engines_set_caps_names_and_single_precision_unless_others_are_asked_for() {
     let drum = r#"{"planecut": 1, "model": {"cylinder": {"height": 1.1, "radius": 1.3, "segments": 200}}}"#;
     fs::write(folder.join("m.json"), drum).expect("written");
     let corners = |arguments: &str| {
-        let (run, told) = coarsen(folder, &format!("m.json -o part.obj {arguments}").trim_end());
+        let (run, told) = coarsen(folder, format!("m.json -o part.obj {arguments}").trim_end());
         run.expect_quiet_success();
         let text = fs::read_to_string(folder.join("part.obj")).expect("text");
         let name = text.lines().find_map(|line| line.strip_prefix("o ")).expect("an object").to_owned();
