@@ -161,7 +161,7 @@ mod tests {
             .into_iter()
             .flat_map(|(axis, half)| {
                 [1.0, -1.0].map(|side| {
-                    let leaning = if side > 0.0 { axis + DVec3::new(0.0, 0.0, lean * axis.x) } else { axis };
+                    let leaning = if side > 0.0 { axis + DVec3::new(0.0, lean * axis.x, 0.0) } else { axis };
                     let normal = (turn * leaning.normalize()) * side;
                     (normal, normal.dot(center) + half)
                 })

@@ -90,6 +90,25 @@ impl PhysicsFile<'_> {
 /// The files that describe a rigid body, the document first. `stem` is the name of the document without its ending: meshes go to the folder `{stem}_meshes`,
 /// as `visual.obj` and `collision_{number}.obj`, boxes left out. They are the same in all formats.
 ///
+/// ```
+/// # use planecut_csg::{Brush, Material, MaterialId, Model, evaluate};
+/// # use planecut_export::{Collider, MassProperties, PhysicsFormat, RigidBody, physics_files};
+/// # use planecut_kernel::DVec3;
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// # let tree = Brush::cuboid(DVec3::ZERO, DVec3::ONE, MaterialId(0)).into();
+/// # let visual = evaluate(&Model { materials: vec![Material::named("stone")], tree })?.mesh;
+/// let mass = MassProperties::of_triangles(&visual.positions, &visual.triangles, 1000.0).ok_or("no volume")?;
+/// let colliders = [Collider::new("all of it", &visual)];
+/// let body = RigidBody { name: "part", visual: &visual, colliders: &colliders, mass };
+/// let files = physics_files(&body, PhysicsFormat::Urdf, "part")?;
+/// assert_eq!(files.iter().map(|file| file.path()).collect::<Vec<_>>(), ["", "part_meshes/visual.obj"]);
+/// let mut urdf = Vec::new();
+/// files[0].write(&mut urdf)?;
+/// assert!(String::from_utf8(urdf)?.contains("<box size=\"1 1 1\"/>"));
+/// # Ok(())
+/// # }
+/// ```
+///
 /// # Errors
 /// [`ExportError::InvalidMesh`] for a mesh with an index that is out of range, or a number that is not finite; [`ExportError::NoColliders`] for a body without any.
 pub fn physics_files<'a>(
