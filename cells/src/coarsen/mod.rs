@@ -164,7 +164,7 @@ impl Coarsener {
         let boxes = boxes_of(&parts);
         let regions = options.keep_clear.as_ref().map_or(Ok(Vec::new()), parts_of)?;
         let reachable = options.clear_radius.filter(|_| options.side == Side::Outer);
-        let reachable = reachable.map(|radius| Reachable::new(&triangles_of(&parts), 0.0, radius)).transpose()?;
+        let reachable = reachable.map(|radius| Reachable::new(&triangles_of(&parts), 0.0, radius, None)).transpose()?;
         let clear = Clear::around(&parts, &boxes, &regions, reachable)?;
         let (least, most, each) = PROBES;
         // a single part that grows is merged with nothing

@@ -29,7 +29,7 @@ use distance::near;
 use flood::flooded;
 use grid::Grid;
 use octree::{Body, Octree};
-use voxelize::touched;
+use voxelize::{fill, touched};
 
 /// The tolerance in steps of the grid: more than `3·√3`.
 const TOLERANCE_STEPS: f64 = 6.0;
@@ -49,11 +49,16 @@ pub(super) struct Reachable {
 }
 
 impl Reachable {
-    /// What a ball of a radius can reach around a surface with thickness `2·half`.
+    /// What a ball of a radius can reach around a surface with thickness `2·half`, and around points that are filled although the surface has openings there.
     ///
     /// # Errors
-    /// [`CoarsenError::Option`] for a radius that is too small for the size of the surface, or for its thickness.
-    pub(super) fn new(triangles: &[[DVec3; 3]], half: f64, radius: f64) -> Result<Self, CoarsenError> {
+    /// [`CoarsenError::Radius`] for one that is too small for the size of the surface, or for its thickness.
+    pub(super) fn new(
+        triangles: &[[DVec3; 3]],
+        half: f64,
+        radius: f64,
+        is_filled: Option<&(dyn Fn(DVec3) -> bool + Sync)>,
+    ) -> Result<Self, CoarsenError> {
         let bounds = triangles.iter().fold(Bounds::EMPTY, |all, triangle| all.union(&bounds_of(triangle)));
         let step = step_for(&bounds, half, radius).ok_or_else(|| too_small(&bounds, half, radius))?;
         let grid = Grid::around(&bounds, step, margin(half, radius, step));
@@ -62,7 +67,11 @@ impl Reachable {
         // squares of distances in steps are integers
         let from_surface = ((radius + half) / step - diagonal).powi(2).ceil() as i16;
         let from_middle = ((radius - tolerance) / step + diagonal).powi(2).floor() as i16;
-        let free = near(&touched(&grid, triangles), from_surface - 1).complement();
+        let mut solid = touched(&grid, triangles);
+        if let Some(is_filled) = is_filled {
+            fill(&mut solid, &grid, is_filled);
+        }
+        let free = near(&solid, from_surface - 1).complement();
         let covered = near(&flooded(&free), from_middle);
         Ok(Self { octree: Octree::new(grid, covered), tolerance })
     }

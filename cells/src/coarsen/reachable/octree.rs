@@ -47,29 +47,44 @@ impl Octree {
         bounds.min.cmpge(grid.min).all() && bounds.max.cmple(grid.max).all()
     }
 
-    /// Whether some block of voxels of the set may have interior in common with a body, and has by a test that is given their box. Few are tested.
+    /// Whether some block of voxels of the set has interior in common with a body: by its planes where these tell, otherwise by a test that is given its box.
     pub(super) fn meets(&self, body: &Body<'_>, shares_interior: &mut impl FnMut(&Bounds) -> bool) -> bool {
-        let top = self.levels.len() - 1;
-        let mut waiting = vec![(top, [0; 3])];
-        while let Some((number, place)) = waiting.pop() {
-            let level = &self.levels[number];
-            if !level.any.has(place) {
-                continue;
-            }
-            let bounds = self.block(number, place);
-            if body.is_apart_from(&bounds) {
-                continue;
-            }
-            if level.all.has(place) {
-                if shares_interior(&bounds) {
-                    return true;
-                }
-                continue;
-            }
-            let inner = (0..8).map(|k| std::array::from_fn(|axis| 2 * place[axis] + (k >> axis & 1)));
-            waiting.extend(inner.map(|inner| (number - 1, inner)));
+        let mut planes = vec![Vec::new(); self.levels.len()];
+        planes.push(body.planes.to_vec());
+        self.meets_at(self.levels.len() - 1, [0; 3], body.bounds, &mut planes, shares_interior)
+    }
+
+    /// The same within a block; for the levels above it `planes` are those that cross the block there that it is in.
+    fn meets_at(
+        &self,
+        number: usize,
+        place: [usize; 3],
+        within: &Bounds,
+        planes: &mut [Vec<(DVec3, f64)>],
+        shares_interior: &mut impl FnMut(&Bounds) -> bool,
+    ) -> bool {
+        let level = &self.levels[number];
+        if !level.any.has(place) {
+            return false;
         }
-        false
+        let bounds = self.block(number, place);
+        if bounds.min.cmpge(within.max).any() || bounds.max.cmple(within.min).any() {
+            return false;
+        }
+        let (own, above) = planes.split_at_mut(number + 1);
+        if !crossing(&above[0], &bounds, &mut own[number]) {
+            return false;
+        }
+        if own[number].is_empty() {
+            return true;
+        }
+        if level.all.has(place) {
+            return shares_interior(&bounds);
+        }
+        (0..8).any(|k| {
+            let inner = std::array::from_fn(|axis| 2 * place[axis] + (k >> axis & 1));
+            self.meets_at(number - 1, inner, within, planes, shares_interior)
+        })
     }
 
     fn block(&self, level: usize, place: [usize; 3]) -> Bounds {
@@ -79,18 +94,22 @@ impl Octree {
     }
 }
 
-impl Body<'_> {
-    /// Whether a side of the box or a plane of the body is sure to have both on different sides.
-    fn is_apart_from(&self, bounds: &Bounds) -> bool {
-        let is_beside = bounds.min.cmpge(self.bounds.max).any() || bounds.max.cmple(self.bounds.min).any();
-        let (middle, half) = (bounds.center(), 0.5 * (bounds.max - bounds.min));
-        is_beside
-            || self.planes.iter().any(|(normal, offset)| {
-                let reach = normal.abs().dot(half);
-                let rounding = DISTANCE_BOUND * (normal.abs().dot(middle.abs()) + reach + offset.abs());
-                normal.dot(middle) - offset - reach > rounding
-            })
+/// The planes of which it is not sure that they have all of a box inside; false where one is sure to have all of it outside.
+fn crossing(planes: &[(DVec3, f64)], bounds: &Bounds, found: &mut Vec<(DVec3, f64)>) -> bool {
+    found.clear();
+    let (middle, half) = (bounds.center(), 0.5 * (bounds.max - bounds.min));
+    let rounding = DISTANCE_BOUND * (middle.abs() + half).element_sum();
+    for (normal, offset) in planes {
+        let (distance, reach) = (normal.dot(middle) - offset, normal.abs().dot(half));
+        let reach = reach + rounding + DISTANCE_BOUND * offset.abs();
+        if distance > reach {
+            return false;
+        }
+        if distance >= -reach {
+            found.push((*normal, *offset));
+        }
     }
+    true
 }
 
 impl Voxels {

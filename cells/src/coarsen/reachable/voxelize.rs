@@ -5,6 +5,8 @@ use planecut_parallel::prelude::*;
 
 use super::grid::{Grid, Voxels, set};
 
+/// Edge of the cubes of voxels that are filled as one.
+const BLOCK: usize = 4;
 /// Layers that are filled together.
 const LAYERS: usize = 8;
 /// How much larger voxels are taken, relatively: more than the rounding of all that is computed of them.
@@ -24,15 +26,34 @@ pub(super) fn touched(grid: &Grid, triangles: &[[DVec3; 3]]) -> Voxels {
         for (triangle, (low, high)) in triangles.iter().zip(&spans) {
             for z in first.max(*low)..last.min(*high) {
                 let layer = &mut words[(z - first) * rows * row..];
-                fill(grid, triangle, z, layer, row);
+                add(grid, triangle, z, layer, row);
             }
         }
     });
     voxels
 }
 
+/// Adds all voxels of blocks whose middles are filled.
+pub(super) fn fill(voxels: &mut Voxels, grid: &Grid, is_filled: &(dyn Fn(DVec3) -> bool + Sync)) {
+    let [width, rows, layers] = grid.size;
+    let layer = voxels.layer();
+    let row = voxels.row;
+    voxels.words.par_chunks_mut(BLOCK * layer).enumerate().for_each(|(block, words)| {
+        let z = block * BLOCK;
+        for (y, x) in (0..rows).step_by(BLOCK).flat_map(|y| (0..width).step_by(BLOCK).map(move |x| (y, x))) {
+            let last = [(x + BLOCK).min(width), (y + BLOCK).min(rows), (z + BLOCK).min(layers)];
+            if is_filled(grid.bounds([x, y, z], last).center()) {
+                for (z, y) in (0..last[2] - z).flat_map(|z| (y..last[1]).map(move |y| (z, y))) {
+                    let first = z * layer + y * row;
+                    (x..last[0]).for_each(|x| set(&mut words[first..first + row], x));
+                }
+            }
+        }
+    });
+}
+
 /// The voxels of a layer that a triangle touches.
-fn fill(grid: &Grid, triangle: &[DVec3; 3], z: usize, layer: &mut [u64], row: usize) {
+fn add(grid: &Grid, triangle: &[DVec3; 3], z: usize, layer: &mut [u64], row: usize) {
     let [a, b, c] = *triangle;
     let (low, high) = (a.min(b).min(c), a.max(b).max(c));
     let half = 0.5 * grid.step * WIDER;

@@ -7,7 +7,7 @@ use planecut_kernel::DVec3;
 use planecut_parallel::prelude::*;
 
 use super::bounds;
-use super::cut::best_cut;
+use super::cut::{best_cut, middle_cut};
 use super::inside::Inside;
 use super::polygons::Polygons;
 use super::region::{Region, hull_volume};
@@ -106,7 +106,9 @@ fn in_two(one: Waiting, least: f64, inside: &impl Inside, wanted: &Wanted<'_>) -
     if one.excess <= least && !one.is_blocked {
         return Cut::Whole(one);
     }
-    let Some(cut) = best_cut(&one.region, inside) else { return Cut::Whole(one) };
+    // to get out of where nothing may be, halves do better than slices whose hulls are small
+    let cut = if one.is_blocked { middle_cut(&one.region) } else { best_cut(&one.region, inside) };
+    let Some(cut) = cut else { return Cut::Whole(one) };
     let parts = one.region.split(cut.axis, cut.at, inside);
     Cut::Parts(parts.into_iter().filter(|part| !part.is_empty()).map(|part| Waiting::new(part, wanted)).collect())
 }

@@ -32,7 +32,7 @@ use super::hull::Hull;
 use super::part::{Part, most};
 use super::probes::{Probes, spread};
 use super::reachable::Reachable;
-use crate::tolerances::{GROWTH, SHELL_THICKNESS};
+use crate::tolerances::{FILLED_FOR_BALLS, GROWTH, SHELL_THICKNESS};
 pub(super) use body::{Growth, Points};
 use divide::{Wanted, divided};
 use inside::{Filled, Shell, Solid};
@@ -117,19 +117,20 @@ impl Surface<'_> {
     /// What a ball that comes from outside can reach.
     ///
     /// # Errors
-    /// [`CoarsenError::Option`] for a surface that is filled, of which it is not known where the ball enters what is inside; [`CoarsenError::Radius`].
+    /// [`CoarsenError::Radius`].
     pub(super) fn reachable(&self, radius: f64) -> Result<Reachable, CoarsenError> {
-        let half = match self.bounded {
-            Bounded::Solid => 0.0,
-            // a cube around each point
-            Bounded::Shell { thickness } => 0.5 * thickness * 3.0_f64.sqrt(),
-            Bounded::Filled => {
-                let (option, found) = ("clear_radius", "a mesh that is filled although it is open".to_owned());
-                return Err(CoarsenError::Option { option, found, expected: "a closed one, or a shell" });
-            }
-        };
         let corners = |triangle: &[u32; 3]| triangle.map(|corner| self.positions[corner as usize]);
-        Reachable::new(&self.triangles.iter().map(corners).collect::<Vec<_>>(), half, radius)
+        let triangles: Vec<[DVec3; 3]> = self.triangles.iter().map(corners).collect();
+        match self.bounded {
+            Bounded::Solid => Reachable::new(&triangles, 0.0, radius, None),
+            // a cube around each point
+            Bounded::Shell { thickness } => Reachable::new(&triangles, 0.5 * thickness * 3.0_f64.sqrt(), radius, None),
+            Bounded::Filled => {
+                let angles = SolidAngles::new(self.positions, self.triangles);
+                let is_filled = |point: DVec3| angles.around(point) > FILLED_FOR_BALLS;
+                Reachable::new(&triangles, 0.0, radius, Some(&is_filled))
+            }
+        }
     }
 }
 

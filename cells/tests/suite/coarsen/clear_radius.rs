@@ -145,6 +145,9 @@ fn the_inside_of_an_open_box_is_kept_clear_of_a_shell() {
     assert_eq!(sides.cells.len(), 5);
     let middle = DVec3::new(2.0, 2.0, 2.0);
     assert!(!sides.cells.iter().any(|cell| holds(cell, middle)));
+    // nor where it is filled
+    let filled = around(&mesh, Bounded::Filled, &clear_of(1.0)).expect("a cell");
+    assert!(filled.cells.iter().any(|cell| holds(cell, middle)));
     let filled = around(&mesh, shell, &clear_of(16.0)).expect("a cell");
     assert_eq!(filled.cells.len(), 1);
 }
