@@ -2,9 +2,11 @@
 
 use std::ops::ControlFlow;
 
+use planecut_csg::stages::Bounds;
 use planecut_kernel::{DVec3, HalfSpace};
 
 use super::CoarsenError;
+use super::box_list::BoxList;
 use super::clear::Clear;
 use super::enclose::enclose;
 use super::hull::Hull;
@@ -24,21 +26,26 @@ pub(super) fn merge_freely(search: &Search) -> Result<Vec<Part>, CoarsenError> {
     let mut merger = Merger::new(search, groups, vec![0; search.probes.words()]);
     // what the groups are by now: fewer bodies than parts, and larger
     let mut bodies: Vec<Option<Part>> = search.parts.iter().cloned().map(Some).collect();
-    while let Some((Merge { kept, gone }, hull)) = merger.step_freely(|pair, hull| exact_hull(&bodies, pair, hull)) {
+    let mut boxes = BoxList::new(search.parts.iter().map(|part| part.bounds).collect());
+    while let Some((Merge { kept, gone }, hull)) =
+        merger.step_freely(|pair, hull| exact_hull(&bodies, &boxes, pair, hull))
+    {
         let members = std::iter::once(&kept).chain(&gone).filter_map(|place| bodies[*place as usize].take());
-        bodies[kept as usize] = Some(merged(hull, &members.collect::<Vec<_>>())?);
+        let body = merged(hull, &members.collect::<Vec<_>>())?;
+        gone.iter().for_each(|place| boxes.set(*place, Bounds::EMPTY));
+        boxes.set(kept, body.bounds);
+        bodies[kept as usize] = Some(body);
     }
     Ok(bodies.into_iter().flatten().collect())
 }
 
 /// The hull of two bodies, exactly; `None` where the solid does not hold it.
-fn exact_hull(bodies: &[Option<Part>], pair: [u32; 2], hull: &Hull) -> Option<Vec<HalfSpace>> {
+fn exact_hull(bodies: &[Option<Part>], boxes: &BoxList, pair: [u32; 2], hull: &Hull) -> Option<Vec<HalfSpace>> {
     let [a, b] = pair.map(|place| bodies[place as usize].as_ref());
     let (a, b) = (a?, b?);
-    let is_other = |place: &usize| !pair.contains(&(*place as u32));
-    let others = (0..bodies.len()).filter(is_other).filter_map(|place| bodies[place].as_ref());
+    let others = boxes.touching(&hull.bounds).into_iter().filter(|place| !pair.contains(place));
     // both first, and then what may fill most of the rest
-    let mut near: Vec<&Part> = others.filter(|other| other.bounds.touches(&hull.bounds)).collect();
+    let mut near: Vec<&Part> = others.filter_map(|place| bodies[place as usize].as_ref()).collect();
     near.sort_by_cached_key(|other| {
         let common = other.bounds.intersection(&hull.bounds);
         std::cmp::Reverse(((common.max - common.min).element_product()).to_bits())

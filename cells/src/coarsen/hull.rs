@@ -25,6 +25,17 @@ pub(super) struct Hull {
 impl Hull {
     /// The hull of points; their box where they span no space.
     pub(super) fn of(points: &[DVec3], probes: &Probes) -> Self {
+        let hull = Self::uncovered(points);
+        Self { coverage: probes.within(&hull.planes, &hull.bounds), ..hull }
+    }
+
+    /// The same, if its volume is no more than this.
+    pub(super) fn of_volume(points: &[DVec3], most: f64, probes: &Probes) -> Option<Self> {
+        let hull = Self::uncovered(points);
+        (hull.volume <= most).then(|| Self { coverage: probes.within(&hull.planes, &hull.bounds), ..hull })
+    }
+
+    fn uncovered(points: &[DVec3]) -> Self {
         let bounds = bounds_of(points);
         let mut hull =
             Self { corners: Vec::new(), planes: Vec::new(), bounds, volume: 0.0, coverage: Coverage::default() };
@@ -36,7 +47,6 @@ impl Hull {
                 hull.planes = DVec3::AXES.into_iter().flat_map(sides).collect();
             }
         }
-        hull.coverage = probes.within(&hull.planes, &hull.bounds);
         hull
     }
 
@@ -73,10 +83,17 @@ impl Hull {
         (self.bounds.max - self.bounds.min).length()
     }
 
+    /// The box of all that it may hold, or nearly.
+    pub(super) fn reach(&self) -> Bounds {
+        let margin = DVec3::splat(HULL_TOUCHING * self.size());
+        Bounds { min: self.bounds.min - margin, max: self.bounds.max + margin }
+    }
+
     /// Whether points in a box lie within it, or outside by no more than rounding.
     pub(super) fn holds(&self, bounds: &Bounds, points: &[DVec3]) -> bool {
         let margin = HULL_TOUCHING * self.size();
-        let fits = bounds.min.cmpge(self.bounds.min - margin).all() && bounds.max.cmple(self.bounds.max + margin).all();
+        let reach = self.reach();
+        let fits = bounds.min.cmpge(reach.min).all() && bounds.max.cmple(reach.max).all();
         let is_within =
             |point: &DVec3| self.planes.iter().all(|(normal, offset)| normal.dot(*point) <= offset + margin);
         fits && points.iter().all(is_within)

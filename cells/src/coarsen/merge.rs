@@ -1,9 +1,10 @@
 //! Greedy merging: of all pairs of neighbours always the one that costs least.
 
-use planecut_csg::stages::Bounds;
+use planecut_csg::stages::{Bounds, Boxes};
 use planecut_kernel::HalfSpace;
 use planecut_parallel::prelude::*;
 
+use super::box_list::BoxList;
 use super::hull::Hull;
 use super::pairs::{Pair, Pairs};
 use super::probes::{add, count_fresh};
@@ -12,6 +13,8 @@ use super::search::{Group, Search};
 /// Least number of neighbours that each group knows.
 const NEIGHBOURS: usize = 12;
 
+/// Room for rounding where a distance is derived from areas, as a factor.
+const SURELY: f64 = 1.0 + 1e-9;
 /// Number of neighbours that a group keeps of others that it took in.
 const PARTNERS: usize = 32;
 /// Number of pairs that are tried at the same time.
@@ -29,6 +32,8 @@ pub(super) struct Merge {
 pub(super) struct Merger<'a> {
     search: &'a Search<'a>,
     groups: Vec<Option<Group>>,
+    /// The box of each group's hull.
+    boxes: BoxList,
     pairs: Pairs,
     /// The probes that are covered, by these groups or by others.
     covered: Vec<u64>,
@@ -40,8 +45,9 @@ impl<'a> Merger<'a> {
     pub(super) fn new(search: &'a Search<'a>, groups: Vec<Group>, mut covered: Vec<u64>) -> Self {
         groups.iter().for_each(|group| add(&mut covered, &group.hull.coverage));
         let count = groups.len();
+        let boxes = BoxList::new(groups.iter().map(|group| group.hull.bounds).collect());
         let groups = groups.into_iter().map(Some).collect();
-        let mut merger = Self { search, groups, pairs: Pairs::new(count), covered, count };
+        let mut merger = Self { search, groups, boxes, pairs: Pairs::new(count), covered, count };
         merger.find_pairs(&merger.neighbours());
         merger
     }
@@ -108,18 +114,24 @@ impl<'a> Merger<'a> {
     fn merge(&mut self, pair: Pair) -> Merge {
         let Pair { places: [kept, other], hull, .. } = pair;
         let mut gone = vec![other];
-        gone.extend((0..self.groups.len() as u32).filter(|place| ![kept, other].contains(place)).filter(|place| {
-            let within = |group: &Group| {
-                self.search.may_join(group.parts[0], self.first_part(kept))
-                    && hull.holds(&group.hull.bounds, &group.hull.corners)
-            };
-            self.groups[*place as usize].as_ref().is_some_and(within)
-        }));
+        gone.extend(
+            self.boxes.touching(&hull.reach()).into_iter().filter(|place| ![kept, other].contains(place)).filter(
+                |place| {
+                    let within = |group: &Group| {
+                        self.search.may_join(group.parts[0], self.first_part(kept))
+                            && hull.holds(&group.hull.bounds, &group.hull.corners)
+                    };
+                    self.groups[*place as usize].as_ref().is_some_and(within)
+                },
+            ),
+        );
         let mut parts: Vec<u32> = self.groups[kept as usize].take().map_or(Vec::new(), |group| group.parts);
         for place in &gone {
             parts.extend(self.groups[*place as usize].take().into_iter().flat_map(|group| group.parts));
         }
         self.count -= gone.len();
+        gone.iter().for_each(|place| self.boxes.set(*place, Bounds::EMPTY));
+        self.boxes.set(kept, hull.bounds);
         let adds = count_fresh(&self.covered, &hull.coverage) > 0;
         add(&mut self.covered, &hull.coverage);
         let bounds = hull.bounds;
@@ -174,24 +186,21 @@ impl<'a> Merger<'a> {
         if alive.len() <= NEIGHBOURS + 1 {
             return self.all_pairs();
         }
-        let bounds = |place: u32| self.groups[place as usize].as_ref().map(|group| group.hull.bounds).expect("alive");
-        let of_place = |place: &u32| {
-            let own = bounds(*place);
-            let mut others: Vec<(f64, u32)> = alive
-                .iter()
-                .filter(|other| {
-                    *other != place && self.search.may_join(self.first_part(**other), self.first_part(*place))
-                })
-                .map(|other| (common_box(&own, &bounds(*other)), *other))
-                .collect();
-            if others.len() > NEIGHBOURS {
-                let by_size = |a: &(f64, u32), b: &(f64, u32)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
-                others.select_nth_unstable_by(NEIGHBOURS - 1, by_size);
-                others.truncate(NEIGHBOURS);
-            }
-            others.into_iter().map(|(_, other)| [other.min(*place), other.max(*place)]).collect::<Vec<_>>()
+        let bounds: Vec<Bounds> = self.groups.iter().flatten().map(|group| group.hull.bounds).collect();
+        let boxes = Boxes::new(bounds.clone());
+        let of_place = |number: u32| {
+            let own = alive[number as usize];
+            let may_join = |other: &u32| {
+                *other != number && self.search.may_join(self.first_part(alive[*other as usize]), self.first_part(own))
+            };
+            let nearest = nearest(&boxes, &bounds, number, may_join);
+            nearest
+                .into_iter()
+                .map(|other| alive[other as usize])
+                .map(|other| [other.min(own), other.max(own)])
+                .collect::<Vec<_>>()
         };
-        let mut pairs: Vec<[u32; 2]> = alive.par_iter().flat_map_iter(of_place).collect();
+        let mut pairs: Vec<[u32; 2]> = (0..alive.len() as u32).into_par_iter().flat_map_iter(of_place).collect();
         pairs.sort_unstable();
         pairs.dedup();
         pairs
@@ -214,6 +223,34 @@ impl<'a> Merger<'a> {
         // what a thread takes at once is worth the switch
         let found: Vec<Pair> = places.par_iter().with_min_len(4).filter_map(pair).collect();
         found.into_iter().for_each(|pair| self.pairs.insert(pair));
+    }
+}
+
+/// The boxes with which one shares the smallest box, of those that may be taken.
+fn nearest(boxes: &Boxes, bounds: &[Bounds], number: u32, may_take: impl Fn(&u32) -> bool) -> Vec<u32> {
+    let own = &bounds[number as usize];
+    let size = own.max - own.min;
+    let mut reach = (0.25 * size.length()).max(f64::MIN_POSITIVE);
+    let mut near = Vec::new();
+    loop {
+        boxes.touching(&Bounds { min: own.min - reach, max: own.max + reach }, &mut near);
+        let is_all = near.len() == bounds.len();
+        near.retain(&may_take);
+        let mut others: Vec<(f64, u32)> =
+            near.iter().map(|other| (common_box(own, &bounds[*other as usize]), *other)).collect();
+        if others.len() > NEIGHBOURS {
+            let by_size = |a: &(f64, u32), b: &(f64, u32)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
+            others.select_nth_unstable_by(NEIGHBOURS - 1, by_size);
+            others.truncate(NEIGHBOURS);
+        }
+        // what is farther along an axis makes the common box longer by as much at least
+        let across = size.element_sum() - size.max_element();
+        let most = others.iter().map(|(common, _)| *common).fold(0.0, f64::max);
+        let needed = (most - common_box(own, own)) / across * SURELY;
+        if is_all || others.len() == NEIGHBOURS && needed <= reach {
+            return others.into_iter().map(|(_, other)| other).collect();
+        }
+        reach = if others.len() == NEIGHBOURS && needed.is_finite() { needed } else { 2.0 * reach };
     }
 }
 

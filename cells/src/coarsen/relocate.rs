@@ -145,10 +145,8 @@ impl View<'_> {
         if !own.corners.iter().any(|corner| old.hull.corners.contains(corner)) {
             return None;
         }
-        let rest = search.group(old.parts.iter().copied().filter(|other| *other != part).collect());
-        if rest.hull.volume > old.hull.volume * SAME_HULL {
-            return None;
-        }
+        let others_of_it = old.parts.iter().copied().filter(|other| *other != part).collect();
+        let rest = search.group_of_volume(others_of_it, old.hull.volume * SAME_HULL)?;
         let mut covered = others.to_vec();
         add(&mut covered, &rest.hull.coverage);
         let freed = count_fresh(&covered, &old.hull.coverage);

@@ -93,8 +93,17 @@ impl<'a> Search<'a> {
 
     /// The group of some parts.
     pub(super) fn group(&self, parts: Vec<u32>) -> Group {
-        let points: Vec<DVec3> = parts.iter().flat_map(|part| self.hull(*part).corners.iter().copied()).collect();
-        Group { hull: Hull::of(&points, self.probes), parts }
+        Group { hull: Hull::of(&self.corners_of(&parts), self.probes), parts }
+    }
+
+    /// The same, if the volume of its hull is no more than this.
+    pub(super) fn group_of_volume(&self, parts: Vec<u32>, most: f64) -> Option<Group> {
+        let hull = Hull::of_volume(&self.corners_of(&parts), most, self.probes)?;
+        Some(Group { parts, hull })
+    }
+
+    fn corners_of(&self, parts: &[u32]) -> Vec<DVec3> {
+        parts.iter().flat_map(|part| self.hull(*part).corners.iter().copied()).collect()
     }
 
     /// The hull of two groups, and whether parts of both are near each other; `None` where it may not be.
