@@ -2,6 +2,8 @@
 //!
 //! They propose what to merge. What is kept of a proposal is built again by exact signs ([`super::enclose`]).
 
+use std::sync::OnceLock;
+
 use planecut_csg::stages::Bounds;
 use planecut_kernel::{DVec3, approximate_hull_triangles};
 
@@ -18,27 +20,15 @@ pub(super) struct Hull {
     pub(super) planes: Vec<(DVec3, f64)>,
     pub(super) bounds: Bounds,
     pub(super) volume: f64,
-    /// The probes within it.
-    pub(super) coverage: Coverage,
+    /// The probes within it, once they were asked for: of most hulls that are tried, shape and volume say enough.
+    coverage: OnceLock<Coverage>,
 }
 
 impl Hull {
     /// The hull of points; their box where they span no space.
-    pub(super) fn of(points: &[DVec3], probes: &Probes) -> Self {
-        let hull = Self::uncovered(points);
-        Self { coverage: probes.within(&hull.planes, &hull.bounds), ..hull }
-    }
-
-    /// The same, if its volume is no more than this.
-    pub(super) fn of_volume(points: &[DVec3], most: f64, probes: &Probes) -> Option<Self> {
-        let hull = Self::uncovered(points);
-        (hull.volume <= most).then(|| Self { coverage: probes.within(&hull.planes, &hull.bounds), ..hull })
-    }
-
-    fn uncovered(points: &[DVec3]) -> Self {
+    pub(super) fn of(points: &[DVec3]) -> Self {
         let bounds = bounds_of(points);
-        let mut hull =
-            Self { corners: Vec::new(), planes: Vec::new(), bounds, volume: 0.0, coverage: Coverage::default() };
+        let mut hull = Self { corners: Vec::new(), planes: Vec::new(), bounds, volume: 0.0, coverage: OnceLock::new() };
         match approximate_hull_triangles(points, HULL_TOUCHING * hull.size()) {
             Ok(triangles) => hull.take(points, &triangles),
             Err(_) => {
@@ -76,6 +66,16 @@ impl Hull {
             // the normals of slivers are no good: what they cut off is given back
             *offset = self.corners.iter().map(|corner| normal.dot(*corner)).fold(f64::NEG_INFINITY, f64::max);
         }
+    }
+
+    /// The probes within it.
+    pub(super) fn coverage(&self, probes: &Probes) -> &Coverage {
+        self.coverage.get_or_init(|| probes.within(&self.planes, &self.bounds))
+    }
+
+    /// Whether its probes are known.
+    pub(super) fn is_covered(&self) -> bool {
+        self.coverage.get().is_some()
     }
 
     /// The diagonal of its box.

@@ -17,6 +17,8 @@ const NEIGHBOURS: usize = 12;
 const SURELY: f64 = 1.0 + 1e-9;
 /// Number of neighbours that a group keeps of others that it took in.
 const PARTNERS: usize = 32;
+/// Number of pairs whose probes are looked for at the same time.
+const COVERED: usize = 8;
 /// Number of pairs that are tried at the same time.
 const ASKED: usize = 4;
 
@@ -43,7 +45,7 @@ pub(super) struct Merger<'a> {
 impl<'a> Merger<'a> {
     /// Begins with groups; `covered` are the probes that others cover.
     pub(super) fn new(search: &'a Search<'a>, groups: Vec<Group>, mut covered: Vec<u64>) -> Self {
-        groups.iter().for_each(|group| add(&mut covered, &group.hull.coverage));
+        groups.iter().for_each(|group| add(&mut covered, group.hull.coverage(search.probes)));
         let count = groups.len();
         let boxes = BoxList::new(groups.iter().map(|group| group.hull.bounds).collect());
         let groups = groups.into_iter().map(Some).collect();
@@ -83,7 +85,7 @@ impl<'a> Merger<'a> {
             // groups that are far apart are no neighbours until nothing else is left
             self.find_pairs(&self.all_pairs());
         }
-        let best = self.pairs.pop()?;
+        let best = self.pop()?;
         Some(self.merge(best))
     }
 
@@ -94,13 +96,13 @@ impl<'a> Merger<'a> {
         exact: impl Fn([u32; 2], &Hull) -> Option<Vec<HalfSpace>> + Sync,
     ) -> Option<(Merge, Vec<HalfSpace>)> {
         loop {
-            let mut best = self.pairs.pop()?;
+            let mut best = self.pop()?;
             if let Some(half_spaces) = best.free.take() {
                 return Some((self.merge(best), half_spaces));
             }
             let (mut asked, mut known) = (vec![best], Vec::new());
             while asked.len() < ASKED
-                && let Some(pair) = self.pairs.pop()
+                && let Some(pair) = self.pop()
             {
                 if pair.free.is_some() { known.push(pair) } else { asked.push(pair) }
             }
@@ -108,6 +110,27 @@ impl<'a> Merger<'a> {
             asked.par_iter_mut().with_max_len(1).for_each(|pair| pair.free = exact(pair.places, &pair.hull));
             let answered = asked.into_iter().filter(|pair| pair.free.is_some());
             answered.chain(known).for_each(|pair| self.pairs.insert(pair));
+        }
+    }
+
+    /// Takes the pair of least cost out. Costs are lower bounds until the probes of a hull are known, and most pairs go before theirs are.
+    fn pop(&mut self) -> Option<Pair> {
+        loop {
+            let first = self.pairs.pop()?;
+            if first.hull.is_covered() {
+                return Some(first);
+            }
+            let (mut asked, mut known) = (vec![first], None);
+            while asked.len() < COVERED
+                && known.is_none()
+                && let Some(pair) = self.pairs.pop()
+            {
+                if pair.hull.is_covered() { known = Some(pair) } else { asked.push(pair) }
+            }
+            let (search, groups, covered) = (self.search, &self.groups, &self.covered);
+            let set_cost = |pair: &mut Pair| (pair.fresh, pair.cost) = cost_of(search, groups, covered, pair);
+            asked.par_iter_mut().with_min_len(2).for_each(set_cost);
+            asked.into_iter().chain(known).for_each(|pair| self.pairs.insert(pair));
         }
     }
 
@@ -132,8 +155,9 @@ impl<'a> Merger<'a> {
         self.count -= gone.len();
         gone.iter().for_each(|place| self.boxes.set(*place, Bounds::EMPTY));
         self.boxes.set(kept, hull.bounds);
-        let adds = count_fresh(&self.covered, &hull.coverage) > 0;
-        add(&mut self.covered, &hull.coverage);
+        let coverage = hull.coverage(self.search.probes);
+        let adds = count_fresh(&self.covered, coverage) > 0;
+        add(&mut self.covered, coverage);
         let bounds = hull.bounds;
         self.groups[kept as usize] = Some(Group { parts, hull });
 
@@ -151,15 +175,9 @@ impl<'a> Merger<'a> {
             partners.truncate(PARTNERS);
             partners.sort_unstable();
         }
-        let (covered, search) = (&self.covered, self.search);
-        let groups = &self.groups;
-        let volume = |place: u32| groups[place as usize].as_ref().map_or(0.0, |group| group.hull.volume);
         if adds {
-            self.pairs.update(&bounds, |pair| {
-                let own = pair.hull.volume - volume(pair.places[0]) - volume(pair.places[1]);
-                let fresh = count_fresh(covered, &pair.hull.coverage);
-                (fresh, search.cost(fresh, own))
-            });
+            let (search, groups, covered) = (self.search, &self.groups, &self.covered);
+            self.pairs.update(&bounds, |pair| cost_of(search, groups, covered, pair));
         }
         let new: Vec<[u32; 2]> = partners.into_iter().map(|place| [place.min(kept), place.max(kept)]).collect();
         self.find_pairs(&new);
@@ -215,10 +233,9 @@ impl<'a> Merger<'a> {
                 return None;
             }
             let (hull, is_near) = self.search.joined_groups(a, b)?;
-            let own = hull.volume - a.hull.volume - b.hull.volume;
-            let fresh = count_fresh(&self.covered, &hull.coverage);
-            let cost = self.search.cost(fresh, own);
-            Some(Pair { places: *places, fresh, cost, is_far: !is_near, hull, free: None })
+            // until its probes are asked for
+            let least = self.search.cost(0, hull.volume - a.hull.volume - b.hull.volume);
+            Some(Pair { places: *places, fresh: 0, cost: least, is_far: !is_near, hull, free: None })
         };
         // what a thread takes at once is worth the switch
         let found: Vec<Pair> = places.par_iter().with_min_len(4).filter_map(pair).collect();
@@ -252,6 +269,14 @@ fn nearest(boxes: &Boxes, bounds: &[Bounds], number: u32, may_take: impl Fn(&u32
         }
         reach = if others.len() == NEIGHBOURS && needed.is_finite() { needed } else { 2.0 * reach };
     }
+}
+
+/// How many probes a pair covers that are not covered yet, and what it costs.
+fn cost_of(search: &Search, groups: &[Option<Group>], covered: &[u64], pair: &Pair) -> (u32, f64) {
+    let volume = |place: u32| groups[place as usize].as_ref().map_or(0.0, |group| group.hull.volume);
+    let own = pair.hull.volume - volume(pair.places[0]) - volume(pair.places[1]);
+    let fresh = count_fresh(covered, pair.hull.coverage(search.probes));
+    (fresh, search.cost(fresh, own))
 }
 
 /// Half the area of the box around two boxes: the less, the nearer they are.

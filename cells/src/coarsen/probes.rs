@@ -45,7 +45,7 @@ impl Probes {
     /// About `wanted` probes around parts.
     pub(super) fn around(parts: &[Part], wanted: usize) -> Self {
         let points: Vec<DVec3> = parts.iter().flat_map(Part::all_points).collect();
-        let hull = Hull::of(&points, &Self::default());
+        let hull = Hull::of(&points);
         let size = hull.bounds.max - hull.bounds.min;
         let boxes = boxes_of(parts);
         let solids: Vec<Vec<(DVec3, f64)>> = parts.par_iter().map(|part| unit_planes(&part.half_spaces)).collect();

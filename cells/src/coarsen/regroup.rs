@@ -110,7 +110,7 @@ fn try_pair(search: &Search, groups: &[Group], pair: &[usize; 2]) -> Option<(f64
     let bounds = pair.iter().fold(Bounds::EMPTY, |all, place| all.union(&groups[*place].hull.bounds));
     let is_other = |(place, group): &(usize, &Group)| !pair.contains(place) && group.hull.bounds.touches(&bounds);
     let others = groups.iter().enumerate().filter(is_other);
-    others.for_each(|(_, group)| add(&mut covered, &group.hull.coverage));
+    others.for_each(|(_, group)| add(&mut covered, group.hull.coverage(search.probes)));
     let before = cost(search, &covered, pair.iter().map(|place| &groups[*place]));
     let mut merger = Merger::new(search, parts.into_iter().map(|part| search.single(part)).collect(), covered.clone());
     while merger.count() > pair.len() {
@@ -129,8 +129,8 @@ fn try_pair(search: &Search, groups: &[Group], pair: &[usize; 2]) -> Option<(f64
 fn cost<'a>(search: &Search, covered: &[u64], groups: impl Iterator<Item = &'a Group>) -> f64 {
     let (mut all, mut fresh, mut volume) = (covered.to_vec(), 0, 0.0);
     for group in groups {
-        fresh += count_fresh(&all, &group.hull.coverage);
-        add(&mut all, &group.hull.coverage);
+        fresh += count_fresh(&all, group.hull.coverage(search.probes));
+        add(&mut all, group.hull.coverage(search.probes));
         volume += group.hull.volume;
     }
     search.cost(fresh, volume)
