@@ -11,7 +11,8 @@ use super::clear::Clear;
 use super::enclose::enclose;
 use super::hull::Hull;
 use super::merge::{Merge, Merger};
-use super::part::{Part, built, most};
+use super::part::{Part, built, material_of_most};
+use super::probes::spread;
 use super::search::Search;
 use super::subtract::for_each_left;
 use crate::tolerances::{FILLED_TOUCHING, NO_VOLUME};
@@ -20,6 +21,9 @@ use crate::tolerances::{FILLED_TOUCHING, NO_VOLUME};
 const MOST_PIECES: usize = 1000;
 /// Number of points between the corners of both bodies that are looked at before a hull is built exactly.
 const LOOKED_AT: usize = 64;
+/// Number of points in the hull of both that are looked at then.
+const SPREAD: usize = 1000;
+
 /// Merges parts as long as that adds nothing to their union.
 pub(super) fn merge_freely(search: &Search) -> Result<Vec<Part>, CoarsenError> {
     let groups = (0..search.parts.len() as u32).map(|part| search.single(part)).collect();
@@ -61,7 +65,7 @@ fn exact_hull(bodies: &[Option<Part>], boxes: &BoxList, pair: [u32; 2], hull: &H
 
 /// One part for some; the hull is that of the first two.
 fn merged(hull: Vec<HalfSpace>, members: &[Part]) -> Result<Part, CoarsenError> {
-    let material = most(members.iter().map(|member| (member.material, member.volume())));
+    let material = material_of_most(members.iter());
     let hull =
         if let [_, _] = members { hull } else { enclose(&members.iter().collect::<Vec<_>>(), &Clear::default())? };
     let part = Part::of_cell(hull, material)?;
@@ -71,17 +75,32 @@ fn merged(hull: Vec<HalfSpace>, members: &[Part]) -> Result<Part, CoarsenError> 
     Ok(Part { points, ..part })
 }
 
-/// Whether parts seem to hold what lies half way between corners of two of them.
+/// Whether parts seem to hold what lies half way between corners of two of them, and points spread over the hull of both.
 fn is_filled_between(a: &Part, b: &Part, parts: &[&Part], margin: f64) -> bool {
     let (a, b) = (&a.corners, &b.corners);
     let step = (a.len() * b.len()).div_ceil(LOOKED_AT);
-    let holds = |part: &Part, point: DVec3| {
+    let halfway = (0..a.len() * b.len()).step_by(step.max(1)).map(|k| 0.5 * (a[k / b.len()] + b[k % b.len()]));
+    let corner = |number: f64| {
+        let number = (number * (a.len() + b.len()) as f64) as usize;
+        if number < a.len() { a[number] } else { b[number - a.len()] }
+    };
+    let between = (0..SPREAD).map(|k| {
+        let (which, share) = (spread(2 * k), spread(2 * k + 1));
+        corner(which.x).lerp(corner(which.y), share.x).lerp(corner(which.z), share.y)
+    });
+    let is_within = |part: &Part, point: DVec3| {
         let is_within = |plane: &HalfSpace| plane.signed_distance(point) <= margin;
         part.half_spaces.iter().all(is_within)
     };
-    (0..a.len() * b.len()).step_by(step.max(1)).all(|k| {
-        let middle = 0.5 * (a[k / b.len()] + b[k % b.len()]);
-        parts.iter().any(|part| holds(part, middle))
+    let mut last = 0;
+    halfway.chain(between).all(|point| {
+        // neighbours often lie in the same part
+        if is_within(parts[last], point) {
+            return true;
+        }
+        let found = parts.iter().position(|part| is_within(part, point));
+        last = found.unwrap_or(last);
+        found.is_some()
     })
 }
 
