@@ -396,7 +396,7 @@ fn parts_of(tree: &Tree) -> Result<Vec<Part>, CoarsenError> {
 
 /// The part, loosened as far as its points ask for it.
 fn held_exactly(part: &Part) -> Result<Part, CoarsenError> {
-    Part::around(&[part], &Clear::default())
+    if part.points.is_empty() { Ok(part.clone()) } else { Part::around(&[part], &Clear::default()) }
 }
 
 /// Gives each point that no part holds exactly to the nearest one, however far it is: a mesh's vertices may be off the planes of its cells by as much
