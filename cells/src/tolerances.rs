@@ -145,6 +145,12 @@ pub const WORTH_CUTTING: f64 = 1e-7;
 /// Decides: what is enclosed.
 pub const SHELL_THICKNESS: f64 = 1.0 / 512.0;
 
+/// No ball enters the openings of a surface that is filled where it goes around more than this. The surface is filled where it goes around more than half; what is between leaves room for
+/// the blocks of voxels by which it is found.
+///
+/// Decides: how near to the opening of a mesh that is filled space stays clear.
+pub const FILLED_FOR_BALLS: f64 = 0.3;
+
 /// Parts farther from each other than this share of the diagonal of all become one cell only where nothing else is left to merge.
 ///
 /// Decides: which parts become one cell.

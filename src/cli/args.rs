@@ -222,6 +222,9 @@ pub(crate) struct CoarsenLimits {
     /// A solid that cells must not grow into, such as door and window openings, in the units of the input; may be given several times
     #[arg(long, value_name = "FILE", num_args = 1)]
     pub(crate) keep_clear: Vec<PathBuf>,
+    /// Keep clear what a ball of this radius can reach from outside, such as rooms behind doors, or the inside of a mug, even if more cells are left then; in the units of the input
+    #[arg(long, value_name = "R", value_parser = parse_radius)]
+    pub(crate) clear_radius: Option<f64>,
     /// Do not merge cells of different materials
     #[arg(long)]
     pub(crate) by_material: bool,
@@ -236,7 +239,7 @@ pub(crate) struct CoarsenLimits {
     #[arg(long, value_name = "D", value_parser = parse_thickness)]
     pub(crate) max_gap: Option<f64>,
     /// Cells within the solid instead of around it
-    #[arg(long, conflicts_with_all = ["max_faces", "max_vertices", "min_thickness", "keep_clear"])]
+    #[arg(long, conflicts_with_all = ["max_faces", "max_vertices", "min_thickness", "keep_clear", "clear_radius"])]
     pub(crate) inner: bool,
 }
 
@@ -249,6 +252,7 @@ impl CoarsenLimits {
             max_faces: self.max_faces,
             max_vertices: self.max_vertices,
             keep_clear,
+            clear_radius: self.clear_radius,
             by_material: self.by_material,
             min_thickness: self.min_thickness,
             side: if self.inner { Side::Inner } else { Side::Outer },
@@ -382,6 +386,11 @@ fn parse_weight(text: &str) -> Result<f64, String> {
 fn parse_thickness(text: &str) -> Result<f64, String> {
     let thickness = text.parse().ok().filter(|thickness| (0.0..=1e30).contains(thickness));
     thickness.ok_or_else(|| "expected a number between 0 and 1e30".to_owned())
+}
+
+fn parse_radius(text: &str) -> Result<f64, String> {
+    let radius = text.parse().ok().filter(|radius| *radius > 0.0 && *radius <= 1e30);
+    radius.ok_or_else(|| "expected a number above 0, up to 1e30".to_owned())
 }
 
 pub(crate) fn parse_size(text: &str) -> Result<Size, String> {

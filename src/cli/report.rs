@@ -357,6 +357,8 @@ pub(crate) struct CoarsenPart {
     taken_as: &'static str,
     /// Of a shell.
     thickness: Option<f64>,
+    /// By how much less than its radius the ball covers what is kept clear of it.
+    clear_tolerance: Option<f64>,
     /// How long it took, in milliseconds; reading and evaluating the input are not in it.
     time_ms: f64,
 }
@@ -372,6 +374,7 @@ impl CoarsenPart {
         Self {
             taken_as,
             thickness,
+            clear_tolerance: coarsened.clear_tolerance,
             cells_in: coarsened.cells_in,
             cells_out: coarsened.cells.len(),
             volume_in: coarsened.volume_in,

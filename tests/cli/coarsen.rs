@@ -143,6 +143,28 @@ fn openings_stay_clear() {
 }
 
 #[test]
+fn what_a_ball_can_reach_stays_clear() {
+    let folder = scratch();
+    let wall = json!({"planecut": 1, "model": {"difference": [
+        {"box": {"min": [0, 0, 0], "max": [3, 1, 3]}}, {"box": {"min": [1, -1, 0], "max": [2, 2, 2]}}]}});
+    fs::write(folder.path().join("wall.json"), wall.to_string()).expect("written");
+    let input = folder.path().join("wall.json").display().to_string();
+    let volume_with = |options: &str| {
+        let options = format!("-o DIR/a.glb -o DIR/wall.stl --max-cells 1 -q --report DIR/r.json {options}");
+        coarsen(&input, folder.path(), &options).expect_quiet_success();
+        report(folder.path())["coarsen"]["volume_out"].as_f64()
+    };
+    assert_eq!(volume_with("--clear-radius 0.4"), Some(7.0));
+    assert_eq!(report(folder.path())["coarsen"]["clear_tolerance"].as_f64(), Some(0.1));
+    // it comes into the door by less than its tolerance
+    assert_eq!(volume_with("--clear-radius 2"), Some(9.0));
+    coarsen(&input, folder.path(), "-o DIR/b.glb --clear-radius 1e-3").expect_error(1, "clear_radius");
+    coarsen(&input, folder.path(), "-o DIR/b.glb --clear-radius 0").expect_error(2, "--clear-radius");
+    coarsen(&input, folder.path(), "-o DIR/b.glb --clear-radius 1 --inner").expect_error(2, "--inner");
+    assert!(!folder.path().join("b.glb").exists());
+}
+
+#[test]
 fn the_same_bytes_on_any_number_of_threads() {
     let folder = scratch();
     let input = format!("{}/examples/dovetail.json", crate::support::ROOT);

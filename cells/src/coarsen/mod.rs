@@ -5,7 +5,7 @@
 //!
 //! - `surface`: parts of a mesh, from the top down; `of_surface`: these instead of exact ones.
 //! - `part`: a convex part; `point_tree`: many points and planes; `box_list`: boxes that change; `hull`, `probes`: hulls in floating point, and the points that say how much they add; `search`: what every
-//!   group must fulfil; `clear`: where nothing may grow; `gaps`: what is far apart.
+//!   group must fulfil; `clear`: where nothing may grow, `reachable`: because a ball can go there; `gaps`: what is far apart.
 //! - `free` merges what adds nothing, `merge` what adds least, with `pairs`; `relocate` and `regroup` better the groups.
 //! - `enclose` makes exact bodies of them, `shrink` draws these in where they overlap, with `subtract`; `limits` sees to engines' caps, with `lower`.
 //! - `inner`: cells within the solid.
@@ -29,6 +29,7 @@ mod pairs;
 mod part;
 mod point_tree;
 mod probes;
+mod reachable;
 mod regroup;
 mod relocate;
 mod search;
@@ -55,6 +56,7 @@ use merge::{Merge, Merger};
 use part::{Part, boxes_of};
 use point_tree::PointTree;
 use probes::Probes;
+use reachable::Reachable;
 use regroup::regroup;
 use relocate::{Clock, relocate};
 use search::{Group, Hulls, MOST_PAIRS, Search};
@@ -84,6 +86,9 @@ pub struct Coarsened {
     pub volume_sum_in: f64,
     /// Sum of the volumes of the cells.
     pub volume_sum_out: f64,
+    /// Where [`CoarsenOptions::clear_radius`] is asked for: so much less than its radius is what the ball keeps clear around each point to which its middle can go. A quarter of the radius, and up
+    /// to all of it where the solid is large.
+    pub clear_tolerance: Option<f64>,
 }
 
 impl Coarsened {
@@ -159,7 +164,9 @@ impl Coarsener {
         let volume = union_volume(parts.iter().map(Part::brush))?;
         let boxes = boxes_of(&parts);
         let regions = options.keep_clear.as_ref().map_or(Ok(Vec::new()), parts_of)?;
-        let clear = Clear::around(&parts, &boxes, &regions)?;
+        let reachable = options.clear_radius.filter(|_| options.side == Side::Outer);
+        let reachable = reachable.map(|radius| Reachable::new(&triangles_of(&parts), 0.0, radius, None)).transpose()?;
+        let clear = Clear::around(&parts, &boxes, &regions, reachable)?;
         let (least, most, each) = PROBES;
         // a single part that grows is merged with nothing
         let is_single = parts.len() == 1 && options.side == Side::Outer;
@@ -361,6 +368,7 @@ impl Coarsener {
             volume_out: union_volume(cells.iter().cloned())?,
             volume_sum_in: sum_of_volumes(&self.parts),
             volume_sum_out: sum_of_volumes(&bodies),
+            clear_tolerance: self.clear.tolerance(),
             cells,
         })
     }
@@ -392,6 +400,20 @@ fn parts_of(tree: &Tree) -> Result<Vec<Part>, CoarsenError> {
         return Err(CoarsenError::Mesh);
     }
     convex_union(tree).iter().filter_map(|brush| Part::of_brush(brush).transpose()).collect()
+}
+
+/// The triangles of the boundaries of all parts.
+fn triangles_of(parts: &[Part]) -> Vec<[DVec3; 3]> {
+    let of_one = |part: &Part| {
+        let (corners, polygons) = part.polytope.to_mesh();
+        let fan = |polygon: &Vec<usize>| {
+            let [first, second, rest @ ..] = &polygon[..] else { return Vec::new() };
+            let mut last = *second;
+            rest.iter().map(|next| [*first, std::mem::replace(&mut last, *next), *next].map(|k| corners[k])).collect()
+        };
+        polygons.iter().flat_map(fan).collect::<Vec<[DVec3; 3]>>()
+    };
+    parts.iter().flat_map(of_one).collect()
 }
 
 /// The part, loosened as far as its points ask for it.

@@ -52,16 +52,21 @@ impl Coarsener {
         let is_one = options.max_cells == Some(1)
             && options.max_excess.is_none()
             && options.keep_clear.is_none()
+            && options.clear_radius.is_none()
             && options.max_gap.is_none()
             && !options.by_material
             && !matches!(surface.bounded, Bounded::Filled);
-        let (parts, pieces) = pieces(surface, if is_one { 1 } else { wanted })?;
+        let reachable = options.clear_radius.map(|radius| surface.reachable(radius)).transpose()?;
+        let (parts, pieces) = pieces(surface, if is_one { 1 } else { wanted }, reachable.as_ref())?;
         if parts.is_empty() {
             return Err(CoarsenError::Empty);
         }
         let boxes = boxes_of(&parts);
         let regions = options.keep_clear.as_ref().map_or(Ok(Vec::new()), parts_of)?;
-        let clear = Clear::around(&parts, &boxes, &regions)?;
+        let clear = Clear::around(&parts, &boxes, &regions, reachable)?;
+        if let Some(radius) = options.clear_radius.filter(|_| !parts.iter().all(|part| clear.allows(&part.polytope))) {
+            return Err(CoarsenError::NotClear { radius });
+        }
         let (least, most, each) = PROBES;
         let probes = if parts.len() == 1 {
             Probes::default()
@@ -70,10 +75,11 @@ impl Coarsener {
         };
         let mut coarsener = Self {
             options: options.clone(),
-            hulls: Hulls::of_few(&parts, &probes),
+            // what must stay clear stays so of whole hulls alone
+            hulls: if clear.is_empty() { Hulls::of_few(&parts, &probes) } else { Hulls::of(&parts, &probes) },
             gaps: Gaps::new(&parts, &boxes, options),
-            // cells that must keep clear of something are made of the exact bodies of pieces
-            pieces: clear.is_empty().then_some(pieces),
+            // cells that must keep out of regions are made of the exact bodies of pieces, beside which regions may lie
+            pieces: (!clear.has_regions()).then_some(pieces),
             free: parts.clone(),
             parts,
             free_boxes: boxes,

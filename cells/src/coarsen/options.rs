@@ -37,6 +37,9 @@ pub struct CoarsenOptions {
     pub max_vertices: Option<usize>,
     /// What no cell may grow into: door and window openings. Where the solid itself is there, it stays.
     pub keep_clear: Option<Tree>,
+    /// What a ball of this radius covers that comes from outside and touches nothing stays clear, but for a margin beside the solid, [`Coarsened::clear_tolerance`](super::Coarsened::clear_tolerance): nothing grows
+    /// into doors and windows that are wide enough for it, into the inside of a mug, or a tunnel. There may be more cells then than `max_cells`. In the input's units.
+    pub clear_radius: Option<f64>,
     /// Parts of different materials do not become one cell.
     pub by_material: bool,
     /// Cells that are thinner than this grow until they are not, on both sides alike; in the input's units.
@@ -76,6 +79,20 @@ pub enum CoarsenError {
         /// What is accepted.
         expected: &'static str,
     },
+    /// The radius of a ball is so small, for the size of the solid or for the thickness of a shell, that what it reaches cannot be kept clear.
+    #[error("clear_radius: found {found}, expected about {least} or more for a solid of this size")]
+    Radius {
+        /// What was given.
+        found: f64,
+        /// About the least that is accepted.
+        least: f64,
+    },
+    /// Parts of a surface cannot be so small that they keep out of what is to stay clear.
+    #[error("found no way to keep what a ball of radius {radius} reaches clear, expected a larger one")]
+    NotClear {
+        /// The radius.
+        radius: f64,
+    },
     /// A cell cannot have so few faces or vertices without growing into what is kept clear.
     #[error(
         "found a cell with {faces} faces and {vertices} vertices that cannot have fewer without growing into a region kept clear"
@@ -111,6 +128,9 @@ impl CoarsenOptions {
             if let Some(found) = found.filter(|value| !value.is_finite() || *value < 0.0) {
                 return refuse(option, found.to_string(), "a number that is not negative");
             }
+        }
+        if let Some(found) = self.clear_radius.filter(|radius| !radius.is_finite() || *radius <= 0.0) {
+            return refuse("clear_radius", found.to_string(), "a number above 0");
         }
         if let Some(found) = self.min_thickness.filter(|thickness| !thickness.is_finite() || *thickness < 0.0) {
             return refuse("min_thickness", found.to_string(), "a number that is not negative");

@@ -1,6 +1,6 @@
 //! What the search works on: the parts, how they may be grouped, and what a group costs.
 
-use planecut_kernel::{DVec3, HalfSpace};
+use planecut_kernel::DVec3;
 use planecut_parallel::prelude::*;
 use rustc_hash::FxHashMap;
 
@@ -8,9 +8,8 @@ use super::clear::Clear;
 use super::gaps::Gaps;
 use super::hull::Hull;
 use super::options::{CoarsenOptions, DEFAULT_OVERLAP_WEIGHT};
-use super::part::{Part, built};
+use super::part::Part;
 use super::probes::Probes;
-use crate::tolerances::CLEAR_TOUCHING;
 
 /// What a volume that is covered twice costs, relative to what it costs before, where nothing is left but to better what there is.
 const LAST_OVERLAP: f64 = 1.0 / 8.0;
@@ -124,7 +123,7 @@ impl<'a> Search<'a> {
     pub(super) fn joined(&self, a: &Hull, b: &Hull) -> Option<Hull> {
         let points: Vec<DVec3> = a.corners.iter().chain(&b.corners).copied().collect();
         let hull = Hull::of(&points);
-        self.is_clear(&hull).then_some(hull)
+        self.clear.allows_hull(&hull).then_some(hull)
     }
 
     /// Whether two groups are of one material, where that matters.
@@ -140,19 +139,6 @@ impl<'a> Search<'a> {
     /// The least difference in cost that is worth a change.
     pub(super) fn least_gain(&self) -> f64 {
         0.5 * self.probes.unit
-    }
-
-    /// Whether a hull keeps out of what is to stay clear.
-    fn is_clear(&self, hull: &Hull) -> bool {
-        if self.clear.is_empty() {
-            return true;
-        }
-        let margin = CLEAR_TOUCHING * hull.size();
-        self.clear.near(&hull.bounds).all(|region| {
-            let shrunk =
-                hull.planes.iter().filter_map(|(normal, offset)| HalfSpace::new(*normal, offset - margin).ok());
-            built(region.half_spaces.iter().copied().chain(shrunk)).is_empty()
-        })
     }
 }
 

@@ -25,18 +25,23 @@ pub(super) struct AxisCut {
     pub(super) at: f64,
 }
 
+/// The cut in the middle of the longest side of what a box holds; none where that is too short.
+pub(super) fn middle_cut(region: &Region) -> Option<AxisCut> {
+    let (low, high) = bounds(region.points().into_iter());
+    let size = high - low;
+    let axis = size.max_position();
+    let is_long = size[axis] > 8.0 * FACE_OFFSET;
+    is_long.then(|| AxisCut { axis, at: (low[axis] + high[axis]) / 2.0 })
+}
+
 /// The cut after which the hulls of both parts have the least volume, as far as the farthest points in some directions tell; in the middle of
 /// the longest side where none is better.
 pub(super) fn best_cut(region: &Region, inside: &impl Inside) -> Option<AxisCut> {
+    let middle = middle_cut(region)?;
     let (low, high) = bounds(region.points().into_iter());
     let size = high - low;
-    let longest = size.max_position();
-    if size[longest].is_nan() || size[longest] <= 8.0 * FACE_OFFSET {
-        return None;
-    }
     let looked_at = sample(&region.polygons);
     let whole = Extremes::of(looked_at.corners().iter().copied().chain(region.inner_corners())).volume();
-    let middle = AxisCut { axis: longest, at: (low[longest] + high[longest]) / 2.0 };
     let mut best = (whole * (1.0 - LEAST_SAVED), middle);
     for axis in 0..3 {
         if size[axis] <= 8.0 * FACE_OFFSET {

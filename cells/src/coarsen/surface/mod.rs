@@ -28,11 +28,13 @@ use planecut_kernel::DVec3;
 use planecut_parallel::prelude::*;
 
 use super::CoarsenError;
+use super::hull::Hull;
 use super::part::{Part, most};
 use super::probes::spread;
-use crate::tolerances::{GROWTH, SHELL_THICKNESS};
+use super::reachable::Reachable;
+use crate::tolerances::{FILLED_FOR_BALLS, GROWTH, SHELL_THICKNESS};
 pub(super) use body::{Growth, Points};
-use divide::divided;
+use divide::{Wanted, divided};
 use inside::{Filled, Shell, Solid};
 use polygons::Polygons;
 use region::{Region, normal};
@@ -111,6 +113,27 @@ impl Surface<'_> {
     }
 }
 
+impl Surface<'_> {
+    /// What a ball that comes from outside can reach.
+    ///
+    /// # Errors
+    /// [`CoarsenError::Radius`].
+    pub(super) fn reachable(&self, radius: f64) -> Result<Reachable, CoarsenError> {
+        let corners = |triangle: &[u32; 3]| triangle.map(|corner| self.positions[corner as usize]);
+        let triangles: Vec<[DVec3; 3]> = self.triangles.iter().map(corners).collect();
+        match self.bounded {
+            Bounded::Solid => Reachable::new(&triangles, 0.0, radius, None),
+            // a cube around each point
+            Bounded::Shell { thickness } => Reachable::new(&triangles, 0.5 * thickness * 3.0_f64.sqrt(), radius, None),
+            Bounded::Filled => {
+                let angles = SolidAngles::new(self.positions, self.triangles);
+                let is_filled = |point: DVec3| angles.around(point) > FILLED_FOR_BALLS;
+                Reachable::new(&triangles, 0.0, radius, Some(&is_filled))
+            }
+        }
+    }
+}
+
 /// What convex pieces of a surface were made of.
 #[derive(Debug)]
 pub(super) struct Pieces {
@@ -119,8 +142,13 @@ pub(super) struct Pieces {
     pub(super) growth: Growth,
 }
 
-/// About as many convex pieces as are wanted, whose union holds what a surface bounds and exceeds it little.
-pub(super) fn pieces(surface: &Surface<'_>, wanted: usize) -> Result<(Vec<Part>, Pieces), CoarsenError> {
+/// About as many convex pieces as are wanted, whose union holds what a surface bounds and exceeds it little. Where space is to stay clear, as many more as
+/// it takes to keep out of it.
+pub(super) fn pieces(
+    surface: &Surface<'_>,
+    wanted: usize,
+    reachable: Option<&Reachable>,
+) -> Result<(Vec<Part>, Pieces), CoarsenError> {
     if surface.triangles.is_empty() {
         return Err(CoarsenError::Empty);
     }
@@ -132,17 +160,23 @@ pub(super) fn pieces(surface: &Surface<'_>, wanted: usize) -> Result<(Vec<Part>,
     let frame = Frame::around(used).ok_or(CoarsenError::OutOfRange)?;
     let positions: Vec<DVec3> = surface.positions.iter().map(|p| frame.inward(*p)).collect();
     let polygons = Polygons::of_triangles(&positions, surface.triangles);
-    let regions = match surface.bounded {
-        Bounded::Solid => divided(polygons, &Solid(Winding::new(&positions, surface.triangles)), wanted),
-        Bounded::Filled => divided(polygons, &Filled(SolidAngles::new(&positions, surface.triangles)), wanted),
-        Bounded::Shell { thickness } => divided(polygons, &Shell { thickness: thickness * frame.scale }, wanted),
-    };
     let growth = Growth {
         thickness: match surface.bounded {
             Bounded::Solid | Bounded::Filled => 0.0,
             Bounded::Shell { thickness } => 0.5 * thickness,
         },
         rounding: frame.growth(),
+    };
+    let is_blocked = |region: &Region| {
+        let points =
+            || Points { vertices: Vec::new(), cuts: region.points().iter().map(|p| frame.outward(*p)).collect() };
+        reachable.is_some_and(|reachable| !reachable.allows_hull(&Hull::of(&points().thick(growth.thickness))))
+    };
+    let wanted = Wanted { pieces: wanted, is_blocked: &is_blocked };
+    let regions = match surface.bounded {
+        Bounded::Solid => divided(polygons, &Solid(Winding::new(&positions, surface.triangles)), &wanted),
+        Bounded::Filled => divided(polygons, &Filled(SolidAngles::new(&positions, surface.triangles)), &wanted),
+        Bounded::Shell { thickness } => divided(polygons, &Shell { thickness: thickness * frame.scale }, &wanted),
     };
     let pieces: Vec<Option<(Part, Points)>> = regions
         .par_iter()
@@ -247,7 +281,11 @@ mod tests {
         let inward: Vec<DVec3> = positions.iter().map(|p| frame.inward(*p)).collect();
         let inside = Solid(Winding::new(&inward, &triangles));
         for wanted in [1, 2, 7, 100] {
-            let regions = divided(Polygons::of_triangles(&inward, &triangles), &inside, wanted);
+            let regions = divided(
+                Polygons::of_triangles(&inward, &triangles),
+                &inside,
+                &Wanted { pieces: wanted, is_blocked: &|_| false },
+            );
             let volume: f64 = regions.iter().map(Region::volume).sum();
             let expected = surface.volume() * frame.scale.powi(3);
             assert!((volume - expected).abs() < 1e-11, "{wanted}: {volume} {expected}");
