@@ -11,6 +11,7 @@ from .bullet_engine import measure_bullet
 from .charts import write_charts
 from .decompositions import measure_decompositions
 from .exact_merges import measure_exact_merges
+from .lowered import measure_lowered
 from .mujoco_engine import measure_mujoco
 from .page import write_page
 from .results import Results
@@ -23,8 +24,9 @@ _PROJECT = Path(__file__).resolve().parents[3]
 def main() -> int:
     """The exit status: 1 where planecut broke its word, 2 where nothing can be measured."""
     arguments = _arguments()
-    if not os.access(arguments.planecut, os.X_OK):
-        return _unusable(f"{arguments.planecut}: no such program")
+    for program in (arguments.planecut, arguments.fewer_faces):
+        if not os.access(program, os.X_OK):
+            return _unusable(f"{program}: no such program")
     if not arguments.data.is_dir():
         return _unusable(f"{arguments.data}: no such folder; name the one with the data with --data")
     results = _measured(arguments)
@@ -42,11 +44,12 @@ def main() -> int:
 def _measured(arguments: argparse.Namespace) -> Results:
     begin = time.perf_counter()
     with tempfile.TemporaryDirectory() as scratch:
-        setting = Setting(arguments.planecut, arguments.data, arguments.quick, Path(scratch))
+        setting = Setting(arguments.planecut, arguments.fewer_faces, arguments.data, arguments.quick, Path(scratch))
         return Results(
             decompositions=measure_decompositions(setting),
             whole=measure_whole_meshes(setting),
             exact=measure_exact_merges(setting),
+            lowered=measure_lowered(setting),
             mujoco=measure_mujoco(setting),
             bullet=measure_bullet(setting),
             failures=setting.failures,
@@ -60,6 +63,7 @@ def _arguments() -> argparse.Namespace:
     add("--quick", action="store_true", help="few numbers of cells, others with their own settings, no slow model")
     add("--data", type=Path, default=_PROJECT.parent / "shared/data", help="folder of the inputs (default %(default)s)")
     add("--planecut", type=Path, required=True, help="the program to measure (default: built by bench/coarsen)")
+    add("--fewer-faces", type=Path, required=True, help="the example of that name (default: built by bench/coarsen)")
     add("--json", type=Path, help="writes all figures")
     add("--markdown", type=Path, help="writes the page")
     add("--plots", type=Path, metavar="FOLDER", help="writes the plots, and the page shows them")

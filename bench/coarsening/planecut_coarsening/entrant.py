@@ -1,4 +1,4 @@
-"""Runs of planecut, CoACD and V-HACD, each in a process of its own."""
+"""Runs of planecut, CoACD, V-HACD and pchs, each in a process of its own."""
 
 import json
 import subprocess
@@ -43,12 +43,21 @@ def planecut_files(binary: Path, source: Path, folder: Path, *options: str) -> l
 
 
 def library(name: str, source: Path, folder: Path, **settings: float) -> Run:
-    """One of `worker`'s libraries; the seconds are those of the call alone. Raises `Failed`."""
+    """One of `worker`'s libraries; the seconds are those of the call alone, the report what it tells of its phases. Raises `Failed`."""
     output = folder / "hulls.obj"
     module = f"{__package__}.worker"
     said = _run([sys.executable, "-m", module, name, source, output, json.dumps(settings)])
     # The libraries may have said something before.
-    return Run(read_bodies(output), float(said.splitlines()[-1]), {})
+    seconds, *phases = said.splitlines()[-1].split()
+    return Run(read_bodies(output), float(seconds), {name: float(value) for name, _, value in (p.partition("=") for p in phases)})
+
+
+def lowered(binary: Path, source: Path, faces: int, folder: Path) -> tuple[Body, float, float]:
+    """The example `fewer_faces`: the body, and the seconds of the hull and of the call of the library alone. Raises `Failed`."""
+    output = folder / "lowered.obj"
+    hull, seconds = map(float, _run([binary, source, faces, output]).split())
+    (body,) = read_bodies(output)
+    return body, hull, seconds
 
 
 def _run(command: list) -> str:

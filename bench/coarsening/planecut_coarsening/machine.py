@@ -5,7 +5,7 @@ import platform
 from importlib.metadata import version
 from pathlib import Path
 
-_OTHERS = {"CoACD": "coacd", "V-HACD": "vhacdx", "manifold3d": "manifold3d", "MuJoCo": "mujoco", "PyBullet": "pybullet"}
+_OTHERS = {"CoACD": "coacd", "V-HACD": "vhacdx", "manifold3d": "manifold3d", "MuJoCo": "mujoco", "PyBullet": "pybullet", "pchs": "pchs"}
 
 
 def processor() -> str:

@@ -8,6 +8,7 @@ from . import machine
 from .bullet_engine import BulletRays
 from .decompositions import INPUTS, KNOWN
 from .exact_merges import Merged
+from .lowered import Lowered
 from .mujoco_engine import MuJoCoCell
 from .results import Results
 from .setting import Row
@@ -25,6 +26,7 @@ def write_page(path: Path, results: Results, charts: dict[str, Path]) -> None:
         "decompositions": "\n\n".join(_decomposition(name, results.decompositions, places) for name in INPUTS),
         "whole": "\n\n".join(_whole(name, results.whole, places) for name in meshes),
         "exact": _exact(results.exact),
+        "lowered": _lowered(results.lowered),
         "mujoco": _mujoco(results.mujoco),
         "bullet": _bullet(results.bullet),
         "difference": f"{_largest(results):.0e}",
@@ -86,6 +88,18 @@ def _exact(rows: list[Merged]) -> str:
         for row in rows
     ]
     return _table(head, table, left=("model",))
+
+
+def _lowered(rows: list[Lowered]) -> str:
+    head = ["points of", "faces", "to", "by", "added %", "outside", "s", "with hull, s"]
+    table = []
+    for row in rows:
+        figures = ["no result", "", "", ""]
+        if row.found is not None:
+            figures = [f"{100.0 * row.added:.4g}", _power(row.outside), f"{row.seconds:.3f}"]
+            figures.append(f"{row.seconds_with_hull:.3f}")
+        table.append([row.input, str(row.faces), str(row.asked), row.entrant, *figures])
+    return _table(head, table, left=("points of", "by"))
 
 
 def _mujoco(cells: list[MuJoCoCell]) -> str:

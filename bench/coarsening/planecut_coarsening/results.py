@@ -6,6 +6,7 @@ from dataclasses import asdict, dataclass
 from . import machine
 from .bullet_engine import BulletRays
 from .exact_merges import Merged
+from .lowered import Lowered
 from .mujoco_engine import MuJoCoCell
 from .setting import Row
 
@@ -17,6 +18,7 @@ class Results:
     decompositions: list[Row]
     whole: list[Row]
     exact: list[Merged]
+    lowered: list[Lowered]
     mujoco: list[MuJoCoCell]
     bullet: BulletRays
     failures: list[str]

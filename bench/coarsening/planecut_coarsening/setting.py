@@ -10,9 +10,10 @@ from .measure import Measure, Reference, measure, union
 
 @dataclass
 class Setting:
-    """The program, the data, a folder for what is written on the way, and what has gone wrong so far."""
+    """The program, the example `fewer_faces`, the data, a folder for what is written on the way, and what has gone wrong so far."""
 
     binary: Path
+    lower: Path
     data: Path
     quick: bool
     scratch: Path

@@ -5,7 +5,7 @@ use planecut_kernel::{DVec3, HalfSpace, hull};
 
 use super::CoarsenError;
 use super::clear::Clear;
-use super::part::{Part, bounds_of, holds, most};
+use super::part::{Part, bounds_of, holds, material_of_most};
 use crate::tolerances::FLAT_PADDING;
 
 impl Part {
@@ -14,8 +14,7 @@ impl Part {
     /// # Errors
     /// [`CoarsenError::OutOfRange`] for coordinates that no plane can have.
     pub(super) fn around(parts: &[&Self], clear: &Clear) -> Result<Self, CoarsenError> {
-        let volume = |part: &&Self| (part.material, part.volume());
-        Self::of_cell(enclose(parts, clear)?, most(parts.iter().map(volume)))
+        Self::of_cell(enclose(parts, clear)?, material_of_most(parts.iter().copied()))
     }
 }
 

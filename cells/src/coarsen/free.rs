@@ -2,14 +2,17 @@
 
 use std::ops::ControlFlow;
 
+use planecut_csg::stages::Bounds;
 use planecut_kernel::{DVec3, HalfSpace};
 
 use super::CoarsenError;
+use super::box_list::BoxList;
 use super::clear::Clear;
 use super::enclose::enclose;
 use super::hull::Hull;
 use super::merge::{Merge, Merger};
-use super::part::{Part, built, most};
+use super::part::{Part, built, material_of_most};
+use super::probes::spread;
 use super::search::Search;
 use super::subtract::for_each_left;
 use crate::tolerances::{FILLED_TOUCHING, NO_VOLUME};
@@ -18,27 +21,35 @@ use crate::tolerances::{FILLED_TOUCHING, NO_VOLUME};
 const MOST_PIECES: usize = 1000;
 /// Number of points between the corners of both bodies that are looked at before a hull is built exactly.
 const LOOKED_AT: usize = 64;
+/// Number of points in the hull of both that are looked at then.
+const SPREAD: usize = 1000;
+
 /// Merges parts as long as that adds nothing to their union.
 pub(super) fn merge_freely(search: &Search) -> Result<Vec<Part>, CoarsenError> {
     let groups = (0..search.parts.len() as u32).map(|part| search.single(part)).collect();
     let mut merger = Merger::new(search, groups, vec![0; search.probes.words()]);
     // what the groups are by now: fewer bodies than parts, and larger
     let mut bodies: Vec<Option<Part>> = search.parts.iter().cloned().map(Some).collect();
-    while let Some((Merge { kept, gone }, hull)) = merger.step_freely(|pair, hull| exact_hull(&bodies, pair, hull)) {
+    let mut boxes = BoxList::new(search.parts.iter().map(|part| part.bounds).collect());
+    while let Some((Merge { kept, gone }, hull)) =
+        merger.step_freely(|pair, hull| exact_hull(&bodies, &boxes, pair, hull))
+    {
         let members = std::iter::once(&kept).chain(&gone).filter_map(|place| bodies[*place as usize].take());
-        bodies[kept as usize] = Some(merged(hull, &members.collect::<Vec<_>>())?);
+        let body = merged(hull, &members.collect::<Vec<_>>())?;
+        gone.iter().for_each(|place| boxes.set(*place, Bounds::EMPTY));
+        boxes.set(kept, body.bounds);
+        bodies[kept as usize] = Some(body);
     }
     Ok(bodies.into_iter().flatten().collect())
 }
 
 /// The hull of two bodies, exactly; `None` where the solid does not hold it.
-fn exact_hull(bodies: &[Option<Part>], pair: [u32; 2], hull: &Hull) -> Option<Vec<HalfSpace>> {
+fn exact_hull(bodies: &[Option<Part>], boxes: &BoxList, pair: [u32; 2], hull: &Hull) -> Option<Vec<HalfSpace>> {
     let [a, b] = pair.map(|place| bodies[place as usize].as_ref());
     let (a, b) = (a?, b?);
-    let is_other = |place: &usize| !pair.contains(&(*place as u32));
-    let others = (0..bodies.len()).filter(is_other).filter_map(|place| bodies[place].as_ref());
+    let others = boxes.touching(&hull.bounds).into_iter().filter(|place| !pair.contains(place));
     // both first, and then what may fill most of the rest
-    let mut near: Vec<&Part> = others.filter(|other| other.bounds.touches(&hull.bounds)).collect();
+    let mut near: Vec<&Part> = others.filter_map(|place| bodies[place as usize].as_ref()).collect();
     near.sort_by_cached_key(|other| {
         let common = other.bounds.intersection(&hull.bounds);
         std::cmp::Reverse(((common.max - common.min).element_product()).to_bits())
@@ -54,7 +65,7 @@ fn exact_hull(bodies: &[Option<Part>], pair: [u32; 2], hull: &Hull) -> Option<Ve
 
 /// One part for some; the hull is that of the first two.
 fn merged(hull: Vec<HalfSpace>, members: &[Part]) -> Result<Part, CoarsenError> {
-    let material = most(members.iter().map(|member| (member.material, member.volume())));
+    let material = material_of_most(members.iter());
     let hull =
         if let [_, _] = members { hull } else { enclose(&members.iter().collect::<Vec<_>>(), &Clear::default())? };
     let part = Part::of_cell(hull, material)?;
@@ -64,17 +75,32 @@ fn merged(hull: Vec<HalfSpace>, members: &[Part]) -> Result<Part, CoarsenError> 
     Ok(Part { points, ..part })
 }
 
-/// Whether parts seem to hold what lies half way between corners of two of them.
+/// Whether parts seem to hold what lies half way between corners of two of them, and points spread over the hull of both.
 fn is_filled_between(a: &Part, b: &Part, parts: &[&Part], margin: f64) -> bool {
     let (a, b) = (&a.corners, &b.corners);
     let step = (a.len() * b.len()).div_ceil(LOOKED_AT);
-    let holds = |part: &Part, point: DVec3| {
+    let halfway = (0..a.len() * b.len()).step_by(step.max(1)).map(|k| 0.5 * (a[k / b.len()] + b[k % b.len()]));
+    let corner = |number: f64| {
+        let number = (number * (a.len() + b.len()) as f64) as usize;
+        if number < a.len() { a[number] } else { b[number - a.len()] }
+    };
+    let between = (0..SPREAD).map(|k| {
+        let (which, share) = (spread(2 * k), spread(2 * k + 1));
+        corner(which.x).lerp(corner(which.y), share.x).lerp(corner(which.z), share.y)
+    });
+    let is_within = |part: &Part, point: DVec3| {
         let is_within = |plane: &HalfSpace| plane.signed_distance(point) <= margin;
         part.half_spaces.iter().all(is_within)
     };
-    (0..a.len() * b.len()).step_by(step.max(1)).all(|k| {
-        let middle = 0.5 * (a[k / b.len()] + b[k % b.len()]);
-        parts.iter().any(|part| holds(part, middle))
+    let mut last = 0;
+    halfway.chain(between).all(|point| {
+        // neighbours often lie in the same part
+        if is_within(parts[last], point) {
+            return true;
+        }
+        let found = parts.iter().position(|part| is_within(part, point));
+        last = found.unwrap_or(last);
+        found.is_some()
     })
 }
 

@@ -2,6 +2,8 @@
 //!
 //! They propose what to merge. What is kept of a proposal is built again by exact signs ([`super::enclose`]).
 
+use std::sync::OnceLock;
+
 use planecut_csg::stages::Bounds;
 use planecut_kernel::{DVec3, approximate_hull_triangles};
 
@@ -18,16 +20,15 @@ pub(super) struct Hull {
     pub(super) planes: Vec<(DVec3, f64)>,
     pub(super) bounds: Bounds,
     pub(super) volume: f64,
-    /// The probes within it.
-    pub(super) coverage: Coverage,
+    /// The probes within it, once they were asked for: of most hulls that are tried, shape and volume say enough.
+    coverage: OnceLock<Coverage>,
 }
 
 impl Hull {
     /// The hull of points; their box where they span no space.
-    pub(super) fn of(points: &[DVec3], probes: &Probes) -> Self {
+    pub(super) fn of(points: &[DVec3]) -> Self {
         let bounds = bounds_of(points);
-        let mut hull =
-            Self { corners: Vec::new(), planes: Vec::new(), bounds, volume: 0.0, coverage: Coverage::default() };
+        let mut hull = Self { corners: Vec::new(), planes: Vec::new(), bounds, volume: 0.0, coverage: OnceLock::new() };
         match approximate_hull_triangles(points, HULL_TOUCHING * hull.size()) {
             Ok(triangles) => hull.take(points, &triangles),
             Err(_) => {
@@ -36,7 +37,6 @@ impl Hull {
                 hull.planes = DVec3::AXES.into_iter().flat_map(sides).collect();
             }
         }
-        hull.coverage = probes.within(&hull.planes, &hull.bounds);
         hull
     }
 
@@ -68,15 +68,32 @@ impl Hull {
         }
     }
 
+    /// The probes within it.
+    pub(super) fn coverage(&self, probes: &Probes) -> &Coverage {
+        self.coverage.get_or_init(|| probes.within(&self.planes, &self.bounds))
+    }
+
+    /// Whether its probes are known.
+    pub(super) fn is_covered(&self) -> bool {
+        self.coverage.get().is_some()
+    }
+
     /// The diagonal of its box.
     pub(super) fn size(&self) -> f64 {
         (self.bounds.max - self.bounds.min).length()
     }
 
+    /// The box of all that it may hold, or nearly.
+    pub(super) fn reach(&self) -> Bounds {
+        let margin = DVec3::splat(HULL_TOUCHING * self.size());
+        Bounds { min: self.bounds.min - margin, max: self.bounds.max + margin }
+    }
+
     /// Whether points in a box lie within it, or outside by no more than rounding.
     pub(super) fn holds(&self, bounds: &Bounds, points: &[DVec3]) -> bool {
         let margin = HULL_TOUCHING * self.size();
-        let fits = bounds.min.cmpge(self.bounds.min - margin).all() && bounds.max.cmple(self.bounds.max + margin).all();
+        let reach = self.reach();
+        let fits = bounds.min.cmpge(reach.min).all() && bounds.max.cmple(reach.max).all();
         let is_within =
             |point: &DVec3| self.planes.iter().all(|(normal, offset)| normal.dot(*point) <= offset + margin);
         fits && points.iter().all(is_within)

@@ -1,9 +1,10 @@
 //! Greedy merging: of all pairs of neighbours always the one that costs least.
 
-use planecut_csg::stages::Bounds;
+use planecut_csg::stages::{Bounds, Boxes};
 use planecut_kernel::HalfSpace;
 use planecut_parallel::prelude::*;
 
+use super::box_list::BoxList;
 use super::hull::Hull;
 use super::pairs::{Pair, Pairs};
 use super::probes::{add, count_fresh};
@@ -12,8 +13,12 @@ use super::search::{Group, Search};
 /// Least number of neighbours that each group knows.
 const NEIGHBOURS: usize = 12;
 
+/// Room for rounding where a distance is derived from areas, as a factor.
+const SURELY: f64 = 1.0 + 1e-9;
 /// Number of neighbours that a group keeps of others that it took in.
 const PARTNERS: usize = 32;
+/// Number of pairs whose probes are looked for at the same time.
+const COVERED: usize = 8;
 /// Number of pairs that are tried at the same time.
 const ASKED: usize = 4;
 
@@ -29,6 +34,8 @@ pub(super) struct Merge {
 pub(super) struct Merger<'a> {
     search: &'a Search<'a>,
     groups: Vec<Option<Group>>,
+    /// The box of each group's hull.
+    boxes: BoxList,
     pairs: Pairs,
     /// The probes that are covered, by these groups or by others.
     covered: Vec<u64>,
@@ -38,10 +45,11 @@ pub(super) struct Merger<'a> {
 impl<'a> Merger<'a> {
     /// Begins with groups; `covered` are the probes that others cover.
     pub(super) fn new(search: &'a Search<'a>, groups: Vec<Group>, mut covered: Vec<u64>) -> Self {
-        groups.iter().for_each(|group| add(&mut covered, &group.hull.coverage));
+        groups.iter().for_each(|group| add(&mut covered, group.hull.coverage(search.probes)));
         let count = groups.len();
+        let boxes = BoxList::new(groups.iter().map(|group| group.hull.bounds).collect());
         let groups = groups.into_iter().map(Some).collect();
-        let mut merger = Self { search, groups, pairs: Pairs::new(count), covered, count };
+        let mut merger = Self { search, groups, boxes, pairs: Pairs::new(count), covered, count };
         merger.find_pairs(&merger.neighbours());
         merger
     }
@@ -77,7 +85,7 @@ impl<'a> Merger<'a> {
             // groups that are far apart are no neighbours until nothing else is left
             self.find_pairs(&self.all_pairs());
         }
-        let best = self.pairs.pop()?;
+        let best = self.pop()?;
         Some(self.merge(best))
     }
 
@@ -88,13 +96,13 @@ impl<'a> Merger<'a> {
         exact: impl Fn([u32; 2], &Hull) -> Option<Vec<HalfSpace>> + Sync,
     ) -> Option<(Merge, Vec<HalfSpace>)> {
         loop {
-            let mut best = self.pairs.pop()?;
+            let mut best = self.pop()?;
             if let Some(half_spaces) = best.free.take() {
                 return Some((self.merge(best), half_spaces));
             }
             let (mut asked, mut known) = (vec![best], Vec::new());
             while asked.len() < ASKED
-                && let Some(pair) = self.pairs.pop()
+                && let Some(pair) = self.pop()
             {
                 if pair.free.is_some() { known.push(pair) } else { asked.push(pair) }
             }
@@ -105,23 +113,51 @@ impl<'a> Merger<'a> {
         }
     }
 
+    /// Takes the pair of least cost out. Costs are lower bounds until the probes of a hull are known, and most pairs go before theirs are.
+    fn pop(&mut self) -> Option<Pair> {
+        loop {
+            let first = self.pairs.pop()?;
+            if first.hull.is_covered() {
+                return Some(first);
+            }
+            let (mut asked, mut known) = (vec![first], None);
+            while asked.len() < COVERED
+                && known.is_none()
+                && let Some(pair) = self.pairs.pop()
+            {
+                if pair.hull.is_covered() { known = Some(pair) } else { asked.push(pair) }
+            }
+            let (search, groups, covered) = (self.search, &self.groups, &self.covered);
+            let set_cost = |pair: &mut Pair| (pair.fresh, pair.cost) = cost_of(search, groups, covered, pair);
+            asked.par_iter_mut().with_min_len(2).for_each(set_cost);
+            asked.into_iter().chain(known).for_each(|pair| self.pairs.insert(pair));
+        }
+    }
+
     fn merge(&mut self, pair: Pair) -> Merge {
         let Pair { places: [kept, other], hull, .. } = pair;
         let mut gone = vec![other];
-        gone.extend((0..self.groups.len() as u32).filter(|place| ![kept, other].contains(place)).filter(|place| {
-            let within = |group: &Group| {
-                self.search.may_join(group.parts[0], self.first_part(kept))
-                    && hull.holds(&group.hull.bounds, &group.hull.corners)
-            };
-            self.groups[*place as usize].as_ref().is_some_and(within)
-        }));
+        gone.extend(
+            self.boxes.touching(&hull.reach()).into_iter().filter(|place| ![kept, other].contains(place)).filter(
+                |place| {
+                    let within = |group: &Group| {
+                        self.search.may_join(group.parts[0], self.first_part(kept))
+                            && hull.holds(&group.hull.bounds, &group.hull.corners)
+                    };
+                    self.groups[*place as usize].as_ref().is_some_and(within)
+                },
+            ),
+        );
         let mut parts: Vec<u32> = self.groups[kept as usize].take().map_or(Vec::new(), |group| group.parts);
         for place in &gone {
             parts.extend(self.groups[*place as usize].take().into_iter().flat_map(|group| group.parts));
         }
         self.count -= gone.len();
-        let adds = count_fresh(&self.covered, &hull.coverage) > 0;
-        add(&mut self.covered, &hull.coverage);
+        gone.iter().for_each(|place| self.boxes.set(*place, Bounds::EMPTY));
+        self.boxes.set(kept, hull.bounds);
+        let coverage = hull.coverage(self.search.probes);
+        let adds = count_fresh(&self.covered, coverage) > 0;
+        add(&mut self.covered, coverage);
         let bounds = hull.bounds;
         self.groups[kept as usize] = Some(Group { parts, hull });
 
@@ -139,15 +175,9 @@ impl<'a> Merger<'a> {
             partners.truncate(PARTNERS);
             partners.sort_unstable();
         }
-        let (covered, search) = (&self.covered, self.search);
-        let groups = &self.groups;
-        let volume = |place: u32| groups[place as usize].as_ref().map_or(0.0, |group| group.hull.volume);
         if adds {
-            self.pairs.update(&bounds, |pair| {
-                let own = pair.hull.volume - volume(pair.places[0]) - volume(pair.places[1]);
-                let fresh = count_fresh(covered, &pair.hull.coverage);
-                (fresh, search.cost(fresh, own))
-            });
+            let (search, groups, covered) = (self.search, &self.groups, &self.covered);
+            self.pairs.update(&bounds, |pair| cost_of(search, groups, covered, pair));
         }
         let new: Vec<[u32; 2]> = partners.into_iter().map(|place| [place.min(kept), place.max(kept)]).collect();
         self.find_pairs(&new);
@@ -174,24 +204,21 @@ impl<'a> Merger<'a> {
         if alive.len() <= NEIGHBOURS + 1 {
             return self.all_pairs();
         }
-        let bounds = |place: u32| self.groups[place as usize].as_ref().map(|group| group.hull.bounds).expect("alive");
-        let of_place = |place: &u32| {
-            let own = bounds(*place);
-            let mut others: Vec<(f64, u32)> = alive
-                .iter()
-                .filter(|other| {
-                    *other != place && self.search.may_join(self.first_part(**other), self.first_part(*place))
-                })
-                .map(|other| (common_box(&own, &bounds(*other)), *other))
-                .collect();
-            if others.len() > NEIGHBOURS {
-                let by_size = |a: &(f64, u32), b: &(f64, u32)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
-                others.select_nth_unstable_by(NEIGHBOURS - 1, by_size);
-                others.truncate(NEIGHBOURS);
-            }
-            others.into_iter().map(|(_, other)| [other.min(*place), other.max(*place)]).collect::<Vec<_>>()
+        let bounds: Vec<Bounds> = self.groups.iter().flatten().map(|group| group.hull.bounds).collect();
+        let boxes = Boxes::new(bounds.clone());
+        let of_place = |number: u32| {
+            let own = alive[number as usize];
+            let may_join = |other: &u32| {
+                *other != number && self.search.may_join(self.first_part(alive[*other as usize]), self.first_part(own))
+            };
+            let nearest = nearest(&boxes, &bounds, number, may_join);
+            nearest
+                .into_iter()
+                .map(|other| alive[other as usize])
+                .map(|other| [other.min(own), other.max(own)])
+                .collect::<Vec<_>>()
         };
-        let mut pairs: Vec<[u32; 2]> = alive.par_iter().flat_map_iter(of_place).collect();
+        let mut pairs: Vec<[u32; 2]> = (0..alive.len() as u32).into_par_iter().flat_map_iter(of_place).collect();
         pairs.sort_unstable();
         pairs.dedup();
         pairs
@@ -206,15 +233,50 @@ impl<'a> Merger<'a> {
                 return None;
             }
             let (hull, is_near) = self.search.joined_groups(a, b)?;
-            let own = hull.volume - a.hull.volume - b.hull.volume;
-            let fresh = count_fresh(&self.covered, &hull.coverage);
-            let cost = self.search.cost(fresh, own);
-            Some(Pair { places: *places, fresh, cost, is_far: !is_near, hull, free: None })
+            // until its probes are asked for
+            let least = self.search.cost(0, hull.volume - a.hull.volume - b.hull.volume);
+            Some(Pair { places: *places, fresh: 0, cost: least, is_far: !is_near, hull, free: None })
         };
         // what a thread takes at once is worth the switch
         let found: Vec<Pair> = places.par_iter().with_min_len(4).filter_map(pair).collect();
         found.into_iter().for_each(|pair| self.pairs.insert(pair));
     }
+}
+
+/// The boxes with which one shares the smallest box, of those that may be taken.
+fn nearest(boxes: &Boxes, bounds: &[Bounds], number: u32, may_take: impl Fn(&u32) -> bool) -> Vec<u32> {
+    let own = &bounds[number as usize];
+    let size = own.max - own.min;
+    let mut reach = (0.25 * size.length()).max(f64::MIN_POSITIVE);
+    let mut near = Vec::new();
+    loop {
+        boxes.touching(&Bounds { min: own.min - reach, max: own.max + reach }, &mut near);
+        let is_all = near.len() == bounds.len();
+        near.retain(&may_take);
+        let mut others: Vec<(f64, u32)> =
+            near.iter().map(|other| (common_box(own, &bounds[*other as usize]), *other)).collect();
+        if others.len() > NEIGHBOURS {
+            let by_size = |a: &(f64, u32), b: &(f64, u32)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
+            others.select_nth_unstable_by(NEIGHBOURS - 1, by_size);
+            others.truncate(NEIGHBOURS);
+        }
+        // what is farther along an axis makes the common box longer by as much at least
+        let across = size.element_sum() - size.max_element();
+        let most = others.iter().map(|(common, _)| *common).fold(0.0, f64::max);
+        let needed = (most - common_box(own, own)) / across * SURELY;
+        if is_all || others.len() == NEIGHBOURS && needed <= reach {
+            return others.into_iter().map(|(_, other)| other).collect();
+        }
+        reach = if others.len() == NEIGHBOURS && needed.is_finite() { needed } else { 2.0 * reach };
+    }
+}
+
+/// How many probes a pair covers that are not covered yet, and what it costs.
+fn cost_of(search: &Search, groups: &[Option<Group>], covered: &[u64], pair: &Pair) -> (u32, f64) {
+    let volume = |place: u32| groups[place as usize].as_ref().map_or(0.0, |group| group.hull.volume);
+    let own = pair.hull.volume - volume(pair.places[0]) - volume(pair.places[1]);
+    let fresh = count_fresh(covered, pair.hull.coverage(search.probes));
+    (fresh, search.cost(fresh, own))
 }
 
 /// Half the area of the box around two boxes: the less, the nearer they are.

@@ -4,7 +4,7 @@
 //! What a grouping costs is the volume of the *union* of its cells beyond the solid, not the sum of what single merges add.
 //!
 //! - `surface`: parts of a mesh, from the top down; `of_surface`: these instead of exact ones.
-//! - `part`: a convex part; `point_tree`: many points and planes; `hull`, `probes`: hulls in floating point, and the points that say how much they add; `search`: what every
+//! - `part`: a convex part; `point_tree`: many points and planes; `box_list`: boxes that change; `hull`, `probes`: hulls in floating point, and the points that say how much they add; `search`: what every
 //!   group must fulfil; `clear`: where nothing may grow, `reachable`: because a ball can go there; `gaps`: what is far apart.
 //! - `free` merges what adds nothing, `merge` what adds least, with `pairs`; `relocate` and `regroup` better the groups.
 //! - `enclose` makes exact bodies of them, `shrink` draws these in where they overlap, with `subtract`; `limits` sees to engines' caps, with `lower`.
@@ -13,6 +13,7 @@
 //!
 //! Floating point proposes; that the cells enclose the solid is decided by exact signs.
 
+mod box_list;
 mod clear;
 mod enclose;
 mod free;
@@ -231,7 +232,8 @@ impl Coarsener {
         if groups.len() < self.free.len() {
             better(&search, &mut groups);
         }
-        let mut bodies = groups.iter().map(|group| self.body_around(group)).collect::<Result<Vec<_>, _>>()?;
+        let bodies: Vec<Result<Part, _>> = groups.par_iter().map(|group| self.body_around(group)).collect();
+        let mut bodies = bodies.into_iter().collect::<Result<Vec<_>, _>>()?;
         let shrinking = Shrinking {
             parts: &self.free,
             boxes: &self.free_boxes,
@@ -355,15 +357,17 @@ impl Coarsener {
     /// The result of cells.
     fn finished(&self, bodies: Vec<Part>, exact_merges: usize) -> Result<Coarsened, CoarsenError> {
         let limits = Limits { options: &self.options, clear: &self.clear };
-        let bodies = bodies.into_iter().map(|body| limits.fulfil(body)).collect::<Result<Vec<Part>, _>>()?;
+        let bodies: Vec<Result<Part, _>> = bodies.into_par_iter().map(|body| limits.fulfil(body)).collect();
+        // the first error, whichever came first
+        let bodies = bodies.into_iter().collect::<Result<Vec<Part>, _>>()?;
         let cells: Vec<Brush> = bodies.iter().map(Part::brush).collect();
         Ok(Coarsened {
             cells_in: self.parts.len(),
             exact_merges,
             volume_in: self.volume,
             volume_out: union_volume(cells.iter().cloned())?,
-            volume_sum_in: self.parts.iter().map(Part::volume).sum(),
-            volume_sum_out: bodies.iter().map(Part::volume).sum(),
+            volume_sum_in: sum_of_volumes(&self.parts),
+            volume_sum_out: sum_of_volumes(&bodies),
             clear_tolerance: self.clear.tolerance(),
             cells,
         })
@@ -414,7 +418,7 @@ fn triangles_of(parts: &[Part]) -> Vec<[DVec3; 3]> {
 
 /// The part, loosened as far as its points ask for it.
 fn held_exactly(part: &Part) -> Result<Part, CoarsenError> {
-    Part::around(&[part], &Clear::default())
+    if part.points.is_empty() { Ok(part.clone()) } else { Part::around(&[part], &Clear::default()) }
 }
 
 /// Gives each point that no part holds exactly to the nearest one, however far it is: a mesh's vertices may be off the planes of its cells by as much
@@ -439,6 +443,11 @@ fn give_points(parts: &mut [Part], points: &[DVec3]) {
             part.points.push(*point);
         }
     }
+}
+
+/// The sum of volumes, in the order of the parts.
+fn sum_of_volumes(parts: &[Part]) -> f64 {
+    parts.par_iter().map(Part::volume).collect::<Vec<f64>>().into_iter().sum()
 }
 
 /// The volume of the union of bodies.

@@ -100,7 +100,7 @@ impl Pieces {
     /// [`CoarsenError::OutOfRange`] for coordinates that no plane can have.
     pub(super) fn body_around(&self, parts: &[Part], members: &[u32]) -> Result<Part, CoarsenError> {
         let points = Points::joined(members.iter().map(|member| &self.points[*member as usize]));
-        let shares = members.iter().map(|member| &parts[*member as usize]).map(|part| (part.material, part.volume()));
-        points.body(&self.growth, part::most(shares))?.ok_or(CoarsenError::OutOfRange)
+        let material = part::material_of_most(members.iter().map(|member| &parts[*member as usize]));
+        points.body(&self.growth, material)?.ok_or(CoarsenError::OutOfRange)
     }
 }

@@ -7,6 +7,7 @@ use planecut_csg::stages::Bounds;
 use planecut_kernel::HalfSpace;
 use planecut_parallel::prelude::*;
 
+use super::box_list::BoxList;
 use super::hull::Hull;
 
 /// Two groups, by place, and their hull.
@@ -27,8 +28,8 @@ pub(super) struct Pair {
 #[derive(Debug, Default)]
 pub(super) struct Pairs {
     slots: Vec<Option<Pair>>,
-    /// The box of each slot's hull where that covers probes which nothing else does; else nothing. All are looked through often.
-    reach: Vec<Bounds>,
+    /// The box of each slot's hull where that covers probes which nothing else does; else nothing.
+    reach: BoxList,
     /// Empty slots.
     vacant: Vec<u32>,
     /// The slots of each place's pairs; some are empty by now, or another pair's.
@@ -92,7 +93,7 @@ impl Pairs {
         for place in pair.places {
             self.of_place[place as usize].push(slot);
         }
-        self.reach[slot as usize] = if pair.fresh > 0 { pair.hull.bounds } else { Bounds::EMPTY };
+        self.reach.set(slot, if pair.fresh > 0 { pair.hull.bounds } else { Bounds::EMPTY });
         self.slots[slot as usize] = Some(pair);
         self.count += 1;
     }
@@ -109,7 +110,7 @@ impl Pairs {
 
     fn take(&mut self, slot: u32) -> Option<Pair> {
         let pair = self.slots[slot as usize].take()?;
-        self.reach[slot as usize] = Bounds::EMPTY;
+        self.reach.set(slot, Bounds::EMPTY);
         self.vacant.push(slot);
         self.count -= 1;
         Some(pair)
@@ -131,21 +132,20 @@ impl Pairs {
 
     /// Sets anew what pairs cost whose hulls cover fresh probes and reach into a box: what is asked for says how many of these are left, and the cost.
     pub(super) fn update(&mut self, bounds: &Bounds, cost: impl Fn(&Pair) -> (u32, f64) + Sync) {
-        let touching = self.reach.par_iter().with_min_len(1024).enumerate().filter(|(_, reach)| reach.touches(bounds));
-        let touching: Vec<usize> = touching.map(|(slot, _)| slot).collect();
+        let touching = self.reach.touching(bounds);
         let slots = &self.slots;
-        let costs = touching.par_iter().with_min_len(32).map(|slot| slots[*slot].as_ref().map(&cost));
+        let costs = touching.par_iter().with_min_len(32).map(|slot| slots[*slot as usize].as_ref().map(&cost));
         let costs: Vec<Option<(u32, f64)>> = costs.collect();
         for (slot, found) in touching.into_iter().zip(costs) {
-            let (Some(pair), Some((fresh, cost))) = (self.slots[slot].as_mut(), found) else { continue };
+            let (Some(pair), Some((fresh, cost))) = (self.slots[slot as usize].as_mut(), found) else { continue };
             let is_same = pair.cost.total_cmp(&cost).is_eq();
             (pair.fresh, pair.cost) = (fresh, cost);
             if fresh == 0 {
-                self.reach[slot] = Bounds::EMPTY;
+                self.reach.set(slot, Bounds::EMPTY);
             }
             if !is_same {
                 let (is_far, places) = (pair.is_far, pair.places);
-                self.queue.push(Reverse(Entry { is_far, cost, places, slot: slot as u32 }));
+                self.queue.push(Reverse(Entry { is_far, cost, places, slot }));
             }
         }
     }

@@ -141,6 +141,16 @@ fn material_of(part: &Part, brush: &Brush) -> MaterialId {
     most(faces.map(|((plane, _), face)| (face.material, part.polytope.face_area(plane).unwrap_or(0.0))))
 }
 
+/// The material of most of the volume of parts.
+pub(super) fn material_of_most<'a>(parts: impl Iterator<Item = &'a Part> + Clone) -> MaterialId {
+    let mut materials = parts.clone().map(|part| part.material);
+    match materials.next() {
+        // volumes are measured exactly, which takes its time
+        Some(first) if materials.all(|other| other == first) => first,
+        _ => most(parts.map(|part| (part.material, part.volume()))),
+    }
+}
+
 /// The material with the greatest sum; of several the one with the lowest number.
 pub(super) fn most(shares: impl Iterator<Item = (MaterialId, f64)>) -> MaterialId {
     let mut sums: BTreeMap<MaterialId, f64> = BTreeMap::new();

@@ -11,6 +11,8 @@ use super::part::{Part, bounds_of, boxes_of};
 
 /// Probes in a word of a set.
 const WORD: usize = 64;
+/// Probes of a word that are held against planes at once: as many as registers hold.
+const LANES: usize = 16;
 /// Words in a block that is passed over as a whole.
 const BLOCK: usize = 16;
 /// Maximum number of points that are drawn for each probe that is wanted.
@@ -43,7 +45,7 @@ impl Probes {
     /// About `wanted` probes around parts.
     pub(super) fn around(parts: &[Part], wanted: usize) -> Self {
         let points: Vec<DVec3> = parts.iter().flat_map(Part::all_points).collect();
-        let hull = Hull::of(&points, &Self::default());
+        let hull = Hull::of(&points);
         let size = hull.bounds.max - hull.bounds.min;
         let boxes = boxes_of(parts);
         let solids: Vec<Vec<(DVec3, f64)>> = parts.par_iter().map(|part| unit_planes(&part.half_spaces)).collect();
@@ -100,19 +102,21 @@ impl Probes {
 
     /// The probes within a convex body, given by unit normals and offsets, and its box.
     pub(super) fn within(&self, planes: &[(DVec3, f64)], bounds: &Bounds) -> Coverage {
+        let sides: Vec<Side> = planes.iter().map(|plane| Side::new(plane, self.origin)).collect();
+        let all: Vec<u32> = (0..sides.len() as u32).collect();
         let (mut covered, mut of_block, mut of_word) = (Coverage::new(), Vec::new(), Vec::new());
         for (block, block_bounds) in self.blocks.iter().enumerate() {
-            if !block_bounds.touches(bounds) || !crossing(planes, block_bounds, &mut of_block) {
+            if !block_bounds.touches(bounds) || !crossing(&sides, &all, block_bounds, &mut of_block) {
                 continue;
             }
             let first = block * BLOCK;
             let last = (first + BLOCK).min(self.words.len());
             for word in first..last {
                 let of_box = &self.words[word];
-                if !of_box.touches(bounds) || !crossing(&of_block, of_box, &mut of_word) {
+                if !of_box.touches(bounds) || !crossing(&sides, &of_block, of_box, &mut of_word) {
                     continue;
                 }
-                let bits = self.bits_within(word, &of_word);
+                let bits = self.bits_within(word, &sides, &of_word);
                 if bits != 0 {
                     covered.push((word as u32, bits));
                 }
@@ -121,20 +125,24 @@ impl Probes {
         covered
     }
 
-    /// The probes of a word within planes.
-    fn bits_within(&self, word: usize, planes: &[(DVec3, f64)]) -> u64 {
-        let [x, y, z] = &self.coordinates[word];
-        let mut farthest = [f32::NEG_INFINITY; WORD];
-        for (normal, offset) in planes {
-            let offset = (offset - normal.dot(self.origin)) as f32;
-            let [a, b, c] = normal.to_array().map(|v| v as f32);
-            for k in 0..WORD {
-                let distance = a * x[k] + b * y[k] + c * z[k] - offset;
-                // one instruction, where `max` also asks for NaN
-                farthest[k] = if distance > farthest[k] { distance } else { farthest[k] };
+    /// The probes of a word within some sides.
+    fn bits_within(&self, word: usize, sides: &[Side], numbers: &[u32]) -> u64 {
+        let [x, y, z] = self.coordinates[word].each_ref().map(|axis| axis.as_chunks::<LANES>().0);
+        let mut bits = 0;
+        for (lanes, ((x, y), z)) in x.iter().zip(y).zip(z).enumerate() {
+            let mut farthest = [f32::NEG_INFINITY; LANES];
+            for number in numbers {
+                let [a, b, c, offset] = sides[*number as usize].single;
+                for k in 0..LANES {
+                    let distance = a * x[k] + b * y[k] + c * z[k] - offset;
+                    // one instruction, where `max` also asks for NaN
+                    farthest[k] = if distance > farthest[k] { distance } else { farthest[k] };
+                }
             }
+            let of_lanes = (0..LANES).fold(0_u64, |bits, k| bits | u64::from(farthest[k] <= 0.0) << k);
+            bits |= of_lanes << (lanes * LANES);
         }
-        (0..WORD).fold(0, |bits, k| bits | u64::from(farthest[k] <= 0.0) << k)
+        bits
     }
 
     /// The volume that probes stand for.
@@ -164,17 +172,35 @@ pub(super) fn once_and_twice<'a>(words: usize, sets: impl Iterator<Item = &'a Co
     (once, twice)
 }
 
-/// The planes that cross a box; false where one of them has all of the box outside.
-fn crossing(planes: &[(DVec3, f64)], bounds: &Bounds, found: &mut Vec<(DVec3, f64)>) -> bool {
+/// A plane of a convex body.
+struct Side {
+    normal: DVec3,
+    /// The normal's coordinates without their signs.
+    spread: DVec3,
+    offset: f64,
+    /// Normal, and offset from the probes' origin.
+    single: [f32; 4],
+}
+
+impl Side {
+    fn new((normal, offset): &(DVec3, f64), origin: DVec3) -> Self {
+        let single = [normal.x, normal.y, normal.z, offset - normal.dot(origin)].map(|v| v as f32);
+        Self { normal: *normal, spread: normal.abs(), offset: *offset, single }
+    }
+}
+
+/// Those of some sides that cross a box; false where one of them has all of the box outside.
+fn crossing(sides: &[Side], numbers: &[u32], bounds: &Bounds, found: &mut Vec<u32>) -> bool {
     found.clear();
     let (center, half) = (bounds.center(), 0.5 * (bounds.max - bounds.min));
-    for (normal, offset) in planes {
-        let (distance, reach) = (normal.dot(center) - offset, normal.abs().dot(half));
+    for number in numbers {
+        let side = &sides[*number as usize];
+        let (distance, reach) = (side.normal.dot(center) - side.offset, side.spread.dot(half));
         if distance > reach {
             return false;
         }
         if distance > -reach {
-            found.push((*normal, *offset));
+            found.push(*number);
         }
     }
     true

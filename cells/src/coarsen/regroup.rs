@@ -3,6 +3,7 @@
 //! Greedy merging knows nothing of what comes later; parts of two groups that are merged again while all others stay
 //! often find better company ("ruin and recreate": Schrimpf, Schneider, Stamm-Wilbrandt, Dueck 2000).
 
+use planecut_csg::stages::Bounds;
 use planecut_parallel::prelude::*;
 
 use super::merge::Merger;
@@ -84,15 +85,17 @@ fn neighbours(groups: &[Group]) -> Vec<[usize; 2]> {
     let mut pairs: Vec<[usize; 2]> = Vec::new();
     for (place, group) in groups.iter().enumerate() {
         let own = &group.hull.bounds;
-        let reach = |other: &usize| {
-            let both = own.union(&groups[*other].hull.bounds);
-            (both.max - both.min).length_squared()
+        let reach = |other: usize| {
+            let both = own.union(&groups[other].hull.bounds);
+            ((both.max - both.min).length_squared(), other)
         };
-        let mut near: Vec<usize> = (0..groups.len()).filter(|other| *other != place).collect();
-        near.sort_by(|a, b| reach(a).total_cmp(&reach(b)).then(a.cmp(b)));
-        near.truncate(NEAREST);
-        near.retain(|other| groups[*other].hull.bounds.touches(own));
-        pairs.extend(near.into_iter().map(|other| [place.min(other), place.max(other)]));
+        let mut near: Vec<(f64, usize)> = (0..groups.len()).filter(|other| *other != place).map(reach).collect();
+        if near.len() > NEAREST {
+            near.select_nth_unstable_by(NEAREST - 1, |a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            near.truncate(NEAREST);
+        }
+        near.retain(|(_, other)| groups[*other].hull.bounds.touches(own));
+        pairs.extend(near.into_iter().map(|(_, other)| [place.min(other), place.max(other)]));
     }
     pairs.sort_unstable();
     pairs.dedup();
@@ -103,8 +106,11 @@ fn neighbours(groups: &[Group]) -> Vec<[usize; 2]> {
 fn try_pair(search: &Search, groups: &[Group], pair: &[usize; 2]) -> Option<(f64, Vec<Group>)> {
     let parts: Vec<u32> = pair.iter().flat_map(|place| groups[*place].parts.iter().copied()).collect();
     let mut covered = vec![0_u64; search.probes.words()];
-    let others = groups.iter().enumerate().filter(|(place, _)| !pair.contains(place));
-    others.for_each(|(_, group)| add(&mut covered, &group.hull.coverage));
+    // whatever becomes of the pair stays within the box of both
+    let bounds = pair.iter().fold(Bounds::EMPTY, |all, place| all.union(&groups[*place].hull.bounds));
+    let is_other = |(place, group): &(usize, &Group)| !pair.contains(place) && group.hull.bounds.touches(&bounds);
+    let others = groups.iter().enumerate().filter(is_other);
+    others.for_each(|(_, group)| add(&mut covered, group.hull.coverage(search.probes)));
     let before = cost(search, &covered, pair.iter().map(|place| &groups[*place]));
     let mut merger = Merger::new(search, parts.into_iter().map(|part| search.single(part)).collect(), covered.clone());
     while merger.count() > pair.len() {
@@ -123,8 +129,8 @@ fn try_pair(search: &Search, groups: &[Group], pair: &[usize; 2]) -> Option<(f64
 fn cost<'a>(search: &Search, covered: &[u64], groups: impl Iterator<Item = &'a Group>) -> f64 {
     let (mut all, mut fresh, mut volume) = (covered.to_vec(), 0, 0.0);
     for group in groups {
-        fresh += count_fresh(&all, &group.hull.coverage);
-        add(&mut all, &group.hull.coverage);
+        fresh += count_fresh(&all, group.hull.coverage(search.probes));
+        add(&mut all, group.hull.coverage(search.probes));
         volume += group.hull.volume;
     }
     search.cost(fresh, volume)

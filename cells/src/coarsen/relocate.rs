@@ -108,10 +108,11 @@ fn is_open(search: &Search, groups: &[Group], clock: &Clock, from: usize, part: 
 
 /// For each group the probes that the others cover.
 fn covered_by_others(search: &Search, groups: &[Group]) -> Vec<Vec<u64>> {
-    let (once, twice) = once_and_twice(search.probes.words(), groups.iter().map(|group| &group.hull.coverage));
+    let (once, twice) =
+        once_and_twice(search.probes.words(), groups.iter().map(|group| group.hull.coverage(search.probes)));
     let others = |group: &Group| {
         let mut others = once.clone();
-        for (word, bits) in &group.hull.coverage {
+        for (word, bits) in group.hull.coverage(search.probes) {
             let word = *word as usize;
             others[word] = (once[word] & !bits) | twice[word];
         }
@@ -145,13 +146,17 @@ impl View<'_> {
         if !own.corners.iter().any(|corner| old.hull.corners.contains(corner)) {
             return None;
         }
-        let rest = search.group(old.parts.iter().copied().filter(|other| *other != part).collect());
+        let others_of_it = old.parts.iter().copied().filter(|other| *other != part).collect();
+        let rest = search.group(others_of_it);
         if rest.hull.volume > old.hull.volume * SAME_HULL {
             return None;
         }
         let mut covered = others.to_vec();
-        add(&mut covered, &rest.hull.coverage);
-        let freed = count_fresh(&covered, &old.hull.coverage);
+        add(&mut covered, rest.hull.coverage(search.probes));
+        let freed = count_fresh(&covered, old.hull.coverage(search.probes));
+        if search.cost(freed, old.hull.volume - rest.hull.volume) <= search.least_gain() {
+            return None;
+        }
         let mut best: Option<(f64, usize, Hull)> = None;
         for to in self.targets(from, part) {
             let target = &groups[to];
@@ -159,15 +164,20 @@ impl View<'_> {
             let joined =
                 if is_held { Some(target.hull.clone()) } else { search.joined(&target.hull, search.hull(part)) };
             let Some(joined) = joined else { continue };
-            let added = count_fresh(&covered, &joined.coverage);
             let grown = rest.hull.volume + joined.volume - old.hull.volume - target.hull.volume;
+            let least = best.as_ref().map_or(search.least_gain(), |(most, ..)| *most);
+            // if it covers nothing new
+            if search.cost(freed, -grown) <= least {
+                continue;
+            }
+            let added = count_fresh(&covered, joined.coverage(search.probes));
             let gain = search.cost(freed, 0.0) - search.cost(added, grown);
-            if best.as_ref().is_none_or(|(most, ..)| gain > *most) {
+            if gain > least {
                 best = Some((gain, to, joined));
             }
         }
         let (gain, to, joined) = best?;
-        (gain > search.least_gain()).then_some(Move { gain, from, to, part, rest, joined })
+        Some(Move { gain, from, to, part, rest, joined })
     }
 
     /// The groups that a part may go to.

@@ -39,14 +39,18 @@ pub(super) struct Hulls {
 
 impl Hulls {
     pub(super) fn of(parts: &[Part], probes: &Probes) -> Self {
-        let hull = |part: &Part| Hull::of(&part.all_points().collect::<Vec<_>>(), probes);
-        Self { singles: parts.par_iter().map(hull).collect(), pairs: FxHashMap::default() }
+        Self::new(parts, probes, |part| Hull::of(&part.all_points().collect::<Vec<_>>()))
     }
 
     /// The same of those of their corners that are the farthest in some directions: a few say enough of parts that are small.
     pub(super) fn of_few(parts: &[Part], probes: &Probes) -> Self {
-        let hull = |part: &Part| Hull::of(&farthest(&part.corners), probes);
-        Self { singles: parts.par_iter().map(hull).collect(), pairs: FxHashMap::default() }
+        Self::new(parts, probes, |part| Hull::of(&farthest(&part.corners)))
+    }
+
+    fn new(parts: &[Part], probes: &Probes, hull: impl Fn(&Part) -> Hull + Sync + Send) -> Self {
+        let singles: Vec<Hull> = parts.par_iter().map(hull).collect();
+        singles.par_iter().for_each(|hull| _ = hull.coverage(probes));
+        Self { singles, pairs: FxHashMap::default() }
     }
 
     /// Keeps hulls of two parts.
@@ -93,7 +97,7 @@ impl<'a> Search<'a> {
     /// The group of some parts.
     pub(super) fn group(&self, parts: Vec<u32>) -> Group {
         let points: Vec<DVec3> = parts.iter().flat_map(|part| self.hull(*part).corners.iter().copied()).collect();
-        Group { hull: Hull::of(&points, self.probes), parts }
+        Group { hull: Hull::of(&points), parts }
     }
 
     /// The hull of two groups, and whether parts of both are near each other; `None` where it may not be.
@@ -118,7 +122,7 @@ impl<'a> Search<'a> {
     /// The hull of two hulls; `None` where it may not be.
     pub(super) fn joined(&self, a: &Hull, b: &Hull) -> Option<Hull> {
         let points: Vec<DVec3> = a.corners.iter().chain(&b.corners).copied().collect();
-        let hull = Hull::of(&points, self.probes);
+        let hull = Hull::of(&points);
         self.clear.allows_hull(&hull).then_some(hull)
     }
 

@@ -3,17 +3,20 @@
 //! Cells may overlap. What another cell holds as well, a cell need not: the hull of the rest is smaller. Each step leaves the union
 //! of the cells around the solid, exactly: the rest is what the solid has outside of all other cells, as exact convex pieces.
 
-use planecut_csg::stages::Boxes;
+use planecut_csg::stages::{Bounds, Boxes};
 use planecut_kernel::DVec3;
 use planecut_parallel::prelude::*;
 
 use super::CoarsenError;
 use super::clear::Clear;
 use super::enclose::{all_hold, enclose};
-use super::part::Part;
+use super::part::{Part, bounds_of};
 use super::probes::{Coverage, Probes, count_fresh, once_and_twice, unit_planes};
 use super::subtract::{shares_interior, subtract};
 use crate::tolerances::{CORNER_WITHIN, WORTH_SHRINKING};
+
+/// Number of cells of which those are looked for that can be drawn in at once.
+const AHEAD: usize = 256;
 
 /// The parts of the solid, and what its cells must keep.
 pub(super) struct Shrinking<'a> {
@@ -32,21 +35,18 @@ impl Shrinking<'_> {
         let adds = added_alone(bodies, probes);
         let mut order: Vec<usize> = (0..bodies.len()).filter(|place| adds[*place] > 0).collect();
         order.sort_by(|a, b| adds[*b].cmp(&adds[*a]).then(a.cmp(b)));
+        let reaches: Vec<Bounds> = bodies.par_iter().map(|body| self.reach(body)).collect();
         let mut is_dropped = vec![false; bodies.len()];
-        for place in order {
-            let others: Vec<&Part> = self.others(bodies, &is_dropped, place);
-            if !others.iter().any(|other| other.bounds.touches(&bodies[place].bounds)) {
-                continue;
-            }
-            let Some(pieces) = self.held_alone(&bodies[place], &others)? else { continue };
-            if pieces.is_empty() {
-                is_dropped[place] = true;
-                continue;
-            }
-            let pieces: Vec<&Part> = pieces.iter().collect();
-            let smaller = Part::of_cell(enclose(&pieces, self.clear)?, bodies[place].material)?;
-            if smaller.volume() < bodies[place].volume() * WORTH_SHRINKING {
-                bodies[place] = smaller;
+        while !order.is_empty() {
+            let taken = independent(&mut order, |place, earlier| reaches[place].touches(&bodies[earlier].bounds));
+            let drawn_in = |place: &usize| self.drawn_in(bodies, &is_dropped, *place, &reaches[*place]);
+            let found: Vec<Result<Outcome, _>> = taken.par_iter().with_max_len(1).map(drawn_in).collect();
+            for (place, outcome) in taken.into_iter().zip(found) {
+                match outcome? {
+                    Outcome::Same => {}
+                    Outcome::Smaller(smaller) => bodies[place] = *smaller,
+                    Outcome::Nothing => is_dropped[place] = true,
+                }
             }
         }
         let mut dropped = is_dropped.iter();
@@ -54,10 +54,42 @@ impl Shrinking<'_> {
         Ok(())
     }
 
-    fn others<'b>(&self, bodies: &'b [Part], is_dropped: &[bool], place: usize) -> Vec<&'b Part> {
+    /// The box of all parts that a cell may hold some of, and their points.
+    fn reach(&self, body: &Part) -> Bounds {
+        let mut near = Vec::new();
+        self.boxes.touching(&body.bounds, &mut near);
+        let parts = near.into_iter().map(|part| &self.parts[part as usize]);
+        parts.fold(body.bounds, |all, part| all.union(&part.bounds).union(&bounds_of(&part.points)))
+    }
+
+    /// What becomes of a cell.
+    fn drawn_in(
+        &self,
+        bodies: &[Part],
+        is_dropped: &[bool],
+        place: usize,
+        reach: &Bounds,
+    ) -> Result<Outcome, CoarsenError> {
+        let own = &bodies[place];
+        let others: Vec<&Part> = self.others(bodies, is_dropped, place, reach);
+        if !others.iter().any(|other| other.bounds.touches(&own.bounds)) {
+            return Ok(Outcome::Same);
+        }
+        let Some(pieces) = self.held_alone(own, &others)? else { return Ok(Outcome::Same) };
+        if pieces.is_empty() {
+            return Ok(Outcome::Nothing);
+        }
+        let pieces: Vec<&Part> = pieces.iter().collect();
+        let smaller = Part::of_cell(enclose(&pieces, self.clear)?, own.material)?;
+        let is_worth_it = smaller.volume() < own.volume() * WORTH_SHRINKING;
+        Ok(if is_worth_it { Outcome::Smaller(Box::new(smaller)) } else { Outcome::Same })
+    }
+
+    /// The other cells that may hold some of the parts that a cell does.
+    fn others<'b>(&self, bodies: &'b [Part], is_dropped: &[bool], place: usize, reach: &Bounds) -> Vec<&'b Part> {
         let own = &bodies[place];
         let others = bodies.iter().enumerate().filter(|(other, _)| *other != place && !is_dropped[*other]);
-        let others = others.map(|(_, other)| other);
+        let others = others.map(|(_, other)| other).filter(|other| other.bounds.touches(reach));
         others.filter(|other| !self.by_material || other.material == own.material).collect()
     }
 
@@ -75,6 +107,32 @@ impl Shrinking<'_> {
         let pieces = near.into_iter().zip(left).flat_map(|(part, left)| left.unwrap_or_else(|| vec![part.clone()]));
         Ok(Some(pieces.collect()))
     }
+}
+
+/// What becomes of a cell.
+enum Outcome {
+    Same,
+    Smaller(Box<Part>),
+    Nothing,
+}
+
+/// Takes those places out, of the first ones, that depend on none before them: then it is the same whether they are dealt with at once or one after
+/// another.
+fn independent(order: &mut Vec<usize>, depends: impl Fn(usize, usize) -> bool) -> Vec<usize> {
+    let ahead = order.len().min(AHEAD);
+    let is_taken: Vec<bool> =
+        (0..ahead).map(|k| !order[..k].iter().any(|earlier| depends(order[k], *earlier))).collect();
+    let mut taken = Vec::new();
+    let mut number = 0;
+    order.retain(|place| {
+        let is_taken = is_taken.get(number) == Some(&true);
+        number += 1;
+        if is_taken {
+            taken.push(*place);
+        }
+        !is_taken
+    });
+    taken
 }
 
 /// What no cell holds of a part, as convex pieces; `None` for all of it.

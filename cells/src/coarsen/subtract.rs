@@ -28,7 +28,7 @@ pub(super) fn for_each_left<B>(
     let mut waiting = vec![(body.clone(), bounds_of(&body.to_mesh().0), 0)];
     let mut pieces = Vec::new();
     while let Some((piece, bounds, first)) = waiting.pop() {
-        let cut = (first..others.len()).filter(|other| others[*other].bounds.touches(&bounds));
+        let cut = (first..others.len()).filter(|other| may_touch(others[*other], &bounds));
         let cut = cut.into_iter().find_map(|other| Some((other, cutting(&piece, &others[other].half_spaces)?)));
         match cut {
             Some((other, planes)) => {
@@ -42,6 +42,12 @@ pub(super) fn for_each_left<B>(
         }
     }
     ControlFlow::Continue(())
+}
+
+/// Whether a part may have a point in a box: false where one of its planes has all of the box outside.
+fn may_touch(part: &Part, bounds: &Bounds) -> bool {
+    let is_beyond = |side: &HalfSpace| bounds.extent_along(side.normal(), side.offset()).0 > 0.0;
+    part.bounds.touches(bounds) && !part.half_spaces.iter().any(is_beyond)
 }
 
 /// A box that holds a bounded body which lies within a box. Corners are taken in floating point, with room for what that loses; where it may

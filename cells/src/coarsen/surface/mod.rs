@@ -30,7 +30,7 @@ use planecut_parallel::prelude::*;
 use super::CoarsenError;
 use super::hull::Hull;
 use super::part::{Part, most};
-use super::probes::{Probes, spread};
+use super::probes::spread;
 use super::reachable::Reachable;
 use crate::tolerances::{FILLED_FOR_BALLS, GROWTH, SHELL_THICKNESS};
 pub(super) use body::{Growth, Points};
@@ -170,9 +170,7 @@ pub(super) fn pieces(
     let is_blocked = |region: &Region| {
         let points =
             || Points { vertices: Vec::new(), cuts: region.points().iter().map(|p| frame.outward(*p)).collect() };
-        reachable.is_some_and(|reachable| {
-            !reachable.allows_hull(&Hull::of(&points().thick(growth.thickness), &Probes::default()))
-        })
+        reachable.is_some_and(|reachable| !reachable.allows_hull(&Hull::of(&points().thick(growth.thickness))))
     };
     let wanted = Wanted { pieces: wanted, is_blocked: &is_blocked };
     let regions = match surface.bounded {

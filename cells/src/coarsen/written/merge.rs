@@ -3,6 +3,7 @@
 use planecut_kernel::DVec3;
 
 use super::corners::Corners;
+use super::near::Near;
 
 /// Corners of a cell in groups, each around one that stands for it.
 pub(super) struct Clusters {
@@ -16,12 +17,17 @@ impl Clusters {
     /// Groups whose corners are within `separation` of the one that stands for them, and these farther from each other.
     pub(super) fn of(corners: &Corners, separation: f64) -> Self {
         let mut clusters = Self { first: Vec::new(), group_of: Vec::with_capacity(corners.corners.len()) };
+        let mut near = Near::new(separation);
         for (number, corner) in corners.corners.iter().enumerate() {
-            let is_near = |first: &usize| corners.corners[*first].place.distance(corner.place) <= separation;
-            let group = clusters.first.iter().position(is_near).unwrap_or_else(|| {
+            let place = |group: usize| corners.corners[clusters.first[group]].place;
+            let is_near = |group: &usize| place(*group).distance(corner.place) <= separation;
+            let group = near.around(corner.place).filter(is_near).min().unwrap_or_else(|| {
                 clusters.first.push(number);
                 clusters.first.len() - 1
             });
+            if clusters.first[group] == number {
+                near.insert(group, corner.place);
+            }
             clusters.group_of.push(group);
         }
         clusters
@@ -56,8 +62,10 @@ impl Clusters {
 /// As many of the places as there are farther from each other than `separation`, the first ones.
 pub(super) fn distinct(places: &[DVec3], separation: f64) -> Vec<DVec3> {
     let mut kept: Vec<DVec3> = Vec::with_capacity(places.len());
+    let mut near = Near::new(separation);
     for place in places {
-        if !kept.iter().any(|other| other.distance(*place) <= separation) {
+        if !near.around(*place).any(|other| kept[other].distance(*place) <= separation) {
+            near.insert(kept.len(), *place);
             kept.push(*place);
         }
     }

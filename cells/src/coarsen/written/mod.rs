@@ -3,6 +3,7 @@
 //! - [`corners`]: the corners of a cell, and points with exact coordinates whose hull holds it.
 //! - [`merge`]: corners that are nearly one become one.
 //! - [`grow`]: corners moved outward.
+//! - [`near`]: which of many points are near one.
 //!
 //! **Why the written cell holds the cell.** Let `h(n)` be how far a body reaches in a direction `n` of unit length. Let a cell's corners be `v`, each at
 //! most `e` from the vertex that is written for it (merging and rounding together), but each of these first moved by `g·m`, where `n·m ≥ 1` for
@@ -17,6 +18,7 @@
 mod corners;
 mod grow;
 mod merge;
+mod near;
 
 use planecut_csg::stages::Bounds;
 use planecut_csg::{Brush, Material, MaterialId, Mesh, MeshFace};
@@ -29,9 +31,13 @@ use crate::tolerances::{MOST_WRITTEN_SEPARATION, SAME_FACE, WRITTEN_SEPARATION, 
 use corners::Corners;
 use grow::{Shape, grown};
 use merge::{Clusters, distinct};
+use near::Near;
 
 /// How often the growth is doubled before a cell is refused: from one rounding to beyond the accepted range of coordinates.
 const MOST_GROWTHS: usize = 200;
+
+/// Distance between unit normals within which a face is looked for first.
+const NEARLY: f64 = 0.01;
 
 /// How often sharp corners are moved farther before the cell becomes its box.
 const MOST_SHARP: u32 = 4;
@@ -157,11 +163,16 @@ fn with_faces(
     materials: &[Material],
 ) -> Mesh {
     let mut all = normals.to_vec();
+    let mut near = Near::new(NEARLY);
+    normals.iter().enumerate().for_each(|(face, normal)| near.insert(face, *normal));
     let mut faced: Vec<(usize, [u32; 3])> = Vec::with_capacity(triangles.len());
     for corners in triangles {
         let normal = normal_of(corners.map(|corner| positions[corner as usize]));
         let along = |face: &usize| normals[*face].dot(normal);
-        let face = (0..normals.len()).max_by(|a, b| along(a).total_cmp(&along(b)));
+        let most = |a: &usize, b: &usize| along(a).total_cmp(&along(b)).then(a.cmp(b));
+        // of most triangles one that is near enough is found without asking all
+        let nearest = near.around(normal).filter(|face| normals[*face].distance(normal) <= NEARLY).max_by(most);
+        let face = nearest.or_else(|| (0..normals.len()).max_by(most));
         let face = face.filter(|face| along(face) >= SAME_FACE).unwrap_or_else(|| {
             all.push(normal);
             all.len() - 1
