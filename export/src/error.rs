@@ -34,6 +34,14 @@ pub enum ExportError {
         /// In kilograms per cubic metre.
         density: f64,
     },
+    /// A mass or a moment of inertia is beyond what the numbers of a format hold (USD): engines would take it for none.
+    #[error(
+        "found a mass or moment of inertia of {value:e}, expected one that single precision holds: see units and density"
+    )]
+    MassRange {
+        /// In kilograms, or times square metres.
+        value: f64,
+    },
     /// A brush is a closed mesh.
     #[error("brush {brush} (counted from 0) is a closed mesh, expected convex bodies alone")]
     MeshBrush {

@@ -343,7 +343,7 @@ pub(crate) fn check_targets<'a>(
 }
 
 /// One name for a file however it is given, as far as it exists.
-fn same_name(path: &Path) -> PathBuf {
+pub(crate) fn same_name(path: &Path) -> PathBuf {
     let absolute = || std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     fs::canonicalize(path).unwrap_or_else(|_| absolute())
 }

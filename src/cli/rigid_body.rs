@@ -1,6 +1,6 @@
 //! The cells of `coarsen` as colliders of a rigid body, in the files that physics engines read.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use planecut::csg::coarsen::Coarsened;
 use planecut::csg::{Material, Mesh, Model, Tree, evaluate};
@@ -8,14 +8,14 @@ use planecut::export::{Collider, ExportError, MassProperties, PhysicsFormat, Rig
 use planecut::import::Warning;
 
 use super::error::CliError;
-use super::output::{Output, OutputError, Target};
+use super::output::{Output, OutputError, Target, same_name};
 use super::pieces::Pieces;
 use super::report::MassPart;
 
 /// MuJoCo refuses moving bodies whose mass or moments of inertia are smaller (`mjMINVAL`).
 const LEAST_OF_MUJOCO: f64 = 1e-15;
 
-/// A body without a name: what is seen, and its mass.
+/// A body without a name: its visual mesh, and its mass.
 pub(crate) struct Body {
     visual: Mesh,
     mass: MassProperties,
@@ -72,7 +72,8 @@ impl Body {
     pub(crate) fn doubt(&self) -> Option<Warning> {
         let least = self.mass.principal().moments.min_element().min(self.mass.mass);
         let found = format!(
-            "found a mass of {:.3e} kg and a least moment of inertia of {:.3e} kg m², MuJoCo refuses bodies with less than {LEAST_OF_MUJOCO:e} of either: see --unit and --density",
+            "found a mass of {:.3e} kg and a least moment of inertia of {:.3e} kg m², \
+             MuJoCo refuses bodies with less than {LEAST_OF_MUJOCO:e} of either: see --unit and --density",
             self.mass.mass,
             self.mass.principal().moments.min_element()
         );
@@ -91,17 +92,20 @@ impl Body {
     ) -> Result<Vec<Output>, CliError> {
         let mut outputs = Vec::new();
         // documents of one name in one folder have the same meshes
-        let mut meshes: Vec<Target> = Vec::new();
+        let mut meshes: Vec<PathBuf> = Vec::new();
         for BodyTarget { target, format } in places {
             let name = target.stem().unwrap_or_else(|| unnamed.to_owned());
             let body = RigidBody { name: &name, visual: &self.visual, colliders, mass: self.mass };
             for file in physics_files(&body, *format, &name).map_err(|error| error.at(target))? {
                 let place = target.beside(file.path());
-                if meshes.contains(&place) {
-                    continue;
-                }
-                if !file.path().is_empty() {
-                    meshes.push(place.clone());
+                if let Target::File(path) = &place
+                    && !file.path().is_empty()
+                {
+                    let path = same_name(path);
+                    if meshes.contains(&path) {
+                        continue;
+                    }
+                    meshes.push(path);
                 }
                 outputs.push(place.begin(|out| file.write(out))?);
             }

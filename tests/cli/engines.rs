@@ -105,11 +105,19 @@ fn names_are_escaped_and_distinct() {
     let document = Document::parse(&text).expect("XML");
     assert_eq!(elements(&document, "body")[0].attribute("name"), Some("a&b<c>"));
     let names: BTreeSet<_> = elements(&document, "geom").iter().filter_map(|geom| geom.attribute("name")).collect();
-    assert_eq!(names, BTreeSet::from(["visual", "visual_2", "visual_3", "visual_4"]));
+    assert_eq!(
+        names,
+        ["", "_2", "_3", "_4"].map(|end| format!("a&b<c>_visual{end}")).iter().map(String::as_str).collect()
+    );
+    // two bodies can be in one scene
+    for (element, attribute) in [("mesh", "name"), ("geom", "class"), ("geom", "mesh"), ("default", "class")] {
+        let names = elements(&document, element).into_iter().filter_map(|element| element.attribute(attribute));
+        assert!(names.clone().count() > 0 && names.clone().all(|name| name.starts_with("a&b<c>_")), "{text}");
+    }
+    assert!(elements(&document, "compiler").is_empty());
     // folders have names that every system takes
-    let meshes = elements(&document, "compiler")[0].attribute("meshdir").expect("a folder").to_owned();
     for mesh in elements(&document, "mesh") {
-        assert!(folder.join(&meshes).join(mesh.attribute("file").expect("a file")).is_file(), "{mesh:?}");
+        assert!(folder.join(mesh.attribute("file").expect("a file")).is_file(), "{mesh:?}");
     }
     let text = fs::read_to_string(folder.join("a&b<c>.urdf")).expect("text");
     let document = Document::parse(&text).expect("XML");
@@ -118,6 +126,49 @@ fn names_are_escaped_and_distinct() {
     }
     let stage = fs::read_to_string(folder.join("a&b<c>.usda")).expect("text");
     assert!(stage.contains("defaultPrim = \"a_b_c_\"") && stage.contains("def Cube \"visual_2\""), "{stage}");
+}
+
+/// Numbers of single precision were written as the shortest text for these, which is another number in double precision.
+#[test]
+fn boxes_of_usd_far_from_the_origin_enclose_the_cell() {
+    let folder = folder();
+    let folder = folder.path();
+    let (low, high) = ([1000.0, -2000.0, 3000.0], [1000.0999755859375, -1999.9000244140625, 3000.0999755859375]);
+    let model = json!({"planecut": 1, "model": {"box": {"min": low, "max": high}}});
+    fs::write(folder.join("m.json"), model.to_string()).expect("written");
+    let (run, _) = coarsen(folder, "m.json -o b.usda");
+    run.expect_quiet_success();
+    let stage = fs::read_to_string(folder.join("b.usda")).expect("text");
+    let numbers = |name: &str| -> Vec<f64> {
+        let text = stage.split_once(&format!("double3 xformOp:{name} = (")).expect(name).1;
+        let text = text.split_once(')').expect("an end").0;
+        text.split(", ").map(|number| number.parse().expect("a number")).collect()
+    };
+    let (half, middle) = (numbers("scale"), numbers("translate"));
+    for axis in 0..3 {
+        assert!(middle[axis] - half[axis] <= low[axis] && middle[axis] + half[axis] >= high[axis], "{stage}");
+    }
+}
+
+#[test]
+fn masses_that_single_precision_does_not_hold_are_refused_in_usd() {
+    let folder = folder();
+    let folder = folder.path();
+    fs::write(folder.join("m.json"), PARTS).expect("written");
+    for scale in ["1e15", "1e-20"] {
+        let (run, _) = coarsen(folder, &format!("m.json -o b.usda --scale {scale}"));
+        run.expect_error(1, "mass or moment of inertia");
+    }
+    assert!(!folder.join("b.usda").exists());
+}
+
+#[test]
+fn documents_of_one_name_share_meshes_however_their_folder_is_given() {
+    let folder = folder();
+    let folder = folder.path();
+    fs::write(folder.join("m.json"), PARTS).expect("written");
+    let (run, _) = coarsen(folder, "m.json -o b.xml -o ./b.urdf");
+    run.expect_quiet_success();
 }
 
 #[test]

@@ -23,11 +23,13 @@ impl Body {
         let document = Document::parse(&text).expect("XML");
         let meshes = folder.join(format!("{name}_meshes"));
         let mut shapes = Vec::new();
-        let collision = |node: &roxmltree::Node<'_, '_>| node.attribute("class") == Some("collision");
+        let class = format!("{name}_collision");
+        let collision = |node: &roxmltree::Node<'_, '_>| node.attribute("class") == Some(&class);
         for geom in document.descendants().filter(|node| node.has_tag_name("geom")).filter(collision) {
             shapes.push(match geom.attribute("mesh") {
                 Some(mesh) => {
-                    let (points, triangles) = read_mesh(&meshes.join(format!("{mesh}.obj")));
+                    let file = mesh.strip_prefix(&format!("{name}_")).expect("the name of the body");
+                    let (points, triangles) = read_mesh(&meshes.join(format!("{file}.obj")));
                     let shape = SharedShape::convex_mesh(points, &triangles);
                     (Pose::IDENTITY, shape.unwrap_or_else(|| panic!("{name}: {mesh} is not convex for Parry")))
                 }

@@ -82,8 +82,7 @@ mod tests {
 
     #[test]
     fn names_are_distinct() {
-        let mut names = Engine::ALL.map(Engine::name).to_vec();
-        names.dedup();
+        let names = std::collections::BTreeSet::from(Engine::ALL.map(Engine::name));
         assert_eq!(names.len(), Engine::ALL.len());
     }
 }

@@ -76,7 +76,7 @@ impl PhysicsFile<'_> {
     /// Writes it.
     ///
     /// # Errors
-    /// [`ExportError::Io`] where the writer takes no more; [`ExportError::CoordinateRange`] for a position that single precision does not hold (USD).
+    /// [`ExportError::Io`] where the writer takes no more; [`ExportError::CoordinateRange`] and [`ExportError::MassRange`] for a position or a mass that single precision does not hold (USD).
     pub fn write(&self, out: &mut dyn Write) -> Result<(), ExportError> {
         match &self.content {
             Content::Document { body, format: PhysicsFormat::Mjcf, folder } => Ok(mjcf::write_mjcf(body, folder, out)?),
@@ -87,7 +87,7 @@ impl PhysicsFile<'_> {
     }
 }
 
-/// The files that describe a rigid body, the document first. `stem` is the name of the document without its ending: meshes go to the folder `{stem}_meshes`,
+/// The files that describe a rigid body, the document last: who finds it finds its meshes. `stem` is the name of the document without its ending: meshes go to the folder `{stem}_meshes`,
 /// as `visual.obj` and `collision_{number}.obj`, boxes left out. They are the same in all formats.
 ///
 /// ```
@@ -101,9 +101,9 @@ impl PhysicsFile<'_> {
 /// let colliders = [Collider::new("all of it", &visual)];
 /// let body = RigidBody { name: "part", visual: &visual, colliders: &colliders, mass };
 /// let files = physics_files(&body, PhysicsFormat::Urdf, "part")?;
-/// assert_eq!(files.iter().map(|file| file.path()).collect::<Vec<_>>(), ["", "part_meshes/visual.obj"]);
+/// assert_eq!(files.iter().map(|file| file.path()).collect::<Vec<_>>(), ["part_meshes/visual.obj", ""]);
 /// let mut urdf = Vec::new();
-/// files[0].write(&mut urdf)?;
+/// files[1].write(&mut urdf)?;
 /// assert!(String::from_utf8(urdf)?.contains("<box size=\"1 1 1\"/>"));
 /// # Ok(())
 /// # }
@@ -134,6 +134,6 @@ pub fn physics_files<'a>(
         let colliders = body.colliders.iter().enumerate().filter(|(_, collider)| collider.cuboid.is_none());
         files.extend(colliders.map(|(number, collider)| mesh(collider.mesh, collision(number))));
     }
-    files.insert(0, PhysicsFile { path: String::new(), content: Content::Document { body, format, folder } });
+    files.push(PhysicsFile { path: String::new(), content: Content::Document { body, format, folder } });
     Ok(files)
 }

@@ -31,7 +31,7 @@ use crate::material_color;
 pub struct RigidBody<'a> {
     /// Any text; files hold what their format has a place for.
     pub name: &'a str,
-    /// What is seen; it need not be closed, and may be empty.
+    /// The visual mesh; it need not be closed, and may be empty.
     pub visual: &'a Mesh,
     /// Convex bodies, each in coordinates of the whole.
     pub colliders: &'a [Collider<'a>],

@@ -4,8 +4,9 @@ use rustc_hash::FxHashSet;
 
 use super::RigidBody;
 use crate::material::unique;
+use crate::xml::escaped;
 
-/// What the mesh is called that is seen.
+/// What the visual mesh is called.
 pub(super) const VISUAL: &str = "visual";
 
 /// The name of a collider's mesh.
@@ -13,7 +14,12 @@ pub(super) fn collision(number: usize) -> String {
     format!("collision_{number}")
 }
 
-/// The names of a body's colliders, each once, and none that of what is seen.
+/// The name of a body in XML. `world` is what all else hangs from: both MuJoCo and readers of URDF give the name a meaning.
+pub(super) fn body_name(name: &str) -> String {
+    unique(&escaped(name), &mut FxHashSet::from_iter(["world".to_owned()]))
+}
+
+/// The names of a body's colliders, each once, and none that of the visual mesh.
 pub(super) fn collider_names(body: &RigidBody<'_>, legal: impl Fn(&str) -> String) -> Vec<String> {
     let mut taken = FxHashSet::default();
     taken.insert(VISUAL.to_owned());
@@ -29,7 +35,7 @@ pub(super) fn prim_name(name: &str) -> String {
 
 /// A part of a path that every system and document takes: without separators, and characters that XML has no place for.
 pub(super) fn path_name(name: &str) -> String {
-    let legal = |c: char| if c.is_control() || "/\\:*?\"<>|\u{fffd}".contains(c) { '_' } else { c };
+    let legal = |c: char| if c.is_control() || "/\\:*?\"<>|\u{fffd}\u{fffe}\u{ffff}".contains(c) { '_' } else { c };
     name.chars().map(legal).collect()
 }
 
@@ -46,7 +52,16 @@ mod tests {
     }
 
     #[test]
-    fn path_names_have_no_separators() {
+    fn no_body_is_the_world() {
+        assert_eq!(["part", "world", "world_2"].map(body_name), ["part", "world_2", "world_2"]);
+    }
+
+    #[test]
+    fn path_names_have_no_separators_and_stand_in_xml_as_they_are() {
+        for name in ["a&b", "\u{fffe}\u{ffff}", "\u{1}\u{7f}\u{85}'ä"] {
+            let path = path_name(name);
+            assert_eq!(escaped(&path).replace("&amp;", "&"), path);
+        }
         assert_eq!(path_name("a/b\\c\n:d e.f-ä"), "a_b_c__d e.f-ä");
     }
 }

@@ -4,15 +4,18 @@ use std::io::{self, Write};
 
 use glam::{DMat3, DVec3};
 
-use super::names::{VISUAL, collider_names, collision};
+use super::names::{VISUAL, body_name, collider_names, collision};
 use super::{Cuboid, RigidBody, main_color};
 use crate::material::linear_to_srgb;
 use crate::xml::{escaped, write_numbers, write_vector};
 
 /// Writes a robot, whose meshes are in `folder`.
 pub(super) fn write_urdf(body: &RigidBody<'_>, folder: &str, out: &mut dyn Write) -> io::Result<()> {
-    let (name, folder) = (escaped(body.name), escaped(folder));
-    writeln!(out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<robot name=\"{name}\">\n  <link name=\"{name}\">")?;
+    let (name, folder) = (body_name(body.name), escaped(folder));
+    writeln!(out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<robot name=\"{name}\">")?;
+    // MuJoCo drops folders from paths, and what is only seen, unless it is told not to; others pass over the element
+    writeln!(out, "  <mujoco>\n    <compiler strippath=\"false\" discardvisual=\"false\"/>\n  </mujoco>")?;
+    writeln!(out, "  <link name=\"{name}\">")?;
     let mass = &body.mass;
     out.write_all(b"    <inertial>\n      <origin")?;
     write_vector("xyz", mass.center, out)?;

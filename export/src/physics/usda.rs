@@ -34,6 +34,11 @@ def Xform \"{name}\" (
         env!("CARGO_PKG_VERSION")
     )?;
     let (mass, principal) = (&body.mass, body.mass.principal());
+    for value in [mass.mass].into_iter().chain(principal.moments.to_array()) {
+        if !(value as f32).is_normal() {
+            return Err(ExportError::MassRange { value });
+        }
+    }
     let [w, x, y, z] = principal.rotation.map(single);
     writeln!(out, "    float physics:mass = {}", single(mass.mass))?;
     writeln!(out, "    point3f physics:centerOfMass = {}", triple(mass.center))?;
@@ -84,8 +89,8 @@ fn write_cube(cuboid: &Cuboid, name: &str, out: &mut dyn Write) -> Result<(), Ex
             double3 xformOp:translate = {}
             uniform token[] xformOpOrder = [\"xformOp:translate\", \"xformOp:orient\", \"xformOp:scale\"]
         }}",
-        triple(cuboid.half_sizes),
-        triple(cuboid.center)
+        double_triple(cuboid.half_sizes),
+        double_triple(cuboid.center)
     )?)
 }
 
@@ -138,6 +143,12 @@ fn write_list<T>(
 /// Single precision, as the schemas have it; without a sign on zero.
 fn single(value: f64) -> f32 {
     value as f32 + 0.0
+}
+
+/// Double precision: of numbers that single precision holds, the shortest text for that is another number here.
+fn double_triple(v: DVec3) -> String {
+    let DVec3 { x, y, z } = v + 0.0;
+    format!("({x}, {y}, {z})")
 }
 
 fn triple(v: DVec3) -> String {

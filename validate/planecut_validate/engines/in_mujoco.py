@@ -30,8 +30,10 @@ def check(body: Body) -> str:
     colliding = [geom for geom in range(model.ngeom) if model.geom_contype[geom]]
     boxes = [geom for geom in colliding if model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_BOX]
     assert (len(colliding), len(boxes)) == (body.cells, body.boxes), f"{len(colliding)} colliders, {len(boxes)} boxes"
-    assert model.ngeom == body.cells + 1 and model.geom("visual").group[0] == 2
+    assert model.ngeom == body.cells + 1 and model.geom("part_visual").group[0] == 2
     check_enclosed(body, [corners(model, geom) for geom in colliding])
+    robot = mujoco.MjModel.from_xml_path(str(body.file("urdf")))
+    assert robot.ngeom == body.cells + 1, f"{robot.ngeom} geoms of the URDF"
     return settle(body)
 
 
