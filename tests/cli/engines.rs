@@ -7,7 +7,7 @@ use std::path::Path;
 use roxmltree::Document;
 use serde_json::{Value, json};
 
-use crate::support::{ROOT, Run, agree, everything_in, folder, run_with};
+use crate::support::{Run, agree, everything_in, folder, run_with};
 
 /// A box along the axes, a turned one on it, and a pyramid beside them.
 const PARTS: &str = r#"{"planecut": 1, "model": {"union": [
@@ -267,23 +267,4 @@ fn a_mass_that_mujoco_refuses_is_told() {
     assert!(run.stderr.lines().count() == 1 && run.stderr.contains("MuJoCo refuses"), "{}", run.stderr);
     // others do not
     coarsen(folder, "m.json -o a.urdf --unit um").0.expect_quiet_success();
-}
-
-#[test]
-fn bodies_settle_in_rapier_and_enclose_what_is_seen() {
-    let folder = folder();
-    let folder = folder.path();
-    fs::write(folder.join("m.json"), PARTS).expect("written");
-    let tray = "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 0 0 1\nv 2 0 1\nv 2 2 1\nv 0 2 1\n\
-        f 1 4 3 2\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
-    fs::write(folder.join("tray.obj"), tray).expect("written");
-    let bracket = format!("{ROOT}/examples/bracket.json --unit cm --max-cells 8");
-    for (name, input) in [("parts", "m.json"), ("tray", "tray.obj --max-cells 5"), ("bracket", &bracket)] {
-        let (run, told) = coarsen(folder, &format!("{input} --engine rapier -o {name}.xml --quiet"));
-        run.expect_quiet_success();
-        let body = super::rapier::Body::read(folder, name);
-        assert_eq!(json!(body.colliders()), told["cells_out"], "{name}");
-        body.expect_enclosed();
-        body.expect_rest();
-    }
 }

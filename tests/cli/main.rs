@@ -19,7 +19,6 @@ mod mesh_data;
 mod meshes;
 mod model;
 mod outputs;
-mod rapier;
 mod reference;
 mod regressions;
 mod render;
