@@ -51,6 +51,32 @@ fn an_open_mesh_is_filled_where_that_is_asked_for() {
     assert!((told["volume_in"].as_f64().expect("a number") - 8.0).abs() < 0.1, "{told}");
 }
 
+/// One sliver among 420 cells, flat by rounding, had the whole decomposition taken as a shell.
+#[test]
+fn a_flat_object_among_convex_ones_is_held_by_them() {
+    let folder = scratch();
+    let corners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n";
+    let cube = |first: usize| -> String {
+        let side = |side: &str| {
+            let corner = |corner: &str| corner.parse::<usize>().map_or(corner.to_owned(), |k| (k + first).to_string());
+            side.split(' ').map(corner).collect::<Vec<_>>().join(" ")
+        };
+        SIDES.map(side).join("\n") + "\n"
+    };
+    let away = corners.replace("v 0", "v 3").replace("v 1", "v 4");
+    // above the first cube
+    let flat = "o flat\nv 0.25 0.25 1.125\nv 0.75 0.25 1.125\nv 0.5 0.75 1.125\nf 17 18 19\nf 17 19 18\n";
+    let text = format!("o a\n{corners}{}o b\n{away}{}{flat}", cube(0), cube(8));
+    fs::write(folder.path().join("m.obj"), text).expect("written");
+    let (run, told) = coarsen(folder.path(), "--max-cells 2");
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    assert!(run.stderr.contains("object `flat`: found a surface that encloses no volume"), "{}", run.stderr);
+    assert_eq!((&told["taken_as"], &told["cells_in"], &told["cells_out"]), (&json!("cells"), &json!(2), &json!(2)));
+    // something, and no more than a box up to the triangle
+    let added = told["volume_out"].as_f64().expect("a number") - 2.0;
+    assert!(added > 0.0 && added < 0.125, "{told}");
+}
+
 #[test]
 fn what_goes_around_nothing_stays_a_shell() {
     let folder = scratch();

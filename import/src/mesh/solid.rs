@@ -125,7 +125,8 @@ pub struct PartsImport {
 }
 
 /// Reads a mesh whose objects are closed, as [`read_solid`], but so that convex objects hold all of their points: rounding in the file may
-/// have left some of them outside of the facets of others, or bent facets that were meant to be planar.
+/// have left some of them outside of the facets of others, or bent facets that were meant to be planar. An object among convex ones that
+/// encloses no volume, as rounding makes of slivers, is no part, but its points are among the points.
 ///
 /// # Errors
 /// As [`read_solid`].
@@ -247,6 +248,7 @@ impl Reader<'_> {
         let (materials, material_of) = materials(self.mesh);
         let (mut brushes, mut lines, mut warnings) = (Vec::new(), Vec::new(), Vec::new());
         let mut numbers = vec![u32::MAX; self.mesh.positions.len()];
+        let mut flat: Option<Fault> = None;
         for object in objects {
             let (points, triangles) = own_points(self.mesh, object, &mut numbers);
             let options = SurfaceOptions { precision: self.mesh.precision, rule: self.rule };
@@ -257,7 +259,6 @@ impl Reader<'_> {
             } else {
                 surface_body(&points, &triangles, materials, &options)
             };
-            let body = body.map_err(|error| (object.clone(), error))?;
             let line = match self.mesh.places.get(object.triangles.start) {
                 Some(Place::Line(line)) => u32::try_from(*line).ok().and_then(NonZeroU32::new),
                 _ => None,
@@ -265,6 +266,15 @@ impl Reader<'_> {
             let mut warn = |message: &str| {
                 let message = format!("{}{message}", of_object(object.name.as_deref()));
                 warnings.push(Warning::note(line.map_or(0, NonZeroU32::get), message));
+            };
+            let body = match body {
+                Ok(body) => body,
+                Err(error @ PolyhedronError::NoVolume) if self.convex == ConvexObjects::AsHulls => {
+                    warn("found a surface that encloses no volume: other objects must hold its points");
+                    flat.get_or_insert((object.clone(), error));
+                    continue;
+                }
+                Err(error) => return Err((object.clone(), error)),
             };
             if body.is_turned {
                 warn("found facets that are clockwise seen from outside, turned them over");
@@ -276,6 +286,12 @@ impl Reader<'_> {
             let brush = if is_hull { hull_of(&points, &body.brush) } else { body.brush };
             brushes.push(Brush { name: object.name.clone(), ..brush });
             lines.push(line);
+        }
+        // only convex parts are made to hold points beside their own
+        if let Some(fault) = flat
+            && (brushes.is_empty() || brushes.iter().any(Brush::is_mesh))
+        {
+            return Err(fault);
         }
         let tree = Tree::union_of(brushes).with_source_lines(lines);
         Ok(MeshImport { model: Model { materials, tree }, warnings })
