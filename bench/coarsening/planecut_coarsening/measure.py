@@ -102,9 +102,11 @@ def _beyond(bodies: list[Body], points: np.ndarray) -> np.ndarray:
     least = np.full(len(points), np.inf)
     for body in bodies:
         try:
-            planes = ConvexHull(body.corners).equations
+            # from a corner: of a cell whose faces were bent by 1e-11, a long way from the origin for that, Qhull made facets without end
+            origin = body.corners[0]
+            planes = ConvexHull(body.corners - origin).equations
         except QhullError:
             # It is flat but for rounding: it holds nothing.
             continue
-        least = np.minimum(least, (points @ planes[:, :3].T + planes[:, 3]).max(axis=1))
+        least = np.minimum(least, ((points - origin) @ planes[:, :3].T + planes[:, 3]).max(axis=1))
     return least
