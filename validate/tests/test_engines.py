@@ -15,13 +15,14 @@ TRIANGLES = [(0, 2, 1), (0, 3, 2), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)]
 MASS = {"mass": 4.0, "volume": 4 / 3, "center": [0, 0, 0.25], "inertia": [0.95, 0.95, 1.6, 0, 0, 0]}
 OBJ = "".join(f"v {x} {y} {z}\n" for x, y, z in VERTICES) + "".join(f"f {a + 1} {b + 1} {c + 1}\n" for a, b, c in TRIANGLES)
 MJCF = """<mujoco><compiler meshdir="part_meshes"/>
-<asset><mesh name="visual" file="visual.obj"/><mesh name="c" file="collision_0.obj"/></asset>
+<asset><mesh name="part_visual" file="visual.obj"/><mesh name="c" file="collision_0.obj"/></asset>
 <worldbody><body><freejoint/><inertial pos="0 0 .25" mass="4" fullinertia=".95 .95 1.6 0 0 0"/>
-<geom name="visual" type="mesh" mesh="visual" group="2" contype="0" conaffinity="0"/>
+<geom name="part_visual" type="mesh" mesh="part_visual" group="2" contype="0" conaffinity="0"/>
 <geom type="mesh" mesh="c"/><geom type="box" size=".5 .5 .1" pos="0 0 .1"/></body></worldbody></mujoco>
 """
-URDF = """<robot name="part"><link name="part"><inertial><origin xyz="0 0 .25"/><mass value="4"/>
+URDF = """<robot name="part"><mujoco><compiler strippath="false" discardvisual="false"/></mujoco><link name="part"><inertial><origin xyz="0 0 .25"/><mass value="4"/>
 <inertia ixx=".95" iyy=".95" izz="1.6" ixy="0" ixz="0" iyz="0"/></inertial>
+<visual><geometry><mesh filename="part_meshes/visual.obj"/></geometry></visual>
 <collision><geometry><mesh filename="part_meshes/collision_0.obj"/></geometry></collision>
 <collision><origin xyz="0 0 .1"/><geometry><box size="1 1 .2"/></geometry></collision></link></robot>
 """
@@ -97,6 +98,7 @@ class Engines(unittest.TestCase):
                 ("part.xml", 'contype="0" conaffinity="0"', ""),
                 ("part.xml", '<geom type="box" size=".5 .5 .1" pos="0 0 .1"/>', ""),
                 ("part_meshes/collision_0.obj", "v 0 0 1\n", "v 0 0 0.999\n"),
+                ("part.urdf", 'discardvisual="false"', 'discardvisual="true"'),
             ],
         )
 
@@ -106,6 +108,7 @@ class Engines(unittest.TestCase):
             [
                 ("part.urdf", 'value="4"', 'value="4.01"'),
                 ("part.urdf", 'izz="1.6"', 'izz="1.7"'),
+                ("part.urdf", 'ixx=".95"', 'ixx="1.6"'),
                 ("part.urdf", 'xyz="0 0 .25"', 'xyz="0 0 .35"'),
                 ("part.urdf", '<box size="1 1 .2"/>', '<sphere radius=".1"/>'),
             ],
