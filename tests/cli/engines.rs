@@ -6,6 +6,7 @@ use std::path::Path;
 
 use roxmltree::Document;
 use serde_json::{Value, json};
+use tempfile::TempDir;
 
 use crate::support::{Run, agree, everything_in, folder, run_with};
 
@@ -15,6 +16,13 @@ const PARTS: &str = r#"{"planecut": 1, "model": {"union": [
     {"box": {"min": [-1, -0.5, 1], "max": [1, 0.5, 2]}, "matrix": [[0.8, -0.6, 0, 2], [0.6, 0.8, 0, 1], [0, 0, 1, 0]]},
     {"points": [[6, 0, 0], [8, 0, 0], [8, 2, 0], [6, 2, 0], [7, 1, 3]]}
 ]}}"#;
+
+/// A folder with the parts as `m.json`.
+fn folder_with_parts() -> TempDir {
+    let folder = folder();
+    fs::write(folder.path().join("m.json"), PARTS).expect("written");
+    folder
+}
 
 fn coarsen(folder: &Path, arguments: &str) -> (Run, Value) {
     let run = run_with(folder, &format!("coarsen {arguments} --report r.json"), b"");
@@ -45,9 +53,8 @@ fn vertices(path: &Path) -> Vec<[f64; 3]> {
 
 #[test]
 fn a_body_has_a_document_and_its_meshes_and_boxes_are_boxes() {
-    let folder = folder();
+    let folder = folder_with_parts();
     let folder = folder.path();
-    fs::write(folder.join("m.json"), PARTS).expect("written");
     let (run, told) = coarsen(folder, "m.json -o b.xml -o b.urdf -o b.usda --density 2 --unit cm");
     run.expect_quiet_success();
     let files = ["b.urdf", "b.usda", "b.xml", "b_meshes", "collision_2.obj", "visual.obj"];
@@ -96,9 +103,8 @@ fn a_body_has_a_document_and_its_meshes_and_boxes_are_boxes() {
 
 #[test]
 fn names_are_escaped_and_distinct() {
-    let folder = folder();
+    let folder = folder_with_parts();
     let folder = folder.path();
-    fs::write(folder.join("m.json"), PARTS).expect("written");
     let (run, _) = coarsen(folder, "m.json -o a&b<c>.xml -o a&b<c>.urdf -o a&b<c>.usda --name visual");
     run.expect_quiet_success();
     let text = fs::read_to_string(folder.join("a&b<c>.xml")).expect("text");
@@ -152,9 +158,8 @@ fn boxes_of_usd_far_from_the_origin_enclose_the_cell() {
 
 #[test]
 fn masses_that_single_precision_does_not_hold_are_refused_in_usd() {
-    let folder = folder();
+    let folder = folder_with_parts();
     let folder = folder.path();
-    fs::write(folder.join("m.json"), PARTS).expect("written");
     for scale in ["1e15", "1e-20"] {
         let (run, _) = coarsen(folder, &format!("m.json -o b.usda --scale {scale}"));
         run.expect_error(1, "mass or moment of inertia");
@@ -164,9 +169,8 @@ fn masses_that_single_precision_does_not_hold_are_refused_in_usd() {
 
 #[test]
 fn documents_of_one_name_share_meshes_however_their_folder_is_given() {
-    let folder = folder();
+    let folder = folder_with_parts();
     let folder = folder.path();
-    fs::write(folder.join("m.json"), PARTS).expect("written");
     let (run, _) = coarsen(folder, "m.json -o b.xml -o ./b.urdf");
     run.expect_quiet_success();
 }
@@ -228,9 +232,8 @@ fn engines_set_caps_names_and_single_precision_unless_others_are_asked_for() {
 
 #[test]
 fn what_cannot_be_is_refused() {
-    let folder = folder();
+    let folder = folder_with_parts();
     let folder = folder.path();
-    fs::write(folder.join("m.json"), PARTS).expect("written");
     fs::write(folder.join("e.jsonl"), "").expect("written");
     let refused = |arguments: &str, words: &str| run_with(folder, arguments, b"").expect_error(2, words);
     refused("build m.json -o a.xml", "a.xml: found a rigid body");
@@ -249,9 +252,8 @@ fn what_cannot_be_is_refused() {
 /// A name that another output has is found before anything is written, also where it is that of a mesh beside a document.
 #[test]
 fn meshes_replace_no_other_output() {
-    let folder = folder();
+    let folder = folder_with_parts();
     let folder = folder.path();
-    fs::write(folder.join("m.json"), PARTS).expect("written");
     let run = run_with(folder, "coarsen m.json -o a.xml -o a_meshes/visual.obj", b"");
     run.expect_error(2, "two outputs of this name");
     assert_eq!(everything_in(folder), ["m.json"]);
@@ -259,9 +261,8 @@ fn meshes_replace_no_other_output() {
 
 #[test]
 fn a_mass_that_mujoco_refuses_is_told() {
-    let folder = folder();
+    let folder = folder_with_parts();
     let folder = folder.path();
-    fs::write(folder.join("m.json"), PARTS).expect("written");
     let (run, _) = coarsen(folder, "m.json -o a.xml --unit um");
     assert_eq!(run.status, 0, "{}", run.stderr);
     assert!(run.stderr.lines().count() == 1 && run.stderr.contains("MuJoCo refuses"), "{}", run.stderr);

@@ -33,8 +33,7 @@ impl Hull {
             Ok(triangles) => hull.take(points, &triangles),
             Err(_) => {
                 hull.corners = points.to_vec();
-                let sides = |axis: DVec3| [(axis, axis.dot(bounds.max)), (-axis, -axis.dot(bounds.min))];
-                hull.planes = DVec3::AXES.into_iter().flat_map(sides).collect();
+                hull.planes = sides_of(&bounds).collect();
             }
         }
         hull
@@ -98,4 +97,10 @@ impl Hull {
             |point: &DVec3| self.planes.iter().all(|(normal, offset)| normal.dot(*point) <= offset + margin);
         fits && points.iter().all(is_within)
     }
+}
+
+/// The planes of a box: unit normals and offsets.
+pub(super) fn sides_of(bounds: &Bounds) -> impl Iterator<Item = (DVec3, f64)> {
+    let Bounds { min, max } = *bounds;
+    DVec3::AXES.into_iter().flat_map(move |axis| [(axis, axis.dot(max)), (-axis, -axis.dot(min))])
 }

@@ -407,9 +407,8 @@ fn triangles_of(parts: &[Part]) -> Vec<[DVec3; 3]> {
     let of_one = |part: &Part| {
         let (corners, polygons) = part.polytope.to_mesh();
         let fan = |polygon: &Vec<usize>| {
-            let [first, second, rest @ ..] = &polygon[..] else { return Vec::new() };
-            let mut last = *second;
-            rest.iter().map(|next| [*first, std::mem::replace(&mut last, *next), *next].map(|k| corners[k])).collect()
+            let triangle = |pair: &[usize]| [polygon[0], pair[0], pair[1]].map(|corner| corners[corner]);
+            polygon[1..].windows(2).map(triangle).collect::<Vec<_>>()
         };
         polygons.iter().flat_map(fan).collect::<Vec<[DVec3; 3]>>()
     };

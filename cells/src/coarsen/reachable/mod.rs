@@ -20,7 +20,7 @@ use planecut_csg::stages::Bounds;
 use planecut_kernel::{DVec3, HalfSpace, IncrementalPolytope};
 
 use super::CoarsenError;
-use super::hull::Hull;
+use super::hull::{Hull, sides_of};
 use super::part::{bounds_of, built};
 use super::probes::unit_planes;
 use super::subtract::shares_interior;
@@ -83,7 +83,7 @@ impl Reachable {
         let planes = unit_planes(&half_spaces);
         let body_about = Body { planes: &planes, bounds: &bounds };
         self.octree.covers(&bounds)
-            && !self.octree.meets(&body_about, &mut |bounds| shares_interior(body, &sides_of(bounds)))
+            && !self.octree.meets(&body_about, &mut |bounds| shares_interior(body, &to_half_spaces(sides_of(bounds))))
     }
 
     /// Whether a trial hull keeps out of all of it by more than rounding.
@@ -92,20 +92,18 @@ impl Reachable {
         let bounds = Bounds { min: hull.bounds.min - margin, max: hull.bounds.max + margin };
         let planes: Vec<(DVec3, f64)> = hull.planes.iter().map(|(normal, offset)| (*normal, offset + margin)).collect();
         let body = Body { planes: &planes, bounds: &bounds };
-        let half_spaces = || planes.iter().filter_map(|(normal, offset)| HalfSpace::new(*normal, *offset).ok());
         self.octree.covers(&bounds)
             && !self.octree.meets(&body, &mut |block| {
                 let middle = block.center();
                 planes.iter().all(|(normal, offset)| normal.dot(middle) < *offset)
-                    || !built(half_spaces().chain(sides_of(block))).is_empty()
+                    || !built(to_half_spaces(planes.iter().copied().chain(sides_of(block)))).is_empty()
             })
     }
 }
 
-/// The half-spaces of a box.
-fn sides_of(bounds: &Bounds) -> Vec<HalfSpace> {
-    let sides = |axis: DVec3| [(axis, axis.dot(bounds.max)), (-axis, -axis.dot(bounds.min))];
-    DVec3::AXES.into_iter().flat_map(sides).filter_map(|(normal, offset)| HalfSpace::new(normal, offset).ok()).collect()
+/// The half-spaces of planes that have some.
+fn to_half_spaces(planes: impl Iterator<Item = (DVec3, f64)>) -> Vec<HalfSpace> {
+    planes.filter_map(|(normal, offset)| HalfSpace::new(normal, offset).ok()).collect()
 }
 
 /// How many voxels the grid has beyond the surface: there all is free at its border.

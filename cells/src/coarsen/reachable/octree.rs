@@ -5,9 +5,6 @@ use planecut_kernel::DVec3;
 
 use super::grid::{Grid, Voxels};
 
-/// Room for the rounding of a distance from a plane, relative to its terms.
-const DISTANCE_BOUND: f64 = 16.0 * f64::EPSILON;
-
 /// A set of voxels, and blocks of them.
 #[derive(Debug, Clone)]
 pub(super) struct Octree {
@@ -97,15 +94,12 @@ impl Octree {
 /// The planes of which it is not sure that they have all of a box inside; false where one is sure to have all of it outside.
 fn crossing(planes: &[(DVec3, f64)], bounds: &Bounds, found: &mut Vec<(DVec3, f64)>) -> bool {
     found.clear();
-    let (middle, half) = (bounds.center(), 0.5 * (bounds.max - bounds.min));
-    let rounding = DISTANCE_BOUND * (middle.abs() + half).element_sum();
     for (normal, offset) in planes {
-        let (distance, reach) = (normal.dot(middle) - offset, normal.abs().dot(half));
-        let reach = reach + rounding + DISTANCE_BOUND * offset.abs();
-        if distance > reach {
+        let (low, high) = bounds.extent_along(*normal, *offset);
+        if low > 0.0 {
             return false;
         }
-        if distance >= -reach {
+        if high >= 0.0 {
             found.push((*normal, *offset));
         }
     }

@@ -10,6 +10,7 @@ use super::flood::flooded;
 use super::grid::{Grid, Voxels};
 use super::octree::{Body, Octree};
 use super::voxelize::touched;
+use crate::coarsen::hull::sides_of;
 use crate::coarsen::probes::spread;
 
 /// Sizes on both sides of those of words.
@@ -125,8 +126,7 @@ fn a_box_meets_voxels_where_it_has_one_in_it() {
             let from: [usize; 3] = std::array::from_fn(|axis| (from[axis] * size[axis] as f64) as usize);
             let to: [usize; 3] = std::array::from_fn(|axis| (from[axis] + 1 + (k + axis) % 5).min(size[axis]));
             let bounds = grid.bounds(from, to);
-            let sides = |axis: DVec3| [(axis, axis.dot(bounds.max)), (-axis, -axis.dot(bounds.min))];
-            let planes: Vec<(DVec3, f64)> = DVec3::AXES.into_iter().flat_map(sides).collect();
+            let planes: Vec<(DVec3, f64)> = sides_of(&bounds).collect();
             let body = Body { planes: &planes, bounds: &bounds };
             let expected = all.iter().any(|place| (0..3).all(|axis| (from[axis]..to[axis]).contains(&place[axis])));
             let shares = |block: &Bounds| block.min.cmplt(bounds.max).all() && bounds.min.cmplt(block.max).all();

@@ -28,6 +28,10 @@ pub(super) struct AxisCut {
 /// The cut in the middle of the longest side of what a box holds; none where that is too short.
 pub(super) fn middle_cut(region: &Region) -> Option<AxisCut> {
     let (low, high) = bounds(region.points().into_iter());
+    middle_of(low, high)
+}
+
+fn middle_of(low: DVec3, high: DVec3) -> Option<AxisCut> {
     let size = high - low;
     let axis = size.max_position();
     let is_long = size[axis] > 8.0 * FACE_OFFSET;
@@ -37,8 +41,8 @@ pub(super) fn middle_cut(region: &Region) -> Option<AxisCut> {
 /// The cut after which the hulls of both parts have the least volume, as far as the farthest points in some directions tell; in the middle of
 /// the longest side where none is better.
 pub(super) fn best_cut(region: &Region, inside: &impl Inside) -> Option<AxisCut> {
-    let middle = middle_cut(region)?;
     let (low, high) = bounds(region.points().into_iter());
+    let middle = middle_of(low, high)?;
     let size = high - low;
     let looked_at = sample(&region.polygons);
     let whole = Extremes::of(looked_at.corners().iter().copied().chain(region.inner_corners())).volume();
