@@ -18,6 +18,7 @@
 //! | [`import`] | readers of the native [model file](import::model), of OpenSCAD's evaluated trees ([`scad`](import::scad)), of Quake-family [`map`](import::map)s, and of [`mesh`](import::mesh) files: OBJ, STL, PLY and glTF |
 //! | [`export`] | [`encode`](export::encode) a mesh as GLB, glTF, OBJ, STL, 3MF or PLY |
 //! | `picture` | pictures of meshes and cells (feature `picture`, on unless turned off) |
+//! | `cli` | the `planecut` program, for others that carry it (feature `cli`, on unless turned off) |
 //!
 //! Features off unless turned on: `serde` (planes, polytopes, models and meshes as data), `mint` (its vectors as arguments).
 //!
@@ -112,8 +113,14 @@ pub mod export {
     #[doc(no_inline)]
     pub use crate::picture::*;
 }
+#[cfg(feature = "cli")]
+pub mod cli;
 #[cfg(feature = "picture")]
 pub mod picture;
+
+/// The command line names the crate as other programs do.
+#[cfg(feature = "cli")]
+extern crate self as planecut;
 
 /// The example of the README, run as a test.
 #[cfg(doctest)]

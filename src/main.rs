@@ -1,7 +1,5 @@
-//! The `planecut` program. All of it is in [`cli`].
+//! The `planecut` program. All of it is in [`planecut::cli`].
 #![forbid(unsafe_code)]
-
-mod cli;
 
 use std::process::ExitCode;
 
@@ -10,5 +8,5 @@ use std::process::ExitCode;
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
 fn main() -> ExitCode {
-    cli::run()
+    planecut::cli::run(std::env::args_os()).into()
 }

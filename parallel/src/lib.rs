@@ -13,6 +13,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod job;
 #[cfg(not(feature = "threads"))]
 mod one_thread;
 

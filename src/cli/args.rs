@@ -1,5 +1,6 @@
 //! The arguments of every command. The doc comments here are the help texts.
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 
 use clap::error::ErrorKind;
@@ -352,8 +353,8 @@ pub(crate) fn command() -> clap::Command {
 }
 
 /// The command to run; `None` where help or the version was asked for and printed.
-pub(crate) fn parse() -> Result<Option<Command>, CliError> {
-    match Cli::try_parse() {
+pub(crate) fn parse(arguments: &[OsString]) -> Result<Option<Command>, CliError> {
+    match Cli::try_parse_from(arguments) {
         Ok(cli) => Ok(Some(cli.command)),
         Err(error) if matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) => {
             terminal::print_text(&error.render().to_string())?;

@@ -30,29 +30,31 @@ mod surface;
 mod terminal;
 mod written_cells;
 
+use std::ffi::OsString;
 use std::panic;
-use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use args::Command;
 use error::{CliError, Done, FAILED};
 
-/// Runs the program on the process's arguments and gives its exit status.
-pub(crate) fn run() -> ExitCode {
+/// Runs the program on arguments, the first of which is its own name, and gives its exit status. It speaks on standard output and standard error, and
+/// says there what panics: it is for a process that does nothing else.
+#[must_use]
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     report_panics_in_one_line();
-    let status = match panic::catch_unwind(parse_and_run) {
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    match panic::catch_unwind(|| parse_and_run(&arguments)) {
         Ok(Ok(done)) => done.exit_status(),
         Ok(Err(error)) => {
             terminal::print_error(&error.to_string());
             error.exit_status()
         }
         Err(_) => FAILED,
-    };
-    ExitCode::from(status)
+    }
 }
 
-fn parse_and_run() -> Result<Done, CliError> {
-    let Some(command) = args::parse()? else { return Ok(Done::Complete) };
+fn parse_and_run(arguments: &[OsString]) -> Result<Done, CliError> {
+    let Some(command) = args::parse(arguments)? else { return Ok(Done::Complete) };
     match command {
         Command::Build(args) => return build::run(&args),
         Command::Info(args) => return info::run(&args),
