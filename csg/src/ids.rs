@@ -163,6 +163,19 @@ ids! {
     pub(crate) NameId;
 }
 
+impl From<FaceId> for u32 {
+    /// The bare number, for other programs: [`FaceId::from`] takes it back.
+    fn from(face: FaceId) -> Self {
+        face.0
+    }
+}
+
+impl From<u32> for FaceId {
+    fn from(number: u32) -> Self {
+        Self(number)
+    }
+}
+
 /// A face of the body of a brush of a live model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) struct OperandFace {

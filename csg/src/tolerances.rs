@@ -65,6 +65,11 @@ pub const NEGLIGIBLE_COMPONENT: f64 = 1e-40;
 /// Decides: which of two triangulations a face gets. Of the topology: nothing.
 pub const DELAUNAY_MARGIN: f64 = 1e-12;
 
+/// A point of a face of a live model is on the brushes that hold it, up to this share of its coordinates and the size of the triangle that it is taken of.
+///
+/// Decides: which brush a face is said to come from. Of the topology: nothing.
+pub const ON_FACE: f64 = 1e-9;
+
 #[cfg(test)]
 mod tests {
     use std::path::Path;

@@ -45,7 +45,7 @@ use planecut_parallel::prelude::*;
 
 pub use lower::lower;
 pub use options::{CoarsenError, CoarsenOptions, DEFAULT_OVERLAP_WEIGHT, LEAST_MAX_FACES, LEAST_MAX_VERTICES, Side};
-pub use surface::{Bounded, Surface};
+pub use surface::{Bounded, Surface, Winding};
 pub use written::{Writing, written_meshes};
 
 use crate::solid::convex_union;

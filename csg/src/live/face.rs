@@ -1,9 +1,13 @@
-//! The faces of a live model, however its boundary is worked out.
+//! The faces of a live model, however its boundary is worked out: what they are, where they come from, and which one a ray meets.
 
-use planecut_kernel::DVec3;
+use planecut_kernel::{DVec3, PlaneIdx};
 
+use super::{BrushId, LiveModel, Operand, Role};
+use crate::base::Bounds;
+use crate::ids::FaceId;
 use crate::mesh::Mesh;
 use crate::model::MaterialId;
+use crate::plane_table::PlaneId;
 use crate::weld::WeldedFace;
 
 /// A planar, connected region of the boundary of a live model, with its triangles.
@@ -34,6 +38,22 @@ impl<'a> LiveFace<'a> {
         }
     }
 
+    /// Its unit outward normal.
+    #[must_use]
+    pub fn normal(&self) -> DVec3 {
+        // of a sliver rounding says little, of the largest triangle the most
+        let cross = |[a, b, c]: [(u32, DVec3); 3]| (b.1 - a.1).cross(c.1 - a.1);
+        let largest = self.triangles().map(cross).max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
+        largest.map_or(DVec3::ZERO, DVec3::normalize_or_zero)
+    }
+
+    fn plane(&self) -> Option<PlaneId> {
+        match self.0 {
+            Kind::Welded(face) => Some(face.plane()),
+            Kind::Evaluated { .. } => None,
+        }
+    }
+
     /// The triangles, counter-clockwise seen from outside: for each corner the number of its vertex, equal for what is one
     /// corner of the solid as long as nothing changes there, and its position. While a brush of the model is a closed mesh,
     /// vertices are numbered again by each edit.
@@ -50,4 +70,62 @@ impl<'a> LiveFace<'a> {
             }
         })
     }
+}
+
+impl LiveModel {
+    /// The brush and its plane on which a face lies; of several the first that faces the same way. `None` where there is no such face, and where a brush of the model
+    /// is a closed mesh.
+    #[must_use]
+    pub fn source_of_face(&self, id: FaceId) -> Option<(BrushId, PlaneIdx)> {
+        let face = self.face(id)?;
+        let plane = face.plane()?;
+        let area = |[a, b, c]: [(u32, DVec3); 3]| (b.1 - a.1).cross(c.1 - a.1).length_squared();
+        let [a, b, c] = face.triangles().max_by(|a, b| area(*a).total_cmp(&area(*b)))?.map(|corner| corner.1);
+        let middle = (a + b + c) / 3.0;
+        let bounds = Bounds { min: a.min(b).min(c), max: a.max(b).max(c) };
+        let source = |operand: &Operand| {
+            let place = operand.uses.iter().position(|used| self.planes.id(*used).index() == plane.index())?;
+            // a face that is subtracted shows its back
+            let is_turned = (self.planes.id(operand.uses[place]) != plane) != (operand.state.role == Role::Subtract);
+            let half_spaces = operand.state.brush.half_spaces();
+            let outside = half_spaces.map(|half| half.signed_distance(middle)).fold(f64::NEG_INFINITY, f64::max);
+            let size = (bounds.max - bounds.min).length() + middle.length();
+            Some((is_turned, outside > crate::tolerances::ON_FACE * size, operand.id, operand.state.planes[place]))
+        };
+        let near = self.places.near(&bounds).map(|number| self.operand(number));
+        near.filter_map(source).min().map(|(_, _, brush, plane)| (brush, plane))
+    }
+
+    /// The first face that the ray `origin + t·direction`, `t ≥ 0`, meets from either side, and the distance from the origin to where it does. `None` where it meets none, the
+    /// direction is zero, or a number is not finite.
+    #[must_use]
+    pub fn pick(&self, origin: DVec3, direction: DVec3) -> Option<(FaceId, f64)> {
+        let direction = direction.try_normalize()?;
+        let meets = |(id, face): (FaceId, LiveFace<'_>)| {
+            let distances = face.triangles().filter_map(|corners| distance_along(origin, direction, corners.map(|c| c.1)));
+            distances.min_by(f64::total_cmp).map(|distance| (id, distance))
+        };
+        self.faces().filter_map(meets).min_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)))
+    }
+}
+
+/// How far a ray goes until it meets a triangle, from either side. Rays through an edge meet one of its triangles at least: signs of the volumes between ray and edges are
+/// the same from both, as they are computed from the same numbers (Woop, Benthin, Wald 2013).
+pub fn distance_along(origin: DVec3, direction: DVec3, corners: [DVec3; 3]) -> Option<f64> {
+    let axis = direction.abs().max_position();
+    let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+    let shear = [direction[u] / direction[axis], direction[v] / direction[axis]];
+    let [a, b, c] = corners.map(|corner| {
+        let p = corner - origin;
+        [p[u] - shear[0] * p[axis], p[v] - shear[1] * p[axis], p[axis] / direction[axis]]
+    });
+    let area = |p: [f64; 3], q: [f64; 3]| p[0] * q[1] - p[1] * q[0];
+    let weights = [area(b, c), area(c, a), area(a, b)];
+    if weights.iter().any(|w| *w < 0.0) && weights.iter().any(|w| *w > 0.0) {
+        return None;
+    }
+    let sum: f64 = weights.iter().sum();
+    let distance = (weights[0] * a[2] + weights[1] * b[2] + weights[2] * c[2]) / sum;
+    // a triangle along the ray has no area seen from there
+    (sum != 0.0 && distance >= 0.0).then_some(distance)
 }

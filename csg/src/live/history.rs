@@ -1,6 +1,6 @@
 //! Undo and redo of edits.
 
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 
 use super::operand::State;
@@ -75,6 +75,46 @@ impl LiveModel {
             Err(_) => self.history.undone.push(step),
         }
         outcome
+    }
+
+    /// Makes one edit of the last `count` ones, for [`undo`](Self::undo) and [`redo`](Self::redo): what a user does as one thing may take several calls. Edits that
+    /// can no longer be undone stay so.
+    ///
+    /// ```
+    /// use planecut_csg::{Brush, LiveModel, Material, MaterialId, Role};
+    /// use planecut_kernel::DVec3;
+    ///
+    /// # fn main() -> Result<(), planecut_csg::EditError> {
+    /// let cube = |at: f64| Brush::cuboid(DVec3::splat(at), DVec3::splat(at + 1.0), MaterialId(0));
+    /// let mut model = LiveModel::new(vec![Material::named("stone")]);
+    /// model.add_brush(cube(0.0), Role::Add)?;
+    /// model.add_brush(cube(2.0), Role::Add)?;
+    /// model.join_edits(2);
+    /// model.undo()?;
+    /// assert_eq!(model.brushes().len(), 0);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn join_edits(&mut self, count: usize) {
+        let done = &mut self.history.done;
+        if count < 2 || done.len() < 2 {
+            return;
+        }
+        let mut brushes: BTreeMap<BrushId, [Option<Arc<State>>; 2]> = BTreeMap::new();
+        for Step { before, after } in done.drain(done.len().saturating_sub(count)..) {
+            for ((id, before), (_, after)) in before.into_iter().zip(after) {
+                brushes.entry(id).and_modify(|states| states[1].clone_from(&after)).or_insert([before, after]);
+            }
+        }
+        // one that came and went again is none
+        brushes.retain(|_, states| states.iter().any(Option::is_some));
+        let (before, after) = brushes.into_iter().map(|(id, [before, after])| ((id, before), (id, after))).unzip();
+        done.push_back(Step { before, after });
+    }
+
+    /// Forgets what was undone: it cannot be redone.
+    pub fn forget_undone(&mut self) {
+        self.history.undone.clear();
     }
 
     /// Maximum number of edits that can be undone, 1,000 unless another number is set: a model that is edited for long does not

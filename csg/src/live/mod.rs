@@ -25,7 +25,7 @@ mod polytopes;
 mod reach;
 
 use crate::ids::number32;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::num::NonZeroU32;
 use std::sync::Arc;
 
@@ -46,7 +46,7 @@ use crate::weld::{LiveWeld, weld};
 use bodies::Marks;
 pub use edit::{Edit, Edited};
 use evaluated::EvaluatedBoundary;
-pub use face::LiveFace;
+pub use face::{LiveFace, distance_along};
 use history::History;
 pub use operand::Role;
 use operand::{Operand, Places, State};
@@ -67,6 +67,28 @@ pub struct Change {
     pub removed: Vec<FaceId>,
     /// Those that are new; their numbers may be those of faces that were removed.
     pub added: Vec<FaceId>,
+}
+
+impl Change {
+    /// This change and one after it as one: faces that came and went again are in neither list.
+    #[must_use]
+    pub fn then(self, next: Self) -> Self {
+        let brushes: BTreeSet<BrushId> = self.brushes.into_iter().chain(next.brushes).collect();
+        let mut removed: BTreeSet<FaceId> = self.removed.into_iter().collect();
+        let mut added: BTreeSet<FaceId> = self.added.into_iter().collect();
+        for face in next.removed {
+            // a number that stands for a face that is not new
+            if !added.remove(&face) {
+                removed.insert(face);
+            }
+        }
+        added.extend(next.added);
+        Self {
+            brushes: brushes.into_iter().collect(),
+            removed: removed.into_iter().collect(),
+            added: added.into_iter().collect(),
+        }
+    }
 }
 
 /// Why an edit was refused; the model is as it was, but after [`EvaluateError::Weld`], a bug in this crate.

@@ -136,7 +136,20 @@ pub fn read_parts(
     name: &str,
     options: &SolidOptions,
 ) -> Result<PartsImport, SolidError> {
-    let (mesh, notes) = prepared(read_mesh(bytes, format, name)?, format, options);
+    parts_of_mesh(read_mesh(bytes, format, name)?, format, name, options)
+}
+
+/// The same for a mesh that was read already.
+///
+/// # Errors
+/// [`SolidError::Surface`] where an object's surface is not closed or encloses nothing.
+pub fn parts_of_mesh(
+    mesh: IndexedMesh,
+    format: MeshFormat,
+    name: &str,
+    options: &SolidOptions,
+) -> Result<PartsImport, SolidError> {
+    let (mesh, notes) = prepared(mesh, format, options);
     let import = import(&mesh, name, ConvexObjects::AsHulls, options.rule, &notes)?;
     let mut used: Vec<u32> = mesh.triangles.iter().flatten().copied().collect();
     used.sort_unstable();

@@ -39,7 +39,7 @@ use inside::{Filled, Shell, Solid};
 use polygons::Polygons;
 use region::{Region, normal};
 use solid_angles::SolidAngles;
-use winding::Winding;
+pub use winding::Winding;
 
 /// The same relative to the largest coordinate.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;

@@ -10,7 +10,7 @@ const MOST_COLUMNS: usize = 512;
 ///
 /// The grid holds the triangles by the columns, along the third axis, that they reach into.
 #[derive(Debug)]
-pub(super) struct Winding<'a> {
+pub struct Winding<'a> {
     positions: &'a [DVec3],
     triangles: &'a [[u32; 3]],
     low: DVec3,
@@ -22,7 +22,9 @@ pub(super) struct Winding<'a> {
 }
 
 impl<'a> Winding<'a> {
-    pub(super) fn new(positions: &'a [DVec3], triangles: &'a [[u32; 3]]) -> Self {
+    /// For all points around a surface: closed, with numbers of vertices that are there.
+    #[must_use]
+    pub fn new(positions: &'a [DVec3], triangles: &'a [[u32; 3]]) -> Self {
         let (low, high) = super::bounds(positions.iter().copied());
         let side = ((triangles.len() as f64).sqrt() as usize).clamp(1, MOST_COLUMNS);
         let size = high - low;
@@ -75,7 +77,8 @@ impl<'a> Winding<'a> {
     }
 
     /// How often the surface goes around a point that does not lie on it.
-    pub(super) fn around(&self, point: DVec3) -> i32 {
+    #[must_use]
+    pub fn around(&self, point: DVec3) -> i32 {
         let [x, y] = self.column(point);
         let column = y * self.columns[0] + x;
         let members = &self.members[self.starts[column] as usize..self.starts[column + 1] as usize];

@@ -9,7 +9,7 @@ use super::{Pieces, State};
 use crate::base::map_chunks;
 use crate::ids::{FaceId, HalfEdgeId, Id, PointId, PointOnLine, RegionId};
 use crate::model::MaterialId;
-use crate::plane_table::PlaneTable;
+use crate::plane_table::{PlaneId, PlaneTable};
 use crate::weld::cancel::HalfEdge;
 use crate::weld::nest::{self, Nester, Projection};
 use crate::weld::triangulate::{Triangles, Triangulator, WeldPoints};
@@ -32,6 +32,11 @@ impl<'a> WeldedFace<'a> {
     /// What it is made of.
     pub(crate) fn material(&self) -> MaterialId {
         self.numbers.material(self.face.region)
+    }
+
+    /// Its plane, directed out of the solid.
+    pub(crate) fn plane(&self) -> PlaneId {
+        self.numbers.planes[self.face.region.index()]
     }
 
     pub(crate) fn triangle_count(&self) -> usize {

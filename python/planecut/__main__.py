@@ -1,0 +1,5 @@
+"""`python -m planecut` is the command `planecut`."""
+
+from ._command import main
+
+main()

@@ -1,0 +1,244 @@
+//! What a solid is made of: operations on solids that share their parts, until somebody asks for a mesh.
+
+use std::collections::HashMap;
+use std::mem;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use planecut::csg::{Brush, Evaluation, Material, MaterialId, Model, Operation, Transform, Tree, evaluate};
+
+use crate::errors::{Failure, Outcome};
+use crate::surface::Surface;
+
+/// Most convex bodies and meshes of a solid, each counted as often as it is used.
+const MAX_PIECES: u64 = planecut::import::model::MAX_BRUSHES as u64;
+/// Solids of fewer planes than this, and of no mesh, are evaluated in a few milliseconds.
+const FEW_PLANES: u64 = 1500;
+
+/// A solid that nothing changes any more.
+#[derive(Debug)]
+pub(crate) struct Node {
+    kind: Kind,
+    /// How many bodies it has, each as often as it is used.
+    pieces: u64,
+    planes: u64,
+    has_meshes: bool,
+    evaluated: Mutex<Option<Arc<Evaluated>>>,
+}
+
+#[derive(Debug)]
+enum Kind {
+    Model(Model),
+    Operation(Operation, Vec<Arc<Node>>),
+    Moved(Arc<Node>, Transform),
+    OfMaterial(Arc<Node>, Material),
+}
+
+/// The boundary of a solid, and what is known of it.
+#[derive(Debug)]
+pub(crate) struct Evaluated {
+    pub(crate) evaluation: Evaluation,
+    surface: Mutex<Option<Arc<Surface>>>,
+}
+
+impl Evaluated {
+    /// The boundary ready for rays.
+    pub(crate) fn surface(&self) -> Arc<Surface> {
+        let known = lock(&self.surface).clone();
+        known.unwrap_or_else(|| {
+            let surface = Arc::new(Surface::new(&self.evaluation.mesh));
+            Arc::clone(lock(&self.surface).insert(surface))
+        })
+    }
+}
+
+/// What a mutex holds. A panic while it was locked cannot have left it half-done: only whole values are put in.
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl Node {
+    fn new(kind: Kind) -> Arc<Self> {
+        let (pieces, planes, has_meshes) = match &kind {
+            Kind::Model(model) => {
+                let brushes = model.tree.brushes();
+                let planes = brushes.iter().map(|brush| brush.faces.len() as u64).sum();
+                (brushes.len() as u64, planes, model.tree.has_meshes())
+            }
+            Kind::Operation(_, operands) => operands.iter().fold((0, 0, false), |(pieces, planes, has_meshes): (u64, u64, bool), node| {
+                (pieces.saturating_add(node.pieces), planes.saturating_add(node.planes), has_meshes || node.has_meshes)
+            }),
+            Kind::Moved(node, _) | Kind::OfMaterial(node, _) => (node.pieces, node.planes, node.has_meshes),
+        };
+        Arc::new(Self { kind, pieces, planes, has_meshes, evaluated: Mutex::new(None) })
+    }
+
+    /// A tree with its materials.
+    pub(crate) fn of_model(model: Model) -> Arc<Self> {
+        Self::new(Kind::Model(model))
+    }
+
+    /// A tree all of one material.
+    pub(crate) fn of_tree(tree: impl Into<Tree>, material: Material) -> Arc<Self> {
+        Self::of_model(Model { materials: vec![material], tree: tree.into() })
+    }
+
+    /// An operation on others.
+    pub(crate) fn operation(operation: Operation, operands: Vec<Arc<Self>>) -> Arc<Self> {
+        Self::new(Kind::Operation(operation, operands))
+    }
+
+    /// The same moved by an affine map.
+    pub(crate) fn moved(self: &Arc<Self>, transform: &Transform) -> Outcome<Arc<Self>> {
+        // one after another is one: a long chain of moves is no deep tree
+        if let Kind::Moved(node, first) = &self.kind {
+            let both = first.then(transform).map_err(Failure::of)?;
+            return Ok(Self::new(Kind::Moved(Arc::clone(node), both)));
+        }
+        Ok(Self::new(Kind::Moved(Arc::clone(self), *transform)))
+    }
+
+    /// The same, all of one material.
+    pub(crate) fn of_material(self: &Arc<Self>, material: Material) -> Arc<Self> {
+        Self::new(Kind::OfMaterial(Arc::clone(self), material))
+    }
+
+    /// How many convex bodies and meshes it has, each as often as it is used.
+    pub(crate) fn pieces(&self) -> u64 {
+        self.pieces
+    }
+
+    /// Whether a part is a closed mesh.
+    pub(crate) fn has_meshes(&self) -> bool {
+        self.has_meshes
+    }
+
+    /// Whether it is evaluated in far less time than anybody waits.
+    pub(crate) fn is_small(&self) -> bool {
+        self.planes < FEW_PLANES && !self.has_meshes
+    }
+
+    /// The boundary, where it is known.
+    pub(crate) fn known(&self) -> Option<Arc<Evaluated>> {
+        lock(&self.evaluated).clone()
+    }
+
+    /// The boundary. Of threads that ask for it at the same time each may work it out; nobody waits for another.
+    pub(crate) fn evaluated(&self) -> Outcome<Arc<Evaluated>> {
+        if let Some(known) = self.known() {
+            return Ok(known);
+        }
+        let evaluation = evaluate(&self.model()?)?;
+        let evaluated = Arc::new(Evaluated { evaluation, surface: Mutex::new(None) });
+        Ok(Arc::clone(lock(&self.evaluated).get_or_insert(evaluated)))
+    }
+
+    /// All of it as one tree, with the materials that it uses.
+    pub(crate) fn model(&self) -> Outcome<Model> {
+        if self.pieces > MAX_PIECES {
+            let found = self.pieces;
+            return Err(Failure::of(format!(
+                "found a solid of {found} convex bodies, each counted as often as it is used, expected at most {MAX_PIECES}"
+            )));
+        }
+        let mut materials = Materials::default();
+        let mut values: Vec<Tree> = Vec::new();
+        let mut steps = vec![Step::Enter(self, None, None)];
+        while let Some(step) = steps.pop() {
+            match step {
+                Step::Enter(node, transform, material) => match &node.kind {
+                    Kind::Model(model) => values.push(leaf(model, transform.as_ref(), material, &mut materials)?),
+                    Kind::Operation(operation, operands) => {
+                        steps.push(Step::Combine(*operation, operands.len()));
+                        steps.extend(operands.iter().rev().map(|node| Step::Enter(node, transform, material)));
+                    }
+                    Kind::Moved(node, own) => {
+                        let both = transform.map_or(Ok(*own), |outer| own.then(&outer)).map_err(Failure::of)?;
+                        steps.push(Step::Enter(node, Some(both), material));
+                    }
+                    Kind::OfMaterial(node, own) => steps.push(Step::Enter(node, transform, material.or(Some(own)))),
+                },
+                Step::Combine(Operation::Complement, _) => {
+                    let tree = values.pop().unwrap_or_default();
+                    values.push(tree.complement());
+                }
+                Step::Combine(operation, count) => {
+                    let operands = values.split_off(values.len() - count);
+                    values.push(Tree::combine(operation, operands));
+                }
+            }
+        }
+        let tree = values.pop().unwrap_or_default();
+        Ok(Model { materials: materials.list, tree })
+    }
+}
+
+/// Deep trees are taken apart without deep calls.
+impl Drop for Node {
+    fn drop(&mut self) {
+        let mut waiting = operands(&mut self.kind);
+        while let Some(node) = waiting.pop() {
+            if let Some(mut node) = Arc::into_inner(node) {
+                waiting.append(&mut operands(&mut node.kind));
+            }
+        }
+    }
+}
+
+fn operands(kind: &mut Kind) -> Vec<Arc<Node>> {
+    match mem::replace(kind, Kind::Operation(Operation::Union, Vec::new())) {
+        Kind::Model(_) => Vec::new(),
+        Kind::Operation(_, operands) => operands,
+        Kind::Moved(node, _) | Kind::OfMaterial(node, _) => vec![node],
+    }
+}
+
+/// What is left to be done on the way to a tree.
+enum Step<'a> {
+    /// A node, how it is moved, and the material that it gets.
+    Enter(&'a Node, Option<Transform>, Option<&'a Material>),
+    /// The last trees are combined.
+    Combine(Operation, usize),
+}
+
+fn leaf(
+    model: &Model,
+    transform: Option<&Transform>,
+    material: Option<&Material>,
+    materials: &mut Materials,
+) -> Outcome<Tree> {
+    let mut tree = model.tree.clone().without_source_lines();
+    if let Some(transform) = transform {
+        tree = tree.transformed(transform).map_err(Failure::of)?;
+    }
+    if let Some(material) = material {
+        let number = materials.number(material);
+        return Ok(tree.with_material(number));
+    }
+    let numbers: Vec<MaterialId> = model.materials.iter().map(|material| materials.number(material)).collect();
+    for own in tree.brushes_mut().iter_mut().flat_map(Brush::materials_mut) {
+        let number = numbers.get(own.0 as usize).copied();
+        *own = number.ok_or_else(|| Failure::bug(format!("found material number {} of {}", own.0, numbers.len())))?;
+    }
+    Ok(tree)
+}
+
+/// Different materials, numbered as they come.
+#[derive(Default)]
+struct Materials {
+    list: Vec<Material>,
+    by_name: HashMap<String, Vec<MaterialId>>,
+}
+
+impl Materials {
+    fn number(&mut self, material: &Material) -> MaterialId {
+        let known = self.by_name.get(&material.name);
+        let same = known.and_then(|known| known.iter().find(|number| self.list[number.0 as usize] == *material));
+        if let Some(number) = same {
+            return *number;
+        }
+        let number = MaterialId(self.list.len() as u32);
+        self.list.push(material.clone());
+        self.by_name.entry(material.name.clone()).or_default().push(number);
+        number
+    }
+}

@@ -1,0 +1,318 @@
+//! Solids and meshes from files, and into files.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use planecut::cells::convex_union;
+use planecut::csg::polyhedron::convex_tree;
+use planecut::csg::{Mesh, Model, Tree};
+use planecut::export::{BrushFormat, ExportOptions, Format, encode, write_atomic, write_brushes};
+use planecut::import::file::{MAX_MESH, read_file};
+use planecut::import::map::{MapOptions, read_map};
+use planecut::import::mesh::{IndexedMesh, MeshFormat, MeshObject, Precision, SolidError, SolidOptions, WindingRule, read_solid, solid_of_mesh};
+use planecut::import::model::{MAX_TEXT, ModelError, ModelOptions, read_model};
+use planecut::import::scad::{ScadOptions, read_scad};
+use planecut::import::{DEFAULT_MAX_PIECES, Warning};
+use pyo3::exceptions::PyUserWarning;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::errors::{Failure, Outcome, refuse};
+use crate::expression::Node;
+use crate::job::Job;
+use crate::mesh::Given;
+use crate::solid::Solid;
+
+/// Keyword arguments as JSON.
+pub(crate) fn text_of(py: Python<'_>, options: Option<&Bound<'_, PyDict>>) -> PyResult<String> {
+    match options {
+        None => Ok("{}".to_owned()),
+        Some(options) => py.import("json")?.call_method1("dumps", (options,))?.extract(),
+    }
+}
+
+fn export_options(text: &str) -> Outcome<ExportOptions> {
+    serde_json::from_str(text).map_err(|error| Failure::of(format!("options: {error}")))
+}
+
+/// A failure of a file.
+fn at(path: &Path, error: impl std::fmt::Display) -> Failure {
+    let path = path.display().to_string();
+    Failure { message: format!("{path}: {error}"), path: Some(path), ..Failure::default() }
+}
+
+/// Writes a mesh.
+pub(crate) fn save_mesh(mesh: &Mesh, path: &Path, options: &str) -> Outcome<()> {
+    let format = Format::from_path(path).map_err(|error| at(path, error))?;
+    let bytes = encode(mesh, format, &export_options(options)?).map_err(|error| at(path, error))?;
+    write_atomic(path, &bytes).map_err(|error| at(path, error))
+}
+
+/// Writes the boundary of a solid, or its convex bodies.
+pub(crate) fn save_solid(node: &Arc<Node>, path: &Path, options: &str) -> Outcome<()> {
+    let Ok(format) = BrushFormat::from_path(path) else {
+        // a name that no format has is refused before any work
+        Format::from_path(path).map_err(|error| at(path, error))?;
+        return save_mesh(&node.evaluated()?.evaluation.mesh, path, options);
+    };
+    let options = export_options(options)?;
+    if (ExportOptions { scale: 1.0, ..options.clone() }) != ExportOptions::default() {
+        return Err(at(path, "found options for meshes, expected scale alone"));
+    }
+    // an unbounded solid has no file
+    node.evaluated()?;
+    let model = node.model()?;
+    let tree = convex_tree(&model.tree).map_err(|error| at(path, error))?;
+    let mut text = Vec::new();
+    write_brushes(&convex_union(&tree), &model.materials, format, options.scale, &mut text).map_err(|error| at(path, error))?;
+    write_atomic(path, &text).map_err(|error| at(path, error))
+}
+
+/// Says what was noticed, by Python's warnings; what is lost is an error unless that is allowed.
+fn warn(py: Python<'_>, name: &str, warnings: &[Warning], allow_loss: bool) -> PyResult<()> {
+    if let Some(lost) = warnings.iter().find(|warning| warning.left_out > 0 && !allow_loss) {
+        let line = (lost.line > 0).then_some(lost.line as usize);
+        let at = line.map_or_else(String::new, |line| format!(":{line}"));
+        let message = format!("{name}{at}: {} (allow_loss=True goes on without it)", lost.message);
+        return Err(Failure { message, path: Some(name.to_owned()), line, ..Failure::default() }.into());
+    }
+    for warning in warnings {
+        let at = if warning.line > 0 { format!(":{}", warning.line) } else { String::new() };
+        let text = std::ffi::CString::new(format!("{name}{at}: {}", warning.message).replace('\0', " "))?;
+        PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 1)?;
+    }
+    Ok(())
+}
+
+/// Reads a solid from a file.
+///
+/// Args:
+///     path: A model file (.json), a Quake-family map (.map), an evaluated tree of OpenSCAD (.csg), or a closed mesh (.obj, .stl, .ply, .glb, .gltf).
+///     allow_loss: Whether solids that the file states and that cannot be made are left out, with a warning, instead of being an error.
+///     winding: What of a mesh that crosses itself is inside: "positive", "nonzero" or "odd" winding numbers.
+///     close: Vertices of a mesh that differ by no more than this in each coordinate are joined.
+///     parameters: Values for parameters of a model file, by name.
+///
+/// Returns:
+///     A Solid. What was repaired or is doubtful is told by `warnings.warn`.
+#[pyfunction]
+#[pyo3(signature = (path, *, allow_loss=false, winding="positive", close=0.0, **parameters))]
+fn load(
+    py: Python<'_>,
+    path: PathBuf,
+    allow_loss: bool,
+    winding: &str,
+    close: f64,
+    parameters: Option<&Bound<'_, PyDict>>,
+) -> PyResult<Solid> {
+    let mut values: Vec<(String, f64)> = Vec::new();
+    for (name, value) in parameters.into_iter().flatten() {
+        let name: String = name.extract()?;
+        let value: f64 = value.extract().map_err(|_| refuse(format!("{name}: found what is no number, expected one")))?;
+        values.push((name, value));
+    }
+    let options = SolidOptions { rule: winding_of(winding)?, close: not_negative("close", close)?, textures: false };
+    let name = path.display().to_string();
+    let (model, warnings) = Job::default().run(py, move || read(&path, values, &options))?;
+    warn(py, &name, &warnings, allow_loss)?;
+    Ok(Solid::of(Node::of_model(model)))
+}
+
+pub(crate) fn winding_of(name: &str) -> PyResult<WindingRule> {
+    match name {
+        "positive" => Ok(WindingRule::Positive),
+        "nonzero" => Ok(WindingRule::NonZero),
+        "odd" => Ok(WindingRule::Odd),
+        found => Err(refuse(format!("winding: found {found:?}, expected \"positive\", \"nonzero\" or \"odd\""))),
+    }
+}
+
+fn not_negative(name: &str, value: f64) -> PyResult<f64> {
+    let is_fine = value.is_finite() && value >= 0.0;
+    if is_fine { Ok(value) } else { Err(refuse(format!("{name}: found {value}, expected a number that is not negative"))) }
+}
+
+fn read(path: &Path, parameters: Vec<(String, f64)>, options: &SolidOptions) -> Outcome<(Model, Vec<Warning>)> {
+    let name = path.display().to_string();
+    let ending = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+    let mesh_format = MeshFormat::from_extension(&ending);
+    let is_text = matches!(ending.as_str(), "json" | "map" | "csg");
+    if !is_text && mesh_format.is_none() {
+        return Err(at(path, "found a file of another kind, expected .json, .map, .csg, .obj, .stl, .ply, .glb or .gltf"));
+    }
+    if !parameters.is_empty() && ending != "json" {
+        return Err(at(path, "found parameters for a file that has none, expected a model file (.json)"));
+    }
+    let bytes = read_file(path, if is_text { MAX_TEXT as u64 } else { MAX_MESH }).map_err(|error| at(path, error))?;
+    let folder = path.parent().map(Path::to_owned).unwrap_or_default();
+    let refused = |error: &dyn std::fmt::Display, line: Option<usize>| Failure {
+        message: error.to_string(),
+        path: Some(name.clone()),
+        line,
+        ..Failure::default()
+    };
+    if let Some(format) = mesh_format {
+        let import = read_solid(&bytes, format, &name, options).map_err(|error| refused(&error, line_of(&error)))?;
+        return Ok((import.model, import.warnings));
+    }
+    match ending.as_str() {
+        "json" => {
+            let options = ModelOptions { parameters, folder, ..ModelOptions::default() };
+            let failed = |error: ModelError| Failure {
+                json_path: error.path().map(str::to_owned),
+                ..refused(&error, error.line().map(|line| line as usize))
+            };
+            let import = read_model(&bytes, &name, &options).map_err(failed)?;
+            Ok((import.model, import.warnings))
+        }
+        "map" => {
+            let import = read_map(&bytes, &name, &MapOptions::default()).map_err(|error| refused(&error, None))?;
+            let (model, mut warnings) = (import.model, import.warnings);
+            let model = without_unbounded(model, &mut warnings);
+            Ok((model, warnings))
+        }
+        _ => {
+            let options = ScadOptions { folder, max_pieces: DEFAULT_MAX_PIECES, ..ScadOptions::default() };
+            let import = read_scad(&bytes, &name, &options).map_err(|error| refused(&error, None))?;
+            Ok((import.model, import.warnings))
+        }
+    }
+}
+
+/// A map without brushes that are not bounded: nobody means half of space there, the brush lacks a face.
+fn without_unbounded(model: Model, warnings: &mut Vec<Warning>) -> Model {
+    let unbounded = planecut::csg::summarize(&model).unbounded;
+    if unbounded.is_empty() {
+        return model;
+    }
+    let line = unbounded.first().and_then(|brush| model.tree.source_line(*brush)).map_or(0, std::num::NonZeroU32::get);
+    let count = unbounded.len();
+    warnings.push(Warning::loss(line, format!("left out {count} brushes that are not bounded, the first of them here"), count));
+    let brushes = model.tree.into_brushes().into_iter().enumerate();
+    let kept = brushes.filter(|(number, _)| unbounded.binary_search(number).is_err()).map(|(_, brush)| brush);
+    Model { materials: model.materials, tree: Tree::union_of(kept.collect()) }
+}
+
+fn line_of(error: &SolidError) -> Option<usize> {
+    use planecut::import::mesh::Place;
+    let place = match error {
+        SolidError::Mesh(error) => &error.place,
+        SolidError::Surface { place, .. } => place,
+        _ => return None,
+    };
+    match place {
+        Place::Line(line) => usize::try_from(*line).ok(),
+        _ => None,
+    }
+}
+
+/// Triangles that somebody gives, as a reader of files gives them.
+pub(crate) fn indexed(given: Given) -> IndexedMesh {
+    let Given { positions, triangles, materials, material_ids } = given;
+    let material_of = if material_ids.is_empty() {
+        vec![Some(0); triangles.len()]
+    } else {
+        material_ids.into_iter().map(Some).collect()
+    };
+    let precision = Precision::of_coordinates(&positions);
+    let objects = vec![MeshObject { name: None, triangles: 0..triangles.len() }];
+    let (colors, textures, places) = (Vec::new(), Vec::new(), Vec::new());
+    IndexedMesh { positions, triangles, objects, precision, materials, material_of, colors, textures, places }
+}
+
+/// What is wrong with triangles that somebody gives, without the name of a file.
+pub(crate) fn surface_failure(error: &SolidError) -> Failure {
+    match error {
+        SolidError::Surface { source, .. } => Failure::of(source),
+        other => Failure::of(other),
+    }
+}
+
+/// The solid that a closed mesh bounds.
+///
+/// A mesh that is a convex body becomes one; any other is a part of the solid as it stands, exactly and without being cut: it may cross itself, lie upon itself and be nested in itself. Vertices at one
+/// place are joined where the mesh is not closed otherwise. The arrays are copied.
+///
+/// Args:
+///     vertices: Shape (n, 3), finite numbers; or shape (n, k) with properties of vertices behind the coordinates, as manifold3d has them; or an object with
+///         `vert_properties` and `tri_verts`, such as `manifold3d.Mesh64`, instead of both arrays.
+///     triangles: Shape (m, 3), numbers of vertices from 0, counter-clockwise seen from outside.
+///     material: The name of what it is made of.
+///     materials: Names of materials, instead of `material`.
+///     material_ids: Shape (m,), the number of each triangle's material among `materials`.
+///     winding: What is inside: points of "positive", "nonzero" or "odd" winding numbers.
+///     close: Vertices that differ by no more than this in each coordinate are joined.
+///     merge_from_vert: Shape (k,), vertices that are the same as those of `merge_to_vert`, as manifold3d has them.
+///     merge_to_vert: Shape (k,).
+///
+/// Returns:
+///     A Solid. PlanecutError says which edge is open, and where, if the mesh is not closed.
+///
+/// >>> import planecut as pc
+/// >>> vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
+/// >>> pc.from_mesh(vertices, [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]).volume
+/// 0.16666666666666666
+#[pyfunction]
+#[pyo3(signature = (vertices, triangles=None, material=None, *, materials=None, material_ids=None, winding="positive", close=0.0, merge_from_vert=None, merge_to_vert=None))]
+#[allow(clippy::too_many_arguments)]
+fn from_mesh(
+    py: Python<'_>,
+    vertices: &Bound<'_, PyAny>,
+    triangles: Option<&Bound<'_, PyAny>>,
+    material: Option<String>,
+    materials: Option<Vec<String>>,
+    material_ids: Option<&Bound<'_, PyAny>>,
+    winding: &str,
+    close: f64,
+    merge_from_vert: Option<&Bound<'_, PyAny>>,
+    merge_to_vert: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Solid> {
+    let options = SolidOptions { rule: winding_of(winding)?, close: not_negative("close", close)?, textures: false };
+    let (vertices, triangles, merges) = match triangles {
+        Some(triangles) => (vertices.clone(), triangles.clone(), [merge_from_vert.cloned(), merge_to_vert.cloned()]),
+        None => {
+            let part = |name: &str| vertices.getattr_opt(name).ok().flatten();
+            let (Some(positions), Some(triangles)) = (part("vert_properties"), part("tri_verts")) else {
+                return Err(refuse("triangles: found none, expected an array of shape (m, 3)"));
+            };
+            (positions, triangles, [part("merge_from_vert"), part("merge_to_vert")])
+        }
+    };
+    let positions = crate::arrays::positions(&vertices, "vertices")?;
+    let mut given = Given::new(&positions, &triangles, material, materials, material_ids)?;
+    if let [Some(from), Some(to)] = merges {
+        let count = given.positions.len();
+        let from = crate::arrays::numbers(&from, "merge_from_vert", None, count)?;
+        let to = crate::arrays::numbers(&to, "merge_to_vert", Some(from.len()), count)?;
+        let mut same: Vec<u32> = (0..count as u32).collect();
+        from.into_iter().zip(to).for_each(|(from, to)| same[from as usize] = to);
+        given.triangles.iter_mut().flatten().for_each(|vertex| *vertex = same[*vertex as usize]);
+    }
+    if given.triangles.is_empty() {
+        return Ok(Solid::of(Node::of_model(Model::default())));
+    }
+    let import = Job::default().run(py, move || {
+        solid_of_mesh(indexed(given), MeshFormat::Obj, "mesh", &options).map_err(|error| surface_failure(&error))
+    })?;
+    warn(py, "mesh", &import.warnings, false)?;
+    Ok(Solid::of(Node::of_model(import.model)))
+}
+
+/// The solid that a `trimesh.Trimesh` bounds, as by `from_mesh`.
+///
+/// Args:
+///     mesh: An object with `vertices` and `faces`.
+///     material: The name of what it is made of.
+#[pyfunction]
+#[pyo3(signature = (mesh, material=None))]
+fn from_trimesh(py: Python<'_>, mesh: &Bound<'_, PyAny>, material: Option<String>) -> PyResult<Solid> {
+    let (vertices, faces) = (mesh.getattr("vertices")?, mesh.getattr("faces")?);
+    from_mesh(py, &vertices, Some(&faces), material, None, None, "positive", 0.0, None, None)
+}
+
+/// Adds the functions to the module.
+pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_function(wrap_pyfunction!(load, module)?)?;
+    module.add_function(wrap_pyfunction!(from_mesh, module)?)?;
+    module.add_function(wrap_pyfunction!(from_trimesh, module)?)
+}

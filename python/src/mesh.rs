@@ -1,0 +1,273 @@
+//! Triangle meshes.
+
+use std::sync::{Arc, OnceLock};
+
+use glam::DVec3;
+use numpy::{PyArray1, PyArray2};
+use planecut::check::{CheckOptions, check_mesh, check_topology};
+use planecut::csg::{Material, MaterialId, Mesh as CoreMesh, MeshFace};
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict};
+
+use crate::arrays::{numbers, points, triangles, view, view_points, view_rows};
+use crate::errors::{Failure, refuse};
+use crate::expression::Evaluated;
+use crate::files::{save_mesh, text_of};
+use crate::job::Job;
+use crate::shapes::material_of;
+
+/// A triangle mesh: the boundary of a solid, or triangles that somebody brings, whatever they bound.
+///
+/// Its arrays are read-only views of memory that the mesh owns; nothing is copied on the way out.
+#[pyclass(frozen, module = "planecut")]
+pub(crate) struct Mesh {
+    data: Data,
+    material_ids: OnceLock<Vec<u32>>,
+}
+
+enum Data {
+    Evaluated(Arc<Evaluated>),
+    Own(Arc<CoreMesh>),
+}
+
+impl Mesh {
+    /// The boundary of a solid.
+    pub(crate) fn of_evaluated(evaluated: Arc<Evaluated>) -> Self {
+        Self { data: Data::Evaluated(evaluated), material_ids: OnceLock::new() }
+    }
+
+    /// A mesh of its own.
+    pub(crate) fn of_core(mesh: CoreMesh) -> Self {
+        Self { data: Data::Own(Arc::new(mesh)), material_ids: OnceLock::new() }
+    }
+
+    pub(crate) fn core(&self) -> &CoreMesh {
+        match &self.data {
+            Data::Evaluated(evaluated) => &evaluated.evaluation.mesh,
+            Data::Own(mesh) => mesh,
+        }
+    }
+
+    /// A handle for work without the interpreter.
+    pub(crate) fn handle(&self) -> Handle {
+        match &self.data {
+            Data::Evaluated(evaluated) => Handle::Evaluated(Arc::clone(evaluated)),
+            Data::Own(mesh) => Handle::Own(Arc::clone(mesh)),
+        }
+    }
+}
+
+/// A mesh without its Python object.
+pub(crate) enum Handle {
+    Evaluated(Arc<Evaluated>),
+    Own(Arc<CoreMesh>),
+}
+
+impl Handle {
+    pub(crate) fn mesh(&self) -> &CoreMesh {
+        match self {
+            Self::Evaluated(evaluated) => &evaluated.evaluation.mesh,
+            Self::Own(mesh) => mesh,
+        }
+    }
+}
+
+/// Triangles with materials that a caller gives.
+pub(crate) struct Given {
+    pub(crate) positions: Vec<DVec3>,
+    pub(crate) triangles: Vec<[u32; 3]>,
+    pub(crate) materials: Vec<Material>,
+    /// Of each triangle; empty where all are of the first one.
+    pub(crate) material_ids: Vec<u32>,
+}
+
+impl Given {
+    pub(crate) fn new(
+        vertices: &Bound<'_, PyAny>,
+        faces: &Bound<'_, PyAny>,
+        material: Option<String>,
+        materials: Option<Vec<String>>,
+        material_ids: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Self> {
+        let positions = points(vertices, "vertices")?;
+        let triangles = triangles(faces, "triangles", positions.len())?;
+        let (materials, material_ids) = match (materials, material_ids) {
+            (None, None) => (vec![material_of(material)], Vec::new()),
+            (Some(names), Some(ids)) if material.is_none() => {
+                let ids = numbers(ids, "material_ids", Some(triangles.len()), names.len())?;
+                (names.into_iter().map(|name| material_of(Some(name))).collect(), ids)
+            }
+            _ => return Err(refuse("expected either material, or both materials and material_ids")),
+        };
+        Ok(Self { positions, triangles, materials, material_ids })
+    }
+
+    fn into_core(self) -> CoreMesh {
+        let Self { positions, triangles, materials, material_ids } = self;
+        let face = |(number, corners): (usize, &[u32; 3])| {
+            let [a, b, c] = corners.map(|corner| positions[corner as usize]);
+            let material = MaterialId(material_ids.get(number).copied().unwrap_or(0));
+            MeshFace { normal: (b - a).cross(c - a).normalize_or_zero(), material }
+        };
+        let faces = triangles.iter().enumerate().map(face).collect();
+        CoreMesh { triangle_faces: (0..triangles.len() as u32).collect(), faces, positions, triangles, materials }
+    }
+}
+
+#[pymethods]
+impl Mesh {
+    /// Triangles of one's own.
+    ///
+    /// Args:
+    ///     vertices: Shape (n, 3), finite numbers; they are copied, as doubles.
+    ///     triangles: Shape (m, 3), numbers of vertices from 0, counter-clockwise seen from outside; they are copied.
+    ///     material: The name of what all are made of.
+    ///     materials: Names of materials, instead of `material`.
+    ///     material_ids: Shape (m,), the number of each triangle's material among `materials`.
+    #[new]
+    #[pyo3(signature = (vertices, triangles, material=None, *, materials=None, material_ids=None))]
+    fn new(
+        vertices: &Bound<'_, PyAny>,
+        triangles: &Bound<'_, PyAny>,
+        material: Option<String>,
+        materials: Option<Vec<String>>,
+        material_ids: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Self> {
+        Ok(Self::of_core(Given::new(vertices, triangles, material, materials, material_ids)?.into_core()))
+    }
+
+    /// The places of vertices, shape (n, 3), float64.
+    #[getter]
+    fn vertices<'py>(slf: &Bound<'py, Self>) -> Bound<'py, PyArray2<f64>> {
+        view_points(slf.as_any(), &slf.get().core().positions)
+    }
+
+    /// The numbers of the vertices of each triangle, shape (m, 3), uint32, counter-clockwise seen from outside.
+    #[getter]
+    fn triangles<'py>(slf: &Bound<'py, Self>) -> Bound<'py, PyArray2<u32>> {
+        view_rows(slf.as_any(), &slf.get().core().triangles)
+    }
+
+    /// The number of the face that each triangle belongs to, shape (m,), uint32: faces are planar, connected and of one material.
+    #[getter]
+    fn face_ids<'py>(slf: &Bound<'py, Self>) -> Bound<'py, PyArray1<u32>> {
+        view(slf.as_any(), &slf.get().core().triangle_faces)
+    }
+
+    /// The unit outward normals of the faces, shape (f, 3).
+    #[getter]
+    fn face_normals<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let normals: Vec<[f64; 3]> = self.core().faces.iter().map(|face| face.normal.to_array()).collect();
+        crate::arrays::small_rows(py, &normals)
+    }
+
+    /// The names of the materials.
+    #[getter]
+    fn materials(&self) -> Vec<&str> {
+        self.core().materials.iter().map(|material| material.name.as_str()).collect()
+    }
+
+    /// The number of each triangle's material among `materials`, shape (m,), uint32.
+    #[getter]
+    fn material_ids<'py>(slf: &Bound<'py, Self>) -> Bound<'py, PyArray1<u32>> {
+        let mesh = slf.get().core();
+        let of_triangle = |face: &u32| mesh.faces[*face as usize].material.0;
+        let ids = slf.get().material_ids.get_or_init(|| mesh.triangle_faces.iter().map(of_triangle).collect());
+        view(slf.as_any(), ids)
+    }
+
+    /// Whether every edge is used once in each direction, and the triangles around each vertex form one fan: a closed, oriented 2-manifold.
+    #[getter]
+    fn is_watertight(&self, py: Python<'_>) -> PyResult<bool> {
+        let handle = self.handle();
+        Job::default().run(py, move || Ok(check_topology(&handle.mesh().positions, &handle.mesh().triangles).manifold))
+    }
+
+    /// The signed volume by the divergence theorem: that of the solid, where the mesh bounds one.
+    #[getter]
+    fn volume(&self, py: Python<'_>) -> PyResult<f64> {
+        let handle = self.handle();
+        let volume = move || {
+            let report = check_topology(&handle.mesh().positions, &handle.mesh().triangles);
+            Ok(report.measures.volume)
+        };
+        Job::default().short_if(self.core().triangles.len() < 10_000).run(py, volume)
+    }
+
+    /// What is wrong with the mesh: open edges, edges and vertices that are no manifold, triangles that cross others.
+    ///
+    /// Args:
+    ///     tolerance: Depth up to which crossings count as touching, relative to the size of the mesh.
+    ///
+    /// Returns:
+    ///     A list of texts, empty if the mesh is sound. Of each kind of problem the first is told.
+    #[pyo3(signature = (tolerance=planecut::check::TOLERANCE_F64, *, threads=None))]
+    fn check(&self, py: Python<'_>, tolerance: f64, threads: Option<usize>) -> PyResult<Vec<String>> {
+        if !(tolerance >= 0.0) {
+            return Err(refuse(format!("tolerance: found {tolerance}, expected a number that is not negative")));
+        }
+        let handle = self.handle();
+        let check = move || {
+            let mesh = handle.mesh();
+            let report = check_mesh(&mesh.positions, &mesh.triangles, &CheckOptions { tolerance, crossings: true });
+            let crossing = report.crossings.and_then(|crossings| crossings.first).map(|contact| contact.to_string());
+            Ok(report.topology.first_defect.map(|defect| defect.to_string()).into_iter().chain(crossing).collect())
+        };
+        Job::new(py, threads, None)?.run(py, check)
+    }
+
+    /// Writes the mesh to a file. The file appears when it is complete.
+    ///
+    /// Args:
+    ///     path: Its ending says the format: .glb, .gltf, .obj, .stl, .3mf or .ply.
+    ///     options: Settings of the format by name: `scale`, `unit`, `text`, `quantize`, `meshopt`, `vertex_colors`, … (docs/formats.md).
+    #[pyo3(signature = (path, **options))]
+    fn save(&self, py: Python<'_>, path: std::path::PathBuf, options: Option<&Bound<'_, PyDict>>) -> PyResult<()> {
+        let options = text_of(py, options)?;
+        let handle = self.handle();
+        Job::default().run(py, move || save_mesh(handle.mesh(), &path, &options))
+    }
+
+    /// The mesh as a `trimesh.Trimesh`, with vertices and faces of its own, which may be changed. Needs trimesh.
+    fn to_trimesh(slf: &Bound<'_, Self>) -> PyResult<Py<PyAny>> {
+        let py = slf.py();
+        let arguments = PyDict::new(py);
+        arguments.set_item("vertices", Self::vertices(slf).call_method0("copy")?)?;
+        arguments.set_item("faces", Self::triangles(slf).call_method1("astype", ("int64",))?)?;
+        // where a solid touches itself, vertices at one place are several
+        arguments.set_item("process", false)?;
+        Ok(py.import("trimesh")?.getattr("Trimesh")?.call((), Some(&arguments))?.unbind())
+    }
+
+    fn __repr__(&self) -> String {
+        let mesh = self.core();
+        format!("<planecut.Mesh of {} vertices and {} triangles>", mesh.positions.len(), mesh.triangles.len())
+    }
+
+    fn __copy__(slf: Bound<'_, Self>) -> Bound<'_, Self> {
+        slf
+    }
+
+    fn __deepcopy__<'py>(slf: Bound<'py, Self>, _memo: &Bound<'py, PyAny>) -> Bound<'py, Self> {
+        slf
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
+        let py = slf.py();
+        let bytes = rmp_serde::to_vec_named(slf.get().core()).map_err(Failure::of)?;
+        Ok((py.get_type::<Self>().getattr("_unpickle")?, (PyBytes::new(py, &bytes),)))
+    }
+
+    /// A mesh that was pickled.
+    #[staticmethod]
+    fn _unpickle(data: &[u8]) -> PyResult<Self> {
+        let refused = |what: &str| refuse(format!("found what is no pickled mesh: {what}"));
+        let mesh: CoreMesh = rmp_serde::from_slice(data).map_err(|error| refused(&error.to_string()))?;
+        let (vertices, faces) = (mesh.positions.len() as u32, mesh.faces.len() as u32);
+        let is_sound = mesh.triangles.iter().flatten().all(|vertex| *vertex < vertices)
+            && mesh.triangle_faces.len() == mesh.triangles.len()
+            && mesh.triangle_faces.iter().all(|face| *face < faces)
+            && mesh.faces.iter().all(|face| (face.material.0 as usize) < mesh.materials.len());
+        if is_sound { Ok(Self::of_core(mesh)) } else { Err(refused("a number that stands for nothing")) }
+    }
+}
