@@ -6,9 +6,10 @@ import base64
 import html
 import json
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 if TYPE_CHECKING:
     from ._planecut import Mesh, Solid
@@ -23,7 +24,7 @@ class View:
 
     def __init__(self, subject: Solid | Mesh, size: tuple[int, int] = (640, 480)) -> None:
         """A view of a solid or a mesh; `size` is width and height in pixels."""
-        self._mesh: Mesh = subject if hasattr(subject, "triangles") else subject.mesh()  # type: ignore[assignment,union-attr]
+        self._mesh: Mesh = subject if hasattr(subject, "triangles") else subject.mesh()  # type: ignore[assignment]
         self._size = (int(size[0]), int(size[1]))
 
     def to_html(self) -> str:
@@ -55,11 +56,11 @@ class View:
         Path(path).write_text(self.to_html(), encoding="utf-8")
 
 
-def _packed(array: np.ndarray) -> str:
+def _packed(array: NDArray[Any]) -> str:
     return base64.b64encode(np.ascontiguousarray(array, dtype="<f4").tobytes()).decode("ascii")
 
 
-def _lines(mesh: Mesh, middle: np.ndarray, size: float) -> np.ndarray:
+def _lines(mesh: Mesh, middle: NDArray[np.float64], size: float) -> NDArray[np.float64]:
     """The edges between faces, shape (e, 2, 3)."""
     triangles = mesh.triangles.astype(np.int64)
     if len(triangles) == 0:
@@ -73,4 +74,5 @@ def _lines(mesh: Mesh, middle: np.ndarray, size: float) -> np.ndarray:
     is_pair = np.zeros(len(key), dtype=bool)
     is_pair[:-1] = (key[:-1] == key[1:]).all(axis=1) & (faces[:-1] == faces[1:])
     is_inner = is_pair | np.roll(is_pair, 1)
-    return (mesh.vertices[np.unique(key[~is_inner], axis=0)] - middle) / size
+    lines: NDArray[np.float64] = (mesh.vertices[np.unique(key[~is_inner], axis=0)] - middle) / size
+    return lines

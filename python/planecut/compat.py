@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._planecut import Mesh, coarsen
+from ._planecut import Mesh, PlanecutError, coarsen
 
 __all__ = ["run_coacd"]
 
@@ -41,7 +41,9 @@ def run_coacd(
         names = ", ".join(sorted(ignored))
         warnings.warn(f"planecut ignores settings that are CoACD's alone: {names}", stacklevel=2)
     if triangles is None:
-        vertices, triangles = vertices.vertices, vertices.indices  # type: ignore[union-attr]
+        if not (hasattr(vertices, "vertices") and hasattr(vertices, "indices")):
+            raise PlanecutError(f"vertices: found {type(vertices)}, expected an array, or an object with vertices and indices")
+        vertices, triangles = vertices.vertices, vertices.indices
     mesh = Mesh(vertices, triangles)
     most = max_convex_hull if max_convex_hull > 0 else None
     hulls = None

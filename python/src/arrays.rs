@@ -20,6 +20,10 @@ fn numpy_function<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny
 /// What can be seen as an array, as one.
 fn as_array<'py>(value: &Bound<'py, PyAny>, name: &str) -> PyResult<Bound<'py, PyUntypedArray>> {
     let py = value.py();
+    // what is masked would come back with the numbers below the mask
+    if value.hasattr("mask")? && numpy_function(py, "ma")?.call_method1("is_masked", (value,))?.is_truthy()? {
+        return Err(refuse(format!("{name}: found an array with masked numbers, expected all of them")));
+    }
     let array = numpy_function(py, "asarray")?.call1((value,));
     let array = array.map_err(|error| refuse(format!("{name}: found what is no array: {}", error.value(py))))?;
     Ok(array.cast_into()?)
@@ -41,7 +45,8 @@ fn shape_text(array: &Bound<'_, PyUntypedArray>) -> String {
 fn cast<'py, T: Element>(array: &Bound<'py, PyUntypedArray>, rows: bool) -> PyResult<Bound<'py, PyArray2<T>>> {
     let py = array.py();
     let dtype = numpy::dtype::<T>(py);
-    let array = numpy_function(py, "ascontiguousarray")?.call1((array, dtype))?;
+    // contiguous and aligned; what is so already is not copied here
+    let array = numpy_function(py, "require")?.call1((array, dtype, ("C", "A")))?;
     let array = if rows { array } else { array.call_method1("reshape", ((1, -1),))? };
     Ok(array.cast_into()?)
 }
@@ -107,8 +112,13 @@ pub(crate) fn vector(value: &Bound<'_, PyAny>, name: &str) -> PyResult<DVec3> {
 
 /// How many columns a two-dimensional array has; 0 for others.
 pub(crate) fn columns(value: &Bound<'_, PyAny>, name: &str) -> PyResult<usize> {
+    Ok(shape(value, name)?.1)
+}
+
+/// How many rows and columns a two-dimensional array has; 0 for others.
+pub(crate) fn shape(value: &Bound<'_, PyAny>, name: &str) -> PyResult<(usize, usize)> {
     let array = as_array(value, name)?;
-    Ok(if array.ndim() == 2 { array.shape()[1] } else { 0 })
+    Ok(if array.ndim() == 2 { (array.shape()[0], array.shape()[1]) } else { (0, 0) })
 }
 
 /// Numbers of vertices, of shape (m, 3), each below a count.

@@ -4,17 +4,22 @@ use glam::DVec3;
 use numpy::PyArray2;
 use planecut::cells::Solid as CellSolid;
 use planecut::csg::polyhedron::convex_tree;
-use planecut::csg::{Material, Model};
+use planecut::csg::{Brush, Material, MaterialId, Model, Tree};
 use planecut::kernel::{HalfSpace, IncrementalPolytope};
 use planecut_parallel::job::check;
 use pyo3::prelude::*;
+use pyo3::types::PyBytes;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use crate::arrays::{view_points, view_rows};
-use crate::errors::{Failure, Outcome};
+use crate::errors::{Failure, Outcome, refuse};
+use crate::expression::Node;
+use crate::solid::Solid;
 
 /// A bounded convex body: planes, and the corners and triangles of its boundary.
 #[pyclass(frozen, module = "planecut")]
+#[derive(Clone, Serialize, Deserialize)]
 pub(crate) struct Cell {
     planes: Vec<[f64; 4]>,
     vertices: Vec<DVec3>,
@@ -84,6 +89,29 @@ impl Cell {
         &self.material
     }
 
+    /// The body as a Solid: of its planes, exactly.
+    fn to_solid(&self) -> PyResult<Solid> {
+        let half_spaces: Vec<HalfSpace> =
+            self.planes.iter().map(|plane| HalfSpace::from_array(*plane)).collect::<Result<_, _>>().map_err(Failure::of)?;
+        let brush = Brush::from_half_spaces(half_spaces, MaterialId(0));
+        Ok(Solid::of(Node::of_tree(brush, Material::named(&self.material))))
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
+        let bytes = rmp_serde::to_vec(slf.get()).map_err(Failure::of)?;
+        Ok((slf.get_type().getattr("_unpickle")?, (PyBytes::new(slf.py(), &bytes),)))
+    }
+
+    /// A cell that was pickled.
+    #[staticmethod]
+    fn _unpickle(data: &[u8]) -> PyResult<Self> {
+        let cell: Self =
+            rmp_serde::from_slice(data).map_err(|error| refuse(format!("found what is no pickled cell: {error}")))?;
+        let count = cell.vertices.len() as u32;
+        let is_sound = cell.triangles.iter().flatten().all(|corner| *corner < count);
+        if is_sound { Ok(cell) } else { Err(refuse("found what is no pickled cell: a number of no corner")) }
+    }
+
     fn __repr__(&self) -> String {
         format!("<planecut.Cell of {} planes, volume {}>", self.planes.len(), self.volume)
     }
@@ -105,4 +133,15 @@ pub(crate) fn cells_of(model: Model) -> Outcome<Vec<Cell>> {
         Cell::of_planes(brush.half_spaces().copied(), material.unwrap_or(&default))
     };
     cells.par_iter().map(cell).collect()
+}
+
+/// The connected parts of a model, each the union of disjoint cells.
+pub(crate) fn components_of(model: Model) -> Outcome<Vec<Model>> {
+    let tree = convex_tree(&model.tree).map_err(Failure::of)?;
+    let solid = CellSolid::from_tree(&tree);
+    let part = |part: CellSolid| {
+        let brushes = part.cells().map(|cell| part.brush_of(cell)).collect();
+        Model { materials: model.materials.clone(), tree: Tree::union_of(brushes) }
+    };
+    Ok(solid.connected_components().into_iter().map(part).collect())
 }

@@ -10,29 +10,77 @@ use planecut::cells::coarsen::{
 use planecut::csg::polyhedron::convex_tree;
 use planecut::csg::primitives::hull_of_points;
 use planecut::csg::{Brush, Material, MaterialId, Mesh as CoreMesh, Model, Tree, evaluate};
-use planecut::export::{Engine, Format, Part, encode_parts, write_atomic};
-use planecut::import::mesh::{IndexedMesh, MeshFormat, SolidOptions, parts_of_mesh};
+use numpy::PyArray3;
+use planecut::export::{
+    Collider, Engine, ExportOptions, Format, MassProperties, Part, PhysicsFormat, RigidBody, encode_parts, physics_files,
+    write_atomic,
+};
+use planecut::import::mesh::{MeshFormat, SolidOptions, parts_of_mesh};
 use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PySequence, PyTuple};
+use pyo3::types::{PyBytes, PyDict, PyIterator, PySequence, PyTuple};
+use serde::{Deserialize, Serialize};
 
-use crate::arrays::{columns, points, triangles};
+use crate::arrays::{columns, points, positions, triangles};
 use crate::cells::Cell;
 use crate::errors::{Failure, Outcome, refuse};
 use crate::expression::Node;
-use crate::files::{indexed, surface_failure, text_of};
+use crate::files::{indexed, parts_of_mesh_object, settings, surface_failure, text_of};
 use crate::job::Job;
 use crate::mesh::{Given, Handle, Mesh};
+use crate::picture::{Look, is_picture, pixels};
 use crate::solid::Solid;
 
 /// Few convex cells around a solid, and what they add.
 #[pyclass(frozen, module = "planecut")]
 pub(crate) struct Coarsened {
     cells: Vec<Py<Cell>>,
-    meshes: Arc<Vec<CoreMesh>>,
-    outcome: CoreCoarsened,
+    data: Arc<Data>,
+}
+
+/// All of it without Python's objects.
+#[derive(Serialize, Deserialize)]
+pub(crate) struct Data {
+    cells: Vec<Cell>,
+    /// The cells as their planes say them, and the materials.
+    model: Model,
+    /// The cells as others read them.
+    meshes: Vec<CoreMesh>,
+    /// What was enclosed: its triangles, and whether they bound a solid.
+    visual: CoreMesh,
+    is_closed: bool,
+    volume_in: f64,
+    volume_out: f64,
+    volume_sum_out: f64,
+    clear_tolerance: Option<f64>,
     encloses: bool,
-    bounded: Option<Bounded>,
+    enclosed: Enclosed,
+    max_vertices: Option<usize>,
+}
+
+/// What was enclosed.
+#[derive(Clone, Copy, Serialize, Deserialize)]
+enum Enclosed {
+    Solid,
+    Filled,
+    Shell { thickness: f64 },
+}
+
+impl From<Option<Bounded>> for Enclosed {
+    fn from(bounded: Option<Bounded>) -> Self {
+        match bounded {
+            None | Some(Bounded::Solid) => Self::Solid,
+            Some(Bounded::Filled) => Self::Filled,
+            Some(Bounded::Shell { thickness }) => Self::Shell { thickness },
+        }
+    }
+}
+
+impl Coarsened {
+    fn of(py: Python<'_>, data: Data) -> PyResult<Self> {
+        let cells = data.cells.iter().map(|cell| Py::new(py, cell.clone())).collect::<PyResult<_>>()?;
+        Ok(Self { cells, data: Arc::new(data) })
+    }
 }
 
 #[pymethods]
@@ -46,68 +94,155 @@ impl Coarsened {
     /// The volume that the union of the cells adds, relative to that of the solid; negative for cells within it.
     #[getter]
     fn excess(&self) -> f64 {
-        self.outcome.excess()
+        (self.data.volume_out - self.data.volume_in) / self.data.volume_in
     }
 
     /// The same for the sum of the volumes of the cells: what overlaps counts more than once.
     #[getter]
     fn sum_excess(&self) -> f64 {
-        self.outcome.sum_excess()
+        (self.data.volume_sum_out - self.data.volume_in) / self.data.volume_in
     }
 
     /// Whether the cells hold all of the solid, proven by how they were made; False for cells within it.
     #[getter]
     fn encloses(&self) -> bool {
-        self.encloses
+        self.data.encloses
     }
 
     /// The volume of the solid.
     #[getter]
     fn volume_in(&self) -> f64 {
-        self.outcome.volume_in
+        self.data.volume_in
     }
 
     /// The volume of the union of the cells.
     #[getter]
     fn volume_out(&self) -> f64 {
-        self.outcome.volume_out
+        self.data.volume_out
     }
 
     /// What was enclosed: "solid", "filled" for what an open mesh goes around more than half, or "shell" for triangles of some thickness.
     #[getter]
     fn enclosed(&self) -> &'static str {
-        match self.bounded {
-            None | Some(Bounded::Solid) => "solid",
-            Some(Bounded::Filled) => "filled",
-            Some(Bounded::Shell { .. }) => "shell",
+        match self.data.enclosed {
+            Enclosed::Solid => "solid",
+            Enclosed::Filled => "filled",
+            Enclosed::Shell { .. } => "shell",
         }
     }
 
     /// The thickness of a shell, else None.
     #[getter]
     fn thickness(&self) -> Option<f64> {
-        match self.bounded {
-            Some(Bounded::Shell { thickness }) => Some(thickness),
-            _ => None,
+        match self.data.enclosed {
+            Enclosed::Shell { thickness } => Some(thickness),
+            Enclosed::Solid | Enclosed::Filled => None,
         }
     }
 
     /// Where a radius was to be kept clear: by how much less than it a ball keeps clear, else None.
     #[getter]
     fn clear_tolerance(&self) -> Option<f64> {
-        self.outcome.clear_tolerance
+        self.data.clear_tolerance
     }
 
-    /// Writes each cell as a mesh of its own into one file: .glb, .gltf, .obj, .stl, .3mf or .ply.
+    /// The union of the cells as a Solid.
+    fn to_solid(&self) -> Solid {
+        Solid::of(Node::of_model(self.data.model.clone()))
+    }
+
+    /// Writes the cells to a file: each as a mesh of its own (.glb, .gltf, .obj, .stl, .3mf, .ply), all as the colliders of a rigid body for simulators, with what was enclosed as its visual
+    /// mesh, mass and inertia (.xml of MuJoCo, .urdf, .usda; meshes go to a folder beside it), or as a picture (.png).
+    ///
+    /// Args:
+    ///     path: Its ending says the format.
+    ///     options: Settings of a mesh format by name; for a rigid body `density` in kilograms per cubic metre (1000 unless it is given), and `scale`, the length of a unit in metres; for a
+    ///         picture those of `render`.
     #[pyo3(signature = (path, **options))]
     fn save(&self, py: Python<'_>, path: PathBuf, options: Option<&Bound<'_, PyDict>>) -> PyResult<()> {
         let options = text_of(py, options)?;
-        let meshes = Arc::clone(&self.meshes);
-        Job::default().run(py, move || save(&meshes, &path, &options))
+        let data = Arc::clone(&self.data);
+        Job::default().run(py, move || {
+            if is_picture(&path) {
+                let picture = settings::<Look>(&options)?.picture_of_cells(&data.meshes, 0.0)?;
+                return write_atomic(&path, &picture.to_png().map_err(Failure::of)?).map_err(Failure::of);
+            }
+            match PhysicsFormat::from_extension(&path.extension().unwrap_or_default().to_string_lossy()) {
+                Ok(format) => save_rigid_body(&data, &path, format, &settings(&options)?),
+                Err(_) => save_meshes(&data.meshes, &path, &options),
+            }
+        })
+    }
+
+    /// A picture of the cells, each in a colour of its own, as by `Solid.render`.
+    ///
+    /// Args:
+    ///     spread: How far cells are moved from the middle: 0 leaves them where they are, with 1 they are twice as far away.
+    #[pyo3(
+        signature = (size=(640, 480), style="shaded", *, spread=0.0, azimuth=-62.0, elevation=32.0, camera="perspective", background="light", dimensions=false),
+        text_signature = "($self, size=(640, 480), style='shaded', *, spread=0.0, azimuth=-62.0, elevation=32.0, camera='perspective', background='light', dimensions=False)"
+    )]
+    #[allow(clippy::too_many_arguments)]
+    fn render<'py>(
+        &self,
+        py: Python<'py>,
+        size: (u32, u32),
+        style: &str,
+        spread: f64,
+        azimuth: f64,
+        elevation: f64,
+        camera: &str,
+        background: &str,
+        dimensions: bool,
+    ) -> PyResult<Bound<'py, PyArray3<u8>>> {
+        let look = Look::new(size, style, azimuth, elevation, camera, background, dimensions);
+        if !spread.is_finite() {
+            return Err(refuse(format!("spread: found {spread}, expected a finite number")));
+        }
+        let data = Arc::clone(&self.data);
+        pixels(py, Job::default().run(py, move || look.picture_of_cells(&data.meshes, spread))?)
+    }
+
+    /// A picture as a PNG file, for notebooks.
+    fn _repr_png_<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let data = Arc::clone(&self.data);
+        let png = Job::default().run(py, move || {
+            Look::of_notebook().picture_of_cells(&data.meshes, 0.0)?.to_png().map_err(Failure::of)
+        })?;
+        Ok(PyBytes::new(py, &png))
+    }
+
+    /// A view that can be turned, for notebooks and pages.
+    ///
+    /// Args:
+    ///     size: Width and height in pixels.
+    #[pyo3(signature = (size=(640, 480)), text_signature = "($self, size=(640, 480))")]
+    fn view(slf: &Bound<'_, Self>, size: (u32, u32)) -> PyResult<Py<PyAny>> {
+        Ok(slf.py().import("planecut._view")?.getattr("View")?.call1((slf, size))?.unbind())
     }
 
     fn __len__(&self) -> usize {
         self.cells.len()
+    }
+
+    fn __getitem__<'py>(&self, py: Python<'py>, index: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        self.cells(py)?.into_any().get_item(index)
+    }
+
+    fn __iter__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyIterator>> {
+        self.cells(py)?.into_any().try_iter()
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
+        let bytes = rmp_serde::to_vec_named(&*slf.get().data).map_err(Failure::of)?;
+        Ok((slf.get_type().getattr("_unpickle")?, (PyBytes::new(slf.py(), &bytes),)))
+    }
+
+    /// Cells that were pickled.
+    #[staticmethod]
+    fn _unpickle(py: Python<'_>, data: &[u8]) -> PyResult<Self> {
+        let data = rmp_serde::from_slice(data);
+        Self::of(py, data.map_err(|error| refuse(format!("found what are no pickled cells: {error}")))?)
     }
 
     fn __repr__(&self) -> String {
@@ -115,13 +250,78 @@ impl Coarsened {
     }
 }
 
-fn save(meshes: &[CoreMesh], path: &Path, options: &str) -> Outcome<()> {
-    let options = serde_json::from_str(options).map_err(|error| Failure::of(format!("options: {error}")))?;
-    let names: Vec<String> = (0..meshes.len()).map(|number| format!("cell {number}")).collect();
-    let parts: Vec<Part<'_>> = names.iter().zip(meshes).map(|(name, mesh)| Part::new(name, mesh)).collect();
+fn names_of(meshes: &[CoreMesh]) -> Vec<String> {
+    (0..meshes.len()).map(|number| format!("cell {number}")).collect()
+}
+
+fn save_meshes(meshes: &[CoreMesh], path: &Path, options: &str) -> Outcome<()> {
     let format = Format::from_path(path).map_err(Failure::of)?;
+    let names = names_of(meshes);
+    let parts: Vec<Part<'_>> = names.iter().zip(meshes).map(|(name, mesh)| Part::new(name, mesh)).collect();
+    let options = ExportOptions { convex_colliders: true, ..settings(options)? };
     let bytes = encode_parts(&parts, format, &options).map_err(Failure::of)?;
     write_atomic(path, &bytes).map_err(Failure::of)
+}
+
+/// Settings of a rigid body.
+#[derive(Deserialize)]
+#[serde(default, deny_unknown_fields)]
+struct BodySettings {
+    /// Kilograms for each cubic metre.
+    density: f64,
+    /// Metres for each unit of length.
+    scale: f64,
+}
+
+impl Default for BodySettings {
+    fn default() -> Self {
+        Self { density: 1000.0, scale: 1.0 }
+    }
+}
+
+/// Writes a rigid body: what was enclosed, and the cells in single precision, which hold it all the same.
+fn save_rigid_body(data: &Data, path: &Path, format: PhysicsFormat, body: &BodySettings) -> Outcome<()> {
+    let BodySettings { density, scale } = *body;
+    for (name, value) in [("density", density), ("scale", scale)] {
+        if !(1e-12..=1e12).contains(&value) {
+            return Err(Failure::of(format!("{name}: found {value}, expected a number between 1e-12 and 1e12")));
+        }
+    }
+    let moved = |mesh: &CoreMesh| -> Vec<DVec3> { mesh.positions.iter().map(|position| *position * scale).collect() };
+    let visual = CoreMesh { positions: moved(&data.visual), ..data.visual.clone() };
+    let of_visual = || MassProperties::of_triangles(&visual.positions, &visual.triangles, density);
+    let mass = match data.is_closed.then(of_visual).flatten() {
+        Some(mass) => mass,
+        None => {
+            let union = evaluate(&data.model)?.mesh;
+            let mass = MassProperties::of_triangles(&moved(&union), &union.triangles, density);
+            mass.ok_or_else(|| Failure::of("found cells without mass, expected some"))?
+        }
+    };
+    let stored = |positions: &[DVec3]| positions.iter().map(|position| position.as_vec3().as_dvec3()).collect();
+    let writing = Writing {
+        scale,
+        max_vertices: data.max_vertices.unwrap_or(usize::MAX),
+        encloses: data.encloses,
+        stored: &stored,
+    };
+    let meshes = written_meshes(data.model.tree.brushes(), &data.model.materials, &writing)?;
+    let names = names_of(&meshes);
+    let pairs = names.iter().zip(&meshes).filter(|(_, mesh)| !mesh.triangles.is_empty());
+    let colliders: Vec<Collider<'_>> = pairs.map(|(name, mesh)| Collider::new(name, mesh)).collect();
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let body = RigidBody { name: &stem, visual: &visual, colliders: &colliders, mass };
+    let folder = path.parent().unwrap_or_else(|| Path::new(""));
+    for file in physics_files(&body, format, &stem).map_err(Failure::of)? {
+        let place = if file.path().is_empty() { path.to_owned() } else { folder.join(file.path()) };
+        if let Some(folder) = place.parent().filter(|_| !file.path().is_empty()) {
+            std::fs::create_dir_all(folder).map_err(|error| Failure::of(format!("{}: {error}", folder.display())))?;
+        }
+        let mut bytes = Vec::new();
+        file.write(&mut bytes).map_err(Failure::of)?;
+        write_atomic(&place, &bytes).map_err(Failure::of)?;
+    }
+    Ok(())
 }
 
 /// What is to be enclosed.
@@ -141,6 +341,11 @@ impl Subject {
             return Ok(Self::Mesh(mesh.get().handle()));
         }
         let expected = "a Solid, a Mesh, or a list of hulls: Cell, (vertices, triangles) or vertices of shape (n, 3)";
+        if let Some((vertices, faces)) = parts_of_mesh_object(value)? {
+            let vertices = positions(&vertices, "vertices")?;
+            let mesh = Given::new(&vertices, &faces, None, None, None)?.into_core();
+            return Ok(Self::Mesh(Handle::Own(Arc::new(mesh))));
+        }
         let Ok(list) = value.cast::<PySequence>() else {
             return Err(refuse(format!("found {}, expected {expected}", value.get_type())));
         };
@@ -177,6 +382,9 @@ struct Work {
     materials: Vec<Material>,
     bounded: Option<Bounded>,
     note: Option<String>,
+    /// What was enclosed.
+    visual: CoreMesh,
+    is_closed: bool,
 }
 
 fn work(subject: Subject, taken: Taken, options: &CoarsenOptions) -> Outcome<Work> {
@@ -194,11 +402,10 @@ fn work(subject: Subject, taken: Taken, options: &CoarsenOptions) -> Outcome<Wor
         }
         Subject::Mesh(handle) => {
             let mesh = handle.mesh();
-            let given = given_of(mesh);
             if taken != Taken::Auto {
                 return of_surface(mesh, taken, None, options);
             }
-            match parts_of_mesh(given, MeshFormat::Obj, "mesh", &SolidOptions::default()) {
+            match parts_of_mesh(indexed(Given::of_core(mesh)), MeshFormat::Obj, "mesh", &SolidOptions::default()) {
                 Ok(parts) => {
                     let is_empty = evaluate(&parts.import.model)?.mesh.triangles.is_empty();
                     if is_empty && options.side == Side::Outer {
@@ -215,30 +422,28 @@ fn work(subject: Subject, taken: Taken, options: &CoarsenOptions) -> Outcome<Wor
     }
 }
 
-fn given_of(mesh: &CoreMesh) -> IndexedMesh {
-    let material = |face: &u32| mesh.faces[*face as usize].material.0;
-    indexed(Given {
-        positions: mesh.positions.clone(),
-        triangles: mesh.triangles.clone(),
-        materials: mesh.materials.clone(),
-        material_ids: mesh.triangle_faces.iter().map(material).collect(),
-    })
-}
-
 /// Cells of a tree: of the boundary where a part is a mesh and few cells are wanted, else of its exact convex parts.
 fn of_model(model: Model, points: &[DVec3], options: &CoarsenOptions) -> Outcome<Work> {
+    let visual = evaluate(&model)?.mesh;
     let is_coarse = options.max_cells.is_some() || options.max_excess.is_some();
+    let work = |outcome, visual, bounded| Work {
+        outcome,
+        materials: model.materials.clone(),
+        bounded,
+        note: None,
+        visual,
+        is_closed: true,
+    };
     if model.tree.has_meshes() && is_coarse && options.side == Side::Outer {
-        let evaluation = evaluate(&model)?;
-        let outcome = enclosed(&evaluation.mesh, Bounded::Solid, options)?;
+        let outcome = enclosed(&visual, Bounded::Solid, options)?;
         // pieces of a surface exceed it a little: what they cannot reach, exact cells may
         if options.max_excess.is_none_or(|most| outcome.excess() <= most) {
-            return Ok(Work { outcome, materials: model.materials, bounded: Some(Bounded::Solid), note: None });
+            return Ok(work(outcome, visual, Some(Bounded::Solid)));
         }
     }
     let tree = convex_tree(&model.tree).map_err(Failure::of)?;
     let outcome = Coarsener::new(&tree, points, options)?.coarsened()?;
-    Ok(Work { outcome, materials: model.materials.clone(), bounded: None, note: None })
+    Ok(work(outcome, visual, None))
 }
 
 fn of_surface(mesh: &CoreMesh, taken: Taken, why: Option<String>, options: &CoarsenOptions) -> Outcome<Work> {
@@ -257,7 +462,8 @@ fn of_surface(mesh: &CoreMesh, taken: Taken, why: Option<String>, options: &Coar
         _ => None,
     };
     let outcome = enclosed(mesh, bounded, options)?;
-    Ok(Work { outcome, materials: mesh.materials.clone(), bounded: Some(bounded), note })
+    let (materials, visual) = (mesh.materials.clone(), mesh.clone());
+    Ok(Work { outcome, materials, bounded: Some(bounded), note, visual, is_closed: false })
 }
 
 fn enclosed(mesh: &CoreMesh, bounded: Bounded, options: &CoarsenOptions) -> Outcome<CoreCoarsened> {
@@ -366,15 +572,29 @@ fn coarsen(
         let options = CoarsenOptions { keep_clear: clear.map(clear_tree).transpose()?, ..options };
         let work = work(subject, taken, &options)?;
         let (cells, meshes) = written(&work, max_vertices, !inner)?;
-        Ok((work, cells, meshes))
+        let Work { outcome, materials, bounded, note, visual, is_closed } = work;
+        let data = Data {
+            cells,
+            meshes,
+            visual,
+            is_closed,
+            volume_in: outcome.volume_in,
+            volume_out: outcome.volume_out,
+            volume_sum_out: outcome.volume_sum_out,
+            clear_tolerance: outcome.clear_tolerance,
+            model: Model { materials, tree: Tree::union_of(outcome.cells) },
+            encloses: !inner,
+            enclosed: bounded.into(),
+            max_vertices,
+        };
+        Ok((data, note))
     })?;
-    let (Work { outcome, bounded, note, .. }, cells, meshes) = done;
+    let (data, note) = done;
     if let Some(note) = note {
         let text = std::ffi::CString::new(note)?;
         PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 1)?;
     }
-    let cells = cells.into_iter().map(|cell| Py::new(py, cell)).collect::<PyResult<_>>()?;
-    Ok(Coarsened { cells, meshes: Arc::new(meshes), outcome, encloses: !inner, bounded })
+    Coarsened::of(py, data)
 }
 
 fn engine_of(name: &str) -> PyResult<Engine> {

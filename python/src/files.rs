@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use planecut::cells::convex_union;
 use planecut::csg::polyhedron::convex_tree;
-use planecut::csg::{Mesh, Model, Tree};
+use planecut::csg::{Mesh as CoreMesh, Model, Tree};
 use planecut::export::{BrushFormat, ExportOptions, Format, encode, write_atomic, write_brushes};
 use planecut::import::file::{MAX_MESH, read_file};
 use planecut::import::map::{MapOptions, read_map};
@@ -15,24 +15,38 @@ use planecut::import::scad::{ScadOptions, read_scad};
 use planecut::import::{DEFAULT_MAX_PIECES, Warning};
 use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyFloat};
+use serde::de::DeserializeOwned;
 
 use crate::errors::{Failure, Outcome, refuse};
 use crate::expression::Node;
 use crate::job::Job;
-use crate::mesh::Given;
+use crate::mesh::{Given, Mesh};
 use crate::solid::Solid;
 
 /// Keyword arguments as JSON.
 pub(crate) fn text_of(py: Python<'_>, options: Option<&Bound<'_, PyDict>>) -> PyResult<String> {
     match options {
         None => Ok("{}".to_owned()),
-        Some(options) => py.import("json")?.call_method1("dumps", (options,))?.extract(),
+        Some(options) => {
+            let settings = PyDict::new(py);
+            settings.set_item("allow_nan", false)?;
+            // numbers of NumPy are none of JSON's
+            settings.set_item("default", py.get_type::<PyFloat>())?;
+            let text = py.import("json")?.call_method("dumps", (options,), Some(&settings));
+            text.map_err(|error| refuse(format!("options: {}", error.value(py))))?.extract()
+        }
     }
 }
 
-fn export_options(text: &str) -> Outcome<ExportOptions> {
-    serde_json::from_str(text).map_err(|error| Failure::of(format!("options: {error}")))
+/// Settings that were given by name.
+pub(crate) fn settings<T: DeserializeOwned>(text: &str) -> Outcome<T> {
+    serde_json::from_str(text).map_err(|error| {
+        // the place in a text that nobody wrote says nothing
+        let message = error.to_string();
+        let message = message.split(" at line ").next().unwrap_or_default();
+        Failure::of(format!("options: {message}"))
+    })
 }
 
 /// A failure of a file.
@@ -42,10 +56,15 @@ fn at(path: &Path, error: impl std::fmt::Display) -> Failure {
 }
 
 /// Writes a mesh.
-pub(crate) fn save_mesh(mesh: &Mesh, path: &Path, options: &str) -> Outcome<()> {
+pub(crate) fn save_mesh(mesh: &CoreMesh, path: &Path, options: &str) -> Outcome<()> {
     let format = Format::from_path(path).map_err(|error| at(path, error))?;
-    let bytes = encode(mesh, format, &export_options(options)?).map_err(|error| at(path, error))?;
-    write_atomic(path, &bytes).map_err(|error| at(path, error))
+    let bytes = encode(mesh, format, &settings(options)?).map_err(|error| at(path, error))?;
+    write_atomic(path, &bytes).map_err(|error| said(path, error))
+}
+
+/// A failure that names the file itself.
+fn said(path: &Path, error: impl std::fmt::Display) -> Failure {
+    Failure { message: error.to_string(), ..at(path, "") }
 }
 
 /// Writes the boundary of a solid, or its convex bodies.
@@ -55,7 +74,7 @@ pub(crate) fn save_solid(node: &Arc<Node>, path: &Path, options: &str) -> Outcom
         Format::from_path(path).map_err(|error| at(path, error))?;
         return save_mesh(&node.evaluated()?.evaluation.mesh, path, options);
     };
-    let options = export_options(options)?;
+    let options: ExportOptions = settings(options)?;
     if (ExportOptions { scale: 1.0, ..options.clone() }) != ExportOptions::default() {
         return Err(at(path, "found options for meshes, expected scale alone"));
     }
@@ -65,7 +84,7 @@ pub(crate) fn save_solid(node: &Arc<Node>, path: &Path, options: &str) -> Outcom
     let tree = convex_tree(&model.tree).map_err(|error| at(path, error))?;
     let mut text = Vec::new();
     write_brushes(&convex_union(&tree), &model.materials, format, options.scale, &mut text).map_err(|error| at(path, error))?;
-    write_atomic(path, &text).map_err(|error| at(path, error))
+    write_atomic(path, &text).map_err(|error| said(path, error))
 }
 
 /// Says what was noticed, by Python's warnings; what is lost is an error unless that is allowed.
@@ -220,6 +239,18 @@ pub(crate) fn indexed(given: Given) -> IndexedMesh {
     IndexedMesh { positions, triangles, objects, precision, materials, material_of, colors, textures, places }
 }
 
+/// The boundary of a solid as a closed mesh.
+pub(crate) fn one_body(node: &Node) -> Outcome<Model> {
+    let evaluated = node.evaluated()?;
+    let mesh = &evaluated.evaluation.mesh;
+    if mesh.triangles.is_empty() {
+        return Ok(Model::default());
+    }
+    let options = SolidOptions::default();
+    let import = solid_of_mesh(indexed(Given::of_core(mesh)), MeshFormat::Obj, "mesh", &options);
+    Ok(import.map_err(|error| surface_failure(&error))?.model)
+}
+
 /// What is wrong with triangles that somebody gives, without the name of a file.
 pub(crate) fn surface_failure(error: &SolidError) -> Failure {
     match error {
@@ -234,8 +265,8 @@ pub(crate) fn surface_failure(error: &SolidError) -> Failure {
 /// place are joined where the mesh is not closed otherwise. The arrays are copied.
 ///
 /// Args:
-///     vertices: Shape (n, 3), finite numbers; or shape (n, k) with properties of vertices behind the coordinates, as manifold3d has them; or an object with
-///         `vert_properties` and `tri_verts`, such as `manifold3d.Mesh64`, instead of both arrays.
+///     vertices: Shape (n, 3), finite numbers; or shape (n, k) with properties of vertices behind the coordinates, as manifold3d has them; or, instead of both arrays, a Mesh, a
+///         `trimesh.Trimesh`, a `coacd.Mesh`, a `manifold3d.Mesh64` or another object with arrays of these names.
 ///     triangles: Shape (m, 3), numbers of vertices from 0, counter-clockwise seen from outside.
 ///     material: The name of what it is made of.
 ///     materials: Names of materials, instead of `material`.
@@ -268,18 +299,24 @@ fn from_mesh(
     merge_to_vert: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Solid> {
     let options = SolidOptions { rule: winding_of(winding)?, close: not_negative("close", close)?, textures: false };
+    let own = vertices.cast::<Mesh>().ok().filter(|_| material.is_none() && materials.is_none());
     let (vertices, triangles, merges) = match triangles {
         Some(triangles) => (vertices.clone(), triangles.clone(), [merge_from_vert.cloned(), merge_to_vert.cloned()]),
         None => {
-            let part = |name: &str| vertices.getattr_opt(name).ok().flatten();
-            let (Some(positions), Some(triangles)) = (part("vert_properties"), part("tri_verts")) else {
+            let Some((positions, triangles)) = parts_of_mesh_object(vertices)? else {
                 return Err(refuse("triangles: found none, expected an array of shape (m, 3)"));
             };
+            let part = |name: &str| vertices.getattr_opt(name).ok().flatten();
             (positions, triangles, [part("merge_from_vert"), part("merge_to_vert")])
         }
     };
-    let positions = crate::arrays::positions(&vertices, "vertices")?;
-    let mut given = Given::new(&positions, &triangles, material, materials, material_ids)?;
+    let mut given = match own {
+        Some(mesh) => Given::of_core(mesh.get().core()),
+        None => {
+            let positions = crate::arrays::positions(&vertices, "vertices")?;
+            Given::new(&positions, &triangles, material, materials, material_ids)?
+        }
+    };
     if let [Some(from), Some(to)] = merges {
         let count = given.positions.len();
         let from = crate::arrays::numbers(&from, "merge_from_vert", None, count)?;
@@ -298,6 +335,20 @@ fn from_mesh(
     Ok(Solid::of(Node::of_model(import.model)))
 }
 
+/// The vertices and the triangles of an object that other packages make; nothing where it is none.
+pub(crate) fn parts_of_mesh_object<'py>(
+    value: &Bound<'py, PyAny>,
+) -> PyResult<Option<(Bound<'py, PyAny>, Bound<'py, PyAny>)>> {
+    let names =
+        [("vert_properties", "tri_verts"), ("vertices", "triangles"), ("vertices", "faces"), ("vertices", "indices")];
+    for (vertices, triangles) in names {
+        if let (Some(vertices), Some(triangles)) = (value.getattr_opt(vertices)?, value.getattr_opt(triangles)?) {
+            return Ok(Some((vertices, triangles)));
+        }
+    }
+    Ok(None)
+}
+
 /// The solid that a `trimesh.Trimesh` bounds, as by `from_mesh`.
 ///
 /// Args:
@@ -306,7 +357,10 @@ fn from_mesh(
 #[pyfunction]
 #[pyo3(signature = (mesh, material=None))]
 fn from_trimesh(py: Python<'_>, mesh: &Bound<'_, PyAny>, material: Option<String>) -> PyResult<Solid> {
-    let (vertices, faces) = (mesh.getattr("vertices")?, mesh.getattr("faces")?);
+    let part = |name: &str| mesh.getattr_opt(name).ok().flatten();
+    let (Some(vertices), Some(faces)) = (part("vertices"), part("faces")) else {
+        return Err(refuse(format!("mesh: found {}, expected an object with vertices and faces", mesh.get_type())));
+    };
     from_mesh(py, &vertices, Some(&faces), material, None, None, "positive", 0.0, None, None)
 }
 

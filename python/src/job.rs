@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process;
 use std::sync::mpsc::{self, RecvTimeoutError};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 use std::thread;
 use std::time::Duration;
 
@@ -13,6 +13,9 @@ use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::errors::{Failure, Outcome, refuse};
+
+/// The process that has imported the package.
+static FIRST_PROCESS: LazyLock<u32> = LazyLock::new(process::id);
 
 /// Time between two looks at signals and progress: Ctrl-C is seen within it.
 const TICK: Duration = Duration::from_millis(50);
@@ -57,7 +60,7 @@ impl Job {
         work: impl FnOnce() -> Outcome<T> + Send + 'static,
     ) -> PyResult<T> {
         if self.is_short {
-            return Ok(py.detach(|| shared_pool()?.install(|| caught(work)))?);
+            return Ok(py.detach(|| on_threads_of_process(work))?);
         }
         let watch = Watch::new();
         let (sender, mut receiver) = mpsc::channel();
@@ -136,7 +139,13 @@ fn shared_pool() -> Outcome<Arc<ThreadPool>> {
     Ok(pool)
 }
 
-/// Does work on the threads for short work.
-pub(crate) fn on_shared_pool<T: Send>(work: impl FnOnce() -> Outcome<T> + Send) -> Outcome<T> {
-    shared_pool()?.install(work)
+/// Does short work on the calling thread, and where it is worth it on the threads that the process has for all. A process that was forked has none of these: there, and there alone,
+/// it is done on a pool of our own.
+pub(crate) fn on_threads_of_process<T: Send>(work: impl FnOnce() -> Outcome<T> + Send) -> Outcome<T> {
+    if *FIRST_PROCESS == process::id() { caught(work) } else { shared_pool()?.install(|| caught(work)) }
+}
+
+/// Notes which process has imported the package.
+pub(crate) fn note_process() {
+    LazyLock::force(&FIRST_PROCESS);
 }

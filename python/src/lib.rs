@@ -26,6 +26,7 @@ use pyo3::prelude::*;
 /// The part of planecut that is written in Rust.
 #[pymodule(gil_used = false)]
 fn _planecut(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    job::note_process();
     errors::register(module)?;
     shapes::register(module)?;
     files::register(module)?;

@@ -1,9 +1,7 @@
 //! The live model: edits that cost what they touch.
 
 use std::collections::BTreeMap;
-use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::process;
-use std::sync::{LazyLock, Mutex};
+use std::sync::{Arc, Mutex};
 
 use glam::DVec3;
 use numpy::{PyArray1, PyArray2};
@@ -18,12 +16,9 @@ use pyo3::types::PyDict;
 use crate::arrays::{row, small, vector, view_points, view_rows};
 use crate::errors::{Failure, Outcome, refuse};
 use crate::expression::Node;
-use crate::job::{Job, on_shared_pool};
+use crate::job::{Job, on_threads_of_process};
 use crate::mesh::Mesh;
 use crate::solid::{Solid, transform_of};
-
-/// The process that has imported the package: only there may work run on the threads that the process shares.
-static FIRST_PROCESS: LazyLock<u32> = LazyLock::new(process::id);
 
 /// A model that is edited: each edit costs what it touches, and says which faces it changed.
 ///
@@ -59,9 +54,7 @@ impl Live {
             };
             work(&mut state)
         };
-        let caught = || catch_unwind(AssertUnwindSafe(locked)).unwrap_or_else(|panic| Err(Failure::of_panic(&*panic)));
-        let is_first = *FIRST_PROCESS == process::id();
-        Ok(py.detach(|| if is_first { caught() } else { on_shared_pool(caught) })?)
+        Ok(py.detach(|| on_threads_of_process(locked))?)
     }
 }
 
@@ -120,8 +113,7 @@ impl Live {
     #[new]
     #[pyo3(signature = (solid, *, threads=None, progress=None))]
     fn new(py: Python<'_>, solid: &Bound<'_, Solid>, threads: Option<usize>, progress: Option<Py<PyAny>>) -> PyResult<Self> {
-        LazyLock::force(&FIRST_PROCESS);
-        let node = std::sync::Arc::clone(solid.get().node());
+        let node = Arc::clone(solid.get().node());
         let model = Job::new(py, threads, progress)?
             .short_if(node.is_small())
             .run(py, move || Ok(LiveModel::from_model(node.model()?)?))?;
@@ -355,7 +347,7 @@ impl Edit {
     ///     role: "add", "subtract" or "intersect".
     #[pyo3(signature = (solid, role="add"))]
     fn add_brush(&self, py: Python<'_>, solid: &Bound<'_, Solid>, role: &str) -> PyResult<u64> {
-        let (role, node) = (role_of(role)?, std::sync::Arc::clone(solid.get().node()));
+        let (role, node) = (role_of(role)?, Arc::clone(solid.get().node()));
         let (brush, _) = self.live.get().with(py, |state| {
             let brush = state.brush_of(&node)?;
             state.apply(CoreEdit::AddBrush { brush, role })
@@ -370,7 +362,7 @@ impl Edit {
 
     /// Puts a Solid of one convex body or closed mesh in the place of a brush; its planes get new numbers.
     fn replace_brush(&self, py: Python<'_>, brush: u64, solid: &Bound<'_, Solid>) -> PyResult<()> {
-        let node = std::sync::Arc::clone(solid.get().node());
+        let node = Arc::clone(solid.get().node());
         self.live.get().with(py, |state| {
             let by = state.brush_of(&node)?;
             state.apply(CoreEdit::ReplaceBrush { brush: BrushId(brush), by }).map(|_| ())
@@ -414,6 +406,19 @@ impl Change {
     #[getter]
     fn brushes(&self) -> Vec<u64> {
         self.change.brushes.iter().map(|id| id.0).collect()
+    }
+
+    #[allow(clippy::type_complexity)]
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Vec<u64>, Vec<i64>, Vec<i64>))> {
+        let change = slf.get();
+        Ok((slf.get_type().getattr("_unpickle")?, (change.brushes(), change.removed(), change.added())))
+    }
+
+    /// A change that was pickled.
+    #[staticmethod]
+    fn _unpickle(brushes: Vec<u64>, removed: Vec<u32>, added: Vec<u32>) -> Self {
+        let [removed, added] = [removed, added].map(|faces| faces.into_iter().map(FaceId::from).collect());
+        Self { change: CoreChange { brushes: brushes.into_iter().map(BrushId).collect(), removed, added } }
     }
 
     fn __repr__(&self) -> String {

@@ -3,18 +3,20 @@
 use std::sync::{Arc, OnceLock};
 
 use glam::DVec3;
-use numpy::{PyArray1, PyArray2};
+use numpy::{PyArray1, PyArray2, PyArray3};
 use planecut::check::{CheckOptions, check_mesh, check_topology};
 use planecut::csg::{Material, MaterialId, Mesh as CoreMesh, MeshFace};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 
-use crate::arrays::{numbers, points, triangles, view, view_points, view_rows};
+use crate::arrays::{numbers, points, small_rows, triangles, view, view_points, view_rows};
 use crate::errors::{Failure, refuse};
 use crate::expression::Evaluated;
 use crate::files::{save_mesh, text_of};
 use crate::job::Job;
+use crate::picture::{Look, is_picture, pixels, save_picture};
 use crate::shapes::material_of;
+use crate::solid::transform_of;
 
 /// A triangle mesh: the boundary of a solid, or triangles that somebody brings, whatever they bound.
 ///
@@ -102,7 +104,18 @@ impl Given {
         Ok(Self { positions, triangles, materials, material_ids })
     }
 
-    fn into_core(self) -> CoreMesh {
+    /// Triangles of a mesh of ours.
+    pub(crate) fn of_core(mesh: &CoreMesh) -> Self {
+        let material = |face: &u32| mesh.faces[*face as usize].material.0;
+        Self {
+            positions: mesh.positions.clone(),
+            triangles: mesh.triangles.clone(),
+            materials: mesh.materials.clone(),
+            material_ids: mesh.triangle_faces.iter().map(material).collect(),
+        }
+    }
+
+    pub(crate) fn into_core(self) -> CoreMesh {
         let Self { positions, triangles, materials, material_ids } = self;
         let face = |(number, corners): (usize, &[u32; 3])| {
             let [a, b, c] = corners.map(|corner| positions[corner as usize]);
@@ -158,7 +171,7 @@ impl Mesh {
     #[getter]
     fn face_normals<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let normals: Vec<[f64; 3]> = self.core().faces.iter().map(|face| face.normal.to_array()).collect();
-        crate::arrays::small_rows(py, &normals)
+        small_rows(py, &normals)
     }
 
     /// The names of the materials.
@@ -174,6 +187,13 @@ impl Mesh {
         let of_triangle = |face: &u32| mesh.faces[*face as usize].material.0;
         let ids = slf.get().material_ids.get_or_init(|| mesh.triangle_faces.iter().map(of_triangle).collect());
         view(slf.as_any(), ids)
+    }
+
+    /// The colours of the materials, shape (k, 3): red, green and blue from 0 to 1, linear; NaN for those that have none of their own.
+    #[getter]
+    fn material_colors<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let color = |material: &Material| material.color.map_or([f64::NAN; 3], |color| color.map(f64::from));
+        small_rows(py, &self.core().materials.iter().map(color).collect::<Vec<_>>())
     }
 
     /// Whether every edge is used once in each direction, and the triangles around each vertex form one fan: a closed, oriented 2-manifold.
@@ -194,6 +214,78 @@ impl Mesh {
         Job::default().short_if(self.core().triangles.len() < 10_000).run(py, volume)
     }
 
+    /// The area of all triangles.
+    #[getter]
+    fn area(&self) -> f64 {
+        let mesh = self.core();
+        let area = |corners: &[u32; 3]| {
+            let [a, b, c] = corners.map(|corner| mesh.positions[corner as usize]);
+            0.5 * (b - a).cross(c - a).length()
+        };
+        mesh.triangles.iter().map(area).sum()
+    }
+
+    /// The least and the greatest coordinates of the vertices, shape (2, 3); NaN where there are none.
+    #[getter]
+    fn bounds<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let positions = &self.core().positions;
+        let low = positions.iter().copied().reduce(DVec3::min).unwrap_or(DVec3::NAN);
+        let high = positions.iter().copied().reduce(DVec3::max).unwrap_or(DVec3::NAN);
+        small_rows(py, &[low.to_array(), high.to_array()])
+    }
+
+    /// The mesh moved by an affine map, a matrix of shape (3, 4) or (4, 4); triangles are turned round where it mirrors. Vertices are rounded to doubles.
+    fn transform(&self, matrix: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let transform = transform_of(matrix)?;
+        let mut mesh = self.core().clone();
+        mesh.positions.iter_mut().for_each(|position| *position = transform.point(*position));
+        if mesh.positions.iter().any(|position| !position.is_finite()) {
+            return Err(refuse("matrix: found one that moves a vertex beyond the range of doubles, expected another"));
+        }
+        mesh.faces.iter_mut().for_each(|face| face.normal = transform.gradient(face.normal).normalize_or_zero());
+        if transform.linear().determinant() < 0.0 {
+            mesh.triangles.iter_mut().for_each(|triangle| triangle.swap(1, 2));
+        }
+        Ok(Self::of_core(mesh))
+    }
+
+    /// A picture, as by `Solid.render`.
+    #[pyo3(
+        signature = (size=(640, 480), style="shaded", *, azimuth=-62.0, elevation=32.0, camera="perspective", background="light", dimensions=false),
+        text_signature = "($self, size=(640, 480), style='shaded', *, azimuth=-62.0, elevation=32.0, camera='perspective', background='light', dimensions=False)"
+    )]
+    #[allow(clippy::too_many_arguments)]
+    fn render<'py>(
+        &self,
+        py: Python<'py>,
+        size: (u32, u32),
+        style: &str,
+        azimuth: f64,
+        elevation: f64,
+        camera: &str,
+        background: &str,
+        dimensions: bool,
+    ) -> PyResult<Bound<'py, PyArray3<u8>>> {
+        let look = Look::new(size, style, azimuth, elevation, camera, background, dimensions);
+        let handle = self.handle();
+        pixels(py, Job::default().run(py, move || look.picture(handle.mesh()))?)
+    }
+
+    /// A picture as a PNG file, for notebooks.
+    fn _repr_png_<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let handle = self.handle();
+        Ok(PyBytes::new(py, &Job::default().run(py, move || Look::of_notebook().png(handle.mesh()))?))
+    }
+
+    /// A view that can be turned, for notebooks and pages.
+    ///
+    /// Args:
+    ///     size: Width and height in pixels.
+    #[pyo3(signature = (size=(640, 480)), text_signature = "($self, size=(640, 480))")]
+    fn view(slf: &Bound<'_, Self>, size: (u32, u32)) -> PyResult<Py<PyAny>> {
+        Ok(slf.py().import("planecut._view")?.getattr("View")?.call1((slf, size))?.unbind())
+    }
+
     /// What is wrong with the mesh: open edges, edges and vertices that are no manifold, triangles that cross others.
     ///
     /// Args:
@@ -201,7 +293,7 @@ impl Mesh {
     ///
     /// Returns:
     ///     A list of texts, empty if the mesh is sound. Of each kind of problem the first is told.
-    #[pyo3(signature = (tolerance=planecut::check::TOLERANCE_F64, *, threads=None))]
+    #[pyo3(signature = (tolerance=1e-9, *, threads=None))]
     fn check(&self, py: Python<'_>, tolerance: f64, threads: Option<usize>) -> PyResult<Vec<String>> {
         if !(tolerance >= 0.0) {
             return Err(refuse(format!("tolerance: found {tolerance}, expected a number that is not negative")));
@@ -219,13 +311,16 @@ impl Mesh {
     /// Writes the mesh to a file. The file appears when it is complete.
     ///
     /// Args:
-    ///     path: Its ending says the format: .glb, .gltf, .obj, .stl, .3mf or .ply.
-    ///     options: Settings of the format by name: `scale`, `unit`, `text`, `quantize`, `meshopt`, `vertex_colors`, … (docs/formats.md).
+    ///     path: Its ending says the format: .glb, .gltf, .obj, .stl, .3mf, .ply or .png.
+    ///     options: Settings of the format by name: `scale`, `unit`, `text`, `quantize`, `meshopt`, `vertex_colors`, … (docs/formats.md); for a picture those of `render`.
     #[pyo3(signature = (path, **options))]
     fn save(&self, py: Python<'_>, path: std::path::PathBuf, options: Option<&Bound<'_, PyDict>>) -> PyResult<()> {
         let options = text_of(py, options)?;
         let handle = self.handle();
-        Job::default().run(py, move || save_mesh(handle.mesh(), &path, &options))
+        Job::default().run(py, move || {
+            let save = if is_picture(&path) { save_picture } else { save_mesh };
+            save(handle.mesh(), &path, &options)
+        })
     }
 
     /// The mesh as a `trimesh.Trimesh`, with vertices and faces of its own, which may be changed. Needs trimesh.
@@ -237,6 +332,16 @@ impl Mesh {
         // where a solid touches itself, vertices at one place are several
         arguments.set_item("process", false)?;
         Ok(py.import("trimesh")?.getattr("Trimesh")?.call((), Some(&arguments))?.unbind())
+    }
+
+    /// The mesh as a `manifold3d.Manifold`. Needs manifold3d.
+    fn to_manifold(slf: &Bound<'_, Self>) -> PyResult<Py<PyAny>> {
+        let module = slf.py().import("manifold3d")?;
+        // it takes arrays of its own alone
+        let vertices = Self::vertices(slf).call_method0("copy")?;
+        let triangles = Self::triangles(slf).call_method1("astype", ("uint64",))?;
+        let mesh = module.getattr("Mesh64")?.call1((vertices, triangles))?;
+        Ok(module.getattr("Manifold")?.call1((mesh,))?.unbind())
     }
 
     fn __repr__(&self) -> String {

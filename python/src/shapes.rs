@@ -4,14 +4,16 @@ use std::sync::Arc;
 
 use glam::DVec2;
 use planecut::csg::outline::Outline;
+use planecut::csg::polyhedron::convex_tree;
 use planecut::csg::primitives::{self, Extrusion};
-use planecut::csg::{Brush, Material, MaterialId, Operation, Tree};
+use planecut::csg::{Brush, Material, MaterialId, Operation, ShapeError, Tree, shaping};
 use pyo3::prelude::*;
 use pyo3::types::PySequence;
 
 use crate::arrays::{columns, row, table, vector};
-use crate::errors::{Failure, Outcome, refuse};
+use crate::errors::{Failure, refuse};
 use crate::expression::Node;
+use crate::job::Job;
 use crate::solid::Solid;
 
 /// The name of what nobody has given a material.
@@ -22,12 +24,28 @@ pub(crate) fn material_of(name: Option<String>) -> Material {
     Material::named(name.unwrap_or_else(|| DEFAULT_MATERIAL.to_owned()))
 }
 
-fn solid(shape: Outcome<impl Into<Tree>>, material: Option<String>) -> PyResult<Solid> {
-    Ok(Solid::of(Node::of_tree(shape?, material_of(material))))
+/// A shape with fewer planes or points than this is made in no time.
+const FEW: u64 = 4096;
+
+fn solid(tree: impl Into<Tree>, material: Option<String>) -> Solid {
+    Solid::of(Node::of_tree(tree, material_of(material)))
 }
 
-fn made(brush: Result<impl Into<Tree>, impl std::fmt::Display>) -> Outcome<Tree> {
-    brush.map(Into::into).map_err(Failure::of)
+/// A shape that takes as long as it has planes or points.
+fn made<T: Into<Tree> + Send + 'static, E: std::fmt::Display>(
+    py: Python<'_>,
+    size: u64,
+    material: Option<String>,
+    make: impl FnOnce() -> Result<T, E> + Send + 'static,
+) -> PyResult<Solid> {
+    let make = move || make().map(Into::into).map_err(Failure::of);
+    let tree: Tree = if size < FEW { make()? } else { Job::default().run(py, make)? };
+    Ok(solid(tree, material))
+}
+
+/// How many planes a round shape has, about.
+fn planes(segments: u32, rings: u32) -> u64 {
+    u64::from(segments) * u64::from(rings)
 }
 
 /// A box between two corners, with sides along the axes.
@@ -42,9 +60,9 @@ fn made(brush: Result<impl Into<Tree>, impl std::fmt::Display>) -> Outcome<Tree>
 /// 8.0
 #[pyfunction(name = "box")]
 #[pyo3(signature = (min, max, material=None))]
-fn cuboid(min: &Bound<'_, PyAny>, max: &Bound<'_, PyAny>, material: Option<String>) -> PyResult<Solid> {
+fn cuboid(py: Python<'_>, min: &Bound<'_, PyAny>, max: &Bound<'_, PyAny>, material: Option<String>) -> PyResult<Solid> {
     let (min, max) = (vector(min, "min")?, vector(max, "max")?);
-    solid(made(primitives::cuboid(min, max, MaterialId(0))), material)
+    made(py, 0, material, move || primitives::cuboid(min, max, MaterialId(0)))
 }
 
 /// A cylinder, cone or frustum along z from 0, with corners on the circles.
@@ -57,9 +75,16 @@ fn cuboid(min: &Bound<'_, PyAny>, max: &Bound<'_, PyAny>, material: Option<Strin
 ///     material: The name of what it is made of.
 #[pyfunction]
 #[pyo3(signature = (height, radius, top_radius=None, segments=48, material=None))]
-fn cylinder(height: f64, radius: f64, top_radius: Option<f64>, segments: u32, material: Option<String>) -> PyResult<Solid> {
+fn cylinder(
+    py: Python<'_>,
+    height: f64,
+    radius: f64,
+    top_radius: Option<f64>,
+    segments: u32,
+    material: Option<String>,
+) -> PyResult<Solid> {
     let top = top_radius.unwrap_or(radius);
-    solid(made(primitives::cylinder(height, radius, top, segments, MaterialId(0))), material)
+    made(py, planes(segments, 1), material, move || primitives::cylinder(height, radius, top, segments, MaterialId(0)))
 }
 
 /// A sphere around the origin: rings of sides, with corners on the sphere.
@@ -70,8 +95,8 @@ fn cylinder(height: f64, radius: f64, top_radius: Option<f64>, segments: u32, ma
 ///     material: The name of what it is made of.
 #[pyfunction]
 #[pyo3(signature = (radius, segments=32, material=None))]
-fn sphere(radius: f64, segments: u32, material: Option<String>) -> PyResult<Solid> {
-    solid(made(primitives::sphere(radius, segments, MaterialId(0))), material)
+fn sphere(py: Python<'_>, radius: f64, segments: u32, material: Option<String>) -> PyResult<Solid> {
+    made(py, planes(segments, segments), material, move || primitives::sphere(radius, segments, MaterialId(0)))
 }
 
 /// A torus around the z axis.
@@ -84,8 +109,16 @@ fn sphere(radius: f64, segments: u32, material: Option<String>) -> PyResult<Soli
 ///     material: The name of what it is made of.
 #[pyfunction]
 #[pyo3(signature = (radius, tube, segments=48, tube_segments=24, material=None))]
-fn torus(radius: f64, tube: f64, segments: u32, tube_segments: u32, material: Option<String>) -> PyResult<Solid> {
-    solid(made(primitives::torus(radius, tube, segments, tube_segments, MaterialId(0))), material)
+fn torus(
+    py: Python<'_>,
+    radius: f64,
+    tube: f64,
+    segments: u32,
+    tube_segments: u32,
+    material: Option<String>,
+) -> PyResult<Solid> {
+    let size = planes(segments, tube_segments);
+    made(py, size, material, move || primitives::torus(radius, tube, segments, tube_segments, MaterialId(0)))
 }
 
 /// The convex body `n · x <= d` of half-spaces. It may be unbounded, or empty.
@@ -107,21 +140,68 @@ fn halfspaces(planes: &Bound<'_, PyAny>, material: Option<String>) -> PyResult<S
         half_spaces.push(half_space.map_err(|error| refuse(format!("planes[{number}]: {error}")))?);
     }
     if half_spaces.is_empty() {
-        return solid(Ok(Tree::everything()), material);
+        return Ok(solid(Tree::everything(), material));
     }
-    solid(Ok(Brush::from_half_spaces(half_spaces, MaterialId(0))), material)
+    Ok(solid(Brush::from_half_spaces(half_spaces, MaterialId(0)), material))
 }
 
-/// The convex hull of points.
+/// The convex hull of points, or of solids together.
 ///
 /// Args:
-///     points: Shape (n, 3), not all in one plane.
-///     material: The name of what it is made of.
+///     points: Shape (n, 3), not all in one plane; or a list of solids.
+///     material: The name of what it is made of. A single convex solid keeps its own.
+///
+/// >>> import planecut as pc
+/// >>> pc.hull([pc.box([0, 0, 0], [1, 1, 1]), pc.box([2, 0, 0], [3, 1, 1])]).volume
+/// 3.0
 #[pyfunction(name = "hull")]
 #[pyo3(signature = (points, material=None))]
-fn hull_of(points: &Bound<'_, PyAny>, material: Option<String>) -> PyResult<Solid> {
+fn hull_of(py: Python<'_>, points: &Bound<'_, PyAny>, material: Option<String>) -> PyResult<Solid> {
+    if let Some(nodes) = solids(points)? {
+        return of_solids(py, nodes, material, |trees| shaping::hull(trees, MaterialId(0)));
+    }
     let points = crate::arrays::points(points, "points")?;
-    solid(made(primitives::hull_of_points(&points, MaterialId(0))), material)
+    made(py, points.len() as u64, material, move || primitives::hull_of_points(&points, MaterialId(0)))
+}
+
+/// The Minkowski sum of two solids: all sums of a point of the one and a point of the other.
+///
+/// Args:
+///     a: A Solid of convex bodies.
+///     b: The same, as a small sphere to round edges.
+///     material: The name of what it is made of.
+#[pyfunction]
+#[pyo3(signature = (a, b, material=None))]
+fn minkowski(py: Python<'_>, a: &Bound<'_, Solid>, b: &Bound<'_, Solid>, material: Option<String>) -> PyResult<Solid> {
+    let nodes = [a, b].map(|solid| Arc::clone(solid.get().node())).to_vec();
+    of_solids(py, nodes, material, |trees| shaping::minkowski(&trees[0], &trees[1], MaterialId(0)))
+}
+
+/// What a function makes of the trees of solids, closed meshes among them taken apart into convex cells.
+fn of_solids(
+    py: Python<'_>,
+    nodes: Vec<Arc<Node>>,
+    material: Option<String>,
+    make: impl FnOnce(&[Tree]) -> Result<Tree, ShapeError> + Send + 'static,
+) -> PyResult<Solid> {
+    let tree = Job::default().run(py, move || {
+        let mut trees = Vec::new();
+        for node in nodes {
+            let tree = node.model()?.tree.with_material(MaterialId(0));
+            trees.push(convex_tree(&tree).map_err(Failure::of)?.into_owned());
+        }
+        make(&trees).map_err(Failure::of)
+    })?;
+    Ok(solid(tree, material))
+}
+
+/// What solids of a list are made of; nothing where it is no list of solids.
+fn solids(value: &Bound<'_, PyAny>) -> PyResult<Option<Vec<Arc<Node>>>> {
+    let Ok(list) = value.cast::<PySequence>() else { return Ok(None) };
+    if list.len()? == 0 || !list.get_item(0)?.is_instance_of::<Solid>() {
+        return Ok(None);
+    }
+    nodes_of(value, "points").map(Some)
 }
 
 /// One loop, or a list of loops: those in others are holes.
@@ -157,6 +237,7 @@ fn outline_of(value: &Bound<'_, PyAny>) -> PyResult<Outline> {
 #[pyfunction]
 #[pyo3(signature = (outline, height, twist=0.0, scale=None, slices=None, material=None))]
 fn extrude(
+    py: Python<'_>,
     outline: &Bound<'_, PyAny>,
     height: f64,
     twist: f64,
@@ -172,7 +253,10 @@ fn extrude(
         },
     };
     let extrusion = Extrusion { twist, scale, slices, ..Extrusion::straight(height) };
-    solid(made(primitives::extrude(&outline_of(outline)?, &extrusion, MaterialId(0))), material)
+    let outline = outline_of(outline)?;
+    let layers = slices.unwrap_or_else(|| (twist.abs() / 5.0).ceil().max(1.0) as u32);
+    let size = outline.corner_count() as u64 * u64::from(layers);
+    made(py, size, material, move || primitives::extrude(&outline, &extrusion, MaterialId(0)))
 }
 
 /// An outline revolved about the z axis: its x becomes the distance from the axis, its y becomes z.
@@ -184,8 +268,16 @@ fn extrude(
 ///     material: The name of what it is made of.
 #[pyfunction]
 #[pyo3(signature = (outline, segments=64, angle=360.0, material=None))]
-fn revolve(outline: &Bound<'_, PyAny>, segments: u32, angle: f64, material: Option<String>) -> PyResult<Solid> {
-    solid(made(primitives::revolve(&outline_of(outline)?, angle, segments, MaterialId(0))), material)
+fn revolve(
+    py: Python<'_>,
+    outline: &Bound<'_, PyAny>,
+    segments: u32,
+    angle: f64,
+    material: Option<String>,
+) -> PyResult<Solid> {
+    let outline = outline_of(outline)?;
+    let size = outline.corner_count() as u64 * u64::from(segments);
+    made(py, size, material, move || primitives::revolve(&outline, angle, segments, MaterialId(0)))
 }
 
 /// What solids of a list are made of.
@@ -240,6 +332,7 @@ pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(torus, module)?)?;
     module.add_function(wrap_pyfunction!(halfspaces, module)?)?;
     module.add_function(wrap_pyfunction!(hull_of, module)?)?;
+    module.add_function(wrap_pyfunction!(minkowski, module)?)?;
     module.add_function(wrap_pyfunction!(extrude, module)?)?;
     module.add_function(wrap_pyfunction!(revolve, module)?)?;
     module.add_function(wrap_pyfunction!(union, module)?)?;

@@ -3,22 +3,22 @@
 use std::sync::Arc;
 
 use glam::{DMat3, DVec3};
-use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods};
-use planecut::csg::{Operation, SolidMeasures, Transform};
+use numpy::{PyArray1, PyArray2, PyArray3};
+use planecut::csg::{Material, Operation, SolidMeasures, Transform, shaping};
 use planecut_parallel::job::check;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use rayon::prelude::*;
 
-use crate::arrays::{points, small, small_rows, table, vector};
-use crate::cells::{Cell, cells_of};
+use crate::arrays::{points, row, shape, small, small_rows, table, vector};
+use crate::cells::{Cell, cells_of, components_of};
 use crate::errors::{Failure, Outcome, refuse};
 use crate::expression::{Evaluated, Node};
-use crate::files::{save_solid, text_of};
+use crate::files::{one_body, save_solid, text_of};
 use crate::job::Job;
 use crate::membership;
 use crate::mesh::Mesh;
-use crate::picture::{Look, rendered};
+use crate::picture::{Look, is_picture, pixels, save_picture};
 use crate::shapes::material_of;
 
 /// A solid: a set of points of space, made of convex bodies and closed meshes by set operations.
@@ -141,8 +141,43 @@ impl Solid {
     ///
     /// Args:
     ///     material: Its name.
-    fn with_material(&self, material: String) -> Self {
-        Self::of(self.node.of_material(material_of(Some(material))))
+    ///     color: Red, green and blue from 0 to 1, linear, as glTF has them, shape (3,); without it pictures and files have one that depends on the name.
+    #[pyo3(signature = (material, *, color=None))]
+    fn with_material(&self, material: String, color: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
+        let color = color.map(|color| row::<3>(color, "color")).transpose()?;
+        if let Some(found) = color.filter(|color| color.iter().any(|part| !(0.0..=1.0).contains(part))) {
+            return Err(refuse(format!("color: found {found:?}, expected numbers from 0 to 1")));
+        }
+        let color = color.map(|color| color.map(|part| part as f32));
+        Ok(Self::of(self.node.of_material(Material { color, ..material_of(Some(material)) })))
+    }
+
+    /// The same solid as one body: its boundary as a closed mesh, its vertices rounded to doubles. What is made of it later takes no account of how it was made: worth it for pieces that
+    /// are used again and again, as those of a fracture.
+    #[pyo3(signature = (*, threads=None, progress=None))]
+    fn as_one_body(&self, py: Python<'_>, threads: Option<usize>, progress: Option<Py<PyAny>>) -> PyResult<Self> {
+        let node = Arc::clone(&self.node);
+        let model = Job::new(py, threads, progress)?.run(py, move || one_body(&node))?;
+        Ok(Self::of(Node::of_model(model)))
+    }
+
+    /// The connected parts of the solid, each a Solid of disjoint convex bodies. Parts that touch along an edge or in a corner are apart.
+    #[pyo3(signature = (*, threads=None, progress=None))]
+    fn components(&self, py: Python<'_>, threads: Option<usize>, progress: Option<Py<PyAny>>) -> PyResult<Vec<Self>> {
+        let node = Arc::clone(&self.node);
+        let models = Job::new(py, threads, progress)?.run(py, move || components_of(node.model()?))?;
+        Ok(models.into_iter().map(|model| Self::of(Node::of_model(model))).collect())
+    }
+
+    /// Where the solid meets the plane z = height: what there is just below it.
+    ///
+    /// Returns:
+    ///     A list of loops of shape (n, 2): outer ones counter-clockwise, holes clockwise. `extrude` takes them.
+    fn slice<'py>(&self, py: Python<'py>, height: f64) -> PyResult<Vec<Bound<'py, PyArray2<f64>>>> {
+        let node = Arc::clone(&self.node);
+        let outline = Job::default().run(py, move || shaping::slice(&node.model()?.tree, height).map_err(Failure::of))?;
+        let loops = outline.loops().map(|corners| corners.iter().map(|corner| corner.to_array()).collect::<Vec<_>>());
+        loops.map(|corners| small_rows(py, &corners)).collect()
     }
 
     /// The volume, in cubes of the unit of length. `PlanecutError` for a solid that is unbounded, as for all that is asked of the boundary.
@@ -237,7 +272,7 @@ impl Solid {
         }
         if directions.len() != origins.len() {
             let (found, expected) = (directions.len(), origins.len());
-            return Err(refuse(format!("directions: found {found} rows, expected 1 or {expected}, as many as origins")));
+            return Err(refuse(format!("directions: found {found} rows, expected 1, or {expected} as of origins")));
         }
         for (number, direction) in directions.iter_mut().enumerate() {
             let scaled = *direction / direction.abs().max_element();
@@ -276,16 +311,21 @@ impl Solid {
         Job::new(py, threads, progress)?.run(py, move || cells_of(node.model()?))
     }
 
-    /// Writes the boundary, or for .map and .csg the convex bodies, to a file. The file appears when it is complete.
+    /// Writes the boundary, or for .map and .csg the convex bodies, or a picture, to a file. The file appears when it is complete.
     ///
     /// Args:
-    ///     path: Its ending says the format: .glb, .gltf, .obj, .stl, .3mf, .ply, .map or .csg.
-    ///     options: Settings of the format by name: `scale`, `unit`, `text`, `quantize`, `meshopt`, `vertex_colors`, … (docs/formats.md).
+    ///     path: Its ending says the format: .glb, .gltf, .obj, .stl, .3mf, .ply, .map, .csg or .png.
+    ///     options: Settings of the format by name: `scale`, `unit`, `text`, `quantize`, `meshopt`, `vertex_colors`, … (docs/formats.md); for a picture those of `render`.
     #[pyo3(signature = (path, **options))]
     fn save(&self, py: Python<'_>, path: std::path::PathBuf, options: Option<&Bound<'_, pyo3::types::PyDict>>) -> PyResult<()> {
         let options = text_of(py, options)?;
         let node = Arc::clone(&self.node);
-        Job::default().run(py, move || save_solid(&node, &path, &options))
+        Job::default().run(py, move || {
+            if is_picture(&path) {
+                return save_picture(&node.evaluated()?.evaluation.mesh, &path, &options);
+            }
+            save_solid(&node, &path, &options)
+        })
     }
 
     /// A picture.
@@ -301,7 +341,10 @@ impl Solid {
     ///
     /// Returns:
     ///     An array of uint8, shape (height, width, 4): red, green, blue and alpha.
-    #[pyo3(signature = (size=(640, 480), style="shaded", *, azimuth=-62.0, elevation=32.0, camera="perspective", background="light", dimensions=false))]
+    #[pyo3(
+        signature = (size=(640, 480), style="shaded", *, azimuth=-62.0, elevation=32.0, camera="perspective", background="light", dimensions=false),
+        text_signature = "($self, size=(640, 480), style='shaded', *, azimuth=-62.0, elevation=32.0, camera='perspective', background='light', dimensions=False)"
+    )]
     #[allow(clippy::too_many_arguments)]
     fn render<'py>(
         &self,
@@ -314,24 +357,23 @@ impl Solid {
         background: &str,
         dimensions: bool,
     ) -> PyResult<Bound<'py, PyArray3<u8>>> {
-        let look = Look { size, style, azimuth, elevation, camera, background, dimensions };
-        let picture = rendered(py, self, &look)?;
-        let (width, height) = (picture.width as usize, picture.height as usize);
-        PyArray1::from_vec(py, picture.pixels).reshape([height, width, 4])
+        let look = Look::new(size, style, azimuth, elevation, camera, background, dimensions);
+        let node = Arc::clone(&self.node);
+        pixels(py, Job::default().run(py, move || look.picture(&node.evaluated()?.evaluation.mesh))?)
     }
 
     /// A picture as a PNG file, for notebooks.
     fn _repr_png_<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        let look = Look { size: (640, 480), background: "transparent", ..Look::default() };
-        let picture = rendered(py, self, &look)?;
-        Ok(PyBytes::new(py, &picture.to_png().map_err(Failure::of)?))
+        let node = Arc::clone(&self.node);
+        let png = Job::default().run(py, move || Look::of_notebook().png(&node.evaluated()?.evaluation.mesh))?;
+        Ok(PyBytes::new(py, &png))
     }
 
     /// A view that can be turned, for notebooks and pages.
     ///
     /// Args:
     ///     size: Width and height in pixels.
-    #[pyo3(signature = (size=(640, 480)))]
+    #[pyo3(signature = (size=(640, 480)), text_signature = "($self, size=(640, 480))")]
     fn view(slf: &Bound<'_, Self>, size: (u32, u32)) -> PyResult<Py<PyAny>> {
         Ok(slf.py().import("planecut._view")?.getattr("View")?.call1((slf, size))?.unbind())
     }
@@ -375,6 +417,9 @@ impl Solid {
 
 /// An affine map of a matrix.
 pub(crate) fn transform_of(matrix: &Bound<'_, PyAny>) -> PyResult<Transform> {
+    if !matches!(shape(matrix, "matrix")?, (3 | 4, 4)) {
+        return Err(refuse("matrix: found an array of another shape, expected (3, 4) or (4, 4)"));
+    }
     let rows = table::<4>(matrix, "matrix")?;
     let is_affine = rows.len() == 3 || rows.len() == 4 && rows[3] == [0.0, 0.0, 0.0, 1.0];
     if !is_affine {

@@ -75,6 +75,7 @@ pub(super) fn lower_beside(
     let mut lowering = Lowering::of(polytope, max_vertices);
     let max_faces = max_faces.unwrap_or(usize::MAX);
     while lowering.faces > max_faces || lowering.has_too_many_vertices() {
+        planecut_parallel::job::check();
         lowering.step(clear)?;
     }
     Ok(lowering.added)

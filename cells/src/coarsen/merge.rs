@@ -2,6 +2,7 @@
 
 use planecut_csg::stages::{Bounds, Boxes};
 use planecut_kernel::HalfSpace;
+use planecut_parallel::job;
 use planecut_parallel::prelude::*;
 
 use super::box_list::BoxList;
@@ -81,6 +82,7 @@ impl<'a> Merger<'a> {
 
     /// Merges the pair that costs least and takes in all groups that lie within; `None` where no pair may be merged.
     pub(super) fn step(&mut self) -> Option<Merge> {
+        job::check();
         if self.pairs.is_empty() {
             // groups that are far apart are no neighbours until nothing else is left
             self.find_pairs(&self.all_pairs());
@@ -96,6 +98,7 @@ impl<'a> Merger<'a> {
         exact: impl Fn([u32; 2], &Hull) -> Option<Vec<HalfSpace>> + Sync,
     ) -> Option<(Merge, Vec<HalfSpace>)> {
         loop {
+            job::check();
             let mut best = self.pop()?;
             if let Some(half_spaces) = best.free.take() {
                 return Some((self.merge(best), half_spaces));

@@ -41,6 +41,7 @@ mod written;
 use planecut_csg::stages::{Bounds, Boxes, evaluate_shape};
 use planecut_csg::{Brush, Tree};
 use planecut_kernel::DVec3;
+use planecut_parallel::job;
 use planecut_parallel::prelude::*;
 
 pub use lower::lower;
@@ -312,6 +313,7 @@ impl Coarsener {
         while merger.count() > least {
             let Some(merge) = merger.step() else { break };
             merges.push((merge, merger.added()));
+            job::progress(self.free.len() - merger.count(), self.free.len() - least);
         }
         self.merges = merges;
         self.hulls.keep(pairs);

@@ -1,5 +1,6 @@
 //! Better groups, one part at a time: a part goes where it costs less.
 
+use planecut_parallel::job;
 use planecut_parallel::prelude::*;
 
 use super::hull::Hull;
@@ -141,6 +142,7 @@ struct View<'a> {
 impl View<'_> {
     /// The best move of a part out of its group; `others` are the probes that other groups cover.
     fn best_move(&self, others: &[u64], from: usize, part: u32) -> Option<Move> {
+        job::check();
         let (search, groups) = (self.search, self.groups);
         let (own, old) = (&search.parts[part as usize], &groups[from]);
         if !own.corners.iter().any(|corner| old.hull.corners.contains(corner)) {

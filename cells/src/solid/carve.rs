@@ -7,6 +7,7 @@
 //! - bodies that must not hold the point are carved out, in the order that [`order`](super::order) chooses.
 
 use planecut_csg::{PlaneId, PlaneTable};
+use planecut_parallel::job;
 use planecut_parallel::prelude::*;
 use rustc_hash::FxHashSet;
 
@@ -181,6 +182,7 @@ impl<'a> Carver<'a> {
     /// Takes one step with the last task, and goes on to the end with those whose number of bodies `goes_on`.
     fn advance(&self, tasks: &mut Vec<Pending>, cells: &mut Vec<Cell>, goes_on: impl Fn(usize) -> bool) {
         while let Some((cell, mut bodies)) = tasks.pop() {
+            job::check();
             let count = bodies.len();
             let Some(body) = order::next_body(self, &cell, &bodies) else {
                 cells.push(cell);

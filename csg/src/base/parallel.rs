@@ -1,6 +1,9 @@
 //! Work shared out among threads in chunks, with a count of the signs that it asked for.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use planecut_kernel::sign::Counts;
+use planecut_parallel::job;
 use planecut_parallel::prelude::*;
 
 /// Chunks for each thread, so that none waits long for the last one.
@@ -13,8 +16,9 @@ pub(crate) fn map_chunks<T: Sync, R: Send>(
     least: usize,
     work: impl Fn(&[T]) -> R + Sync,
 ) -> (Vec<R>, Counts) {
-    let chunk = (items.len() / (PER_THREAD * planecut_parallel::current_num_threads())).max(least);
-    in_order(items.par_chunks(chunk.max(1)).map(|chunk| counted(|| work(chunk))).collect())
+    let chunk = (items.len() / (PER_THREAD * planecut_parallel::current_num_threads())).max(least).max(1);
+    let stage = Stage::new(items.len().div_ceil(chunk));
+    in_order(items.par_chunks(chunk).map(|chunk| stage.counted(|| work(chunk))).collect())
 }
 
 /// The same for items of different sizes: each chunk but the last is at least of size `least`, the sizes of its items added.
@@ -39,7 +43,30 @@ pub(crate) fn map_weighed_chunks<T: Sync, R: Send>(
         start = end;
     }
     chunks.extend(Some(&items[start..]).filter(|rest| !rest.is_empty()));
-    in_order(chunks.into_par_iter().with_max_len(1).map(|chunk| counted(|| work(chunk))).collect())
+    let stage = Stage::new(chunks.len());
+    in_order(chunks.into_par_iter().with_max_len(1).map(|chunk| stage.counted(|| work(chunk))).collect())
+}
+
+/// Chunks that are worked on, for whoever watches.
+struct Stage {
+    done: AtomicUsize,
+    chunks: usize,
+}
+
+impl Stage {
+    fn new(chunks: usize) -> Self {
+        Self { done: AtomicUsize::new(0), chunks }
+    }
+
+    /// The outcome of a chunk, with the signs that it asked for; nothing more where the work is to end.
+    fn counted<R>(&self, work: impl FnOnce() -> R) -> (R, Counts) {
+        job::check();
+        let outcome = counted(work);
+        if self.chunks > 1 {
+            job::progress(self.done.fetch_add(1, Ordering::Relaxed) + 1, self.chunks);
+        }
+        outcome
+    }
 }
 
 /// The outcomes of chunks, and all signs that were asked for.

@@ -220,7 +220,7 @@ impl Turn {
 
     /// A convex outline, step by step.
     fn steps_of(&self, lines: &[Line], material: MaterialId) -> Result<Vec<Brush>, ShapeError> {
-        pieces(u64::from(self.steps))?;
+        pieces(u64::from(self.steps) * lines.len() as u64)?;
         let cell: Vec<PlaneSide> = (0..lines.len() as u32).map(|facet| PlaneSide { facet, is_outer: false }).collect();
         let mut brushes = Vec::new();
         for step in 0..self.steps {

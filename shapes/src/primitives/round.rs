@@ -5,7 +5,7 @@ use planecut_kernel::{DVec2, DVec3};
 
 use super::simple::brush;
 use crate::parameter::{
-    ShapeError, apothem, direction, middle, not_negative, positive, refuse, segments as accepted_segments,
+    ShapeError, apothem, direction, middle, not_negative, pieces, positive, refuse, segments as accepted_segments,
 };
 
 /// A face plane, as a normal and an offset.
@@ -14,20 +14,27 @@ type Plane = (DVec3, f64);
 /// A sphere of `⌊(n + 1) / 2⌋` rings of `n` corners, flat on top and bottom.
 ///
 /// # Errors
-/// [`ShapeError::Parameter`] where the radius is not above 0 or the segments are not 3 to 10,000.
+/// [`ShapeError::Parameter`] where the radius is not above 0 or the segments are not 3 to 10,000; [`ShapeError::TooLarge`] where it has more than 4,194,304 faces.
 pub fn sphere(radius: f64, segments: u32, material: MaterialId) -> Result<Brush, ShapeError> {
     let (radius, segments) = (positive("radius", radius)?, accepted_segments("segments", segments)?);
+    pieces(faces_of_sphere(segments))?;
     brush(sphere_planes(radius, segments, 0.0), material)
 }
 
 /// The convex hull of two spheres about `(0, 0, 0)` and `(0, 0, height)`.
 ///
 /// # Errors
-/// [`ShapeError::Parameter`] where the height is below 0, the radius is not above 0 or the segments are not 3 to 10,000.
+/// [`ShapeError::Parameter`] where the height is below 0, the radius is not above 0 or the segments are not 3 to 10,000; [`ShapeError::TooLarge`].
 pub fn capsule(height: f64, radius: f64, segments: u32, material: MaterialId) -> Result<Brush, ShapeError> {
     let height = not_negative("height", height)?;
     let (radius, segments) = (positive("radius", radius)?, accepted_segments("segments", segments)?);
+    pieces(faces_of_sphere(segments))?;
     brush(sphere_planes(radius, segments, height), material)
+}
+
+/// About how many faces a sphere has.
+fn faces_of_sphere(segments: u32) -> u64 {
+    u64::from(segments) * u64::from(segments.div_ceil(2))
 }
 
 /// The planes of a sphere whose upper half is lifted by `height`.

@@ -4,6 +4,7 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 use planecut_kernel::DVec3;
+use planecut_parallel::job;
 use planecut_parallel::prelude::*;
 
 use super::bounds;
@@ -103,6 +104,7 @@ enum Cut {
 
 /// The parts of a box that are not empty; the box itself where it is not worth cutting.
 fn in_two(one: Waiting, least: f64, inside: &impl Inside, wanted: &Wanted<'_>) -> Cut {
+    job::check();
     if one.excess <= least && !one.is_blocked {
         return Cut::Whole(one);
     }
