@@ -120,6 +120,11 @@ pub const CLIP_MARGIN: f64 = 1.0 / (1u64 << 44) as f64;
 /// Decides: how much cells of a surface exceed its hull.
 pub const GROWTH: f64 = 1.0 / (1u64 << 43) as f64;
 
+/// The halves of a piece that is cut between two cells overlap by twice this, where half of the size is between one half and one.
+///
+/// Decides: what of a surface belongs to both of two cells, and which pieces are not worth a cut; pieces are off by less.
+pub const RECUT_MARGIN: f64 = 1.0 / (1u64 << 40) as f64;
+
 /// Cuts that go beside a face are this far from it, where half of the size is between one half and one.
 ///
 /// Decides: how thin a slice of other faces such a cut leaves on the wrong side.

@@ -134,7 +134,7 @@ pub struct Coarsener {
 ///
 /// ```
 /// use planecut_cells::coarsen::{CoarsenOptions, coarsen};
-/// use planecut_csg::{Brush, MaterialId, Tree};
+/// use planecut_csg::{Brush, Tree};
 /// use planecut_kernel::DVec3;
 ///
 /// # fn main() -> Result<(), planecut_cells::coarsen::CoarsenError> {
@@ -233,7 +233,33 @@ impl Coarsener {
         if groups.len() < self.free.len() {
             better(&search, &mut groups);
         }
-        let bodies: Vec<Result<Part, _>> = groups.par_iter().map(|group| self.body_around(group)).collect();
+        let is_free = self.clear.is_empty() && !self.gaps.is_strict();
+        let pieces = self.pieces.as_ref().filter(|_| is_free && groups.len() < self.free.len());
+        let Some((pieces, recut)) = pieces.and_then(|pieces| Some((pieces, pieces.recut(&search, &groups)?))) else {
+            return self.enclosed(&groups, |group, _| self.body_around(group), exact_merges);
+        };
+        let body = |group: &Group, place: usize| match &recut.groups[place] {
+            Some((points, material)) => pieces.body_of(points, *material),
+            None => self.body_around(group),
+        };
+        let found = self.enclosed(&groups, body, exact_merges)?;
+        if recut.is_clearly_better {
+            return Ok(found);
+        }
+        // what is left of cells when they are drawn in, no cut foresees
+        let without = self.enclosed(&groups, |group, _| self.body_around(group), exact_merges)?;
+        Ok(if found.volume_out <= without.volume_out { found } else { without })
+    }
+
+    /// Cells of groups, by the body for each group and its place.
+    fn enclosed(
+        &self,
+        groups: &[Group],
+        body: impl Fn(&Group, usize) -> Result<Part, CoarsenError> + Sync,
+        exact_merges: usize,
+    ) -> Result<Coarsened, CoarsenError> {
+        let bodies: Vec<Result<Part, _>> =
+            groups.par_iter().enumerate().map(|(place, group)| body(group, place)).collect();
         let mut bodies = bodies.into_iter().collect::<Result<Vec<_>, _>>()?;
         let shrinking = Shrinking {
             parts: &self.free,

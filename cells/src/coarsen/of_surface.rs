@@ -1,5 +1,7 @@
 //! Coarsening of what a mesh bounds, without its exact cells.
 
+use planecut_csg::MaterialId;
+
 use super::clear::Clear;
 use super::gaps::Gaps;
 use super::part::{Part, boxes_of};
@@ -101,6 +103,14 @@ impl Pieces {
     pub(super) fn body_around(&self, parts: &[Part], members: &[u32]) -> Result<Part, CoarsenError> {
         let points = Points::joined(members.iter().map(|member| &self.points[*member as usize]));
         let material = part::material_of_most(members.iter().map(|member| &parts[*member as usize]));
+        self.body_of(&points, material)
+    }
+
+    /// The body around points.
+    ///
+    /// # Errors
+    /// [`CoarsenError::OutOfRange`] for coordinates that no plane can have.
+    pub(super) fn body_of(&self, points: &Points, material: MaterialId) -> Result<Part, CoarsenError> {
         points.body(&self.growth, material)?.ok_or(CoarsenError::OutOfRange)
     }
 }

@@ -20,7 +20,7 @@ const MOST_PARTS: usize = 100;
 /// It takes no more than half of the work that may be done, which is what merging the parts of each pair takes: about the square of how
 /// many they are.
 pub(super) fn regroup(search: &Search, groups: &mut [Group], clock: &mut Clock, since: u64, work: &mut usize) -> bool {
-    let mut pairs = neighbours(groups);
+    let mut pairs = neighbours(&groups.iter().map(|group| group.hull.bounds).collect::<Vec<_>>());
     pairs.retain(|pair| pair.iter().any(|group| clock.is_changed(*group, since)));
     *work -= limit_work(search, groups, &mut pairs, *work / 2);
     let view: &[Group] = groups;
@@ -80,21 +80,20 @@ fn limit_work(search: &Search, groups: &[Group], pairs: &mut Vec<[usize; 2]>, mo
     done
 }
 
-/// Pairs of groups that are near each other.
-fn neighbours(groups: &[Group]) -> Vec<[usize; 2]> {
+/// Pairs of boxes that are near each other.
+pub(super) fn neighbours(bounds: &[Bounds]) -> Vec<[usize; 2]> {
     let mut pairs: Vec<[usize; 2]> = Vec::new();
-    for (place, group) in groups.iter().enumerate() {
-        let own = &group.hull.bounds;
+    for (place, own) in bounds.iter().enumerate() {
         let reach = |other: usize| {
-            let both = own.union(&groups[other].hull.bounds);
+            let both = own.union(&bounds[other]);
             ((both.max - both.min).length_squared(), other)
         };
-        let mut near: Vec<(f64, usize)> = (0..groups.len()).filter(|other| *other != place).map(reach).collect();
+        let mut near: Vec<(f64, usize)> = (0..bounds.len()).filter(|other| *other != place).map(reach).collect();
         if near.len() > NEAREST {
             near.select_nth_unstable_by(NEAREST - 1, |a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
             near.truncate(NEAREST);
         }
-        near.retain(|(_, other)| groups[*other].hull.bounds.touches(own));
+        near.retain(|(_, other)| bounds[*other].touches(own));
         pairs.extend(near.into_iter().map(|(_, other)| [place.min(other), place.max(other)]));
     }
     pairs.sort_unstable();

@@ -61,7 +61,7 @@ impl Points {
         if half > 0.0 { boxes_around(&points, half) } else { points }
     }
 
-    fn all(&self) -> impl Iterator<Item = &DVec3> {
+    pub(super) fn all(&self) -> impl Iterator<Item = &DVec3> {
         self.vertices.iter().chain(&self.cuts)
     }
 

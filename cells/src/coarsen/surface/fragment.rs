@@ -93,7 +93,7 @@ impl Fragment {
 }
 
 /// The point of a segment that lies in a plane, the same from both ends.
-fn crossing(a: DVec3, b: DVec3, height: impl Fn(DVec3) -> f64) -> DVec3 {
+pub(super) fn crossing(a: DVec3, b: DVec3, height: impl Fn(DVec3) -> f64) -> DVec3 {
     let (a, b) = if height(a) <= height(b) { (a, b) } else { (b, a) };
     let (low, high) = (height(a), height(b));
     a + (-low / (high - low)) * (b - a)

@@ -2,7 +2,8 @@
 //!
 //! Space is cut in two by planes across the axes, again and again ([`cut`]), always where the hull of what a box holds exceeds it most
 //! ([`divide`], [`region`], [`polygons`]). What is inside is told by winding numbers ([`inside`]), of closed surfaces exactly ([`winding`]), of others by solid angles
-//! ([`solid_angles`]). The piece of a box is the hull of what it holds ([`body`]); cells of several pieces are drawn in where they overlap ([`draw_in`], [`fragment`]).
+//! ([`solid_angles`]). The piece of a box is the hull of what it holds ([`body`]); neighbouring groups of pieces are cut apart again by planes in any direction
+//! ([`recut`], [`dividing_plane`], [`chunk`]); cells of several pieces are drawn in where they overlap ([`draw_in`], [`fragment`]).
 //!
 //! **Why the pieces hold the solid.** The boxes cover all space. What a closed solid has in common with a box is a polyhedron; each corner of it is
 //! a corner of one of the clipped triangles or a corner of the box inside of the solid, so the hull of these holds all of it. That a surface may cross
@@ -12,13 +13,16 @@
 //! last place, more than all of that.
 
 mod body;
+mod chunk;
 mod cut;
 mod divide;
+mod dividing_plane;
 mod draw_in;
 mod extremes;
 mod fragment;
 mod inside;
 mod polygons;
+mod recut;
 mod region;
 mod solid_angles;
 mod winding;
@@ -140,6 +144,9 @@ pub(super) struct Pieces {
     /// For each piece points whose hull, grown, it is.
     pub(super) points: Vec<Points>,
     pub(super) growth: Growth,
+    frame: Frame,
+    /// The boxes of pieces of a closed solid.
+    regions: Vec<Region>,
 }
 
 /// About as many convex pieces as are wanted, whose union holds what a surface bounds and exceeds it little. Where space is to stay clear, as many more as
@@ -183,11 +190,20 @@ pub(super) fn pieces(
         .with_max_len(1)
         .map(|region| piece(region, surface, &frame, &growth))
         .collect::<Result<_, _>>()?;
-    let (parts, points) = pieces.into_iter().flatten().unzip();
-    Ok((parts, Pieces { points, growth }))
+    let (mut parts, mut points, mut kept) = (Vec::new(), Vec::new(), Vec::new());
+    for (piece, region) in pieces.into_iter().zip(regions) {
+        let Some((part, of_part)) = piece else { continue };
+        parts.push(part);
+        points.push(of_part);
+        if matches!(surface.bounded, Bounded::Solid) {
+            kept.push(region);
+        }
+    }
+    Ok((parts, Pieces { points, growth, frame, regions: kept }))
 }
 
 /// Where positions are small numbers.
+#[derive(Debug, Clone, Copy)]
 struct Frame {
     middle: DVec3,
     /// A power of two.
@@ -235,8 +251,7 @@ fn piece(
 ) -> Result<Option<(Part, Points)>, CoarsenError> {
     let outward = |points: &mut dyn Iterator<Item = DVec3>| -> Vec<DVec3> {
         let mut points: Vec<DVec3> = points.map(|p| frame.outward(p)).collect();
-        points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z)));
-        points.dedup();
+        sort_and_dedup(&mut points);
         points
     };
     let points = Points { vertices: outward(&mut region.vertices()), cuts: outward(&mut region.cut_points()) };
@@ -245,6 +260,12 @@ fn piece(
         (surface.materials.get(triangle as usize).copied().unwrap_or(MaterialId(0)), normal(corners).length())
     });
     Ok(points.body(growth, most(areas))?.map(|part| (part, points)))
+}
+
+/// Puts points in order, each once.
+fn sort_and_dedup(points: &mut Vec<DVec3>) {
+    points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z)));
+    points.dedup();
 }
 
 /// The box around points.

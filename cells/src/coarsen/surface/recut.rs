@@ -1,0 +1,222 @@
+//! Neighbouring groups of pieces cut apart again, by planes in any direction.
+//!
+//! Pieces come from cuts across the axes: where two groups meet there are stairs, so that their hulls overlap and add more than they need to. All that two groups hold is cut by the plane for
+//! which the hulls of both sides are smallest ([`Dividing`]); the sides replace the groups where that costs less.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use planecut_csg::MaterialId;
+use planecut_csg::stages::Bounds;
+use planecut_kernel::DVec3;
+use planecut_parallel::prelude::*;
+
+use super::super::hull::Hull;
+use super::super::part;
+use super::super::probes::{Coverage, add, count_fresh};
+use super::super::regroup::neighbours;
+use super::super::search::{Group, Search};
+use super::Pieces;
+use super::body::Points;
+use super::chunk::{Chunk, Place, rejoined};
+use super::dividing_plane::Dividing;
+use crate::tolerances::RECUT_MARGIN;
+
+/// Budget of work for each group, and how many groups add to it: the number of corners in all hulls that are tried, about a third of a microsecond each.
+const WORK: (usize, usize) = (150_000, 64);
+/// Fewest pairs that are cut at the same time, whatever the number of threads, and the number of groups for each more.
+const AT_A_TIME: (usize, usize) = (8, 16);
+/// A pair is not cut where its hulls exceed what they hold by less than this share of what all do.
+const LEAST_EMPTY: f64 = 1e-3;
+/// Cells that add more than this share of what they added before are not worth making bodies twice to compare them.
+const WORTH_IT: f64 = 0.98;
+/// Cells that add no more than this share of what they added before are better for sure, although cells that overlap lose some of that when they are drawn in.
+const CLEARLY_BETTER: f64 = 0.9;
+
+/// Polygons in all pieces where cells are made twice to be compared, at most: with more that takes seconds.
+const MOST_COMPARED: usize = 20_000;
+
+/// Groups that were cut apart again.
+pub(in super::super) struct Recut {
+    /// For each group that became another, the points that its cell must hold, and its material.
+    pub(in super::super) groups: Vec<Option<(Points, MaterialId)>>,
+    /// Whether cells of them add so much less that they need not be compared.
+    pub(in super::super) is_clearly_better: bool,
+}
+
+/// What a cell is to hold.
+#[derive(Debug, Clone)]
+struct Cell {
+    chunks: Vec<Arc<Chunk>>,
+    hull: Hull,
+    /// What the hull exceeds its chunks by, each taken for its own hull.
+    empty: f64,
+    is_new: bool,
+}
+
+/// What is found instead of a pair of cells.
+struct Found {
+    pair: [usize; 2],
+    cells: Option<[Cell; 2]>,
+    work: usize,
+}
+
+impl Pieces {
+    /// Cuts neighbouring groups apart again where that pays; `None` where nothing was found, or pieces are not known well enough to be cut.
+    pub(in super::super) fn recut(&self, search: &Search, groups: &[Group]) -> Option<Recut> {
+        if self.regions.is_empty() {
+            return None;
+        }
+        let chunk = |piece: &u32| {
+            let number = *piece as usize;
+            Arc::new(Chunk::of_region(*piece, &self.regions[number], &self.points[number], &self.frame))
+        };
+        let cell = |group: &Group| self.cell(group.parts.iter().map(chunk).collect(), false);
+        let mut cells: Vec<Cell> = groups.par_iter().map(cell).collect();
+        let before = added(search, &cells);
+        self.cut_pairs(search, &mut cells);
+        let share = f64::from(added(search, &cells)) / f64::from(before.max(1));
+        let is_clearly_better = share <= CLEARLY_BETTER;
+        let polygons: usize = self.regions.iter().map(|region| region.polygons.len()).sum();
+        let may_compare = share <= WORTH_IT && polygons <= MOST_COMPARED;
+        if !(is_clearly_better || may_compare) || !cells.iter().any(|cell| cell.is_new) {
+            return None;
+        }
+        let groups = cells.into_iter().map(|cell| cell.is_new.then(|| held(search, &cell))).collect();
+        Some(Recut { groups, is_clearly_better })
+    }
+
+    /// Cuts pairs until none gets better, or all work is done that may be.
+    fn cut_pairs(&self, search: &Search, cells: &mut [Cell]) {
+        let (of_group, most) = WORK;
+        let mut work = of_group * cells.len().min(most);
+        let (least, of_groups) = AT_A_TIME;
+        let at_a_time = least + cells.len() / of_groups;
+        let worth_it = LEAST_EMPTY * cells.iter().map(|cell| cell.empty).sum::<f64>();
+        let mut waiting = near_each_other(search, cells);
+        while !waiting.is_empty() && work > 0 {
+            let empty = |pair: &[usize; 2]| pair.iter().map(|place| cells[*place].empty).sum::<f64>();
+            waiting.retain(|pair| empty(pair) > worth_it);
+            // those first where there is most to gain for the work
+            let chunks = |pair: &[usize; 2]| pair.iter().map(|place| cells[*place].chunks.len()).sum::<usize>();
+            let each = |pair: &[usize; 2]| empty(pair) / chunks(pair) as f64;
+            waiting.sort_by(|a, b| each(b).total_cmp(&each(a)).then_with(|| a.cmp(b)));
+            let taken = without_common(&mut waiting, at_a_time);
+            let view: &[Cell] = cells;
+            let found: Vec<Found> =
+                taken.par_iter().with_max_len(1).map(|pair| self.found(search, view, *pair)).collect();
+            let mut changed: BTreeSet<usize> = BTreeSet::new();
+            for Found { pair, cells: new, work: done } in found {
+                work = work.saturating_sub(done);
+                // others may have changed since it was found
+                let Some(new) = new.filter(|new| gain(search, cells, pair, new) > search.least_gain()) else {
+                    continue;
+                };
+                for (place, cell) in pair.into_iter().zip(new) {
+                    cells[place] = cell;
+                    changed.insert(place);
+                }
+            }
+            if !changed.is_empty() {
+                let is_changed = |pair: &[usize; 2]| pair.iter().any(|place| changed.contains(place));
+                waiting.extend(near_each_other(search, cells).into_iter().filter(is_changed));
+                waiting.sort_unstable();
+                waiting.dedup();
+            }
+        }
+    }
+
+    fn cell(&self, chunks: Vec<Arc<Chunk>>, is_new: bool) -> Cell {
+        let points: Vec<DVec3> = chunks.iter().flat_map(|chunk| chunk.points.all().copied()).collect();
+        let hull = Hull::of(&points);
+        let filled: f64 = chunks.iter().map(|chunk| chunk.volume).sum();
+        Cell { empty: (hull.volume - filled / self.frame.scale.powi(3)).max(0.0), hull, chunks, is_new }
+    }
+
+    /// Two cells instead of a pair, by the best plane that is found.
+    fn found(&self, search: &Search, cells: &[Cell], pair: [usize; 2]) -> Found {
+        let sides = pair.map(|place| &cells[place].chunks[..]);
+        let chunks = rejoined(sides.concat());
+        let mut dividing = Dividing::new(&chunks, sides);
+        let plane = dividing.best();
+        let new = plane.and_then(|(normal, offset)| {
+            let margin = RECUT_MARGIN + self.growth.rounding * self.frame.scale;
+            let (mut below, mut above) = (Vec::new(), Vec::new());
+            for chunk in &chunks {
+                match chunk.place((normal, offset), margin) {
+                    Place::Below => below.push(Arc::clone(chunk)),
+                    Place::Above => above.push(Arc::clone(chunk)),
+                    Place::Across => {
+                        let [low, high] = chunk.split((normal, offset), margin, &self.frame);
+                        below.push(low);
+                        above.push(high);
+                    }
+                }
+            }
+            let is_divided = !below.is_empty() && !above.is_empty();
+            is_divided.then(|| [below, above].map(|chunks| self.cell(chunks, true)))
+        });
+        let cells = new.filter(|new| gain(search, cells, pair, new) > search.least_gain());
+        Found { pair, cells, work: dividing.work }
+    }
+}
+
+/// What a cell must hold, and its material.
+fn held(search: &Search, cell: &Cell) -> (Points, MaterialId) {
+    let points = Points::joined(cell.chunks.iter().map(|chunk| &chunk.points));
+    let pieces: BTreeSet<u32> = cell.chunks.iter().map(|chunk| chunk.piece).collect();
+    (points, part::material_of_most(pieces.iter().map(|piece| &search.parts[*piece as usize])))
+}
+
+/// How many probes all cells cover.
+fn added(search: &Search, cells: &[Cell]) -> u32 {
+    let mut covered = vec![0_u64; search.probes.words()];
+    cells.iter().for_each(|cell| add(&mut covered, cell.hull.coverage(search.probes)));
+    covered.iter().map(|word| word.count_ones()).sum()
+}
+
+/// What a pair costs less when it is replaced.
+fn gain(search: &Search, cells: &[Cell], pair: [usize; 2], new: &[Cell; 2]) -> f64 {
+    let old = pair.map(|place| &cells[place].hull);
+    let new = new.each_ref().map(|cell| &cell.hull);
+    let bounds = old.iter().chain(&new).fold(Bounds::EMPTY, |all, hull| all.union(&hull.bounds));
+    let mut covered = vec![0_u64; search.probes.words()];
+    for (place, cell) in cells.iter().enumerate() {
+        if !pair.contains(&place) && cell.hull.bounds.touches(&bounds) {
+            add(&mut covered, cell.hull.coverage(search.probes));
+        }
+    }
+    let cost = |[a, b]: [&Hull; 2]| {
+        let [of_a, of_b]: [&Coverage; 2] = [a, b].map(|hull| hull.coverage(search.probes));
+        let first = count_fresh(&covered, of_a);
+        let mut covered = covered.clone();
+        add(&mut covered, of_a);
+        search.cost(first + count_fresh(&covered, of_b), a.volume + b.volume)
+    };
+    cost(old) - cost(new)
+}
+
+/// Pairs of cells that are near each other and may exchange what they hold.
+fn near_each_other(search: &Search, cells: &[Cell]) -> Vec<[usize; 2]> {
+    let bounds: Vec<Bounds> = cells.iter().map(|cell| cell.hull.bounds).collect();
+    let mut pairs = neighbours(&bounds);
+    pairs.retain(|pair| {
+        let [a, b] = pair.map(|place| cells[place].chunks[0].piece);
+        search.may_join(a, b)
+    });
+    pairs
+}
+
+/// Takes out the first pairs of which no two have a cell in common, up to a number.
+fn without_common(waiting: &mut Vec<[usize; 2]>, most: usize) -> Vec<[usize; 2]> {
+    let (mut used, mut taken) = (BTreeSet::new(), Vec::new());
+    waiting.retain(|pair| {
+        let is_taken = taken.len() < most && !pair.iter().any(|place| used.contains(place));
+        if is_taken {
+            used.extend(*pair);
+            taken.push(*pair);
+        }
+        !is_taken
+    });
+    taken
+}
