@@ -43,16 +43,12 @@ def used(planes):
 
 
 def apart(pieces, factor):
-    """Pieces moved away from their common center, as one mesh."""
+    """Pieces moved away from their common center."""
     centers = np.array([piece.centroid for piece in pieces])
     shifts = factor * (centers - centers.mean(axis=0))
-    # each piece is known as a mesh already: put side by side, they need no set operation
-    meshes = [piece.mesh() for piece in pieces]
-    starts = np.cumsum([0] + [len(mesh.vertices) for mesh in meshes])
-    vertices = np.concatenate([mesh.vertices + shift for mesh, shift in zip(meshes, shifts)])
-    triangles = np.concatenate([mesh.triangles + start for mesh, start in zip(meshes, starts)])
-    ids = np.repeat(np.arange(len(meshes)) % len(STONES), [len(mesh.triangles) for mesh in meshes])
-    return pc.from_mesh(vertices, triangles, materials=STONES, material_ids=ids)
+    # as one body a piece is its mesh: how it was cut out of the whole is not worked out again
+    bodies = [piece.as_one_body().translate(shift) for piece, shift in zip(pieces, shifts)]
+    return pc.union([body.with_material(STONES[number % len(STONES)]) for number, body in enumerate(bodies)])
 
 
 def main(folder=".", mesh=None, count=24, seed=1):

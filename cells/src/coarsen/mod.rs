@@ -20,6 +20,7 @@ mod free;
 mod gaps;
 mod hull;
 mod inner;
+mod input;
 mod limits;
 mod lower;
 mod merge;
@@ -38,7 +39,7 @@ mod subtract;
 mod surface;
 mod written;
 
-use planecut_csg::stages::{Bounds, Boxes, evaluate_shape};
+use planecut_csg::stages::Boxes;
 use planecut_csg::{Brush, Tree};
 use planecut_kernel::DVec3;
 use planecut_parallel::job;
@@ -49,13 +50,12 @@ pub use options::{CoarsenError, CoarsenOptions, DEFAULT_OVERLAP_WEIGHT, LEAST_MA
 pub use surface::{Bounded, Surface, Winding};
 pub use written::{Writing, written_meshes};
 
-use crate::solid::convex_union;
 use clear::Clear;
 use gaps::Gaps;
+use input::{give_points, held_exactly, parts_of, sum_of_volumes, triangles_of, union_volume};
 use limits::Limits;
 use merge::{Merge, Merger};
 use part::{Part, boxes_of};
-use point_tree::PointTree;
 use probes::Probes;
 use reachable::Reachable;
 use regroup::regroup;
@@ -420,64 +420,4 @@ fn better(search: &Search, groups: &mut [Group]) {
     }
     let mut clock = Clock::new(groups.len(), search.parts.len());
     relocate(&search.last(), groups, &mut clock, rounds);
-}
-
-/// The convex parts of a tree's solid: the brushes of a union, else disjoint cells.
-fn parts_of(tree: &Tree) -> Result<Vec<Part>, CoarsenError> {
-    if tree.has_meshes() {
-        return Err(CoarsenError::Mesh);
-    }
-    convex_union(tree).iter().filter_map(|brush| Part::of_brush(brush).transpose()).collect()
-}
-
-/// The triangles of the boundaries of all parts.
-fn triangles_of(parts: &[Part]) -> Vec<[DVec3; 3]> {
-    let of_one = |part: &Part| {
-        let (corners, polygons) = part.polytope.to_mesh();
-        let fan = |polygon: &Vec<usize>| {
-            let triangle = |pair: &[usize]| [polygon[0], pair[0], pair[1]].map(|corner| corners[corner]);
-            polygon[1..].windows(2).map(triangle).collect::<Vec<_>>()
-        };
-        polygons.iter().flat_map(fan).collect::<Vec<[DVec3; 3]>>()
-    };
-    parts.iter().flat_map(of_one).collect()
-}
-
-/// The part, loosened as far as its points ask for it.
-fn held_exactly(part: &Part) -> Result<Part, CoarsenError> {
-    if part.points.is_empty() { Ok(part.clone()) } else { Part::around(&[part], &Clear::default()) }
-}
-
-/// Gives each point that no part holds exactly to the nearest one, however far it is: a mesh's vertices may be off the planes of its cells by as much
-/// as the rounding of its file leaves open.
-fn give_points(parts: &mut [Part], points: &[DVec3]) {
-    if let [part] = parts {
-        part.points = PointTree::new(points.to_vec()).outside(&part.half_spaces);
-        return;
-    }
-    let boxes = boxes_of(parts);
-    let mut near = Vec::new();
-    for point in points {
-        boxes.touching(&Bounds { min: *point, max: *point }, &mut near);
-        if near.iter().any(|part| parts[*part as usize].polytope.contains(*point)) {
-            continue;
-        }
-        let distance = |part: &Part| {
-            let planes = part.half_spaces.iter().map(|plane| plane.signed_distance(*point));
-            planes.fold(f64::NEG_INFINITY, f64::max)
-        };
-        if let Some(part) = parts.iter_mut().min_by(|a, b| distance(a).total_cmp(&distance(b))) {
-            part.points.push(*point);
-        }
-    }
-}
-
-/// The sum of volumes, in the order of the parts.
-fn sum_of_volumes(parts: &[Part]) -> f64 {
-    parts.par_iter().map(Part::volume).collect::<Vec<f64>>().into_iter().sum()
-}
-
-/// The volume of the union of bodies.
-fn union_volume(bodies: impl Iterator<Item = Brush>) -> Result<f64, CoarsenError> {
-    Ok(evaluate_shape(Tree::union_of(bodies.collect()))?.solid.volume)
 }

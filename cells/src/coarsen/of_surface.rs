@@ -4,11 +4,12 @@ use planecut_csg::MaterialId;
 
 use super::clear::Clear;
 use super::gaps::Gaps;
+use super::input::parts_of;
 use super::part::{Part, boxes_of};
 use super::probes::Probes;
 use super::search::Hulls;
 use super::surface::{Bounded, Pieces, Points, Surface, pieces};
-use super::{CoarsenError, CoarsenOptions, Coarsener, PROBES, Side, part, parts_of};
+use super::{CoarsenError, CoarsenOptions, Coarsener, PROBES, Side, part};
 
 /// Fewest and most pieces that a surface is taken apart into, triangles for each, and pieces for each cell that is asked for.
 const PIECES: (usize, usize, usize, usize) = (128, 400, 16, 6);
