@@ -104,6 +104,4 @@ if __name__ == "__main__":
         print("MuJoCo is not installed: nothing is simulated")
     else:
         height, speed = lowest(model, data), np.linalg.norm(data.qvel)
-        print(
-            f"{made[0].stem}: {model.body_mass[1]:.4f} kg, rests {height:.5f} m above the floor at {speed:.1e} m/s"
-        )
+        print(f"{made[0].stem}: {model.body_mass[1]:.4f} kg, rests {height:.5f} m above the floor at {speed:.1e} m/s")

@@ -1,6 +1,6 @@
 """A procedural town: houses with gables, streets, trees and a castle. Writes town.glb and town.png.
 
-python examples/town.py [output folder]
+    python examples/town.py [output folder]
 """
 
 import sys
@@ -10,46 +10,27 @@ import numpy as np
 import planecut as pc
 
 BLOCK, STREET = 22.0, 5.0  # metres: a block of four houses, and the street around it
-COLORS = {  # red, green and blue, linear
-    "street": [0.30, 0.29, 0.28],
-    "grass": [0.24, 0.42, 0.13],
-    "bark": [0.16, 0.09, 0.05],
-    "leaves": [0.12, 0.30, 0.07],
-    "stone": [0.45, 0.43, 0.40],
-    "plaster": [0.82, 0.74, 0.60],
-    "ochre": [0.72, 0.49, 0.24],
-    "chalk": [0.80, 0.79, 0.76],
-    "brick": [0.42, 0.14, 0.08],
-    "tiles": [0.42, 0.08, 0.04],
-    "clay": [0.30, 0.11, 0.06],
-    "slate": [0.11, 0.15, 0.21],
-    "glass": [0.07, 0.12, 0.18],
-    "wood": [0.20, 0.10, 0.04],
-}
-WALLS, ROOFS = ["plaster", "ochre", "chalk", "brick"], ["tiles", "clay", "slate"]
+COLORS = dict(street=[0.30, 0.29, 0.28], grass=[0.24, 0.42, 0.13], bark=[0.16, 0.09, 0.05], leaves=[0.12, 0.30, 0.07])
+COLORS |= dict(plaster=[0.82, 0.74, 0.60], ochre=[0.72, 0.49, 0.24], chalk=[0.80, 0.79, 0.76], brick=[0.42, 0.14, 0.08])
+COLORS |= dict(tiles=[0.42, 0.08, 0.04], clay=[0.30, 0.11, 0.06], slate=[0.11, 0.15, 0.21], stone=[0.45, 0.43, 0.40])
+COLORS |= dict(glass=[0.07, 0.12, 0.18], wood=[0.20, 0.10, 0.04])
 
 
 def of(material, solid):
-    """The solid in a material of this town. What is cut out shows the material of what cuts."""
+    """The solid in a material; what is cut out shows that of what cuts."""
     return solid.with_material(material, color=COLORS[material])
 
 
 def upright(outline, depth):
-    """An outline in x and z, extruded along y to both sides of the x axis."""
+    """An outline in x and z, extruded to both sides along y."""
     return pc.extrude(outline, depth).rotate("x", 90).translate([0, depth / 2, 0])
 
 
 def house(width, depth, height, walls, roof):
-    """A house around the z axis, with its door in front, towards negative y, below a gable."""
-    x, y, top = width / 2, depth / 2, height + width * 0.45
+    """A house with its door in front, towards negative y, below a gable."""
+    x, y, top, low, out = width / 2, depth / 2, height + width * 0.45, height - 0.45, width / 2 + 0.5
     body = of(walls, upright([[-x, 0], [x, 0], [x, height], [0, top], [-x, height]], depth))
-    low, out = height - 0.45, x + 0.5
-    cover = of(
-        roof,
-        upright(
-            [[-out, low], [0, top], [out, low], [out, low + 0.35], [0, top + 0.35], [-out, low + 0.35]], depth + 0.8
-        ),
-    )
+    eaves = [[-out, low], [0, top], [out, low], [out, low + 0.35], [0, top + 0.35], [-out, low + 0.35]]
     chimney = of("brick", pc.box([x / 2 - 0.4, -0.4, height], [x / 2 + 0.4, 0.4, top + 0.6]))
     window = of("glass", pc.box([-0.45, -0.2, 0], [0.45, 0.2, 1.3]))
     holes = [of("wood", pc.box([-0.6, -y - 1, 0], [0.6, -y + 0.25, 2.2]))]
@@ -58,66 +39,54 @@ def house(width, depth, height, walls, roof):
             holes += [window.translate([place, side, z]) for side in (-y, y) if side > 0 or z > 2 or abs(place) > 1.1]
         for place in np.linspace(-y + 1.4, y - 1.4, round(depth / 2) - 1):
             holes += [window.rotate("z", 90).translate([side, place, z]) for side in (-x, x)]
-    return pc.difference(body, holes) | cover | chimney
+    return pc.difference(body, holes) | of(roof, upright(eaves, depth + 0.8)) | chimney
 
 
 def tower(radius, height):
     """A round tower with a conical roof and slits on all sides."""
-
-    def cone(bottom, top, length, z):
-        return pc.cylinder(length, bottom, top, segments=24).translate([0, 0, z])
-
     slit = of("glass", pc.box([radius - 0.3, -0.25, 0], [radius + 1, 0.25, 1.8]))
-    slits = [
-        slit.translate([0, 0, z]).rotate("z", 60 * k + 30 * z) for z in np.arange(3, height - 3, 4) for k in range(6)
-    ]
-    wall = of("stone", cone(radius, radius, height, 0) | cone(radius, radius + 0.8, 1.2, height - 1.2))
-    return pc.difference(wall, slits) | of("slate", cone(radius + 1.1, 0, 2.2 * radius, height))
+    heights = np.arange(3, height - 3, 4)
+    slits = [slit.translate([0, 0, z]).rotate("z", 60 * k + 30 * z) for z in heights for k in range(6)]
+    gallery = pc.cylinder(1.2, radius, radius + 0.8, segments=24).translate([0, 0, height - 1.2])
+    roof = of("slate", pc.cylinder(2.2 * radius, radius + 1.1, 0, segments=24)).translate([0, 0, height])
+    return pc.difference(of("stone", pc.cylinder(height, radius, segments=24) | gallery), slits) | roof
 
 
 def castle():
-    """A square of walls with battlements, towers at its corners and in the middle, and a gate."""
+    """Walls with battlements and a gate, and five towers."""
     side = BLOCK / 2 - 1.5
     gaps = [pc.box([k - 0.5, -side - 1, 5], [k + 0.5, -side + 1, 7]) for k in np.arange(-side + 2.5, side - 2, 2)]
     wall = of("stone", pc.difference(pc.box([-side, -side - 0.8, 0], [side, -side + 0.8, 6]), gaps))
-    arch = pc.box([-1.5, -side - 2, 0], [1.5, -side + 2, 2.5]) | pc.cylinder(4, 1.5, segments=24).rotate(
-        "x", 90
-    ).translate([0, -side + 2, 2.5])
-    walls = pc.union([wall.rotate("z", 90 * k) for k in range(4)]) - of("wood", arch)
+    gate = pc.cylinder(4, 1.5, segments=24).rotate("x", 90).translate([0, -side + 2, 2.5])
+    gate |= pc.box([-1.5, -side - 2, 0], [1.5, -side + 2, 2.5])
     corners = [tower(2.2, 11).translate([x, y, 0]) for x in (-side, side) for y in (-side, side)]
-    return pc.union([walls, tower(4.2, 23), *corners])
+    walls = pc.union([wall.rotate("z", 90 * k) for k in range(4)])
+    return pc.union([walls - of("wood", gate), tower(4.2, 23), *corners])
 
 
 def tree(size):
     """A trunk and a crown."""
-    return of("bark", pc.cylinder(2, 0.25, segments=8)) | of("leaves", pc.sphere(size, segments=12)).scale(
-        [1, 1, 1.2]
-    ).translate([0, 0, 1.6 + size])
+    crown = of("leaves", pc.sphere(size, segments=12)).scale([1, 1, 1.2]).translate([0, 0, 1.6 + size])
+    return of("bark", pc.cylinder(2, 0.25, segments=8)) | crown
 
 
-def town(blocks=5, seed=3):
+def town(blocks=5, seed=11):
     """A square of blocks between streets, with the castle in the middle."""
-    rng = np.random.default_rng(seed)
-    pitch, half = BLOCK + STREET, BLOCK / 2
-    reach = blocks * pitch / 2 + STREET / 2
+    rng, pitch, half = np.random.default_rng(seed), BLOCK + STREET, BLOCK / 2
+    reach = (blocks * pitch + STREET) / 2
     parts = [of("street", pc.box([-reach, -reach, -2], [reach, reach, 0]))]
     for row, column in np.ndindex(blocks, blocks):
-        block = [of("grass", pc.box([-half, -half, -1.2], [half, half, 0]))]
         is_middle = row == column == blocks // 2
+        block = [of("grass", pc.box([-half, -half, -1.2], [half, half, 0]))] + [castle()] * is_middle
         for quarter in range(0 if is_middle else 4):
-            lot = [half / 2 + rng.uniform(-0.5, 0.5), -half / 2 + rng.uniform(-0.5, 0.5), 0]
-            if rng.random() < 0.15:
-                plot = pc.union(
-                    [tree(rng.uniform(1.2, 2)).translate([*rng.uniform(-3.5, 3.5, 2), 0]) for _ in range(4)]
-                )
-            else:
-                walls, roof = rng.choice(WALLS), rng.choice(ROOFS)
+            lot = [*rng.uniform(-0.5, 0.5, 2) + [half / 2, -half / 2], 0]
+            plot = pc.union([tree(rng.uniform(1.2, 2)).translate([*rng.uniform(-3.5, 3.5, 2), 0]) for _ in range(4)])
+            if rng.random() < 0.85:
+                walls, roof = rng.choice(["plaster", "ochre", "chalk", "brick"]), rng.choice(["tiles", "clay", "slate"])
                 plot = house(*rng.uniform([6, 7, 3.6], [8.2, 9, 8.5]), walls, roof)
             block.append(plot.translate(lot).rotate("z", 90 * quarter))
-        block += [castle()] if is_middle else []
-        parts.append(
-            pc.union(block).translate([(column - (blocks - 1) / 2) * pitch, (row - (blocks - 1) / 2) * pitch, 0.2])
-        )
+        place = (np.array([column, row]) - (blocks - 1) / 2) * pitch
+        parts.append(pc.union(block).translate([*place, 0.2]))
     return pc.union(parts)
 
 

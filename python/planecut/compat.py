@@ -21,6 +21,9 @@ def run_coacd(
     triangles: ArrayLike | None = None,
     threshold: float = 0.05,
     max_convex_hull: int = -1,
+    *,
+    max_ch_vertex: int | None = None,
+    seed: int = 0,
     **ignored: Any,
 ) -> list[tuple[NDArray[np.float64], NDArray[np.int32]]]:
     """Convex hulls that enclose a mesh, as `coacd.run_coacd` gives them.
@@ -28,27 +31,32 @@ def run_coacd(
     The hulls hold all of the mesh, where those of CoACD may leave some of it out. They overlap a little.
 
     Args:
-        vertices: Shape (n, 3); or an object with `vertices` and `indices`, as `coacd.Mesh`.
+        vertices: Shape (n, 3); or an object with `vertices` and `indices`, as `coacd.Mesh`: then the arguments behind it are those of `coacd.run_coacd`, `threshold` and `max_convex_hull`.
         triangles: Shape (m, 3), numbers of vertices.
         threshold: Maximum volume added, relative to that of the mesh, where CoACD limits a distance.
         max_convex_hull: Maximum number of hulls, which takes precedence; -1 for no limit.
+        max_ch_vertex: Maximum number of vertices of each hull, at least 8.
+        seed: Nothing: the same mesh has the same hulls.
         ignored: Other settings of CoACD; a warning says that they are ignored.
 
     Returns:
         A list of vertices, shape (k, 3), and triangles, shape (l, 3), for each hull.
     """
+    if hasattr(vertices, "vertices") and hasattr(vertices, "indices"):
+        if triangles is not None:
+            # one place further on than where they stand behind two arrays
+            threshold, max_convex_hull = float(triangles), (-1 if threshold == 0.05 else int(threshold))  # type: ignore[arg-type]
+        vertices, triangles = vertices.vertices, vertices.indices
+    if triangles is None:
+        raise PlanecutError(f"vertices: found {type(vertices)} alone, expected an object with vertices and indices, or both arrays")
     if ignored:
         names = ", ".join(sorted(ignored))
         warnings.warn(f"planecut ignores settings that are CoACD's alone: {names}", stacklevel=2)
-    if triangles is None:
-        if not (hasattr(vertices, "vertices") and hasattr(vertices, "indices")):
-            raise PlanecutError(f"vertices: found {type(vertices)}, expected an array, or an object with vertices and indices")
-        vertices, triangles = vertices.vertices, vertices.indices
     mesh = Mesh(vertices, triangles)
     most = max_convex_hull if max_convex_hull > 0 else None
     hulls = None
-    if most is None or most > 1:
-        hulls = coarsen(mesh, max_excess=threshold) if mesh.is_watertight else None
+    if most != 1 and mesh.is_watertight:
+        hulls = coarsen(mesh, max_excess=threshold, max_vertices=max_ch_vertex)
     if hulls is None or (most is not None and len(hulls) > most):
-        hulls = coarsen(mesh, max_cells=_MOST_OF_A_SHELL if most is None else most)
+        hulls = coarsen(mesh, max_cells=_MOST_OF_A_SHELL if most is None else most, max_vertices=max_ch_vertex)
     return [(cell.vertices.copy(), cell.triangles.astype(np.int32)) for cell in hulls.cells]

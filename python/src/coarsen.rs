@@ -25,7 +25,7 @@ use crate::arrays::{columns, points, positions, triangles};
 use crate::cells::Cell;
 use crate::errors::{Failure, Outcome, refuse};
 use crate::expression::Node;
-use crate::files::{indexed, parts_of_mesh_object, settings, surface_failure, text_of};
+use crate::files::{at, indexed, parts_of_mesh_object, said, settings, surface_failure, text_of};
 use crate::job::Job;
 use crate::mesh::{Given, Handle, Mesh};
 use crate::picture::{Look, is_picture, pixels};
@@ -255,12 +255,12 @@ fn names_of(meshes: &[CoreMesh]) -> Vec<String> {
 }
 
 fn save_meshes(meshes: &[CoreMesh], path: &Path, options: &str) -> Outcome<()> {
-    let format = Format::from_path(path).map_err(Failure::of)?;
+    let format = Format::from_path(path).map_err(|error| at(path, error))?;
     let names = names_of(meshes);
     let parts: Vec<Part<'_>> = names.iter().zip(meshes).map(|(name, mesh)| Part::new(name, mesh)).collect();
     let options = ExportOptions { convex_colliders: true, ..settings(options)? };
-    let bytes = encode_parts(&parts, format, &options).map_err(Failure::of)?;
-    write_atomic(path, &bytes).map_err(Failure::of)
+    let bytes = encode_parts(&parts, format, &options).map_err(|error| at(path, error))?;
+    write_atomic(path, &bytes).map_err(|error| said(path, error))
 }
 
 /// Settings of a rigid body.
@@ -303,6 +303,7 @@ fn save_rigid_body(data: &Data, path: &Path, format: PhysicsFormat, body: &BodyS
         scale,
         max_vertices: data.max_vertices.unwrap_or(usize::MAX),
         encloses: data.encloses,
+        is_separated: true,
         stored: &stored,
     };
     let meshes = written_meshes(data.model.tree.brushes(), &data.model.materials, &writing)?;
@@ -476,7 +477,8 @@ fn enclosed(mesh: &CoreMesh, bounded: Bounded, options: &CoarsenOptions) -> Outc
 /// Cells as others read them: vertices in doubles whose hull holds the planes' body.
 fn written(work: &Work, max_vertices: Option<usize>, encloses: bool) -> Outcome<(Vec<Cell>, Vec<CoreMesh>)> {
     let stored = |positions: &[DVec3]| positions.to_vec();
-    let writing = Writing { scale: 1.0, max_vertices: max_vertices.unwrap_or(usize::MAX), encloses, stored: &stored };
+    let max_vertices = max_vertices.unwrap_or(usize::MAX);
+    let writing = Writing { scale: 1.0, max_vertices, encloses, is_separated: false, stored: &stored };
     let meshes = written_meshes(&work.outcome.cells, &work.materials, &writing)?;
     let default = Material::named(crate::shapes::DEFAULT_MATERIAL);
     let cell = |(brush, mesh): (&Brush, &CoreMesh)| {

@@ -7,6 +7,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use planecut::csg::{Brush, Evaluation, Material, MaterialId, Model, Operation, Transform, Tree, evaluate};
 
 use crate::errors::{Failure, Outcome};
+use crate::shapes::DEFAULT_MATERIAL;
 use crate::surface::Surface;
 
 /// Most convex bodies and meshes of a solid, each counted as often as it is used.
@@ -22,6 +23,8 @@ pub(crate) struct Node {
     pieces: u64,
     planes: u64,
     has_meshes: bool,
+    /// The material of most of it, about, where one is stated: what cuts it and has none takes it.
+    material: Option<Material>,
     evaluated: Mutex<Option<Arc<Evaluated>>>,
 }
 
@@ -69,7 +72,16 @@ impl Node {
             }),
             Kind::Moved(node, _) | Kind::OfMaterial(node, _) => (node.pieces, node.planes, node.has_meshes),
         };
-        Arc::new(Self { kind, pieces, planes, has_meshes, evaluated: Mutex::new(None) })
+        let material = match &kind {
+            Kind::Model(model) => {
+                let first = model.tree.brushes().first().and_then(|brush| brush.materials().next());
+                first.and_then(|first| model.materials.get(first.0 as usize)).filter(|own| is_stated(own)).cloned()
+            }
+            Kind::Operation(_, operands) => operands.iter().find_map(|operand| operand.material.clone()),
+            Kind::Moved(node, _) => node.material.clone(),
+            Kind::OfMaterial(_, own) => Some(own.clone()),
+        };
+        Arc::new(Self { kind, pieces, planes, has_meshes, material, evaluated: Mutex::new(None) })
     }
 
     /// A tree with its materials.
@@ -142,20 +154,27 @@ impl Node {
         }
         let mut materials = Materials::default();
         let mut values: Vec<Tree> = Vec::new();
-        let mut steps = vec![Step::Enter(self, None, None)];
+        let mut steps = vec![Step::Enter(self, None, Paint::default())];
         while let Some(step) = steps.pop() {
             match step {
-                Step::Enter(node, transform, material) => match &node.kind {
-                    Kind::Model(model) => values.push(leaf(model, transform.as_ref(), material, &mut materials)?),
+                Step::Enter(node, transform, paint) => match &node.kind {
+                    Kind::Model(model) => values.push(leaf(model, transform.as_ref(), paint, &mut materials)?),
                     Kind::Operation(operation, operands) => {
                         steps.push(Step::Combine(*operation, operands.len()));
-                        steps.extend(operands.iter().rev().map(|node| Step::Enter(node, transform, material)));
+                        let is_cut = matches!(operation, Operation::Difference | Operation::Intersection);
+                        let first = operands.first().and_then(|first| first.material.as_ref()).filter(|_| is_cut);
+                        let cutter = Paint { unstated: first.or(paint.unstated), ..paint };
+                        let enter = |(place, node)| Step::Enter(node, transform, if place == 0 { paint } else { cutter });
+                        let places = operands.iter().enumerate().rev();
+                        steps.extend(places.map(|(place, node)| (place, &**node)).map(enter));
                     }
                     Kind::Moved(node, own) => {
                         let both = transform.map_or(Ok(*own), |outer| own.then(&outer)).map_err(Failure::of)?;
-                        steps.push(Step::Enter(node, Some(both), material));
+                        steps.push(Step::Enter(node, Some(both), paint));
                     }
-                    Kind::OfMaterial(node, own) => steps.push(Step::Enter(node, transform, material.or(Some(own)))),
+                    Kind::OfMaterial(node, own) => {
+                        steps.push(Step::Enter(node, transform, Paint { all: paint.all.or(Some(own)), ..paint }));
+                    }
                 },
                 Step::Combine(Operation::Complement, _) => {
                     let tree = values.pop().unwrap_or_default();
@@ -195,26 +214,41 @@ fn operands(kind: &mut Kind) -> Vec<Arc<Node>> {
 /// What is left to be done on the way to a tree.
 enum Step<'a> {
     /// A node, how it is moved, and the material that it gets.
-    Enter(&'a Node, Option<Transform>, Option<&'a Material>),
+    Enter(&'a Node, Option<Transform>, Paint<'a>),
     /// The last trees are combined.
     Combine(Operation, usize),
+}
+
+/// The materials that what is below a node gets.
+#[derive(Clone, Copy, Default)]
+struct Paint<'a> {
+    /// Of all faces.
+    all: Option<&'a Material>,
+    /// Of faces for which none was stated.
+    unstated: Option<&'a Material>,
+}
+
+/// Whether somebody has said that this is the material.
+fn is_stated(material: &Material) -> bool {
+    *material != Material::named(DEFAULT_MATERIAL)
 }
 
 fn leaf(
     model: &Model,
     transform: Option<&Transform>,
-    material: Option<&Material>,
+    paint: Paint<'_>,
     materials: &mut Materials,
 ) -> Outcome<Tree> {
     let mut tree = model.tree.clone().without_source_lines();
     if let Some(transform) = transform {
         tree = tree.transformed(transform).map_err(Failure::of)?;
     }
-    if let Some(material) = material {
+    if let Some(material) = paint.all {
         let number = materials.number(material);
         return Ok(tree.with_material(number));
     }
-    let numbers: Vec<MaterialId> = model.materials.iter().map(|material| materials.number(material)).collect();
+    let own = |material| if is_stated(material) { material } else { paint.unstated.unwrap_or(material) };
+    let numbers: Vec<MaterialId> = model.materials.iter().map(|material| materials.number(own(material))).collect();
     for own in tree.brushes_mut().iter_mut().flat_map(Brush::materials_mut) {
         let number = numbers.get(own.0 as usize).copied();
         *own = number.ok_or_else(|| Failure::bug(format!("found material number {} of {}", own.0, numbers.len())))?;

@@ -33,24 +33,36 @@ pub(crate) fn text_of(py: Python<'_>, options: Option<&Bound<'_, PyDict>>) -> Py
             settings.set_item("allow_nan", false)?;
             // numbers of NumPy are none of JSON's
             settings.set_item("default", py.get_type::<PyFloat>())?;
-            let text = py.import("json")?.call_method("dumps", (options,), Some(&settings));
-            text.map_err(|error| refuse(format!("options: {}", error.value(py))))?.extract()
+            let dumps = py.import("json")?.getattr("dumps")?;
+            for (name, value) in options {
+                let text = dumps.call((value,), Some(&settings));
+                text.map_err(|error| refuse(format!("{name}: {}", error.value(py))))?;
+            }
+            dumps.call((options,), Some(&settings))?.extract()
         }
     }
 }
 
 /// Settings that were given by name.
 pub(crate) fn settings<T: DeserializeOwned>(text: &str) -> Outcome<T> {
-    serde_json::from_str(text).map_err(|error| {
+    let refused = |name: &str, error: serde_json::Error| {
         // the place in a text that nobody wrote says nothing
         let message = error.to_string();
-        let message = message.split(" at line ").next().unwrap_or_default();
-        Failure::of(format!("options: {message}"))
+        Failure::of(format!("{name}: {}", message.split(" at line ").next().unwrap_or_default()))
+    };
+    serde_json::from_str(text).map_err(|error| {
+        // one by one they say which of them it is
+        let all: serde_json::Map<String, serde_json::Value> = serde_json::from_str(text).unwrap_or_default();
+        let of_one = |(name, value): (String, serde_json::Value)| {
+            let one = serde_json::Map::from_iter([(name.clone(), value)]);
+            serde_json::from_value::<T>(one.into()).err().map(|error| refused(&name, error))
+        };
+        all.into_iter().find_map(of_one).unwrap_or_else(|| refused("options", error))
     })
 }
 
 /// A failure of a file.
-fn at(path: &Path, error: impl std::fmt::Display) -> Failure {
+pub(crate) fn at(path: &Path, error: impl std::fmt::Display) -> Failure {
     let path = path.display().to_string();
     Failure { message: format!("{path}: {error}"), path: Some(path), ..Failure::default() }
 }
@@ -63,7 +75,7 @@ pub(crate) fn save_mesh(mesh: &CoreMesh, path: &Path, options: &str) -> Outcome<
 }
 
 /// A failure that names the file itself.
-fn said(path: &Path, error: impl std::fmt::Display) -> Failure {
+pub(crate) fn said(path: &Path, error: impl std::fmt::Display) -> Failure {
     Failure { message: error.to_string(), ..at(path, "") }
 }
 
@@ -340,7 +352,7 @@ pub(crate) fn parts_of_mesh_object<'py>(
     value: &Bound<'py, PyAny>,
 ) -> PyResult<Option<(Bound<'py, PyAny>, Bound<'py, PyAny>)>> {
     let names =
-        [("vert_properties", "tri_verts"), ("vertices", "triangles"), ("vertices", "faces"), ("vertices", "indices")];
+        [("vert_properties", "tri_verts"), ("vertices", "faces"), ("vertices", "indices"), ("vertices", "triangles")];
     for (vertices, triangles) in names {
         if let (Some(vertices), Some(triangles)) = (value.getattr_opt(vertices)?, value.getattr_opt(triangles)?) {
             return Ok(Some((vertices, triangles)));

@@ -71,7 +71,7 @@ impl Job {
             let _ = sender.send(outcome);
         };
         thread::Builder::new().name("planecut".to_owned()).spawn(begin).map_err(refuse)?;
-        let mut told = (0, 0);
+        let mut told = Told::default();
         loop {
             // it is moved there and back: a receiver is for one thread
             let (back, received) = py.detach(move || {
@@ -100,14 +100,37 @@ impl Job {
     }
 
     /// Calls the function for progress where there is news.
-    fn tell(&self, py: Python<'_>, now: (usize, usize), told: &mut (usize, usize), is_end: bool) -> PyResult<()> {
+    fn tell(&self, py: Python<'_>, now: (usize, usize), told: &mut Told, is_end: bool) -> PyResult<()> {
         let Some(progress) = &self.progress else { return Ok(()) };
-        let now = if is_end { (now.1.max(1), now.1.max(1)) } else { now };
-        if now.1 == 0 || now == *told {
+        let done = if is_end { Told::TOTAL } else { told.next(now) };
+        if done == told.done {
             return Ok(());
         }
-        *told = now;
-        progress.call1(py, now).map(|_| ())
+        told.done = done;
+        progress.call1(py, (done, Told::TOTAL)).map(|_| ())
+    }
+}
+
+/// How far work is, as it is told: it never falls, although each stage of the work begins anew and nobody knows how many there are. Each takes half of what is left.
+#[derive(Default)]
+struct Told {
+    done: usize,
+    /// The last steps of the stage, and what was told when it began.
+    stage: (usize, usize),
+    begin: usize,
+}
+
+impl Told {
+    const TOTAL: usize = 1000;
+
+    fn next(&mut self, (done, total): (usize, usize)) -> usize {
+        if total != self.stage.1 || done < self.stage.0 {
+            self.begin = self.done;
+        }
+        self.stage = (done, total);
+        let left = (Self::TOTAL - self.begin) / 2;
+        // between two looks a stage may have become another one of as many steps
+        self.done.max(self.begin + left * done.min(total) / total.max(1))
     }
 }
 

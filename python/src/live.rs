@@ -11,7 +11,8 @@ use planecut::csg::{
 };
 use planecut::kernel::{HalfSpace, PlaneIdx};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyBytes, PyDict};
+use serde::{Deserialize, Serialize};
 
 use crate::arrays::{row, small, vector, view_points, view_rows};
 use crate::errors::{Failure, Outcome, refuse};
@@ -23,6 +24,11 @@ use crate::solid::{Solid, transform_of};
 /// A model that is edited: each edit costs what it touches, and says which faces it changed.
 ///
 /// Its brushes are the convex bodies (and closed meshes) of a solid, numbered from 0 in their order; faces have numbers, too, which may be used again once a face is gone.
+///
+/// Args:
+///     solid: A Solid to begin with. What combines its bodies one after another gives them roles; bodies within nested operations stay operands of these.
+///     threads: Number of threads; by default one for each core.
+///     progress: A function that is called with done and total.
 ///
 /// >>> import planecut as pc
 /// >>> live = pc.Live(pc.box([0, 0, 0], [3, 3, 3]) - pc.box([1, 1, 1], [2, 2, 4]))
@@ -105,11 +111,6 @@ impl State {
 
 #[pymethods]
 impl Live {
-    /// A model to begin with.
-    ///
-    /// Args:
-    ///     solid: A Solid. What combines its bodies one after another gives them roles; bodies within nested operations stay operands of these.
-    ///     progress: A function that is called with done and total.
     #[new]
     #[pyo3(signature = (solid, *, threads=None, progress=None))]
     fn new(py: Python<'_>, solid: &Bound<'_, Solid>, threads: Option<usize>, progress: Option<Py<PyAny>>) -> PyResult<Self> {
@@ -428,6 +429,7 @@ impl Change {
 
 /// A face of a live model as it was when it was asked for: planar, connected and of one material.
 #[pyclass(frozen, module = "planecut")]
+#[derive(Serialize, Deserialize)]
 pub(crate) struct Face {
     brush: Option<u64>,
     plane: Option<usize>,
@@ -473,6 +475,17 @@ impl Face {
     #[getter]
     fn triangles<'py>(slf: &Bound<'py, Self>) -> Bound<'py, PyArray2<u32>> {
         view_rows(slf.as_any(), &slf.get().triangles)
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
+        let bytes = rmp_serde::to_vec(slf.get()).map_err(Failure::of)?;
+        Ok((slf.get_type().getattr("_unpickle")?, (PyBytes::new(slf.py(), &bytes),)))
+    }
+
+    /// A face that was pickled.
+    #[staticmethod]
+    fn _unpickle(data: &[u8]) -> PyResult<Self> {
+        rmp_serde::from_slice(data).map_err(|error| refuse(format!("found what is no pickled face: {error}")))
     }
 
     fn __repr__(&self) -> String {

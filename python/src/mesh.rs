@@ -21,6 +21,13 @@ use crate::solid::transform_of;
 /// A triangle mesh: the boundary of a solid, or triangles that somebody brings, whatever they bound.
 ///
 /// Its arrays are read-only views of memory that the mesh owns; nothing is copied on the way out.
+///
+/// Args:
+///     vertices: Shape (n, 3), finite numbers; they are copied, as doubles.
+///     triangles: Shape (m, 3), numbers of vertices from 0, counter-clockwise seen from outside; they are copied.
+///     material: The name of what all are made of.
+///     materials: Names of materials, instead of `material`.
+///     material_ids: Shape (m,), the number of each triangle's material among `materials`.
 #[pyclass(frozen, module = "planecut")]
 pub(crate) struct Mesh {
     data: Data,
@@ -129,14 +136,6 @@ impl Given {
 
 #[pymethods]
 impl Mesh {
-    /// Triangles of one's own.
-    ///
-    /// Args:
-    ///     vertices: Shape (n, 3), finite numbers; they are copied, as doubles.
-    ///     triangles: Shape (m, 3), numbers of vertices from 0, counter-clockwise seen from outside; they are copied.
-    ///     material: The name of what all are made of.
-    ///     materials: Names of materials, instead of `material`.
-    ///     material_ids: Shape (m,), the number of each triangle's material among `materials`.
     #[new]
     #[pyo3(signature = (vertices, triangles, material=None, *, materials=None, material_ids=None))]
     fn new(
@@ -341,7 +340,12 @@ impl Mesh {
         let vertices = Self::vertices(slf).call_method0("copy")?;
         let triangles = Self::triangles(slf).call_method1("astype", ("uint64",))?;
         let mesh = module.getattr("Mesh64")?.call1((vertices, triangles))?;
-        Ok(module.getattr("Manifold")?.call1((mesh,))?.unbind())
+        let manifold = module.getattr("Manifold")?.call1((mesh,))?;
+        let status = manifold.call_method0("status")?;
+        if !status.eq(module.getattr("Error")?.getattr("NoError")?)? {
+            return Err(refuse(format!("found a mesh that manifold3d refuses ({status}), expected a closed one")));
+        }
+        Ok(manifold.unbind())
     }
 
     fn __repr__(&self) -> String {

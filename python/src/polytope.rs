@@ -12,6 +12,9 @@ use crate::errors::{Failure, refuse};
 
 /// The intersection of half-spaces `n · x <= d`, with corners and faces kept up to date as planes are added, moved and removed, each in about a microsecond. It may be unbounded or
 /// empty. Every decision is exact: it is the same as one made anew of the same planes.
+///
+/// Args:
+///     planes: Shape (k, 4), numbered from 0 in their order; without them it is all of space.
 #[pyclass(frozen, module = "planecut")]
 pub(crate) struct Polytope {
     body: Mutex<IncrementalPolytope>,
@@ -38,10 +41,6 @@ impl Polytope {
 
 #[pymethods]
 impl Polytope {
-    /// All of space, or the body of some planes.
-    ///
-    /// Args:
-    ///     planes: Shape (k, 4), numbered from 0 in their order; none unless they are given.
     #[new]
     #[pyo3(signature = (planes=None))]
     fn new(planes: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
@@ -152,7 +151,7 @@ impl Polytope {
         Ok(body.face_area(PlaneIdx(plane)).unwrap_or_else(|| if has_face() { f64::INFINITY } else { 0.0 }))
     }
 
-    /// For each point whether the closed body holds it, exactly.
+    /// For each point whether the closed body holds it, exactly; a body without interior holds none.
     ///
     /// Args:
     ///     points: Shape (n, 3).

@@ -8,7 +8,7 @@ use planecut::csg::polyhedron::convex_tree;
 use planecut::csg::primitives::{self, Extrusion};
 use planecut::csg::{Brush, Material, MaterialId, Operation, ShapeError, Tree, shaping};
 use pyo3::prelude::*;
-use pyo3::types::PySequence;
+use pyo3::types::{PyList, PySequence, PyTuple};
 
 use crate::arrays::{columns, row, table, vector};
 use crate::errors::{Failure, refuse};
@@ -197,8 +197,12 @@ fn of_solids(
 
 /// What solids of a list are made of; nothing where it is no list of solids.
 fn solids(value: &Bound<'_, PyAny>) -> PyResult<Option<Vec<Arc<Node>>>> {
-    let Ok(list) = value.cast::<PySequence>() else { return Ok(None) };
-    if list.len()? == 0 || !list.get_item(0)?.is_instance_of::<Solid>() {
+    if let Ok(solid) = value.cast::<Solid>() {
+        return Ok(Some(vec![Arc::clone(solid.get().node())]));
+    }
+    // an array is no list of solids, whatever its items are
+    let is_list = value.is_instance_of::<PyList>() || value.is_instance_of::<PyTuple>();
+    if !is_list || value.len()? == 0 || !value.get_item(0)?.is_instance_of::<Solid>() {
         return Ok(None);
     }
     nodes_of(value, "points").map(Some)

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use glam::{DMat3, DVec3};
 use numpy::{PyArray1, PyArray2, PyArray3};
-use planecut::csg::{Material, Operation, SolidMeasures, Transform, shaping};
+use planecut::csg::{Brush, Material, Model, Operation, SolidMeasures, Transform, shaping};
+use planecut_csg::stages::check_materials;
 use planecut_parallel::job::check;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -169,13 +170,17 @@ impl Solid {
         Ok(models.into_iter().map(|model| Self::of(Node::of_model(model))).collect())
     }
 
-    /// Where the solid meets the plane z = height: what there is just below it.
+    /// Where the solid meets the plane z = height: what there is just above it, so that the bottom of a solid is one, and its top is none.
     ///
     /// Returns:
     ///     A list of loops of shape (n, 2): outer ones counter-clockwise, holes clockwise. `extrude` takes them.
     fn slice<'py>(&self, py: Python<'py>, height: f64) -> PyResult<Vec<Bound<'py, PyArray2<f64>>>> {
-        let node = Arc::clone(&self.node);
-        let outline = Job::default().run(py, move || shaping::slice(&node.model()?.tree, height).map_err(Failure::of))?;
+        if !height.is_finite() {
+            return Err(refuse(format!("height: found {height}, expected a finite number")));
+        }
+        // upside down: what is just below there is just above here
+        let node = self.node.moved(&Transform::scale([1.0, 1.0, -1.0]).map_err(Failure::of)?)?;
+        let outline = Job::default().run(py, move || shaping::slice(&node.model()?.tree, -height).map_err(Failure::of))?;
         let loops = outline.loops().map(|corners| corners.iter().map(|corner| corner.to_array()).collect::<Vec<_>>());
         loops.map(|corners| small_rows(py, &corners)).collect()
     }
@@ -410,7 +415,10 @@ impl Solid {
     /// A solid that was pickled.
     #[staticmethod]
     fn _unpickle(data: &[u8]) -> PyResult<Self> {
-        let model = rmp_serde::from_slice(data).map_err(|error| refuse(format!("found what is no pickled solid: {error}")))?;
+        let refused = |what: String| refuse(format!("found what is no pickled solid: {what}"));
+        let model: Model = rmp_serde::from_slice(data).map_err(|error| refused(error.to_string()))?;
+        let used = model.tree.brushes().iter().flat_map(Brush::materials);
+        check_materials(used, model.materials.len()).map_err(|error| refused(error.to_string()))?;
         Ok(Self::of(Node::of_model(model)))
     }
 }

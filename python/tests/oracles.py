@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator
-from itertools import combinations
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -92,6 +91,29 @@ class Tree:
         return inside, np.minimum(clear, also)
 
 
+def voxel_tree(rng: np.random.Generator, leaves: int, size: int) -> tuple[pc.Solid, np.ndarray]:
+    """An expression of boxes with whole coordinates, and the voxels that it fills."""
+    if leaves == 1:
+        low = rng.integers(0, size - 1, 3)
+        high = rng.integers(low + 1, size + 1)
+        voxels = np.zeros((size, size, size), bool)
+        voxels[tuple(slice(a, b) for a, b in zip(low, high))] = True
+        return pc.box(low, high), voxels
+    first = int(rng.integers(1, leaves))
+    (a, of_a), (b, of_b) = voxel_tree(rng, first, size), voxel_tree(rng, leaves - first, size)
+    match rng.integers(5):
+        case 0:
+            return a - b, of_a & ~of_b
+        case 1:
+            return a & b, of_a & of_b
+        case 2:
+            return a ^ b, of_a ^ of_b
+        case 3:
+            return a & ~b, of_a & ~of_b
+        case _:
+            return a | b, of_a | of_b
+
+
 def first_hits(vertices: np.ndarray, triangles: np.ndarray, origins: np.ndarray, directions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """For each ray the distance to the first triangle, inf for none, and its number; every triangle is tried (Möller and Trumbore)."""
     directions = directions / np.linalg.norm(directions, axis=1)[:, None]
@@ -137,6 +159,10 @@ def raised(work: Callable[[], object]) -> BaseException:
     raise AssertionError(f"expected an exception, found {result!r}")
 
 
-def triples(planes: list[Any]) -> Iterator[tuple[Any, Any, Any]]:
-    """All sets of three planes."""
-    return combinations(planes, 3)
+def assert_refused(work: Callable[[], object], *kinds: type[BaseException]) -> None:
+    """Work raises one of the ordinary exceptions, with a message of one line."""
+    error = raised(work)
+    assert type(error) in (kinds or (pc.PlanecutError, TypeError, OverflowError)), repr(error)
+    message = str(error)
+    assert message.strip() and "\n" not in message, repr(message)
+    assert "panic" not in message.lower() and ".rs" not in message

@@ -215,6 +215,11 @@ class TestLiveEdit:
 class TestOptimise:
     """optimise.py."""
 
+    @pytest.fixture(autouse=True)
+    def with_scipy(self):
+        """The example needs it."""
+        pytest.importorskip("scipy", reason="SciPy is not installed")
+
     def test_the_surface_of_a_half_full_tank_goes_through_its_center(self):
         offsets, (angle, area) = example("optimise").main()
         for tilt, offset in offsets.items():

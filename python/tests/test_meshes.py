@@ -167,7 +167,8 @@ def test_obj_keeps_doubles_and_materials(tmp_path):
     solid.save(tmp_path / "x.obj")
     loaded = pc.load(tmp_path / "x.obj")
     assert loaded.volume == pytest.approx(solid.volume, rel=1e-12)
-    assert set(loaded.mesh().materials) == set(solid.mesh().materials)
+    used = [{mesh.materials[number] for number in mesh.material_ids} for mesh in (loaded.mesh(), solid.mesh())]
+    assert used[0] == used[1] >= {"clay"}
 
 
 @pytest.mark.parametrize("ending", ["map", "csg"])
@@ -285,7 +286,7 @@ def test_the_engine_for_trimesh_agrees_with_manifold3d(operation):
     first, second, third = (tree.manifold() for tree in trees)
     expected = {"union": first + second + third, "difference": first - second - third, "intersection": first ^ second ^ third}[operation]
     found = pc.trimesh_engine(meshes, operation)
-    assert isinstance(found, trimesh.Trimesh) and found.is_watertight
+    assert isinstance(found, trimesh.Trimesh) and (found.is_watertight or len(found.faces) == 0)
     assert found.volume == pytest.approx(expected.volume(), rel=1e-9, abs=1e-9)
     # trimesh's own engine works in single precision
     other = getattr(trimesh.boolean, operation)(meshes, engine="manifold")

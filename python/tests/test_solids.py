@@ -7,7 +7,7 @@ import math
 import numpy as np
 import planecut as pc
 import pytest
-from oracles import Tree, box_points, first_hits, generator, is_closed, mesh_area, mesh_volume, random_affine
+from oracles import Tree, box_points, first_hits, generator, is_closed, mesh_area, mesh_volume, random_affine, voxel_tree
 
 CASES = range(24)
 
@@ -190,29 +190,6 @@ def test_rays_meet_the_triangles_that_brute_force_finds(case):
     is_same = np.isclose(found, expected, rtol=1e-7, atol=1e-8) | (np.isinf(found) & np.isinf(expected))
     # a ray may pass an edge on either side
     assert is_same.mean() >= 0.99
-
-
-def voxel_tree(rng, leaves, size):
-    """An expression of boxes with whole coordinates, and the voxels that it fills."""
-    if leaves == 1:
-        low = rng.integers(0, size - 1, 3)
-        high = rng.integers(low + 1, size + 1)
-        voxels = np.zeros((size, size, size), bool)
-        voxels[tuple(slice(a, b) for a, b in zip(low, high))] = True
-        return pc.box(low, high), voxels
-    first = int(rng.integers(1, leaves))
-    (a, of_a), (b, of_b) = voxel_tree(rng, first, size), voxel_tree(rng, leaves - first, size)
-    match rng.integers(5):
-        case 0:
-            return a - b, of_a & ~of_b
-        case 1:
-            return a & b, of_a & of_b
-        case 2:
-            return a ^ b, of_a ^ of_b
-        case 3:
-            return a & ~b, of_a & ~of_b
-        case _:
-            return a | b, of_a | of_b
 
 
 @pytest.mark.parametrize("case", range(40))

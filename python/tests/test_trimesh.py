@@ -61,9 +61,10 @@ data = {"boolean": _volumes()}
 
 
 @pytest.fixture(scope="module")
-def sources(request):
+def sources(request, tmp_path_factory):
     """The folder of the sources of the trimesh that is installed, fetched from PyPI once and kept in pytest's cache."""
-    folder = Path(request.config.cache.mkdir("trimesh"))
+    cache = getattr(request.config, "cache", None)
+    folder = Path(cache.mkdir("trimesh")) if cache else tmp_path_factory.mktemp("trimesh")
     name = f"trimesh-{trimesh.__version__}"
     if not (folder / name).is_dir():
         command = [

@@ -92,6 +92,7 @@ impl WrittenCells {
                     scale,
                     max_vertices: request.max_vertices.unwrap_or(usize::MAX),
                     encloses: request.encloses,
+                    is_separated: true,
                     stored: &stored,
                 };
                 let meshes = written_meshes(cells, request.materials, &writing)?;

@@ -50,6 +50,8 @@ pub struct Writing<'a> {
     pub max_vertices: usize,
     /// Whether the written cells hold the cells. Otherwise vertices are rounded to the nearest, as cells within a solid want it.
     pub encloses: bool,
+    /// Whether vertices keep a distance from each other that readers in single precision need; `docs/tolerances.md` says which.
+    pub is_separated: bool,
     /// Where a reader finds the positions of a mesh. What it returns must be stored as it is, also without some of its points.
     pub stored: &'a (dyn Fn(&[DVec3]) -> Vec<DVec3> + Sync),
 }
@@ -57,7 +59,7 @@ pub struct Writing<'a> {
 /// The meshes that are written for convex cells, each closed, convex by exact signs of its own positions, and around its cell.
 ///
 /// Every position is a corner of the hull of all of its mesh, up to coplanar ones, and each triangle belongs to the face that it lies along. No two positions
-/// are nearer to each other than `WRITTEN_SEPARATION` of the size of their cell (`docs/tolerances.md`). A cell of which rounding to the nearest leaves no body,
+/// are nearer to each other than `WRITTEN_SEPARATION` of the size of their cell (`docs/tolerances.md`), where that is asked for. A cell of which rounding to the nearest leaves no body,
 /// where nothing is to be enclosed, has no triangles.
 ///
 /// # Errors
@@ -74,7 +76,10 @@ pub fn written_meshes(
     });
     let size = extent(&bounds);
     let mesh = |part: &Option<Part>| match part {
-        Some(part) => written_mesh(part, materials, writing, separation(part, size) * writing.scale),
+        Some(part) if writing.is_separated => {
+            written_mesh(part, materials, writing, separation(part, size) * writing.scale)
+        }
+        Some(part) => written_mesh(part, materials, writing, 0.0),
         None => Ok(Mesh::default()),
     };
     parts.par_iter().map(mesh).collect()

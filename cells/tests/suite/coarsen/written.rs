@@ -102,7 +102,7 @@ fn written_cells_hold_their_points_in_every_precision() {
         let bodies = bodies(&mut Rng::spread(seed));
         let cells: Vec<Brush> = bodies.iter().map(|(_, brush)| brush.clone()).collect();
         for (name, stored) in formats {
-            let writing = Writing { scale: 1.0, max_vertices: usize::MAX, encloses: true, stored };
+            let writing = Writing { scale: 1.0, max_vertices: usize::MAX, encloses: true, is_separated: true, stored };
             let meshes = written_meshes(&cells, &materials, &writing).expect("in range");
             for ((points, _), mesh) in bodies.iter().zip(&meshes) {
                 let case = format!("seed {seed}, {name}: {points:?}");
@@ -123,7 +123,7 @@ fn written_cells_hold_their_points_times_any_scale() {
     for (seed, scale) in (1000..1000 + CASES).zip([0.0254, 1e-3, 39.37, 1.0 / 3.0].into_iter().cycle()) {
         let bodies = bodies(&mut Rng::spread(seed));
         let cells: Vec<Brush> = bodies.iter().map(|(_, brush)| brush.clone()).collect();
-        let writing = Writing { scale, max_vertices: usize::MAX, encloses: true, stored: &double };
+        let writing = Writing { scale, max_vertices: usize::MAX, encloses: true, is_separated: true, stored: &double };
         let meshes = written_meshes(&cells, &[Material::named("any")], &writing).expect("in range");
         for ((points, _), mesh) in bodies.iter().zip(&meshes) {
             // the points stay, and the mesh is divided: what is exact in rationals alone
@@ -145,7 +145,7 @@ fn a_written_cell_has_no_more_vertices_than_it_may_have() {
     for seed in 2000..2000 + CASES {
         let bodies = bodies(&mut Rng::spread(seed));
         let cells: Vec<Brush> = bodies.iter().map(|(_, brush)| brush.clone()).collect();
-        let writing = Writing { scale: 1.0, max_vertices: 8, encloses: true, stored: &double };
+        let writing = Writing { scale: 1.0, max_vertices: 8, encloses: true, is_separated: true, stored: &double };
         let meshes = written_meshes(&cells, &[Material::named("any")], &writing).expect("in range");
         for ((points, _), mesh) in bodies.iter().zip(&meshes) {
             assert_is_convex_around(mesh, points, &format!("seed {seed}"));
@@ -160,7 +160,7 @@ fn a_written_cell_has_no_more_vertices_than_it_may_have() {
 fn a_box_on_a_grid_is_written_as_it_is() {
     let single = |positions: &[DVec3]| positions.iter().map(|p| p.as_vec3().as_dvec3()).collect::<Vec<_>>();
     let cell = Brush::cuboid(DVec3::new(-1.0, 0.5, 3.0), DVec3::new(7.0, 2.25, 4.0), MaterialId(0));
-    let writing = Writing { scale: 1.0, max_vertices: 8, encloses: true, stored: &single };
+    let writing = Writing { scale: 1.0, max_vertices: 8, encloses: true, is_separated: true, stored: &single };
     let meshes = written_meshes(&[cell], &[Material::named("any")], &writing).expect("in range");
     let mut corners: Vec<[f64; 3]> = meshes[0].positions.iter().map(|p| p.to_array()).collect();
     corners.sort_by(|a, b| a.partial_cmp(b).expect("numbers"));

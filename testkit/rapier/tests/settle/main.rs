@@ -35,7 +35,7 @@ fn options(cells: usize) -> CoarsenOptions {
 /// Writes a body as MJCF with meshes beside it, has Rapier read it, and lets it fall.
 fn expect_sound(folder: &Path, name: &str, (visual, is_closed): (&Mesh, bool), cells: &Coarsened) {
     let single = |positions: &[DVec3]| positions.iter().map(|position| position.as_vec3().as_dvec3()).collect();
-    let writing = Writing { scale: 1.0, max_vertices: usize::MAX, encloses: true, stored: &single };
+    let writing = Writing { scale: 1.0, max_vertices: usize::MAX, encloses: true, is_separated: true, stored: &single };
     let meshes = written_meshes(&cells.cells, &steel(), &writing).expect("meshes");
     let colliders: Vec<Collider<'_>> = meshes.iter().map(|mesh| Collider::new("cell", mesh)).collect();
     let union = mesh_of(Tree::union_of(cells.cells.clone()));
