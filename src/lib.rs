@@ -17,6 +17,7 @@
 //! | [`check`] | [`check_mesh`](check::check_mesh): is any mesh watertight, manifold, free of self-intersections |
 //! | [`import`] | readers of the native [model file](import::model), of OpenSCAD's evaluated trees ([`scad`](import::scad)), of Quake-family [`map`](import::map)s, and of [`mesh`](import::mesh) files: OBJ, STL, PLY and glTF |
 //! | [`export`] | [`encode`](export::encode) a mesh as GLB, glTF, OBJ, STL, 3MF or PLY |
+//! | [`enclosing`] | few convex cells around a solid, made the way that adds least |
 //! | `picture` | pictures of meshes and cells (feature `picture`, on unless turned off) |
 //! | `cli` | the `planecut` program, for others that carry it (feature `cli`, on unless turned off) |
 //!
@@ -115,6 +116,7 @@ pub mod export {
 }
 #[cfg(feature = "cli")]
 pub mod cli;
+pub mod enclosing;
 #[cfg(feature = "picture")]
 pub mod picture;
 

@@ -4,13 +4,14 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use glam::DVec3;
+use numpy::PyArray3;
 use planecut::cells::coarsen::{
-    Bounded, CoarsenOptions, Coarsened as CoreCoarsened, Coarsener, Side, Surface, Writing, written_meshes,
+    Bounded, CoarsenOptions, Coarsened as CoreCoarsened, Side, Surface, Writing, written_meshes,
 };
 use planecut::csg::polyhedron::convex_tree;
 use planecut::csg::primitives::hull_of_points;
 use planecut::csg::{Brush, Material, MaterialId, Mesh as CoreMesh, Model, Tree, evaluate};
-use numpy::PyArray3;
+use planecut::enclosing::{enclosed, enclosed_surface};
 use planecut::export::{
     Collider, Engine, ExportOptions, Format, MassProperties, Part, PhysicsFormat, RigidBody, encode_parts, physics_files,
     write_atomic,
@@ -423,28 +424,11 @@ fn work(subject: Subject, taken: Taken, options: &CoarsenOptions) -> Outcome<Wor
     }
 }
 
-/// Cells of a tree: of the boundary where a part is a mesh and few cells are wanted, else of its exact convex parts.
+/// Cells of a tree.
 fn of_model(model: Model, points: &[DVec3], options: &CoarsenOptions) -> Outcome<Work> {
     let visual = evaluate(&model)?.mesh;
-    let is_coarse = options.max_cells.is_some() || options.max_excess.is_some();
-    let work = |outcome, visual, bounded| Work {
-        outcome,
-        materials: model.materials.clone(),
-        bounded,
-        note: None,
-        visual,
-        is_closed: true,
-    };
-    if model.tree.has_meshes() && is_coarse && options.side == Side::Outer {
-        let outcome = enclosed(&visual, Bounded::Solid, options)?;
-        // pieces of a surface exceed it a little: what they cannot reach, exact cells may
-        if options.max_excess.is_none_or(|most| outcome.excess() <= most) {
-            return Ok(work(outcome, visual, Some(Bounded::Solid)));
-        }
-    }
-    let tree = convex_tree(&model.tree).map_err(Failure::of)?;
-    let outcome = Coarsener::new(&tree, points, options)?.coarsened()?;
-    Ok(work(outcome, visual, None))
+    let (outcome, bounded) = enclosed(&model.tree, &visual, points, options)?;
+    Ok(Work { outcome, materials: model.materials, bounded, note: None, visual, is_closed: true })
 }
 
 fn of_surface(mesh: &CoreMesh, taken: Taken, why: Option<String>, options: &CoarsenOptions) -> Outcome<Work> {
@@ -462,16 +446,9 @@ fn of_surface(mesh: &CoreMesh, taken: Taken, why: Option<String>, options: &Coar
         )),
         _ => None,
     };
-    let outcome = enclosed(mesh, bounded, options)?;
+    let outcome = enclosed_surface(mesh, bounded, options)?;
     let (materials, visual) = (mesh.materials.clone(), mesh.clone());
     Ok(Work { outcome, materials, bounded: Some(bounded), note, visual, is_closed: false })
-}
-
-fn enclosed(mesh: &CoreMesh, bounded: Bounded, options: &CoarsenOptions) -> Outcome<CoreCoarsened> {
-    let materials: Vec<MaterialId> =
-        mesh.triangle_faces.iter().map(|face| mesh.faces[*face as usize].material).collect();
-    let surface = Surface { positions: &mesh.positions, triangles: &mesh.triangles, materials: &materials, bounded };
-    Ok(Coarsener::of_surface(&surface, None, options)?.coarsened()?)
 }
 
 /// Cells as others read them: vertices in doubles whose hull holds the planes' body.

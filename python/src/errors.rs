@@ -5,6 +5,7 @@ use std::fmt::Display;
 
 use planecut::cells::coarsen::CoarsenError;
 use planecut::csg::{EditError, EvaluateError};
+use planecut::enclosing::EncloseError;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::{PyErr, create_exception};
@@ -101,6 +102,15 @@ impl From<CoarsenError> for Failure {
         match error {
             CoarsenError::Evaluate(error) => error.into(),
             _ => Self::of(error),
+        }
+    }
+}
+
+impl From<EncloseError> for Failure {
+    fn from(error: EncloseError) -> Self {
+        match error {
+            EncloseError::Coarsen(error) => error.into(),
+            EncloseError::Cells(error) => Self::of(error),
         }
     }
 }

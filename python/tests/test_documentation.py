@@ -75,7 +75,6 @@ def test_docstrings_of_classes_are_their_own():
             assert value.__doc__ not in {base.__doc__ for base in value.__mro__[1:]}, name
 
 
-@pytest.mark.xfail(strict=True, reason="defect 15: docstrings of constructors do not arrive")
 def test_docstrings_tell_the_shapes_of_arrays_that_come_in():
     docs, missing = documented(), []
     for name, function in stub_functions():

@@ -89,8 +89,8 @@ def test_outer_loops_run_counter_clockwise_and_holes_clockwise():
     tube = pc.cylinder(4, 2, segments=16) - pc.cylinder(4, 1, segments=16)
     outer, hole = sorted(tube.slice(2.0), key=lambda loop: -abs(signed_area(loop)))
     assert signed_area(outer) > 0 > signed_area(hole)
-    # what there is just below the plane
-    assert tube.slice(0.0) == [] and len(tube.slice(4.0)) == 2 and tube.slice(4.5) == []
+    # what there is just above the plane
+    assert len(tube.slice(0.0)) == 2 and tube.slice(4.0) == [] and tube.slice(4.5) == []
 
 
 @pytest.mark.parametrize("case", range(5))

@@ -139,11 +139,15 @@ def test_cells_and_changes_pickle():
     assert change.added and (other.added, other.removed, other.brushes) == (change.added, change.removed, change.brushes)
 
 
-def test_what_belongs_to_a_model_alone_does_not_pickle():
+def test_faces_pickle_and_edits_that_are_open_do_not():
     live = some_live()
-    for value in (live.edit(), live.face(int(live.faces[0]))):
-        with pytest.raises(TypeError, match="cannot pickle"):
-            pickle.dumps(value)
+    face = live.face(int(live.faces[0]))
+    again = pickle.loads(pickle.dumps(face))
+    for name in ("vertices", "triangles", "normal"):
+        assert getattr(again, name).tobytes() == getattr(face, name).tobytes(), name
+    assert (again.brush, again.plane, again.material) == (face.brush, face.plane, face.material)
+    with pytest.raises(TypeError, match="cannot pickle"):
+        pickle.dumps(live.edit())
 
 
 # ---- processes

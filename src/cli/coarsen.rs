@@ -3,8 +3,9 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
-use planecut::csg::coarsen::{Bounded, CoarsenOptions, Coarsened, Coarsener, Side};
+use planecut::csg::coarsen::{Bounded, CoarsenOptions, Coarsened};
 use planecut::csg::{Brush, EvaluateError, Material, MaterialId, Mesh, Model, Tree, evaluate};
+use planecut::enclosing::{EncloseError, enclosed};
 use planecut::export::{Collider, ExportOptions, Format, PhysicsFormat, distinct_color};
 use planecut::import::Warning;
 use planecut::import::mesh::{MeshImport, PartsImport, read_parts};
@@ -14,7 +15,7 @@ use super::args::CoarsenArgs;
 use super::error::{CliError, Done};
 use super::input::{Input, InputKind};
 use super::output::{MeshTarget, Output, OutputFormat, Target, check_targets};
-use super::pieces::{NUMBER, bounded_tree, of_cells};
+use super::pieces::{NUMBER, bounded_tree, no_cells, of_cells};
 use super::product::{Contents, Product, draw, encode, produce};
 use super::progress::Progress;
 use super::report::{CoarsenPart, milliseconds};
@@ -219,18 +220,10 @@ impl<'a> Plan<'a> {
             Shape::Solid { points } => points,
         };
         let tree = bounded_tree(self.kind, solved);
-        let is_coarse = options.max_cells.is_some() || options.max_excess.is_some();
-        if tree.has_meshes() && is_coarse && options.side == Side::Outer {
-            let triangles = Triangles::of_boundary(&solved.mesh);
-            let coarsened = triangles.coarsened(options).map_err(failed)?;
-            // pieces of a surface exceed it a little: what they cannot reach, exact cells may
-            if options.max_excess.is_none_or(|most| coarsened.excess() <= most) {
-                return Ok((coarsened, Some(Bounded::Solid)));
-            }
-        }
-        let tree = of_cells(&self.input.path, &tree)?;
-        let coarsened = Coarsener::new(&tree, points, options).and_then(|coarsener| coarsener.coarsened());
-        Ok((coarsened.map_err(failed)?, None))
+        enclosed(&tree, &solved.mesh, points, options).map_err(|error| match error {
+            EncloseError::Coarsen(source) => failed(source),
+            EncloseError::Cells(source) => no_cells(&self.input.path, source),
+        })
     }
 
     /// The cells as each of the formats holds them that are asked for.

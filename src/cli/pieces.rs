@@ -153,10 +153,15 @@ pub(crate) fn brushes(path: &Path, tree: &Tree) -> Result<Vec<Brush>, CliError> 
 /// # Errors
 /// [`CliError::Cells`] for a mesh that falls into too many.
 pub(crate) fn of_cells<'a>(path: &Path, tree: &'a Tree) -> Result<Cow<'a, Tree>, CliError> {
-    convex_tree(tree).map_err(|source| match source {
+    convex_tree(tree).map_err(|source| no_cells(path, source))
+}
+
+/// The error for a tree without convex cells.
+pub(crate) fn no_cells(path: &Path, source: ConvexTreeError) -> CliError {
+    match source {
         ConvexTreeError::Evaluate(source) => CliError::of_evaluation(path, source),
         source => CliError::Cells { path: path.to_owned(), source },
-    })
+    }
 }
 
 /// The tree of an input, of a map without what is not bounded.

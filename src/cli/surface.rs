@@ -25,13 +25,6 @@ pub(crate) struct Triangles {
 }
 
 impl Triangles {
-    /// The boundary of a solid.
-    pub(crate) fn of_boundary(mesh: &Mesh) -> Self {
-        let material_of = mesh.triangle_faces.iter().map(|face| mesh.faces[*face as usize].material).collect();
-        let (positions, triangles) = (mesh.positions.clone(), mesh.triangles.clone());
-        Self { positions, triangles, material_of, bounded: Bounded::Solid }
-    }
-
     /// The triangles of a file that bound no solid, or are not to; `why` they do not. With the report on them.
     ///
     /// # Errors

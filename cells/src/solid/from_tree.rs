@@ -2,10 +2,12 @@
 
 use std::borrow::Cow;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use planecut_csg::stages::{Boxes, smallest_size};
 use planecut_csg::{Brush, PlaneId, PlaneTable, Tree};
 use planecut_kernel::HalfSpace;
+use planecut_parallel::job;
 use planecut_parallel::prelude::*;
 
 use super::carve::Carver;
@@ -122,6 +124,7 @@ fn cells_of(form: &NormalForm, carver: &Carver) -> Vec<Cell> {
     let boxes = Boxes::new(carver.bodies.iter().map(|body| *body.bounds()).collect());
     let owners = form.owners();
     let chunk = (owners.len() / (8 * planecut_parallel::current_num_threads()).max(1)).clamp(1, 64);
+    let (done, owners_in_all) = (AtomicUsize::new(0), owners.len());
     let parts: Vec<Vec<Cell>> = owners
         .par_chunks(chunk)
         .map(|owners| {
@@ -131,6 +134,7 @@ fn cells_of(form: &NormalForm, carver: &Carver) -> Vec<Cell> {
                 if formula.value() != Some(false) {
                     carver.carve(start.into_owned(), formula, &mut cells);
                 }
+                job::progress(done.fetch_add(1, Ordering::Relaxed) + 1, owners_in_all);
             }
             cells
         })

@@ -8,6 +8,7 @@ use crate::ids::FaceId;
 use crate::mesh::Mesh;
 use crate::model::MaterialId;
 use crate::plane_table::PlaneId;
+use crate::tolerances::ON_FACE;
 use crate::weld::WeldedFace;
 
 /// A planar, connected region of the boundary of a live model, with its triangles.
@@ -90,7 +91,7 @@ impl LiveModel {
             let half_spaces = operand.state.brush.half_spaces();
             let outside = half_spaces.map(|half| half.signed_distance(middle)).fold(f64::NEG_INFINITY, f64::max);
             let size = (bounds.max - bounds.min).length() + middle.length();
-            Some((is_turned, outside > crate::tolerances::ON_FACE * size, operand.id, operand.state.planes[place]))
+            Some((is_turned, outside > ON_FACE * size, operand.id, operand.state.planes[place]))
         };
         let near = self.places.near(&bounds).map(|number| self.operand(number));
         near.filter_map(source).min().map(|(_, _, brush, plane)| (brush, plane))
@@ -127,5 +128,12 @@ pub fn distance_along(origin: DVec3, direction: DVec3, corners: [DVec3; 3]) -> O
     let sum: f64 = weights.iter().sum();
     let distance = (weights[0] * a[2] + weights[1] * b[2] + weights[2] * c[2]) / sum;
     // a triangle along the ray has no area seen from there
-    (sum != 0.0 && distance >= 0.0).then_some(distance)
+    if sum == 0.0 || distance < 0.0 {
+        return None;
+    }
+    // of one that has next to none, the weights are noise: the place tells
+    let place = origin + direction * distance;
+    let [low, high] = [DVec3::min, DVec3::max].map(|farther| corners.into_iter().reduce(farther).unwrap_or(place));
+    let margin = ON_FACE * (low.abs().max(high.abs()).max_element() + origin.abs().max_element());
+    (place.cmpge(low - margin).all() && place.cmple(high + margin).all()).then_some(distance)
 }

@@ -39,8 +39,8 @@ const MOST_GROWTHS: usize = 200;
 /// Distance between unit normals within which a face is looked for first.
 const NEARLY: f64 = 0.01;
 
-/// How often sharp corners are moved farther before the cell becomes its box.
-const MOST_SHARP: u32 = 4;
+/// How often sharp corners are moved twice as far before the cell becomes its box.
+const MOST_SHARP: u32 = 32;
 
 /// What the vertices of written cells must fulfil.
 pub struct Writing<'a> {
@@ -124,7 +124,14 @@ fn enclosing(corners: &Corners, writing: &Writing<'_>, separation: f64) -> Optio
         let positions = stored(&grown(corners, &clusters, growth, separation, shape));
         sharp += u32::from(shape == Shape::Sharp);
         match around(&positions, &corners.holding) {
-            Some(surface) if surface.0.len() <= writing.max_vertices => return Some(surface),
+            Some(surface) if surface.0.len() <= writing.max_vertices => {
+                let is_far = shape == Shape::Sharp && !is_within_reach(&surface.0, &corners.holding);
+                if !is_far {
+                    return Some(surface);
+                }
+                // sharp corners that are moved so far add more than the box does
+                (growth, shape) = (first, Shape::Box);
+            }
             // enclosed, but with more vertices than it may have
             Some(_) if shape != Shape::Box => shape = shape.with_fewer_vertices(),
             // a corner of opposite faces can be moved as far as one likes
@@ -133,6 +140,14 @@ fn enclosing(corners: &Corners, writing: &Writing<'_>, separation: f64) -> Optio
         }
     }
     None
+}
+
+/// Whether positions lie within the box around points, as wide again on all sides.
+fn is_within_reach(positions: &[DVec3], held: &[DVec3]) -> bool {
+    let around = |points: &[DVec3]| points.iter().fold(Bounds::EMPTY, |b, p| Bounds { min: b.min.min(*p), max: b.max.max(*p) });
+    let (own, held) = (around(positions), around(held));
+    let size = held.max - held.min;
+    own.min.cmpge(held.min - size).all() && own.max.cmple(held.max + size).all()
 }
 
 /// The hull of positions, where it has an interior and its corners hold some more points; positions that it does not need are left out.

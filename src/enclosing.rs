@@ -1,0 +1,94 @@
+//! Few convex cells around a solid, made the way that adds least.
+//!
+//! A solid of convex bodies is coarsened as it is. Where closed meshes are part of it, few cells come from its boundary, without its exact convex cells, of which there may be millions; where
+//! these are few, they are coarsened as well, and what adds less is taken.
+
+use planecut_cells::coarsen::{Bounded, CoarsenError, CoarsenOptions, Coarsened, Coarsener, Side, Surface};
+use planecut_csg::{MaterialId, Mesh, Tree};
+use planecut_kernel::DVec3;
+use planecut_shapes::polyhedron::{ConvexTreeError, convex_tree};
+use thiserror::Error;
+
+/// Meshes of no more triangles are also tried by their exact cells, where these are no more than [`FEW_CELLS`].
+const FEW_TRIANGLES: usize = 1500;
+/// Exact cells that are coarsened in less time than the boundary.
+const FEW_CELLS: usize = 256;
+
+/// Why a solid was not enclosed.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum EncloseError {
+    /// As [`CoarsenError`].
+    #[error(transparent)]
+    Coarsen(#[from] CoarsenError),
+    /// A mesh of the solid falls into too many convex cells where these are needed.
+    #[error(transparent)]
+    Cells(#[from] ConvexTreeError),
+}
+
+/// Coarsens the solid of a tree. `boundary` is its mesh; `points` are points that the cells must hold exactly although rounding may have left them outside. With the cells comes what the
+/// boundary bounds, where they were made of it.
+///
+/// # Errors
+/// [`EncloseError`].
+///
+/// ```
+/// use planecut::cells::coarsen::CoarsenOptions;
+/// use planecut::csg::{Brush, Material, MaterialId, Model, Tree, evaluate};
+/// use planecut::enclosing::enclosed;
+/// use planecut::kernel::DVec3;
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let block = |min: f64, max: f64| Tree::from(Brush::cuboid(DVec3::splat(min), DVec3::splat(max), MaterialId(0)));
+/// let model = Model { materials: vec![Material::named("oak")], tree: block(0.0, 2.0) - block(1.0, 2.0) };
+/// let boundary = evaluate(&model)?.mesh;
+/// let options = CoarsenOptions { max_cells: Some(1), ..CoarsenOptions::default() };
+/// let (cells, _) = enclosed(&model.tree, &boundary, &[], &options)?;
+/// assert!((cells.volume_out - (8.0 - 1.0 / 6.0)).abs() < 1e-9);
+/// # Ok(())
+/// # }
+/// ```
+pub fn enclosed(
+    tree: &Tree,
+    boundary: &Mesh,
+    points: &[DVec3],
+    options: &CoarsenOptions,
+) -> Result<(Coarsened, Option<Bounded>), EncloseError> {
+    let is_coarse = options.max_cells.is_some() || options.max_excess.is_some();
+    let of_cells = |tree: &Tree, points: &[DVec3]| Coarsener::new(tree, points, options)?.coarsened();
+    if !tree.has_meshes() || !is_coarse || options.side != Side::Outer {
+        return Ok((of_cells(&*convex_tree(tree)?, points)?, None));
+    }
+    let of_boundary = enclosed_surface(boundary, Bounded::Solid, options)?;
+    let adds_too_much = options.max_excess.is_some_and(|most| of_boundary.excess() > most);
+    if !adds_too_much && boundary.triangles.len() > FEW_TRIANGLES {
+        return Ok((of_boundary, Some(Bounded::Solid)));
+    }
+    let exact = convex_tree(tree)?;
+    if !adds_too_much && exact.brushes().len() > FEW_CELLS {
+        return Ok((of_boundary, Some(Bounded::Solid)));
+    }
+    // the planes of a mesh hold its vertices but for their rounding
+    let points: Vec<DVec3> = points.iter().chain(&boundary.positions).copied().collect();
+    let of_cells = of_cells(&exact, &points)?;
+    // pieces of a surface exceed it a little: what they cannot reach, exact cells may
+    let rank = |cells: &Coarsened| match (options.max_cells, options.max_excess) {
+        (None, Some(_)) => (cells.cells.len() as f64, cells.excess()),
+        _ => (cells.excess(), cells.sum_excess()),
+    };
+    if adds_too_much || rank(&of_cells) < rank(&of_boundary) {
+        Ok((of_cells, None))
+    } else {
+        Ok((of_boundary, Some(Bounded::Solid)))
+    }
+}
+
+/// Coarsens what a mesh bounds, by its triangles alone.
+///
+/// # Errors
+/// As [`Coarsener::of_surface`].
+pub fn enclosed_surface(mesh: &Mesh, bounded: Bounded, options: &CoarsenOptions) -> Result<Coarsened, CoarsenError> {
+    let materials: Vec<MaterialId> =
+        mesh.triangle_faces.iter().map(|face| mesh.faces[*face as usize].material).collect();
+    let surface = Surface { positions: &mesh.positions, triangles: &mesh.triangles, materials: &materials, bounded };
+    Coarsener::of_surface(&surface, None, options)?.coarsened()
+}
