@@ -12,7 +12,7 @@ use thiserror::Error;
 /// Meshes of no more triangles are also tried by their exact cells, where these are no more than [`FEW_CELLS`].
 const FEW_TRIANGLES: usize = 1500;
 /// Exact cells that are coarsened in less time than the boundary.
-const FEW_CELLS: usize = 256;
+const FEW_CELLS: usize = 64;
 
 /// Why a solid was not enclosed.
 #[derive(Debug, Clone, PartialEq, Error)]

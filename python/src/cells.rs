@@ -52,6 +52,10 @@ impl Cell {
         Self { vertices: mesh.positions.clone(), triangles: mesh.triangles.clone(), ..self }
     }
 
+    pub(crate) fn volume(&self) -> f64 {
+        self.volume
+    }
+
     pub(crate) fn parts(&self) -> (&[DVec3], &[[u32; 3]]) {
         (&self.vertices, &self.triangles)
     }
@@ -78,8 +82,8 @@ impl Cell {
     }
 
     /// The volume.
-    #[getter]
-    fn volume(&self) -> f64 {
+    #[getter(volume)]
+    fn volume_of(&self) -> f64 {
         self.volume
     }
 

@@ -8,6 +8,7 @@ use numpy::PyArray3;
 use planecut::cells::coarsen::{
     Bounded, CoarsenOptions, Coarsened as CoreCoarsened, Side, Surface, Writing, written_meshes,
 };
+use planecut::check::measure_triangles;
 use planecut::csg::polyhedron::convex_tree;
 use planecut::csg::primitives::hull_of_points;
 use planecut::csg::{Brush, Material, MaterialId, Mesh as CoreMesh, Model, Tree, evaluate};
@@ -31,6 +32,9 @@ use crate::job::Job;
 use crate::mesh::{Given, Handle, Mesh};
 use crate::picture::{Look, is_picture, pixels};
 use crate::solid::Solid;
+
+/// By how much of its volume a cell may be larger as it is written, for the volume to be the same.
+const SAME_VOLUME: f64 = 1e-9;
 
 /// Few convex cells around a solid, and what they add.
 #[pyclass(frozen, module = "planecut")]
@@ -451,21 +455,38 @@ fn of_surface(mesh: &CoreMesh, taken: Taken, why: Option<String>, options: &Coar
     Ok(Work { outcome, materials, bounded: Some(bounded), note, visual, is_closed: false })
 }
 
-/// Cells as others read them: vertices in doubles whose hull holds the planes' body.
-fn written(work: &Work, max_vertices: Option<usize>, encloses: bool) -> Outcome<(Vec<Cell>, Vec<CoreMesh>)> {
+/// Cells as others read them: vertices in doubles whose hull holds the planes' body. A cell that has too many vertices for that becomes a larger one, and the volumes are measured anew.
+fn written(work: &mut Work, max_vertices: Option<usize>, encloses: bool) -> Outcome<(Vec<Cell>, Vec<CoreMesh>)> {
     let stored = |positions: &[DVec3]| positions.to_vec();
     let max_vertices = max_vertices.unwrap_or(usize::MAX);
     let writing = Writing { scale: 1.0, max_vertices, encloses, is_separated: false, stored: &stored };
-    let meshes = written_meshes(&work.outcome.cells, &work.materials, &writing)?;
+    let mut meshes = written_meshes(&work.outcome.cells, &work.materials, &writing)?;
     let default = Material::named(crate::shapes::DEFAULT_MATERIAL);
-    let cell = |(brush, mesh): (&Brush, &CoreMesh)| {
-        let material = brush.faces.first().and_then(|face| work.materials.get(face.material.0 as usize));
-        Cell::of_planes(brush.half_spaces().copied(), material.unwrap_or(&default)).map(|cell| cell.written_as(mesh))
-    };
-    // within a solid a cell may be thinner than rounding
-    let kept = work.outcome.cells.iter().zip(&meshes).filter(|(_, mesh)| !mesh.triangles.is_empty());
-    let cells = kept.map(cell).collect::<Outcome<_>>()?;
-    Ok((cells, meshes.into_iter().filter(|mesh| !mesh.triangles.is_empty()).collect()))
+    let (mut cells, mut has_grown) = (Vec::new(), false);
+    for (brush, mesh) in work.outcome.cells.iter_mut().zip(&meshes) {
+        // within a solid a cell may be thinner than rounding
+        if mesh.triangles.is_empty() {
+            continue;
+        }
+        let material = brush.faces.first().map(|face| face.material);
+        let named = material.and_then(|material| work.materials.get(material.0 as usize)).unwrap_or(&default);
+        let cell = Cell::of_planes(brush.half_spaces().copied(), named)?;
+        let volume = measure_triangles(&mesh.positions, &mesh.triangles).map_or(0.0, |measures| measures.volume);
+        if encloses && volume > cell.volume() * (1.0 + SAME_VOLUME) {
+            has_grown = true;
+            *brush = hull_of_points(&mesh.positions, material.unwrap_or(MaterialId(0))).map_err(Failure::of)?;
+            cells.push(Cell::of_planes(brush.half_spaces().copied(), named)?.written_as(mesh));
+        } else {
+            cells.push(cell.written_as(mesh));
+        }
+    }
+    if has_grown {
+        let tree = Tree::union_of(work.outcome.cells.clone());
+        work.outcome.volume_out = evaluate(&Model { materials: work.materials.clone(), tree })?.solid.volume;
+        work.outcome.volume_sum_out = cells.iter().map(Cell::volume).sum();
+    }
+    meshes.retain(|mesh| !mesh.triangles.is_empty());
+    Ok((cells, meshes))
 }
 
 /// Few convex cells that enclose a solid, with as little added as can be found: for colliders.
@@ -549,8 +570,8 @@ fn coarsen(
             Ok(convex_tree(&tree).map_err(|error| Failure::of(format!("keep_clear: {error}")))?.into_owned())
         };
         let options = CoarsenOptions { keep_clear: clear.map(clear_tree).transpose()?, ..options };
-        let work = work(subject, taken, &options)?;
-        let (cells, meshes) = written(&work, max_vertices, !inner)?;
+        let mut work = work(subject, taken, &options)?;
+        let (cells, meshes) = written(&mut work, max_vertices, !inner)?;
         let Work { outcome, materials, bounded, note, visual, is_closed } = work;
         let data = Data {
             cells,

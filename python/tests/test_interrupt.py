@@ -172,7 +172,6 @@ def test_nothing_goes_on_after_ctrl_c(name):
 
 # ---- progress
 
-CELLS = pytest.param("cells", marks=pytest.mark.xfail(strict=True, reason="defect 17: it is told at the end alone"))
 
 
 SHORTER = {
@@ -203,7 +202,7 @@ def test_progress_ends_with_all_that_is_to_be_done(name):
     assert all(a[:2] != b[:2] for a, b in zip(calls, calls[1:])), "there is news in each call"
 
 
-@pytest.mark.parametrize("name", ["mesh", CELLS, "coarsen a solid", "coarsen a mesh"])
+@pytest.mark.parametrize("name", ["mesh", "cells", "coarsen a solid", "coarsen a mesh"])
 def test_progress_is_told_on_the_way_and_never_falls(name):
     calls = told_by(name)
     shares = [done / total for done, total, _ in calls]

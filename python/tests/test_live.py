@@ -255,7 +255,6 @@ def test_rays_pick_the_face_that_brute_force_finds(case):
     assert np.isclose(picked, expected, rtol=1e-9, atol=1e-9, equal_nan=True).mean() >= 0.99
 
 
-@pytest.mark.xfail(strict=True, reason="defect 20: signs of rounding errors are taken for hits")
 def test_rays_miss_triangles_that_are_nearly_points():
     rng = np.random.default_rng([6, 7])
     live = start()

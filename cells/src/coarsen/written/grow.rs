@@ -86,5 +86,13 @@ fn middle(normals: &[DVec3]) -> (DVec3, f64) {
             best = (direction, least(direction));
         }
     }
+    // where three faces meet there is one direction of equal products, and steps come near to it too slowly if the corner is sharp
+    if let [a, b, c] = normals {
+        let across = a.cross(*b) + b.cross(*c) + c.cross(*a);
+        let direction = (across * a.dot(b.cross(*c)).signum()).normalize_or(DVec3::Z);
+        if least(direction) > best.1 {
+            best = (direction, least(direction));
+        }
+    }
     best
 }
