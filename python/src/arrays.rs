@@ -153,7 +153,11 @@ fn indices(array: &Bound<'_, PyUntypedArray>, name: &str, count: usize) -> PyRes
     }
     let columns = if array.ndim() == 2 { array.shape()[1] } else { 1 };
     let wrong = |place: usize, found: String| {
-        let at = if array.ndim() == 2 { format!("[{}, {}]", place / columns, place % columns) } else { format!("[{place}]") };
+        let at = if array.ndim() == 2 {
+            format!("[{}, {}]", place / columns, place % columns)
+        } else {
+            format!("[{place}]")
+        };
         let last = count.saturating_sub(1);
         refuse(format!("{name}: found {found} at {at}, expected numbers from 0 to {last}"))
     };
@@ -208,7 +212,10 @@ pub(crate) fn view_points<'py>(owner: &Bound<'py, PyAny>, points: &[DVec3]) -> B
 }
 
 /// A new read-only array of a few rows.
-pub(crate) fn small_rows<'py, const N: usize>(py: Python<'py>, rows: &[[f64; N]]) -> PyResult<Bound<'py, PyArray2<f64>>> {
+pub(crate) fn small_rows<'py, const N: usize>(
+    py: Python<'py>,
+    rows: &[[f64; N]],
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let array = PyArray1::from_slice(py, rows.as_flattened()).reshape([rows.len(), N])?;
     array.readwrite().make_nonwriteable();
     Ok(array)

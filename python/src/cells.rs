@@ -41,7 +41,8 @@ impl Cell {
             let corner = |k: usize| polygon[k] as u32;
             (2..polygon.len()).map(|k| [corner(0), corner(k - 1), corner(k)]).collect::<Vec<_>>()
         };
-        let planes = body.facets().iter().filter_map(|(plane, _)| body.plane(*plane)).map(HalfSpace::to_array).collect();
+        let planes =
+            body.facets().iter().filter_map(|(plane, _)| body.plane(*plane)).map(HalfSpace::to_array).collect();
         let volume = body.measures().map_or(0.0, |measures| measures.volume);
         let triangles = polygons.iter().flat_map(fan).collect();
         Ok(Self { planes, vertices, triangles, volume, material: material.name.clone() })
@@ -95,8 +96,12 @@ impl Cell {
 
     /// The body as a Solid: of its planes, exactly.
     fn to_solid(&self) -> PyResult<Solid> {
-        let half_spaces: Vec<HalfSpace> =
-            self.planes.iter().map(|plane| HalfSpace::from_array(*plane)).collect::<Result<_, _>>().map_err(Failure::of)?;
+        let half_spaces: Vec<HalfSpace> = self
+            .planes
+            .iter()
+            .map(|plane| HalfSpace::from_array(*plane))
+            .collect::<Result<_, _>>()
+            .map_err(Failure::of)?;
         let brush = Brush::from_half_spaces(half_spaces, MaterialId(0));
         Ok(Solid::of(Node::of_tree(brush, Material::named(&self.material))))
     }

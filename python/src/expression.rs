@@ -67,9 +67,15 @@ impl Node {
                 let planes = brushes.iter().map(|brush| brush.faces.len() as u64).sum();
                 (brushes.len() as u64, planes, model.tree.has_meshes())
             }
-            Kind::Operation(_, operands) => operands.iter().fold((0, 0, false), |(pieces, planes, has_meshes): (u64, u64, bool), node| {
-                (pieces.saturating_add(node.pieces), planes.saturating_add(node.planes), has_meshes || node.has_meshes)
-            }),
+            Kind::Operation(_, operands) => {
+                operands.iter().fold((0, 0, false), |(pieces, planes, has_meshes): (u64, u64, bool), node| {
+                    (
+                        pieces.saturating_add(node.pieces),
+                        planes.saturating_add(node.planes),
+                        has_meshes || node.has_meshes,
+                    )
+                })
+            }
             Kind::Moved(node, _) | Kind::OfMaterial(node, _) => (node.pieces, node.planes, node.has_meshes),
         };
         let material = match &kind {
@@ -164,7 +170,8 @@ impl Node {
                         let is_cut = matches!(operation, Operation::Difference | Operation::Intersection);
                         let first = operands.first().and_then(|first| first.material.as_ref()).filter(|_| is_cut);
                         let cutter = Paint { unstated: first.or(paint.unstated), ..paint };
-                        let enter = |(place, node)| Step::Enter(node, transform, if place == 0 { paint } else { cutter });
+                        let enter =
+                            |(place, node)| Step::Enter(node, transform, if place == 0 { paint } else { cutter });
                         let places = operands.iter().enumerate().rev();
                         steps.extend(places.map(|(place, node)| (place, &**node)).map(enter));
                     }
@@ -233,12 +240,7 @@ fn is_stated(material: &Material) -> bool {
     *material != Material::named(DEFAULT_MATERIAL)
 }
 
-fn leaf(
-    model: &Model,
-    transform: Option<&Transform>,
-    paint: Paint<'_>,
-    materials: &mut Materials,
-) -> Outcome<Tree> {
+fn leaf(model: &Model, transform: Option<&Transform>, paint: Paint<'_>, materials: &mut Materials) -> Outcome<Tree> {
     let mut tree = model.tree.clone().without_source_lines();
     if let Some(transform) = transform {
         tree = tree.transformed(transform).map_err(Failure::of)?;

@@ -9,7 +9,9 @@ use planecut::csg::{Mesh as CoreMesh, Model, Tree};
 use planecut::export::{BrushFormat, ExportOptions, Format, encode, write_atomic, write_brushes};
 use planecut::import::file::{MAX_MESH, read_file};
 use planecut::import::map::{MapOptions, read_map};
-use planecut::import::mesh::{IndexedMesh, MeshFormat, MeshObject, Precision, SolidError, SolidOptions, WindingRule, read_solid, solid_of_mesh};
+use planecut::import::mesh::{
+    IndexedMesh, MeshFormat, MeshObject, Precision, SolidError, SolidOptions, WindingRule, read_solid, solid_of_mesh,
+};
 use planecut::import::model::{MAX_TEXT, ModelError, ModelOptions, read_model};
 use planecut::import::scad::{ScadOptions, read_scad};
 use planecut::import::{DEFAULT_MAX_PIECES, Warning};
@@ -95,7 +97,8 @@ pub(crate) fn save_solid(node: &Arc<Node>, path: &Path, options: &str) -> Outcom
     let model = node.model()?;
     let tree = convex_tree(&model.tree).map_err(|error| at(path, error))?;
     let mut text = Vec::new();
-    write_brushes(&convex_union(&tree), &model.materials, format, options.scale, &mut text).map_err(|error| at(path, error))?;
+    write_brushes(&convex_union(&tree), &model.materials, format, options.scale, &mut text)
+        .map_err(|error| at(path, error))?;
     write_atomic(path, &text).map_err(|error| said(path, error))
 }
 
@@ -139,7 +142,8 @@ fn load(
     let mut values: Vec<(String, f64)> = Vec::new();
     for (name, value) in parameters.into_iter().flatten() {
         let name: String = name.extract()?;
-        let value: f64 = value.extract().map_err(|_| refuse(format!("{name}: found what is no number, expected one")))?;
+        let value: f64 =
+            value.extract().map_err(|_| refuse(format!("{name}: found what is no number, expected one")))?;
         values.push((name, value));
     }
     let options = SolidOptions { rule: winding_of(winding)?, close: not_negative("close", close)?, textures: false };
@@ -160,7 +164,11 @@ pub(crate) fn winding_of(name: &str) -> PyResult<WindingRule> {
 
 fn not_negative(name: &str, value: f64) -> PyResult<f64> {
     let is_fine = value.is_finite() && value >= 0.0;
-    if is_fine { Ok(value) } else { Err(refuse(format!("{name}: found {value}, expected a number that is not negative"))) }
+    if is_fine {
+        Ok(value)
+    } else {
+        Err(refuse(format!("{name}: found {value}, expected a number that is not negative")))
+    }
 }
 
 fn read(path: &Path, parameters: Vec<(String, f64)>, options: &SolidOptions) -> Outcome<(Model, Vec<Warning>)> {
@@ -169,7 +177,10 @@ fn read(path: &Path, parameters: Vec<(String, f64)>, options: &SolidOptions) -> 
     let mesh_format = MeshFormat::from_extension(&ending);
     let is_text = matches!(ending.as_str(), "json" | "map" | "csg");
     if !is_text && mesh_format.is_none() {
-        return Err(at(path, "found a file of another kind, expected .json, .map, .csg, .obj, .stl, .ply, .glb or .gltf"));
+        return Err(at(
+            path,
+            "found a file of another kind, expected .json, .map, .csg, .obj, .stl, .ply, .glb or .gltf",
+        ));
     }
     if !parameters.is_empty() && ending != "json" {
         return Err(at(path, "found parameters for a file that has none, expected a model file (.json)"));
@@ -218,7 +229,11 @@ fn without_unbounded(model: Model, warnings: &mut Vec<Warning>) -> Model {
     }
     let line = unbounded.first().and_then(|brush| model.tree.source_line(*brush)).map_or(0, std::num::NonZeroU32::get);
     let count = unbounded.len();
-    warnings.push(Warning::loss(line, format!("left out {count} brushes that are not bounded, the first of them here"), count));
+    warnings.push(Warning::loss(
+        line,
+        format!("left out {count} brushes that are not bounded, the first of them here"),
+        count,
+    ));
     let brushes = model.tree.into_brushes().into_iter().enumerate();
     let kept = brushes.filter(|(number, _)| unbounded.binary_search(number).is_err()).map(|(_, brush)| brush);
     Model { materials: model.materials, tree: Tree::union_of(kept.collect()) }
@@ -232,7 +247,7 @@ fn line_of(error: &SolidError) -> Option<usize> {
         _ => return None,
     };
     match place {
-        Place::Line(line) => usize::try_from(*line).ok(),
+        Place::Line(line) => Some(*line),
         _ => None,
     }
 }

@@ -66,7 +66,8 @@ impl Job {
         let (sender, mut receiver) = mpsc::channel();
         let (threads, own) = (self.threads, Arc::clone(&watch));
         let begin = move || {
-            let outcome = new_pool(threads, Some(&own)).and_then(|pool| pool.install(|| watched(&own, || caught(work))));
+            let outcome =
+                new_pool(threads, Some(&own)).and_then(|pool| pool.install(|| watched(&own, || caught(work))));
             // nobody waits any more after an interrupt
             let _ = sender.send(outcome);
         };

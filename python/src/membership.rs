@@ -1,8 +1,8 @@
 //! Which points a solid holds.
 
 use glam::DVec3;
-use planecut::cells::coarsen::Winding;
 use planecut::cells::Solid as CellSolid;
+use planecut::cells::coarsen::Winding;
 use planecut::csg::{Brush, Operation, TreeNode};
 use planecut::kernel::{IncrementalPolytope, Location};
 use planecut_csg::stages::{Bounds, Boxes};
@@ -68,11 +68,10 @@ fn bounds_of(body: &IncrementalPolytope) -> Bounds {
 /// Where a point lies by where it lies in the operands; on the boundary where these do not say it.
 fn location(nodes: &[TreeNode], of_leaf: impl Fn(usize) -> Location) -> Location {
     let mut values: Vec<Location> = Vec::new();
-    let mut leaf = 0;
+    let mut leaves = 0..;
     for node in nodes {
         let TreeNode::Operation { operation, operands } = node else {
-            values.push(of_leaf(leaf));
-            leaf += 1;
+            values.extend(leaves.next().map(&of_leaf));
             continue;
         };
         let operands = values.split_off(values.len() - *operands as usize);

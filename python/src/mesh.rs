@@ -294,7 +294,7 @@ impl Mesh {
     ///     A list of texts, empty if the mesh is sound. Of each kind of problem the first is told.
     #[pyo3(signature = (tolerance=1e-9, *, threads=None))]
     fn check(&self, py: Python<'_>, tolerance: f64, threads: Option<usize>) -> PyResult<Vec<String>> {
-        if !(tolerance >= 0.0) {
+        if tolerance.is_nan() || tolerance < 0.0 {
             return Err(refuse(format!("tolerance: found {tolerance}, expected a number that is not negative")));
         }
         let handle = self.handle();

@@ -45,7 +45,9 @@ impl Polytope {
     #[pyo3(signature = (planes=None))]
     fn new(planes: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
         let mut body = IncrementalPolytope::new();
-        for (number, plane) in planes.map_or(Ok(Vec::new()), |planes| table::<4>(planes, "planes"))?.into_iter().enumerate() {
+        for (number, plane) in
+            planes.map_or(Ok(Vec::new()), |planes| table::<4>(planes, "planes"))?.into_iter().enumerate()
+        {
             let plane = HalfSpace::from_array(plane).map_err(|error| refuse(format!("planes[{number}]: {error}")))?;
             body.add_plane(plane);
         }

@@ -107,7 +107,9 @@ impl Solid {
             Ok("x") => DVec3::X,
             Ok("y") => DVec3::Y,
             Ok("z") => DVec3::Z,
-            Ok(found) => return Err(refuse(format!("axis: found {found:?}, expected \"x\", \"y\", \"z\" or a vector"))),
+            Ok(found) => {
+                return Err(refuse(format!("axis: found {found:?}, expected \"x\", \"y\", \"z\" or a vector")));
+            }
             Err(_) => vector(axis, "axis")?,
         };
         self.transformed(&Transform::rotation(axis, degrees).map_err(Failure::of)?)
@@ -180,7 +182,8 @@ impl Solid {
         }
         // upside down: what is just below there is just above here
         let node = self.node.moved(&Transform::scale([1.0, 1.0, -1.0]).map_err(Failure::of)?)?;
-        let outline = Job::default().run(py, move || shaping::slice(&node.model()?.tree, -height).map_err(Failure::of))?;
+        let outline =
+            Job::default().run(py, move || shaping::slice(&node.model()?.tree, -height).map_err(Failure::of))?;
         let loops = outline.loops().map(|corners| corners.iter().map(|corner| corner.to_array()).collect::<Vec<_>>());
         loops.map(|corners| small_rows(py, &corners)).collect()
     }
@@ -250,7 +253,8 @@ impl Solid {
         let points = crate::arrays::points(points, "points")?;
         let node = Arc::clone(&self.node);
         let is_short = node.is_small() && points.len() < 1000;
-        let held = Job::new(py, threads, None)?.short_if(is_short).run(py, move || membership::contains(&node, &points))?;
+        let held =
+            Job::new(py, threads, None)?.short_if(is_short).run(py, move || membership::contains(&node, &points))?;
         Ok(PyArray1::from_vec(py, held))
     }
 
@@ -281,7 +285,9 @@ impl Solid {
         }
         for (number, direction) in directions.iter_mut().enumerate() {
             let scaled = *direction / direction.abs().max_element();
-            *direction = scaled.try_normalize().ok_or_else(|| refuse(format!("directions[{number}]: found the zero vector, expected another")))?;
+            *direction = scaled
+                .try_normalize()
+                .ok_or_else(|| refuse(format!("directions[{number}]: found the zero vector, expected another")))?;
         }
         let node = Arc::clone(&self.node);
         let cast = move || -> Outcome<Vec<f64>> {
@@ -322,7 +328,12 @@ impl Solid {
     ///     path: Its ending says the format: .glb, .gltf, .obj, .stl, .3mf, .ply, .map, .csg or .png.
     ///     options: Settings of the format by name: `scale`, `unit`, `text`, `quantize`, `meshopt`, `vertex_colors`, … (docs/formats.md); for a picture those of `render`.
     #[pyo3(signature = (path, **options))]
-    fn save(&self, py: Python<'_>, path: std::path::PathBuf, options: Option<&Bound<'_, pyo3::types::PyDict>>) -> PyResult<()> {
+    fn save(
+        &self,
+        py: Python<'_>,
+        path: std::path::PathBuf,
+        options: Option<&Bound<'_, pyo3::types::PyDict>>,
+    ) -> PyResult<()> {
         let options = text_of(py, options)?;
         let node = Arc::clone(&self.node);
         Job::default().run(py, move || {
@@ -432,9 +443,7 @@ pub(crate) fn transform_of(matrix: &Bound<'_, PyAny>) -> PyResult<Transform> {
     let is_affine = rows.len() == 3 || rows.len() == 4 && rows[3] == [0.0, 0.0, 0.0, 1.0];
     if !is_affine {
         let found = rows.len();
-        return Err(refuse(format!(
-            "matrix: found {found} rows, expected 3, or 4 of which the last is 0, 0, 0, 1"
-        )));
+        return Err(refuse(format!("matrix: found {found} rows, expected 3, or 4 of which the last is 0, 0, 0, 1")));
     }
     let column = |k: usize| DVec3::new(rows[0][k], rows[1][k], rows[2][k]);
     Ok(Transform::new(DMat3::from_cols(column(0), column(1), column(2)), column(3)).map_err(Failure::of)?)

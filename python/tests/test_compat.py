@@ -104,7 +104,7 @@ def test_hulls_hold_places_all_over_the_surface_and_inside(name):
     assert np.any([held(hull, inner) for hull in hulls], axis=0).all()
     # places on the surface are rounded, and hulls that add nothing end there
     wider = [((corners - corners.mean(0)) * (1 + 1e-12) + corners.mean(0), faces) for corners, faces in hulls]
-    assert np.any([held(hull, points) for hull in wider], axis=0).all()
+    assert np.any([held(hull, points) for hull in hulls + wider], axis=0).all()
 
 
 def test_the_threshold_bounds_the_volume_that_is_added():

@@ -103,7 +103,8 @@ impl LiveModel {
     pub fn pick(&self, origin: DVec3, direction: DVec3) -> Option<(FaceId, f64)> {
         let direction = direction.try_normalize()?;
         let meets = |(id, face): (FaceId, LiveFace<'_>)| {
-            let distances = face.triangles().filter_map(|corners| distance_along(origin, direction, corners.map(|c| c.1)));
+            let distances =
+                face.triangles().filter_map(|corners| distance_along(origin, direction, corners.map(|c| c.1)));
             distances.min_by(f64::total_cmp).map(|distance| (id, distance))
         };
         self.faces().filter_map(meets).min_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)))

@@ -29,8 +29,8 @@ pub use planecut_csg::WindingRule;
 pub use planecut_shapes::polyhedron::Precision;
 pub(crate) use solid::joined_message;
 pub use solid::{
-    MeshImport, PartsImport, SolidError, SolidOptions, TrianglesImport, read_parts, read_solid, read_triangles,
-    parts_of_mesh, solid_of_mesh,
+    MeshImport, PartsImport, SolidError, SolidOptions, TrianglesImport, parts_of_mesh, read_parts, read_solid,
+    read_triangles, solid_of_mesh,
 };
 
 use error::Fault;

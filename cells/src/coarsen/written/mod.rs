@@ -144,7 +144,8 @@ fn enclosing(corners: &Corners, writing: &Writing<'_>, separation: f64) -> Optio
 
 /// Whether positions lie within the box around points, as wide again on all sides.
 fn is_within_reach(positions: &[DVec3], held: &[DVec3]) -> bool {
-    let around = |points: &[DVec3]| points.iter().fold(Bounds::EMPTY, |b, p| Bounds { min: b.min.min(*p), max: b.max.max(*p) });
+    let around =
+        |points: &[DVec3]| points.iter().fold(Bounds::EMPTY, |b, p| Bounds { min: b.min.min(*p), max: b.max.max(*p) });
     let (own, held) = (around(positions), around(held));
     let size = held.max - held.min;
     own.min.cmpge(held.min - size).all() && own.max.cmple(held.max + size).all()
