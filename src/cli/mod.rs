@@ -1,6 +1,6 @@
-//! The command line: parse ([`args`]), resolve ([`input`], [`output`]), run (one file for each command).
+//! The command line: parse (`args`), resolve (`input`, `output`), run (one file for each command).
 //!
-//! Exit statuses are decided in [`error`] and nowhere else. Every error is one line on standard error.
+//! Exit statuses are decided in `error` and nowhere else. Every error is one line on standard error.
 
 mod args;
 mod asset_args;
