@@ -33,6 +33,8 @@ pub(crate) struct Failure {
     pub(crate) line: Option<usize>,
     pub(crate) json_path: Option<String>,
     pub(crate) is_bug: bool,
+    /// Whether it is that a solid reaches infinity.
+    pub(crate) is_unbounded: bool,
 }
 
 /// What work without the interpreter gives.
@@ -58,7 +60,7 @@ impl Failure {
 
 impl From<Failure> for PyErr {
     fn from(failure: Failure) -> Self {
-        let Failure { message, path, line, json_path, is_bug } = failure;
+        let Failure { message, path, line, json_path, is_bug, is_unbounded: _ } = failure;
         if is_bug {
             return InternalError::new_err(message);
         }
@@ -83,7 +85,7 @@ impl From<EvaluateError> for Failure {
     fn from(error: EvaluateError) -> Self {
         match error {
             EvaluateError::Weld(_) | EvaluateError::Combine(_) => Self::bug(error),
-            _ => Self::of(error),
+            _ => Self { is_unbounded: error == EvaluateError::Unbounded, ..Self::of(error) },
         }
     }
 }

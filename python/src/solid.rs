@@ -229,7 +229,7 @@ impl Solid {
         let node = Arc::clone(&self.node);
         let is_empty = move || match node.evaluated() {
             Ok(evaluated) => Ok(evaluated.evaluation.mesh.triangles.is_empty()),
-            Err(failure) if failure.message == planecut::csg::EvaluateError::Unbounded.to_string() => Ok(false),
+            Err(failure) if failure.is_unbounded => Ok(false),
             Err(failure) => Err(failure),
         };
         Job::default().short_if(self.node.is_small()).run(py, is_empty)
