@@ -50,6 +50,19 @@ def glb_materials(path):
     return {material["name"]: material for material in json.loads(data[20 : 20 + length])["materials"]}
 
 
+class TestCastle:
+    """castle.py."""
+
+    def test_a_castle_has_four_walls_that_are_alike(self, tmp_path):
+        solid = example("castle").main(tmp_path, size=(320, 240))
+        assert solid.mesh().check() == []
+        assert png_size(tmp_path / "castle.png") == (320, 240)
+        # the gate is in front; left of the middle is what is right of it
+        left, right = solid & pc.halfspaces([[1, 0, 0, -1.6]]), solid & pc.halfspaces([[-1, 0, 0, -1.6]])
+        assert left.bounds[:, 1:] == pytest.approx(right.bounds[:, 1:])
+        assert np.abs(solid.bounds[:, :2]) == pytest.approx(np.full((2, 2), 14.0))
+
+
 class TestTown:
     """town.py."""
 
@@ -59,7 +72,7 @@ class TestTown:
         assert mesh.is_watertight
         assert mesh.check() == []
         assert png_size(tmp_path / "town.png") == (320, 200)
-        colors = sys.modules["town"].COLORS
+        colors = sys.modules["castle"].COLORS
         for name, material in glb_materials(tmp_path / "town.glb").items():
             assert material["pbrMetallicRoughness"]["baseColorFactor"][:3] == pytest.approx(colors[name], abs=1e-6)
 
