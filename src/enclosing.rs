@@ -14,6 +14,9 @@ const FEW_TRIANGLES: usize = 1500;
 /// Exact cells that are coarsened in less time than the boundary.
 const FEW_CELLS: usize = 64;
 
+/// Volumes relative to that of the solid that differ by no more are the same.
+const SAME_EXCESS: f64 = 1e-6;
+
 /// Why a solid was not enclosed.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum EncloseError {
@@ -71,14 +74,23 @@ pub fn enclosed(
     let points: Vec<DVec3> = points.iter().chain(&boundary.positions).copied().collect();
     let of_cells = of_cells(&exact, &points)?;
     // pieces of a surface exceed it a little: what they cannot reach, exact cells may
-    let rank = |cells: &Coarsened| match (options.max_cells, options.max_excess) {
-        (None, Some(_)) => (cells.cells.len() as f64, cells.excess()),
-        _ => (cells.excess(), cells.sum_excess()),
-    };
-    if adds_too_much || rank(&of_cells) < rank(&of_boundary) {
+    if adds_too_much || is_better(&of_cells, &of_boundary, options) {
         Ok((of_cells, None))
     } else {
         Ok((of_boundary, Some(Bounded::Solid)))
+    }
+}
+
+/// Whether cells are better than others by more than rounding: fewer where as few as can be found are wanted, else such that add less, or overlap less.
+fn is_better(one: &Coarsened, other: &Coarsened, options: &CoarsenOptions) -> bool {
+    if options.max_cells.is_none() && one.cells.len() != other.cells.len() {
+        return one.cells.len() < other.cells.len();
+    }
+    let differs = |a: f64, b: f64| (a - b).abs() > SAME_EXCESS;
+    if differs(one.excess(), other.excess()) {
+        one.excess() < other.excess()
+    } else {
+        differs(one.sum_excess(), other.sum_excess()) && one.sum_excess() < other.sum_excess()
     }
 }
 
