@@ -134,7 +134,7 @@ pub struct Coarsener {
 ///
 /// ```
 /// use planecut_cells::coarsen::{CoarsenOptions, coarsen};
-/// use planecut_csg::{Brush, Tree};
+/// use planecut_csg::{Brush, MaterialId, Tree};
 /// use planecut_kernel::DVec3;
 ///
 /// # fn main() -> Result<(), planecut_cells::coarsen::CoarsenError> {
