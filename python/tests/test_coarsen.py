@@ -211,3 +211,10 @@ def test_hulls_of_coacd_are_merged():
     merged = pc.coarsen(hulls, max(1, len(hulls) // 2))
     assert len(merged) <= max(1, len(hulls) // 2)
     assert are_held(merged.cells, np.concatenate(hulls), 1e-9).all()
+
+
+@pytest.mark.parametrize(("most", "coacd"), [(16, 0.0364), (32, 0.0090), (64, 0.0090)])
+def test_a_torus_grows_by_no_more_than_with_coacd(most, coacd):
+    """What CoACD 1.0.14 adds at the same numbers of hulls, as manifold3d measures it (`bench/coarsen`)."""
+    cells = pc.coarsen(pc.load(data("mesh/vhacd/torus1.obj")), max_cells=most)
+    assert len(cells) <= most and cells.excess < coacd
