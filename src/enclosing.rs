@@ -62,23 +62,22 @@ pub fn enclosed(
         return Ok((of_cells(&*convex_tree(tree)?, points)?, None));
     }
     let of_boundary = enclosed_surface(boundary, Bounded::Solid, options)?;
-    let adds_too_much = options.max_excess.is_some_and(|most| of_boundary.excess() > most);
-    if !adds_too_much && boundary.triangles.len() > FEW_TRIANGLES {
-        return Ok((of_boundary, Some(Bounded::Solid)));
-    }
-    let exact = convex_tree(tree)?;
-    if !adds_too_much && exact.brushes().len() > FEW_CELLS {
-        return Ok((of_boundary, Some(Bounded::Solid)));
-    }
     // the planes of a mesh hold its vertices but for their rounding
-    let points: Vec<DVec3> = points.iter().chain(&boundary.positions).copied().collect();
-    let of_cells = of_cells(&exact, &points)?;
+    let points = || points.iter().chain(&boundary.positions).copied().collect::<Vec<DVec3>>();
     // pieces of a surface exceed it a little: what they cannot reach, exact cells may
-    if adds_too_much || is_better(&of_cells, &of_boundary, options) {
-        Ok((of_cells, None))
-    } else {
-        Ok((of_boundary, Some(Bounded::Solid)))
+    if options.max_excess.is_some_and(|most| of_boundary.excess() > most) {
+        return Ok((of_cells(&*convex_tree(tree)?, &points())?, None));
     }
+    if boundary.triangles.len() <= FEW_TRIANGLES
+        // there is an answer already: it stands where exact cells cannot be had
+        && let Ok(exact) = convex_tree(tree)
+        && exact.brushes().len() <= FEW_CELLS
+        && let Ok(of_cells) = of_cells(&exact, &points())
+        && is_better(&of_cells, &of_boundary, options)
+    {
+        return Ok((of_cells, None));
+    }
+    Ok((of_boundary, Some(Bounded::Solid)))
 }
 
 /// Whether cells are better than others by more than rounding: fewer where as few as can be found are wanted, else such that add less, or overlap less.
@@ -92,6 +91,17 @@ fn is_better(one: &Coarsened, other: &Coarsened, options: &CoarsenOptions) -> bo
     } else {
         differs(one.sum_excess(), other.sum_excess()) && one.sum_excess() < other.sum_excess()
     }
+}
+
+/// What triangles bound that bound no solid: with `fills` all that they go around by more than half, where there is any, else shells of some thickness, [`Bounded::default_thickness`]
+/// where none is given.
+#[must_use]
+pub fn bounded_by(positions: &[DVec3], triangles: &[[u32; 3]], fills: bool, thickness: Option<f64>) -> Bounded {
+    let filled = Surface { positions, triangles, materials: &[], bounded: Bounded::Filled };
+    if fills && filled.volume() > 0.0 {
+        return Bounded::Filled;
+    }
+    Bounded::Shell { thickness: thickness.unwrap_or_else(|| Bounded::default_thickness(positions, triangles)) }
 }
 
 /// Coarsens what a mesh bounds, by its triangles alone.

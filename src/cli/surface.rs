@@ -5,6 +5,7 @@ use std::time::Instant;
 use planecut::check::check_topology;
 use planecut::csg::coarsen::{Bounded, CoarsenError, CoarsenOptions, Coarsened, Coarsener, Surface};
 use planecut::csg::{Material, MaterialId, Mesh, MeshFace, Model, Tree};
+use planecut::enclosing::bounded_by;
 use planecut::import::Warning;
 use planecut::import::mesh::{MeshFormat, Place, SolidError, TrianglesImport, read_triangles};
 use planecut::kernel::DVec3;
@@ -40,10 +41,7 @@ impl Triangles {
     ) -> Result<(Self, Solved), CliError> {
         let import = read_triangles(&input.read()?, format, &input.name(), &reading.solid_options())?;
         let TrianglesImport { positions, triangles, materials, material_of, mut warnings } = import;
-        let bounded = |bounded| Surface { positions: &positions, triangles: &triangles, materials: &[], bounded };
-        let has_inside = asked.solid && bounded(Bounded::Filled).volume() > 0.0;
-        let thickness = || min_thickness.unwrap_or_else(|| Bounded::default_thickness(&positions, &triangles));
-        let bounded = if has_inside { Bounded::Filled } else { Bounded::Shell { thickness: thickness() } };
+        let bounded = bounded_by(&positions, &triangles, asked.solid, min_thickness);
         warnings.extend(why.map(|why| why.note(bounded, asked)));
         let topology = check_topology(&positions, &triangles);
         let mut report = Report::of_mesh(input.given(), InputKind::Mesh(format).name(), &topology);

@@ -3,13 +3,11 @@
 use std::sync::Arc;
 
 use glam::DVec3;
-use planecut::cells::coarsen::{
-    Bounded, CoarsenOptions, Coarsened as CoreCoarsened, Side, Surface, Writing, written_meshes,
-};
+use planecut::cells::coarsen::{Bounded, CoarsenOptions, Coarsened as CoreCoarsened, Side, Writing, written_meshes};
 use planecut::check::measure_triangles;
 use planecut::csg::primitives::hull_of_points;
 use planecut::csg::{Material, MaterialId, Mesh as CoreMesh, Model, Tree, evaluate};
-use planecut::enclosing::{enclosed, enclosed_surface};
+use planecut::enclosing::{bounded_by, enclosed, enclosed_surface};
 use planecut::import::mesh::{MeshFormat, SolidOptions, parts_of_mesh};
 use pyo3::prelude::*;
 use pyo3::types::PySequence;
@@ -137,11 +135,7 @@ fn of_model(model: Model, points: &[DVec3], options: &CoarsenOptions) -> Outcome
 }
 
 fn of_surface(mesh: &CoreMesh, taken: Taken, why: Option<String>, options: &CoarsenOptions) -> Outcome<Work> {
-    let (positions, faces) = (&mesh.positions, &mesh.triangles);
-    let surface = |bounded| Surface { positions, triangles: faces, materials: &[], bounded };
-    let has_inside = taken == Taken::Filled && surface(Bounded::Filled).volume() > 0.0;
-    let thickness = || options.min_thickness.unwrap_or_else(|| Bounded::default_thickness(positions, faces));
-    let bounded = if has_inside { Bounded::Filled } else { Bounded::Shell { thickness: thickness() } };
+    let bounded = bounded_by(&mesh.positions, &mesh.triangles, taken == Taken::Filled, options.min_thickness);
     let note = match (bounded, why) {
         (Bounded::Shell { thickness }, Some(why)) => Some(format!(
             "{why}; the triangles are enclosed as a shell {thickness} thick (surface=\"filled\" fills the mesh)"
