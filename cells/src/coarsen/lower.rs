@@ -5,6 +5,7 @@ use std::collections::BinaryHeap;
 
 use planecut_kernel::sign::Row;
 use planecut_kernel::{DVec3, HalfSpace, IncrementalPolytope, PlaneIdx, VertexIdx, meet};
+use planecut_parallel::job;
 
 use super::CoarsenError;
 use super::clear::Clear;
@@ -75,7 +76,7 @@ pub(super) fn lower_beside(
     let mut lowering = Lowering::of(polytope, max_vertices);
     let max_faces = max_faces.unwrap_or(usize::MAX);
     while lowering.faces > max_faces || lowering.has_too_many_vertices() {
-        planecut_parallel::job::check();
+        job::check();
         lowering.step(clear)?;
     }
     Ok(lowering.added)

@@ -131,6 +131,12 @@ pub(super) fn bounds_of(points: &[DVec3]) -> Bounds {
     points.iter().fold(Bounds::EMPTY, |b, p| Bounds { min: b.min.min(*p), max: b.max.max(*p) })
 }
 
+/// Puts points in order, each once.
+pub(super) fn sort_and_dedup(points: &mut Vec<DVec3>) {
+    points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z)));
+    points.dedup();
+}
+
 /// The material of most of a brush's surface; of several the one with the lowest number.
 fn material_of(part: &Part, brush: &Brush) -> MaterialId {
     let first = brush.faces.first().map_or(MaterialId(0), |face| face.material);

@@ -6,6 +6,7 @@
 use planecut_csg::stages::Bounds;
 use planecut_parallel::prelude::*;
 
+use super::hull::Hull;
 use super::merge::Merger;
 use super::probes::{add, count_fresh};
 use super::relocate::Clock;
@@ -104,13 +105,10 @@ pub(super) fn neighbours(bounds: &[Bounds]) -> Vec<[usize; 2]> {
 /// The parts of a pair of groups merged again into two, and what that gains; `None` for nothing.
 fn try_pair(search: &Search, groups: &[Group], pair: &[usize; 2]) -> Option<(f64, Vec<Group>)> {
     let parts: Vec<u32> = pair.iter().flat_map(|place| groups[*place].parts.iter().copied()).collect();
-    let mut covered = vec![0_u64; search.probes.words()];
     // whatever becomes of the pair stays within the box of both
     let bounds = pair.iter().fold(Bounds::EMPTY, |all, place| all.union(&groups[*place].hull.bounds));
-    let is_other = |(place, group): &(usize, &Group)| !pair.contains(place) && group.hull.bounds.touches(&bounds);
-    let others = groups.iter().enumerate().filter(is_other);
-    others.for_each(|(_, group)| add(&mut covered, group.hull.coverage(search.probes)));
-    let before = cost(search, &covered, pair.iter().map(|place| &groups[*place]));
+    let covered = covered_beside(search, groups.iter().map(|group| &group.hull), pair, &bounds);
+    let before = cost(search, &covered, pair.iter().map(|place| &groups[*place].hull));
     let mut merger = Merger::new(search, parts.into_iter().map(|part| search.single(part)).collect(), covered.clone());
     while merger.count() > pair.len() {
         merger.step()?;
@@ -120,17 +118,30 @@ fn try_pair(search: &Search, groups: &[Group], pair: &[usize; 2]) -> Option<(f64
         }
     }
     let new = merger.into_groups();
-    let gain = before - cost(search, &covered, new.iter());
+    let gain = before - cost(search, &covered, new.iter().map(|group| &group.hull));
     (new.len() == pair.len() && gain > search.least_gain()).then_some((gain, new))
 }
 
-/// What groups cost where other probes are covered already.
-fn cost<'a>(search: &Search, covered: &[u64], groups: impl Iterator<Item = &'a Group>) -> f64 {
+/// The probes that hulls cover which reach into a box, but for those of a pair.
+pub(super) fn covered_beside<'a>(
+    search: &Search,
+    hulls: impl Iterator<Item = &'a Hull>,
+    pair: &[usize; 2],
+    bounds: &Bounds,
+) -> Vec<u64> {
+    let mut covered = vec![0_u64; search.probes.words()];
+    let others = hulls.enumerate().filter(|(place, hull)| !pair.contains(place) && hull.bounds.touches(bounds));
+    others.for_each(|(_, hull)| add(&mut covered, hull.coverage(search.probes)));
+    covered
+}
+
+/// What hulls cost where other probes are covered already.
+pub(super) fn cost<'a>(search: &Search, covered: &[u64], hulls: impl Iterator<Item = &'a Hull>) -> f64 {
     let (mut all, mut fresh, mut volume) = (covered.to_vec(), 0, 0.0);
-    for group in groups {
-        fresh += count_fresh(&all, group.hull.coverage(search.probes));
-        add(&mut all, group.hull.coverage(search.probes));
-        volume += group.hull.volume;
+    for hull in hulls {
+        fresh += count_fresh(&all, hull.coverage(search.probes));
+        add(&mut all, hull.coverage(search.probes));
+        volume += hull.volume;
     }
     search.cost(fresh, volume)
 }

@@ -8,7 +8,7 @@ use super::clear::Clear;
 use super::gaps::Gaps;
 use super::hull::Hull;
 use super::options::{CoarsenOptions, DEFAULT_OVERLAP_WEIGHT};
-use super::part::Part;
+use super::part::{Part, sort_and_dedup};
 use super::probes::Probes;
 
 /// What a volume that is covered twice costs, relative to what it costs before, where nothing is left but to better what there is.
@@ -148,7 +148,6 @@ pub(super) fn farthest(points: &[DVec3]) -> Vec<DVec3> {
     let directions = (0..27).map(way).filter(|way| *way != DVec3::ZERO);
     let in_direction = |way: DVec3| points.iter().copied().max_by(|a, b| way.dot(*a).total_cmp(&way.dot(*b)));
     let mut found: Vec<DVec3> = directions.filter_map(in_direction).collect();
-    found.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z)));
-    found.dedup();
+    sort_and_dedup(&mut found);
     found
 }

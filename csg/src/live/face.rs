@@ -43,9 +43,13 @@ impl<'a> LiveFace<'a> {
     #[must_use]
     pub fn normal(&self) -> DVec3 {
         // of a sliver rounding says little, of the largest triangle the most
-        let cross = |[a, b, c]: [(u32, DVec3); 3]| (b.1 - a.1).cross(c.1 - a.1);
-        let largest = self.triangles().map(cross).max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
-        largest.map_or(DVec3::ZERO, DVec3::normalize_or_zero)
+        self.largest_triangle().map_or(DVec3::ZERO, |corners| across(corners).normalize_or_zero())
+    }
+
+    fn largest_triangle(&self) -> Option<[DVec3; 3]> {
+        let area = |corners: &[DVec3; 3]| across(*corners).length_squared();
+        let triangles = self.triangles().map(|corners| corners.map(|corner| corner.1));
+        triangles.max_by(|a, b| area(a).total_cmp(&area(b)))
     }
 
     fn plane(&self) -> Option<PlaneId> {
@@ -80,8 +84,7 @@ impl LiveModel {
     pub fn source_of_face(&self, id: FaceId) -> Option<(BrushId, PlaneIdx)> {
         let face = self.face(id)?;
         let plane = face.plane()?;
-        let area = |[a, b, c]: [(u32, DVec3); 3]| (b.1 - a.1).cross(c.1 - a.1).length_squared();
-        let [a, b, c] = face.triangles().max_by(|a, b| area(*a).total_cmp(&area(*b)))?.map(|corner| corner.1);
+        let [a, b, c] = face.largest_triangle()?;
         let middle = (a + b + c) / 3.0;
         let bounds = Bounds { min: a.min(b).min(c), max: a.max(b).max(c) };
         let source = |operand: &Operand| {
@@ -109,6 +112,11 @@ impl LiveModel {
         };
         self.faces().filter_map(meets).min_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)))
     }
+}
+
+/// Twice the area of a triangle along its normal.
+fn across([a, b, c]: [DVec3; 3]) -> DVec3 {
+    (b - a).cross(c - a)
 }
 
 /// How far a ray goes until it meets a triangle, from either side. Rays through an edge meet one of its triangles at least: signs of the volumes between ray and edges are

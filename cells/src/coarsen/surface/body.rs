@@ -40,19 +40,12 @@ impl Points {
 
     /// Without those that are no corners of their hull.
     pub(super) fn without_inner(self) -> Self {
-        let corners = |points: Vec<DVec3>, triangles: &[[u32; 3]], from: usize, to: usize| -> Vec<DVec3> {
-            let mut used: Vec<u32> = triangles.iter().flatten().copied().collect();
-            used.sort_unstable();
-            used.dedup();
-            used.into_iter().filter(|k| (from..to).contains(&(*k as usize))).map(|k| points[k as usize]).collect()
-        };
-        let all: Vec<DVec3> = self.vertices.iter().chain(&self.cuts).copied().collect();
+        let all: Vec<DVec3> = self.all().copied().collect();
         let Ok(triangles) = hull_triangles(&all) else { return self };
-        let count = self.vertices.len();
-        Self {
-            vertices: corners(all.clone(), &triangles, 0, count),
-            cuts: corners(all.clone(), &triangles, count, all.len()),
-        }
+        let used = used_points(triangles);
+        let (vertices, cuts) = used.split_at(used.partition_point(|k| (*k as usize) < self.vertices.len()));
+        let [vertices, cuts] = [vertices, cuts].map(|used| used.iter().map(|k| all[*k as usize]).collect());
+        Self { vertices, cuts }
     }
 
     /// The corners of all that must be held: of cubes around the points where a surface has thickness.
@@ -143,10 +136,15 @@ impl Points {
 /// The corners of the hull of points; all of them where there is none.
 fn corners_of(points: Vec<DVec3>) -> Vec<DVec3> {
     let Ok(triangles) = hull_triangles(&points) else { return points };
+    used_points(triangles).into_iter().map(|k| points[k as usize]).collect()
+}
+
+/// The numbers of the points that triangles use, ascending.
+pub(super) fn used_points(triangles: Vec<[u32; 3]>) -> Vec<u32> {
     let mut used: Vec<u32> = triangles.into_iter().flatten().collect();
     used.sort_unstable();
     used.dedup();
-    used.into_iter().map(|k| points[k as usize]).collect()
+    used
 }
 
 /// The corners of cubes around points.

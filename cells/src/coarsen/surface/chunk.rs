@@ -16,10 +16,11 @@ use std::sync::{Arc, OnceLock};
 use planecut_kernel::DVec3;
 use rustc_hash::FxHashMap;
 
+use super::super::part::sort_and_dedup;
+use super::Frame;
 use super::body::Points;
 use super::fragment::{Plane, crossing};
 use super::region::{Region, hull_volume};
-use super::{Frame, sort_and_dedup};
 
 /// Cuts that led to one chunk, at most.
 const MOST_CUTS: u32 = 16;

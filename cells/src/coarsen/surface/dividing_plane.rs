@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use planecut_kernel::{DVec3, approximate_hull_triangles};
 
+use super::body::used_points;
 use super::chunk::{Chunk, Place};
 use super::fragment::Plane;
 use super::region::hull_volume;
@@ -125,12 +126,7 @@ impl<'a> Dividing<'a> {
             let chunks: Vec<usize> = (0..self.chunks.len()).filter(is_far).collect();
             let all: Vec<DVec3> = chunks.iter().flat_map(|k| self.chunks[*k].corners.iter().copied()).collect();
             let corners = match approximate_hull_triangles(&all, HULL_TOUCHING) {
-                Ok(triangles) => {
-                    let mut used: Vec<u32> = triangles.into_iter().flatten().collect();
-                    used.sort_unstable();
-                    used.dedup();
-                    used.into_iter().map(|k| all[k as usize]).collect()
-                }
+                Ok(triangles) => used_points(triangles).into_iter().map(|k| all[k as usize]).collect(),
                 Err(_) => all,
             };
             Core { chunks, corners }

@@ -33,7 +33,7 @@ use planecut_parallel::prelude::*;
 
 use super::CoarsenError;
 use super::hull::Hull;
-use super::part::{Part, most};
+use super::part::{Part, most, sort_and_dedup};
 use super::probes::spread;
 use super::reachable::Reachable;
 use crate::tolerances::{FILLED_FOR_BALLS, GROWTH, SHELL_THICKNESS};
@@ -260,12 +260,6 @@ fn piece(
         (surface.materials.get(triangle as usize).copied().unwrap_or(MaterialId(0)), normal(corners).length())
     });
     Ok(points.body(growth, most(areas))?.map(|part| (part, points)))
-}
-
-/// Puts points in order, each once.
-fn sort_and_dedup(points: &mut Vec<DVec3>) {
-    points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z)));
-    points.dedup();
 }
 
 /// The box around points.

@@ -13,8 +13,8 @@ use planecut_parallel::prelude::*;
 
 use super::super::hull::Hull;
 use super::super::part;
-use super::super::probes::{Coverage, add, count_fresh};
-use super::super::regroup::neighbours;
+use super::super::probes::add;
+use super::super::regroup::{cost, covered_beside, neighbours};
 use super::super::search::{Group, Search};
 use super::Pieces;
 use super::body::Points;
@@ -180,20 +180,8 @@ fn gain(search: &Search, cells: &[Cell], pair: [usize; 2], new: &[Cell; 2]) -> f
     let old = pair.map(|place| &cells[place].hull);
     let new = new.each_ref().map(|cell| &cell.hull);
     let bounds = old.iter().chain(&new).fold(Bounds::EMPTY, |all, hull| all.union(&hull.bounds));
-    let mut covered = vec![0_u64; search.probes.words()];
-    for (place, cell) in cells.iter().enumerate() {
-        if !pair.contains(&place) && cell.hull.bounds.touches(&bounds) {
-            add(&mut covered, cell.hull.coverage(search.probes));
-        }
-    }
-    let cost = |[a, b]: [&Hull; 2]| {
-        let [of_a, of_b]: [&Coverage; 2] = [a, b].map(|hull| hull.coverage(search.probes));
-        let first = count_fresh(&covered, of_a);
-        let mut covered = covered.clone();
-        add(&mut covered, of_a);
-        search.cost(first + count_fresh(&covered, of_b), a.volume + b.volume)
-    };
-    cost(old) - cost(new)
+    let covered = covered_beside(search, cells.iter().map(|cell| &cell.hull), &pair, &bounds);
+    cost(search, &covered, old.into_iter()) - cost(search, &covered, new.into_iter())
 }
 
 /// Pairs of cells that are near each other and may exchange what they hold.

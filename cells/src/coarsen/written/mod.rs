@@ -26,7 +26,7 @@ use planecut_kernel::{DVec3, hull_triangles};
 use planecut_parallel::prelude::*;
 
 use super::CoarsenError;
-use super::part::Part;
+use super::part::{Part, bounds_of};
 use crate::tolerances::{MOST_WRITTEN_SEPARATION, SAME_FACE, WRITTEN_SEPARATION, WRITTEN_SEPARATION_OF_ALL};
 use corners::Corners;
 use grow::{Shape, grown};
@@ -76,10 +76,10 @@ pub fn written_meshes(
     });
     let size = extent(&bounds);
     let mesh = |part: &Option<Part>| match part {
-        Some(part) if writing.is_separated => {
-            written_mesh(part, materials, writing, separation(part, size) * writing.scale)
+        Some(part) => {
+            let separation = if writing.is_separated { separation(part, size) * writing.scale } else { 0.0 };
+            written_mesh(part, materials, writing, separation)
         }
-        Some(part) => written_mesh(part, materials, writing, 0.0),
         None => Ok(Mesh::default()),
     };
     parts.par_iter().map(mesh).collect()
@@ -144,9 +144,7 @@ fn enclosing(corners: &Corners, writing: &Writing<'_>, separation: f64) -> Optio
 
 /// Whether positions lie within the box around points, as wide again on all sides.
 fn is_within_reach(positions: &[DVec3], held: &[DVec3]) -> bool {
-    let around =
-        |points: &[DVec3]| points.iter().fold(Bounds::EMPTY, |b, p| Bounds { min: b.min.min(*p), max: b.max.max(*p) });
-    let (own, held) = (around(positions), around(held));
+    let (own, held) = (bounds_of(positions), bounds_of(held));
     let size = held.max - held.min;
     own.min.cmpge(held.min - size).all() && own.max.cmple(held.max + size).all()
 }
