@@ -45,7 +45,9 @@ def run_coacd(
     if hasattr(vertices, "vertices") and hasattr(vertices, "indices"):
         if triangles is not None:
             # one place further on than where they stand behind two arrays
-            threshold, max_convex_hull = float(triangles), (-1 if threshold == 0.05 else int(threshold))  # type: ignore[arg-type]
+            if threshold != 0.05:
+                max_convex_hull = int(threshold)
+            threshold = float(triangles)  # type: ignore[arg-type]
         vertices, triangles = vertices.vertices, vertices.indices
     if triangles is None:
         raise PlanecutError(f"vertices: found {type(vertices)} alone, expected an object with vertices and indices, or both arrays")

@@ -112,7 +112,7 @@ impl Job {
     }
 }
 
-/// How far work is, as it is told: it never falls, although each stage of the work begins anew and nobody knows how many there are. Each takes half of what is left.
+/// How far work is, as it is told: it never falls, although each stage of the work starts at nothing and nobody knows how many there are. Each takes half of what is left.
 #[derive(Default)]
 struct Told {
     done: usize,

@@ -11,7 +11,7 @@ use crate::arrays::{row, small, small_rows, table};
 use crate::errors::{Failure, refuse};
 
 /// The intersection of half-spaces `n · x <= d`, with corners and faces kept up to date as planes are added, moved and removed, each in about a microsecond. It may be unbounded or
-/// empty. Every decision is exact: it is the same as one made anew of the same planes.
+/// empty. Every decision is exact: it is the same as a new one of the same planes.
 ///
 /// Args:
 ///     planes: Shape (k, 4), numbered from 0 in their order; without them it is all of space.

@@ -2,6 +2,7 @@
 
 import inspect
 import itertools
+import types
 import warnings
 from fractions import Fraction
 
@@ -151,6 +152,16 @@ def test_ignored_settings_are_named_in_one_warning():
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         pc.compat.run_coacd(vertices, triangles, 0.1, 4)
+
+
+def test_an_object_may_be_followed_by_a_count_alone():
+    """`run_coacd(mesh, 0.1, max_convex_hull=8)` lost the 8."""
+    vertices, triangles = mesh_of("stairs")
+    mesh = types.SimpleNamespace(vertices=vertices, indices=triangles)
+    fewest = len(pc.compat.run_coacd(vertices, triangles, threshold=0.0))
+    assert fewest > 2
+    for hulls in (pc.compat.run_coacd(mesh, 0.0, 2), pc.compat.run_coacd(mesh, 0.0, max_convex_hull=2)):
+        assert len(hulls) <= 2
 
 
 @pytest.mark.parametrize("change", ["number", "nan", "shape"])

@@ -89,7 +89,7 @@ pub(super) struct Work {
 /// Cells of whatever there is.
 pub(super) fn work(subject: Subject, taken: Taken, options: &CoarsenOptions) -> Outcome<Work> {
     match subject {
-        Subject::Solid(node) => of_model(node.model()?, &[], options),
+        Subject::Solid(node) => of_model(node.model()?, node.evaluated()?.evaluation.mesh.clone(), &[], options),
         Subject::Hulls(hulls) => {
             let mut brushes = Vec::new();
             for (number, points) in hulls.iter().enumerate() {
@@ -98,7 +98,9 @@ pub(super) fn work(subject: Subject, taken: Taken, options: &CoarsenOptions) -> 
             }
             let materials = vec![Material::named(crate::shapes::DEFAULT_MATERIAL)];
             let points: Vec<DVec3> = hulls.into_iter().flatten().collect();
-            of_model(Model { materials, tree: Tree::union_of(brushes) }, &points, options)
+            let model = Model { materials, tree: Tree::union_of(brushes) };
+            let visual = evaluate(&model)?.mesh;
+            of_model(model, visual, &points, options)
         }
         Subject::Mesh(handle) => {
             let mesh = handle.mesh();
@@ -107,8 +109,8 @@ pub(super) fn work(subject: Subject, taken: Taken, options: &CoarsenOptions) -> 
             }
             match parts_of_mesh(indexed(Given::of_core(mesh)), MeshFormat::Obj, "mesh", &SolidOptions::default()) {
                 Ok(parts) => {
-                    let is_empty = evaluate(&parts.import.model)?.mesh.triangles.is_empty();
-                    if is_empty && options.side == Side::Outer {
+                    let visual = evaluate(&parts.import.model)?.mesh;
+                    if visual.triangles.is_empty() && options.side == Side::Outer {
                         return of_surface(
                             mesh,
                             taken,
@@ -116,7 +118,7 @@ pub(super) fn work(subject: Subject, taken: Taken, options: &CoarsenOptions) -> 
                             options,
                         );
                     }
-                    of_model(parts.import.model, &parts.points, options)
+                    of_model(parts.import.model, visual, &parts.points, options)
                 }
                 Err(error) if options.side == Side::Outer => {
                     of_surface(mesh, taken, Some(surface_failure(&error).message), options)
@@ -127,9 +129,8 @@ pub(super) fn work(subject: Subject, taken: Taken, options: &CoarsenOptions) -> 
     }
 }
 
-/// Cells of a tree.
-fn of_model(model: Model, points: &[DVec3], options: &CoarsenOptions) -> Outcome<Work> {
-    let visual = evaluate(&model)?.mesh;
+/// Cells of a tree, with its boundary.
+fn of_model(model: Model, visual: CoreMesh, points: &[DVec3], options: &CoarsenOptions) -> Outcome<Work> {
     let (outcome, bounded) = enclosed(&model.tree, &visual, points, options)?;
     Ok(Work { outcome, materials: model.materials, bounded, note: None, visual, is_closed: true })
 }
@@ -150,7 +151,7 @@ fn of_surface(mesh: &CoreMesh, taken: Taken, why: Option<String>, options: &Coar
     Ok(Work { outcome, materials, bounded: Some(bounded), note, visual, is_closed: false })
 }
 
-/// Cells as others read them: vertices in doubles whose hull holds the planes' body. A cell that has too many vertices for that becomes a larger one, and the volumes are measured anew.
+/// Cells as others read them: vertices in doubles whose hull holds the planes' body. A cell that has too many vertices for that becomes a larger one, and the volumes are measured again.
 pub(super) fn written(
     work: &mut Work,
     max_vertices: Option<usize>,

@@ -250,7 +250,7 @@ impl Live {
         self.with(py, |state| Ok(state.model.pick(origin, direction).map(|(id, distance)| (face_number(id), distance))))
     }
 
-    /// The mesh of the solid, the same as that of a model made anew.
+    /// The mesh of the solid, the same as that of a new model.
     fn mesh(&self, py: Python<'_>) -> PyResult<Mesh> {
         Ok(Mesh::of_core(self.with(py, |state| Ok(state.model.mesh()?))?))
     }
