@@ -129,8 +129,14 @@ ids! {
     /// A half-edge of the boundary: an elementary piece of a line along which a region ends on one side.
     pub(crate) HalfEdgeId;
 
+    /// A loop of half-edges around a face, or around a hole of one, in a boundary that changes.
+    pub(crate) LoopId;
+
     /// A corner in the boundary of a face that is triangulated, bridges included.
     pub(crate) NodeId;
+
+    /// A site of a Delaunay triangulation: a corner of a face.
+    pub(crate) SiteId;
 
     /// A triangle, of a face that is triangulated or among those of an arrangement.
     pub(crate) TriangleId;

@@ -10,6 +10,7 @@ use planecut_kernel::sign::Counts;
 use super::WeldError;
 use super::around::{self, AroundLine};
 use super::crossings::Passed;
+use super::large_face::FaceEdge;
 use super::lines::Line;
 use super::points::Points;
 use super::slits::SlitFinder;
@@ -279,6 +280,11 @@ impl HalfEdge {
     fn of(run: &Run, twin: HalfEdgeId) -> Self {
         let Run { line, region, edge, from, to, forward } = *run;
         Self { region, line, edge, from, to, forward, twin }
+    }
+
+    /// What it is as the boundary of its face; `piece` is its own number.
+    pub(super) fn edge_of_face(&self, piece: HalfEdgeId) -> FaceEdge {
+        FaceEdge { piece, from: self.from, to: self.to }
     }
 }
 

@@ -22,14 +22,24 @@ pub(super) fn follow(
 ) -> Result<(), WeldError> {
     for piece in region {
         let start = first(piece.to);
-        let candidates = (start..region.len()).take_while(|k| region[*k].from == piece.to);
-        let next = candidates.reduce(|best, other| {
-            if is_earlier(table, plane, piece, &region[other], &region[best]) { other } else { best }
-        });
-        let next = next.ok_or_else(|| WeldError::open(piece))?;
+        let candidates = (start..region.len()).map(|k| (k, &region[k])).take_while(|(_, next)| next.from == piece.to);
+        let next = first_clockwise(table, plane, piece, candidates).ok_or_else(|| WeldError::open(piece))?;
         following.push(HalfEdgeId::from_index(base + next));
     }
     Ok(())
+}
+
+/// What follows a half-edge among those that begin where it ends, each given with a number; nothing where there is none.
+pub(super) fn first_clockwise<'a, T>(
+    table: &PlaneTable,
+    plane: PlaneId,
+    incoming: &HalfEdge,
+    candidates: impl Iterator<Item = (T, &'a HalfEdge)>,
+) -> Option<T> {
+    let earlier = |best: (T, &'a HalfEdge), other: (T, &'a HalfEdge)| {
+        if is_earlier(table, plane, incoming, other.1, best.1) { other } else { best }
+    };
+    candidates.reduce(earlier).map(|(number, _)| number)
 }
 
 /// Whether outgoing edge `a` comes before `b`, turning clockwise from the reversed `incoming` edge.

@@ -17,6 +17,8 @@
 mod around;
 mod cancel;
 mod crossings;
+mod delaunay;
+mod large_face;
 mod lines;
 mod live;
 mod loops;
@@ -44,6 +46,7 @@ use crate::mesh::{Flaw, Mesh, MeshFace, Noise, SolidMeasures, proven};
 use crate::model::{Material, MaterialId};
 use crate::plane_table::{PlaneId, PlaneTable};
 use cancel::{HalfEdge, Pieces, Run};
+use large_face::{FaceEdge, LargeFace};
 pub(crate) use live::LiveWeld;
 pub(crate) use live::WeldedFace;
 use manifold::Labels;
@@ -351,16 +354,25 @@ fn triangulate_faces(
     let (parts, counts) = map_chunks(faces, 1, |chunk| {
         let exact = WeldPoints { table, points };
         let mut triangulator = Triangulator::new(&exact);
-        let mut filled: Vec<FilledFaces> = Vec::new();
+        let (mut filled, mut edges): (Vec<FilledFaces>, Vec<FaceEdge>) = (Vec::new(), Vec::new());
         for faces in chunk {
             let (mut triangles, mut ends) = (Triangles::default(), Vec::new());
             for face in faces.iter() {
                 let normal = table.half_space(regions.planes[face.region.index()]).normal();
-                triangulator.begin(Projection::new(normal));
-                for pieces_of_loop in face.loops() {
-                    triangulator.add_loop(pieces_of_loop.iter().map(|k| points.corner(*k, &pieces[k.index()])));
+                let projection = Projection::new(normal);
+                edges.clear();
+                edges.extend(face.loops().flatten().map(|k| pieces[k.index()].edge_of_face(*k)));
+                let at = |point: PointId| projection.of(points.positions[point.index()]);
+                match LargeFace::of_many(&edges, at) {
+                    Some(large) => large.list(&mut triangles),
+                    None => {
+                        triangulator.begin(projection);
+                        for pieces_of_loop in face.loops() {
+                            triangulator.add_loop(pieces_of_loop.iter().map(|k| points.corner(*k, &pieces[k.index()])));
+                        }
+                        triangulator.triangulate(&mut triangles);
+                    }
                 }
-                triangulator.triangulate(&mut triangles);
                 ends.push((face.region, number32(triangles.corners.len())));
             }
             let corner = |piece: HalfEdgeId| vertex[piece.index()].number();

@@ -77,163 +77,96 @@ impl Projection {
     }
 }
 
-/// A loop on its way to a face.
+/// A loop of half-edges, by their numbers in a list that begins at one.
 #[derive(Debug, Clone, Copy)]
-struct Loop {
-    /// Its half-edges among those of its region's loops.
-    start: usize,
-    end: usize,
-    area: f64,
+pub(super) struct LoopOf<'a> {
+    pub(super) pieces: &'a [HalfEdgeId],
+    pub(super) half_edges: &'a [HalfEdge],
+    pub(super) base: usize,
+}
+
+impl<'a> LoopOf<'a> {
+    fn half_edge(self, place: usize) -> &'a HalfEdge {
+        &self.half_edges[self.pieces[place].index() - self.base]
+    }
+
+    fn half_edges(self) -> impl Iterator<Item = &'a HalfEdge> {
+        self.pieces.iter().map(move |piece| &self.half_edges[piece.index() - self.base])
+    }
+}
+
+/// Signed area and box of a loop, rounded.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Extent {
+    pub(super) area: f64,
     min: DVec2,
     max: DVec2,
 }
 
-/// Groups loops into faces, reusing its buffers.
-pub(super) struct Nester<'a> {
-    table: &'a PlaneTable,
-    points: &'a Points,
-    /// The half-edges of the region, and the number of the first.
-    region: &'a [HalfEdge],
-    base: usize,
-    plane: PlaneId,
-    at: Projection,
-    seen: Vec<bool>,
-    /// Half-edges of the region, loop by loop.
-    pieces: Vec<HalfEdgeId>,
-    loops: Vec<Loop>,
+impl Extent {
+    /// Whether the box of another loop lies within this one.
+    pub(super) fn holds(&self, other: &Self) -> bool {
+        self.min.cmple(other.min).all() && self.max.cmpge(other.max).all()
+    }
 }
 
-impl<'a> Nester<'a> {
-    pub(super) fn new(table: &'a PlaneTable, points: &'a Points) -> Self {
-        Self {
-            table,
-            points,
-            region: &[],
-            base: 0,
-            plane: PlaneId::of_index(0),
-            at: Projection { u: 0, v: 1 },
-            seen: Vec::new(),
-            pieces: Vec::new(),
-            loops: Vec::new(),
-        }
+/// The plane of a region, seen from outside.
+#[derive(Clone, Copy)]
+pub(super) struct RegionPlane<'a> {
+    table: &'a PlaneTable,
+    points: &'a Points,
+    plane: PlaneId,
+    at: Projection,
+}
+
+impl<'a> RegionPlane<'a> {
+    pub(super) fn new(table: &'a PlaneTable, points: &'a Points, plane: PlaneId) -> Self {
+        Self { table, points, plane, at: Projection::new(table.half_space(plane).normal()) }
     }
 
-    /// Adds the faces of one region, given by its half-edges, numbered from `base`, and what follows each.
-    pub(super) fn add_faces(
-        &mut self,
-        plane: PlaneId,
-        region: &'a [HalfEdge],
-        base: usize,
-        following: &[HalfEdgeId],
-        faces: &mut Faces,
-    ) -> Result<(), WeldError> {
-        (self.plane, self.region, self.base) = (plane, region, base);
-        self.at = Projection::new(self.table.half_space(plane).normal());
-        self.seen.clear();
-        self.seen.resize(region.len(), false);
-        self.pieces.clear();
-        self.loops.clear();
-        for start in 0..region.len() {
-            if !self.seen[start] {
-                self.walk(start, following);
-            }
-        }
-        self.group(region[0].region, faces)
-    }
-
-    fn position(&self, point: PointId) -> DVec2 {
+    /// Where a point is, rounded.
+    pub(super) fn position(&self, point: PointId) -> DVec2 {
         self.at.of(self.points.positions[point.index()])
     }
 
-    fn piece(&self, number: HalfEdgeId) -> &HalfEdge {
-        &self.region[number.index() - self.base]
-    }
-
-    fn pieces_of(&self, candidate: &Loop) -> &[HalfEdgeId] {
-        &self.pieces[candidate.start..candidate.end]
-    }
-
-    fn walk(&mut self, from: usize, following: &[HalfEdgeId]) {
-        let start = self.pieces.len();
-        let origin = self.position(self.region[from].from);
+    pub(super) fn extent(&self, of: LoopOf<'_>) -> Extent {
+        let origin = self.position(of.half_edge(0).from);
         let (mut area, mut min, mut max) = (0.0, origin, origin);
-        let (mut piece, mut p) = (from, origin);
-        while !self.seen[piece] {
-            self.seen[piece] = true;
-            self.pieces.push(HalfEdgeId::from_index(self.base + piece));
-            piece = following[piece].index() - self.base;
-            let q = self.position(self.region[piece].from);
+        let mut p = origin;
+        for place in 1..=of.pieces.len() {
+            let q = if place == of.pieces.len() { origin } else { self.position(of.half_edge(place).from) };
             area += 0.5 * (p - origin).perp_dot(q - origin);
             min = min.min(p);
             max = max.max(p);
             p = q;
         }
-        self.loops.push(Loop { start, end: self.pieces.len(), area, min, max });
+        Extent { area, min, max }
     }
 
     /// Whether a loop runs counter-clockwise: exactly, by its turn at an extreme corner, where the area is not clear.
-    fn is_outer(&self, candidate: &Loop) -> bool {
-        let extent = candidate.max - candidate.min;
+    pub(super) fn is_outer(&self, of: LoopOf<'_>, extent: &Extent) -> bool {
+        let n = of.pieces.len();
+        let size = extent.max - extent.min;
         // Every corner may be off by a rounding error, which moves area along the whole loop.
-        let reach = candidate.min.abs().max(candidate.max.abs()).max_element();
-        let noise = f64::EPSILON * reach * extent.element_sum() * (candidate.end - candidate.start) as f64;
-        if candidate.area.abs() > noise.max(1e-6 * extent.x * extent.y) {
-            return candidate.area > 0.0;
+        let reach = extent.min.abs().max(extent.max.abs()).max_element();
+        let noise = f64::EPSILON * reach * size.element_sum() * n as f64;
+        if extent.area.abs() > noise.max(1e-6 * size.x * size.y) {
+            return extent.area > 0.0;
         }
-        let pieces = self.pieces_of(candidate);
-        let n = pieces.len();
-        let turn = |k: usize| {
-            let (before, after) = (self.piece(pieces[(k + n - 1) % n]), self.piece(pieces[k]));
-            self.table.orient3(self.plane, before.edge, after.edge)
-        };
-        let point = |k: usize| self.piece(pieces[k]).from;
+        let turn = |k: usize| self.table.orient3(self.plane, of.half_edge((k + n - 1) % n).edge, of.half_edge(k).edge);
         let bends = (0..n).filter(|k| turn(*k) != Sign::Zero);
-        let extreme = bends.min_by(|a, b| self.compare_height(point(*a), point(*b)));
+        let extreme = bends.min_by(|a, b| self.compare_height(of.half_edge(*a).from, of.half_edge(*b).from));
         extreme.is_some_and(|k| turn(k) == Sign::Positive)
-    }
-
-    /// Gives each hole to the smallest outer loop around it.
-    fn group(&self, region: RegionId, faces: &mut Faces) -> Result<(), WeldError> {
-        if let [only] = self.loops[..]
-            && self.is_outer(&only)
-        {
-            faces.push_loop(self.pieces_of(&only));
-            faces.faces.push((region, number32(faces.loops.len())));
-            return Ok(());
-        }
-        let (outers, holes): (Vec<Loop>, Vec<Loop>) = self.loops.iter().partition(|candidate| self.is_outer(candidate));
-        let mut owned: Vec<(usize, usize)> = Vec::with_capacity(holes.len());
-        for (k, hole) in holes.iter().enumerate() {
-            owned.push((self.owner(&outers, hole).ok_or_else(|| WeldError::hole(region))?, k));
-        }
-        owned.sort_unstable();
-        let mut owned = owned.into_iter().peekable();
-        for (number, outer) in outers.iter().enumerate() {
-            faces.push_loop(self.pieces_of(outer));
-            while let Some((_, hole)) = owned.next_if(|(owner, _)| *owner == number) {
-                faces.push_loop(self.pieces_of(&holes[hole]));
-            }
-            faces.faces.push((region, number32(faces.loops.len())));
-        }
-        Ok(())
-    }
-
-    fn owner(&self, outers: &[Loop], hole: &Loop) -> Option<usize> {
-        let around = outers.iter().enumerate().filter(|(_, outer)| {
-            outer.min.cmple(hole.min).all() && outer.max.cmpge(hole.max).all() && self.contains(outer, hole)
-        });
-        around.min_by(|a, b| a.1.area.total_cmp(&b.1.area)).map(|(k, _)| k)
     }
 
     /// Whether a hole lies inside an outer loop: by the parity of crossings to the right of one of its corners that is not
     /// a corner of the outer loop.
-    fn contains(&self, outer: &Loop, hole: &Loop) -> bool {
-        let is_shared = |point: PointId| self.pieces_of(outer).iter().any(|piece| self.piece(*piece).from == point);
-        let corner = self.pieces_of(hole).iter().map(|piece| self.piece(*piece).from).find(|point| !is_shared(*point));
+    pub(super) fn contains(&self, outer: LoopOf<'_>, hole: LoopOf<'_>) -> bool {
+        let is_shared = |point: PointId| outer.half_edges().any(|piece| piece.from == point);
+        let corner = hole.half_edges().map(|piece| piece.from).find(|point| !is_shared(*point));
         let Some(corner) = corner else { return self.contains_middle(outer, hole) };
         let mut inside = false;
-        for piece in self.pieces_of(outer) {
-            let piece = self.piece(*piece);
+        for piece in outer.half_edges() {
             let above = |point: PointId| self.compare_height(point, corner) == Ordering::Greater;
             let (from, to) = (above(piece.from), above(piece.to));
             if from != to {
@@ -252,17 +185,122 @@ impl<'a> Nester<'a> {
     }
 
     /// Every corner is shared: take the middle of an edge, in rounded coordinates.
-    fn contains_middle(&self, outer: &Loop, hole: &Loop) -> bool {
-        let piece = self.piece(self.pieces_of(hole)[0]);
+    fn contains_middle(&self, outer: LoopOf<'_>, hole: LoopOf<'_>) -> bool {
+        let piece = hole.half_edge(0);
         let at = 0.5 * (self.position(piece.from) + self.position(piece.to));
         let mut inside = false;
-        for piece in self.pieces_of(outer) {
-            let piece = self.piece(*piece);
+        for piece in outer.half_edges() {
             let (a, b) = (self.position(piece.from), self.position(piece.to));
             if (a.y > at.y) != (b.y > at.y) {
                 inside ^= at.x < a.x + (at.y - a.y) / (b.y - a.y) * (b.x - a.x);
             }
         }
         inside
+    }
+}
+
+/// A loop on its way to a face.
+#[derive(Debug, Clone, Copy)]
+struct Loop {
+    /// Its half-edges among those of its region's loops.
+    start: usize,
+    end: usize,
+    extent: Extent,
+}
+
+/// Groups loops into faces, reusing its buffers.
+pub(super) struct Nester<'a> {
+    table: &'a PlaneTable,
+    points: &'a Points,
+    /// The half-edges of the region, and the number of the first.
+    region: &'a [HalfEdge],
+    base: usize,
+    seen: Vec<bool>,
+    /// Half-edges of the region, loop by loop.
+    pieces: Vec<HalfEdgeId>,
+    loops: Vec<Loop>,
+}
+
+impl<'a> Nester<'a> {
+    pub(super) fn new(table: &'a PlaneTable, points: &'a Points) -> Self {
+        Self { table, points, region: &[], base: 0, seen: Vec::new(), pieces: Vec::new(), loops: Vec::new() }
+    }
+
+    /// Adds the faces of one region, given by its half-edges, numbered from `base`, and what follows each.
+    pub(super) fn add_faces(
+        &mut self,
+        plane: PlaneId,
+        region: &'a [HalfEdge],
+        base: usize,
+        following: &[HalfEdgeId],
+        faces: &mut Faces,
+    ) -> Result<(), WeldError> {
+        (self.region, self.base) = (region, base);
+        let plane = RegionPlane::new(self.table, self.points, plane);
+        self.seen.clear();
+        self.seen.resize(region.len(), false);
+        self.pieces.clear();
+        self.loops.clear();
+        for start in 0..region.len() {
+            if !self.seen[start] {
+                self.walk(&plane, start, following);
+            }
+        }
+        self.group(&plane, region[0].region, faces)
+    }
+
+    fn pieces_of(&self, candidate: &Loop) -> &[HalfEdgeId] {
+        &self.pieces[candidate.start..candidate.end]
+    }
+
+    fn loop_of(&self, candidate: &Loop) -> LoopOf<'_> {
+        LoopOf { pieces: self.pieces_of(candidate), half_edges: self.region, base: self.base }
+    }
+
+    fn walk(&mut self, plane: &RegionPlane<'_>, from: usize, following: &[HalfEdgeId]) {
+        let start = self.pieces.len();
+        let mut piece = from;
+        while !self.seen[piece] {
+            self.seen[piece] = true;
+            self.pieces.push(HalfEdgeId::from_index(self.base + piece));
+            piece = following[piece].index() - self.base;
+        }
+        let pieces = &self.pieces[start..];
+        let extent = plane.extent(LoopOf { pieces, half_edges: self.region, base: self.base });
+        self.loops.push(Loop { start, end: self.pieces.len(), extent });
+    }
+
+    /// Gives each hole to the smallest outer loop around it.
+    fn group(&self, plane: &RegionPlane<'_>, region: RegionId, faces: &mut Faces) -> Result<(), WeldError> {
+        let is_outer = |candidate: &Loop| plane.is_outer(self.loop_of(candidate), &candidate.extent);
+        if let [only] = self.loops[..]
+            && is_outer(&only)
+        {
+            faces.push_loop(self.pieces_of(&only));
+            faces.faces.push((region, number32(faces.loops.len())));
+            return Ok(());
+        }
+        let (outers, holes): (Vec<Loop>, Vec<Loop>) = self.loops.iter().partition(|candidate| is_outer(candidate));
+        let mut owned: Vec<(usize, usize)> = Vec::with_capacity(holes.len());
+        for (k, hole) in holes.iter().enumerate() {
+            owned.push((self.owner(plane, &outers, hole).ok_or_else(|| WeldError::hole(region))?, k));
+        }
+        owned.sort_unstable();
+        let mut owned = owned.into_iter().peekable();
+        for (number, outer) in outers.iter().enumerate() {
+            faces.push_loop(self.pieces_of(outer));
+            while let Some((_, hole)) = owned.next_if(|(owner, _)| *owner == number) {
+                faces.push_loop(self.pieces_of(&holes[hole]));
+            }
+            faces.faces.push((region, number32(faces.loops.len())));
+        }
+        Ok(())
+    }
+
+    fn owner(&self, plane: &RegionPlane<'_>, outers: &[Loop], hole: &Loop) -> Option<usize> {
+        let around = outers.iter().enumerate().filter(|(_, outer)| {
+            outer.extent.holds(&hole.extent) && plane.contains(self.loop_of(outer), self.loop_of(hole))
+        });
+        around.min_by(|a, b| a.1.extent.area.total_cmp(&b.1.extent.area)).map(|(k, _)| k)
     }
 }

@@ -124,26 +124,8 @@ impl<'a> PinchFinder<'a> {
         Boxes::new(self.corners.iter().map(at).map(|at| Bounds { min: at, max: at }).collect())
     }
 
-    /// Leaves in `found` those of new edges of a region at the corners of all, and those of old edges at the corners of new ones.
-    pub(super) fn search_new(&mut self, old: &[HalfEdge], new: &[HalfEdge]) {
-        self.found.clear();
-        let mut corners = std::mem::take(&mut self.corners);
-        corners.clear();
-        corners.extend(new.iter().map(|piece| piece.from));
-        for piece in old {
-            self.touching(piece, &corners);
-        }
-        corners.extend(old.iter().map(|piece| piece.from));
-        for piece in new {
-            self.touching(piece, &corners);
-        }
-        self.corners = corners;
-        self.found.sort_unstable();
-        self.found.dedup();
-    }
-
     /// Notes those of some corners that lie strictly inside an edge. Signs decide.
-    fn touching(&mut self, piece: &HalfEdge, corners: &[PointId]) {
+    pub(super) fn touching(&mut self, piece: &HalfEdge, corners: &[PointId]) {
         #[cfg(test)]
         {
             self.looked_at += corners.len();

@@ -1,19 +1,25 @@
-//! The faces of regions that change, and their triangles.
+//! The faces of regions that change: which loops bound each, and its triangles.
+//!
+//! What is said of a face depends on its loops alone. A loop that stays keeps its face, unless a new outer loop around it has come; so of the loops of a
+//! region only those are looked at that changed, and those of the faces that these bound.
 
-use crate::ids::number32;
 use planecut_kernel::DVec3;
+use planecut_parallel::prelude::*;
+use rustc_hash::FxHashMap;
 
+use super::loops::{Loop, Loops};
 use super::names::place;
 use super::numbers::Numbers;
+use super::regions::{Region, Regions};
 use super::{Pieces, State};
 use crate::base::map_chunks;
-use crate::ids::{FaceId, HalfEdgeId, Id, PointId, PointOnLine, RegionId};
+use crate::ids::{FaceId, HalfEdgeId, Id, LoopId, PointId, RegionId, holds, number32};
 use crate::model::MaterialId;
 use crate::plane_table::{PlaneId, PlaneTable};
-use crate::weld::cancel::HalfEdge;
-use crate::weld::nest::{self, Nester, Projection};
+use crate::weld::WeldError;
+use crate::weld::large_face::{FaceEdge, LARGE, LargeFace};
+use crate::weld::nest::{Projection, RegionPlane};
 use crate::weld::triangulate::{Triangles, Triangulator, WeldPoints};
-use crate::weld::{WeldError, loops};
 
 /// A planar, connected region of the boundary, with its triangles.
 #[derive(Clone, Copy)]
@@ -25,7 +31,7 @@ pub(crate) struct WeldedFace<'a> {
 
 impl<'a> WeldedFace<'a> {
     pub(super) fn new(numbers: &'a Numbers, state: &'a State, number: FaceId) -> Option<Self> {
-        let face = state.faces.faces.get(number.index()).filter(|face| !face.pieces.is_empty())?;
+        let face = state.faces.faces.get(number.index()).filter(|face| face.region != RegionId::NONE)?;
         Some(Self { numbers, state, face })
     }
 
@@ -40,7 +46,7 @@ impl<'a> WeldedFace<'a> {
     }
 
     pub(crate) fn triangle_count(&self) -> usize {
-        self.face.triangles.len()
+        self.face.triangulation.count()
     }
 
     /// A triangle: for each corner the number of its vertex, and its position.
@@ -50,114 +56,120 @@ impl<'a> WeldedFace<'a> {
             let position = numbers.position(state.pieces.half_edges[piece.index()].from);
             (state.vertices.at(piece).number(), position)
         };
-        face.triangles[place].map(corner)
-    }
-}
-
-/// The regions, by number.
-#[derive(Default)]
-pub(super) struct Regions {
-    regions: Vec<Region>,
-    changed: Vec<RegionId>,
-}
-
-#[derive(Default)]
-struct Region {
-    /// Its half-edges: first those of the last update, in the order of where they begin and end, then new ones.
-    pieces: Vec<HalfEdgeId>,
-    settled: usize,
-    /// What came or went since the last update.
-    changes: Vec<HalfEdge>,
-    faces: Vec<FaceId>,
-    /// Where corners touch the inside of edges.
-    pinches: Vec<PointOnLine>,
-}
-
-impl Regions {
-    pub(super) fn add_piece(&mut self, number: HalfEdgeId, piece: &HalfEdge) {
-        self.change(piece);
-        self.regions[piece.region.index()].pieces.push(number);
-    }
-
-    /// Notes that a half-edge came or went.
-    pub(super) fn change(&mut self, piece: &HalfEdge) {
-        let region = piece.region;
-        if region.index() >= self.regions.len() {
-            self.regions.resize_with(region.index() + 1, Region::default);
-        }
-        let entry = &mut self.regions[region.index()];
-        if entry.changes.is_empty() {
-            self.changed.push(region);
-        }
-        entry.changes.push(*piece);
-    }
-
-    pub(super) fn changed(&self) -> &[RegionId] {
-        &self.changed
-    }
-
-    /// The half-edges that were there at the last update, some of them gone by now, and the new ones.
-    pub(super) fn pieces(&self, region: RegionId) -> (&[HalfEdgeId], &[HalfEdgeId]) {
-        let region = &self.regions[region.index()];
-        region.pieces.split_at(region.settled)
-    }
-
-    pub(super) fn add_pinch(&mut self, region: RegionId, pinch: PointOnLine) {
-        self.regions[region.index()].pinches.push(pinch);
-    }
-
-    /// Takes the pinches away that may be none any more, as something changed on their line or at their point; the region
-    /// of each as well.
-    pub(super) fn take_doubtful_pinches(&mut self) -> Vec<(RegionId, PointOnLine)> {
-        let mut doubtful = Vec::new();
-        for &region in &self.changed {
-            let Region { pinches, changes, .. } = &mut self.regions[region.index()];
-            pinches.retain(|&pinch| {
-                let PointOnLine { line, point } = pinch;
-                let concerns = |piece: &HalfEdge| piece.line == line || piece.from == point || piece.to == point;
-                let is_doubtful = changes.iter().any(concerns);
-                if is_doubtful {
-                    doubtful.push((region, pinch));
-                }
-                !is_doubtful
-            });
-        }
-        doubtful
+        face.triangulation.triangle(place).map(corner)
     }
 }
 
 /// Number of corners, of all faces together, from which several threads triangulate them.
 const CORNERS_FOR_THREADS: usize = 400;
 
+/// A triangulation changes with its face where fewer than one in this number of its edges come or go; otherwise it is made anew, which takes less for each edge.
+const CHANGED_SHARE: usize = 3;
+
 /// The faces, by number.
 #[derive(Default)]
 pub(super) struct Faces {
     faces: Vec<Face>,
     free: Vec<FaceId>,
+    loops: Loops,
     triangles: usize,
     removed: Vec<FaceId>,
     added: Vec<FaceId>,
-    /// The place of the first half-edge of each point among those of the region that is looked at.
-    first_at: Vec<HalfEdgeId>,
 }
 
 struct Face {
+    /// [`Id::NONE`] for a number that is free.
     region: RegionId,
-    /// Its half-edges, loop by loop, the outer one first.
-    pieces: Vec<HalfEdgeId>,
-    /// Where each loop ends among them.
-    loops: Vec<u32>,
-    /// Three half-edges each: those that begin at its corners.
-    triangles: Vec<[HalfEdgeId; 3]>,
-    /// Whether it was met in the last update of its region.
-    is_met: bool,
+    outer: LoopId,
+    /// The holes, in no order.
+    holes: Vec<LoopId>,
+    /// How many half-edges its loops have.
+    corners: usize,
+    triangulation: Triangulation,
+    /// Its place among the faces of its region.
+    place: u32,
 }
 
 impl Default for Face {
     /// What a free number has.
     fn default() -> Self {
-        let (pieces, loops, triangles) = (Vec::new(), Vec::new(), Vec::new());
-        Self { region: RegionId::NONE, pieces, loops, triangles, is_met: false }
+        let (holes, triangulation) = (Vec::new(), Triangulation::Whole(Vec::new()));
+        Self { region: RegionId::NONE, outer: LoopId::NONE, holes, corners: 0, triangulation, place: 0 }
+    }
+}
+
+/// The triangles of a face.
+enum Triangulation {
+    /// Three half-edges each: those that begin at its corners.
+    Whole(Vec<[HalfEdgeId; 3]>),
+    /// Those of a face of many corners, kept so that they can change with it.
+    Large(Box<LargeFace>),
+}
+
+impl Triangulation {
+    fn count(&self) -> usize {
+        match self {
+            Self::Whole(triangles) => triangles.len(),
+            Self::Large(large) => large.triangle_count(),
+        }
+    }
+
+    fn triangle(&self, place: usize) -> [HalfEdgeId; 3] {
+        match self {
+            Self::Whole(triangles) => triangles[place],
+            Self::Large(large) => large.triangle(place),
+        }
+    }
+}
+
+/// A face that is to be triangulated: the triangulation that it has, where it can change with it, and the edges that it has lost and gained since.
+struct Job {
+    face: FaceId,
+    large: Option<Box<LargeFace>>,
+    changes: EdgeChanges,
+}
+
+/// What a change of a region has left of its faces.
+#[derive(Default)]
+struct Left {
+    /// Those that have lost or gained a loop, and those that are new.
+    touched: Vec<FaceId>,
+    made: Vec<FaceId>,
+    /// Half-edges of loops that are gone, each with the face that it bounded.
+    pieces: Vec<(HalfEdgeId, FaceId)>,
+    has_new_outers: bool,
+}
+
+impl Left {
+    fn touch(&mut self, face: FaceId) {
+        if face != FaceId::NONE && !holds(&self.touched, face) {
+            self.touched.push(face);
+        }
+    }
+
+    /// All of them.
+    fn faces(&self) -> impl Iterator<Item = FaceId> + '_ {
+        self.touched.iter().chain(&self.made).copied()
+    }
+}
+
+/// Edges that a face has lost and gained.
+#[derive(Default)]
+struct EdgeChanges {
+    gone: Vec<FaceEdge>,
+    new: Vec<FaceEdge>,
+}
+
+/// What it takes to work on regions.
+#[derive(Clone, Copy)]
+struct Context<'a> {
+    table: &'a PlaneTable,
+    numbers: &'a Numbers,
+}
+
+impl Context<'_> {
+    fn plane(&self, region: RegionId) -> RegionPlane<'_> {
+        RegionPlane::new(self.table, &self.numbers.points, self.numbers.planes[region.index()])
     }
 }
 
@@ -180,7 +192,7 @@ impl Faces {
         self.triangles
     }
 
-    /// Chains and nests the regions that have changed, and triangulates their new faces.
+    /// Chains and nests what has changed in regions, and triangulates the faces that are others than before.
     pub(super) fn update(
         &mut self,
         table: &PlaneTable,
@@ -188,139 +200,293 @@ impl Faces {
         regions: &mut Regions,
         pieces: &mut Pieces,
     ) -> Result<(), WeldError> {
-        let (order, half_edges) = sorted(table, numbers, regions, pieces);
-        self.first_at.resize(numbers.points.planes.len(), HalfEdgeId::NONE);
-        let mut nester = Nester::new(table, &numbers.points);
-        let mut following = Vec::with_capacity(half_edges.len());
-        let mut found = nest::Faces::default();
-        let first_at = &mut self.first_at;
-        let mut start = 0;
-        for members in half_edges.chunk_by(|a, b| a.region == b.region) {
-            let plane = numbers.planes[members[0].region.index()];
-            for (place, piece) in members.iter().enumerate().rev() {
-                first_at[piece.from.index()] = HalfEdgeId::from_index(start + place);
-            }
-            let first = |point: PointId| first_at[point.index()].index().wrapping_sub(start);
-            loops::follow(table, plane, members, start, first, &mut following)?;
-            nester.add_faces(plane, members, start, &following[start..], &mut found)?;
-            start += members.len();
+        let context = Context { table, numbers };
+        let mut changes: FxHashMap<FaceId, EdgeChanges> = FxHashMap::default();
+        for number in regions.take_changed() {
+            self.update_region(&context, number, regions.get_mut(number), pieces, &mut changes)?;
         }
-        for (place, next) in following.iter().enumerate() {
-            let (piece, next) = (order[place], order[next.index()]);
-            if pieces.following[piece.index()] != next {
-                pieces.following[piece.index()] = next;
-                pieces.turned.push(pieces.half_edges[piece.index()].twin);
-            }
-        }
-        let new: Vec<nest::Face<'_>> = found.iter().filter(|face| !self.is_known(pieces, &order, *face)).collect();
-        let triangulate = |faces: &[nest::Face<'_>]| {
-            let exact = WeldPoints { table, points: &numbers.points };
-            let mut triangulator = Triangulator::new(&exact);
-            let triangles = faces.iter().map(|face| {
-                let normal = table.half_space(numbers.planes[face.region.index()]).normal();
-                triangulator.begin(Projection::new(normal));
-                for members in face.loops() {
-                    triangulator.add_loop(
-                        members.iter().map(|k| numbers.points.corner(order[k.index()], &half_edges[k.index()])),
-                    );
-                }
-                let mut triangles = Triangles::default();
-                triangulator.triangulate(&mut triangles);
-                triangles.corners
-            });
-            triangles.collect::<Vec<Vec<[HalfEdgeId; 3]>>>()
-        };
-        let corners: usize = new.iter().flat_map(|face| face.loops()).map(<[HalfEdgeId]>::len).sum();
-        let triangles = if corners < CORNERS_FOR_THREADS || new.len() < 2 {
-            triangulate(&new)
-        } else {
-            map_chunks(&new, 1, triangulate).0.concat()
-        };
-        for (face, triangles) in new.into_iter().zip(triangles) {
-            self.add(pieces, &order, face, triangles);
-        }
-        for region in std::mem::take(&mut regions.changed) {
-            let region = &mut regions.regions[region.index()];
-            region.changes.clear();
-            region.settled = region.pieces.len();
-            for face in std::mem::take(&mut region.faces) {
-                if std::mem::take(&mut self.faces[face.index()].is_met) {
-                    region.faces.push(face);
-                } else {
-                    self.remove(face);
-                }
-            }
-        }
-        for face in &self.added {
-            regions.regions[self.faces[face.index()].region.index()].faces.push(*face);
-        }
+        self.triangulate(&context, pieces, changes);
         Ok(())
     }
 
-    /// Whether a face is there already; then it is noted as met.
-    fn is_known(&mut self, pieces: &Pieces, order: &[HalfEdgeId], face: nest::Face<'_>) -> bool {
-        let Some(first) = face.loops().next().and_then(|outer| outer.first()) else { return false };
-        let Some(known) = self.faces.get_mut(pieces.face[order[first.index()].index()].index()) else {
-            return false;
-        };
-        let numbers = face.loops().flatten().map(|place| order[place.index()]);
-        let mut end = 0;
-        let ends = face.loops().map(|members| {
-            end += number32(members.len());
-            end
-        });
-        known.is_met = known.pieces.iter().copied().eq(numbers) && known.loops.iter().copied().eq(ends);
-        known.is_met
-    }
-
-    fn add(
+    fn update_region(
         &mut self,
+        context: &Context<'_>,
+        number: RegionId,
+        region: &mut Region,
         pieces: &mut Pieces,
-        order: &[HalfEdgeId],
-        face: nest::Face<'_>,
-        triangles: Vec<[HalfEdgeId; 3]>,
+        changes: &mut FxHashMap<FaceId, EdgeChanges>,
+    ) -> Result<(), WeldError> {
+        let broken = self.loops.chain(context.table, context.numbers.planes[number.index()], region, pieces)?;
+        let mut left = Left::default();
+        for broken in broken {
+            self.unhook(broken);
+            let gone = self.loops.take(pieces, broken);
+            left.touch(gone.face);
+            left.pieces.extend(gone.pieces.iter().map(|piece| (*piece, gone.face)));
+        }
+        let plane = context.plane(number);
+        let mut new: Vec<LoopId> = Vec::new();
+        for piece in left.pieces.iter().map(|(piece, _)| *piece).chain(region.new.drain(..)) {
+            if !pieces.is_gone[piece.index()] && pieces.loop_of[piece.index()] == LoopId::NONE {
+                new.push(self.loops.walk(context.table, context.numbers, &plane, pieces, piece));
+            }
+        }
+        region.gone.clear();
+        let (outers, holes): (Vec<LoopId>, Vec<LoopId>) =
+            new.iter().partition(|number| self.loops.get(**number).is_outer);
+        let mut owned: Vec<(LoopId, LoopId)> = Vec::with_capacity(holes.len());
+        if !holes.is_empty() {
+            let old = region.faces.iter().map(|face| self.faces[face.index()].outer);
+            let all: Vec<LoopId> = old.filter(|outer| *outer != LoopId::NONE).chain(outers.iter().copied()).collect();
+            for hole in holes {
+                let owner = self.owner(&plane, pieces, &all, hole).ok_or_else(|| WeldError::hole(number))?;
+                left.touch(self.loops.get(owner).face);
+                owned.push((hole, owner));
+            }
+        }
+        left.has_new_outers = !outers.is_empty();
+        self.continue_faces(number, region, pieces, &mut left, outers);
+        self.move_holes(&plane, pieces, &mut left, &mut owned).ok_or_else(|| WeldError::hole(number))?;
+        new.retain(|number| self.loops.get(*number).is_outer);
+        for (hole, owner) in owned {
+            self.hook(hole, self.loops.get(owner).face);
+            new.push(hole);
+        }
+        self.note_edges(pieces, &left, &new, changes);
+        self.finish(region, left);
+        Ok(())
+    }
+
+    /// Takes a loop out of its face.
+    fn unhook(&mut self, number: LoopId) {
+        let (face, place, corners) = {
+            let old = self.loops.get(number);
+            (old.face, old.place, old.pieces.len())
+        };
+        let face = &mut self.faces[face.index()];
+        face.corners -= corners;
+        if face.outer == number {
+            face.outer = LoopId::NONE;
+            return;
+        }
+        face.holes.swap_remove(place as usize);
+        if let Some(moved) = face.holes.get(place as usize) {
+            self.loops.get_mut(*moved).place = place;
+        }
+    }
+
+    /// Makes a loop one of a face.
+    fn hook(&mut self, number: LoopId, face: FaceId) {
+        let entry = &mut self.faces[face.index()];
+        let member = self.loops.get_mut(number);
+        member.face = face;
+        entry.corners += member.pieces.len();
+        if member.is_outer {
+            entry.outer = number;
+        } else {
+            member.place = number32(entry.holes.len());
+            entry.holes.push(number);
+        }
+    }
+
+    /// The smallest of some outer loops around a hole. Where there is but one, the hole can lie nowhere else.
+    fn owner(&self, plane: &RegionPlane<'_>, pieces: &Pieces, outers: &[LoopId], hole: LoopId) -> Option<LoopId> {
+        if let [only] = outers {
+            return Some(*only);
+        }
+        let extent = |number: &LoopId| &self.loops.get(*number).extent;
+        let outline = |number: LoopId| self.loops.outline(pieces, number);
+        let is_around =
+            |outer: &&LoopId| extent(outer).holds(extent(&hole)) && plane.contains(outline(**outer), outline(hole));
+        outers.iter().filter(is_around).min_by(|p, q| extent(p).area.total_cmp(&extent(q).area)).copied()
+    }
+
+    /// Gives new outer loops faces: those that have lost their outer loops and shared edges with them, the largest loops first, or
+    /// new ones.
+    fn continue_faces(
+        &mut self,
+        number: RegionId,
+        region: &mut Region,
+        pieces: &Pieces,
+        left: &mut Left,
+        mut outers: Vec<LoopId>,
     ) {
-        let mut entry = Face { region: face.region, triangles, ..Face::default() };
-        for members in face.loops() {
-            entry.pieces.extend(members.iter().map(|place| order[place.index()]));
-            entry.loops.push(number32(entry.pieces.len()));
+        outers.sort_by(|p, q| self.loops.get(*q).extent.area.total_cmp(&self.loops.get(*p).extent.area));
+        let headless = |faces: &Self, face: FaceId| faces.faces[face.index()].outer == LoopId::NONE;
+        for outer in outers {
+            let shared = left.pieces.iter().filter(|(piece, face)| {
+                pieces.loop_of[piece.index()] == outer && !pieces.is_gone[piece.index()] && headless(self, *face)
+            });
+            let largest = shared.map(|(_, face)| *face).max_by_key(|face| self.faces[face.index()].corners);
+            // where nothing of the old outer loop is left, the holes tell
+            let largest = largest.or_else(|| {
+                let faces = left.touched.iter().copied().filter(|face| headless(self, *face));
+                faces.max_by_key(|face| self.faces[face.index()].corners)
+            });
+            let face = largest.unwrap_or_else(|| {
+                let place_in_region = number32(region.faces.len());
+                let new = Face { region: number, place: place_in_region, ..Face::default() };
+                let face: FaceId = place(&mut self.faces, &mut self.free, new);
+                region.faces.push(face);
+                left.made.push(face);
+                face
+            });
+            self.hook(outer, face);
         }
-        self.triangles += entry.triangles.len();
-        let number = place(&mut self.faces, &mut self.free, Face::default());
-        for piece in &entry.pieces {
-            pieces.face[piece.index()] = number;
-        }
-        self.faces[number.index()] = entry;
-        self.added.push(number);
     }
 
-    fn remove(&mut self, face: FaceId) {
-        let Face { triangles, .. } = std::mem::take(&mut self.faces[face.index()]);
-        self.triangles -= triangles.len();
-        self.free.push(face);
-        self.removed.push(face);
+    /// Finds the holes of touched faces that lie in others now, and takes them out; with each the outer loop around it. That takes a new outer loop,
+    /// or one that is gone.
+    fn move_holes(
+        &mut self,
+        plane: &RegionPlane<'_>,
+        pieces: &Pieces,
+        left: &mut Left,
+        owned: &mut Vec<(LoopId, LoopId)>,
+    ) -> Option<()> {
+        let outer = |faces: &Self, face: FaceId| faces.faces[face.index()].outer;
+        let around: Vec<LoopId> =
+            left.faces().map(|face| outer(self, face)).filter(|outer| *outer != LoopId::NONE).collect();
+        let first = owned.len();
+        for &face in &left.touched {
+            if outer(self, face) != LoopId::NONE && (!left.has_new_outers || around.len() == 1) {
+                continue;
+            }
+            for &hole in &self.faces[face.index()].holes {
+                let owner = self.owner(plane, pieces, &around, hole)?;
+                if self.loops.get(owner).face != face {
+                    owned.push((hole, owner));
+                }
+            }
+        }
+        for (hole, _) in &owned[first..] {
+            let of_hole = self.loops.get(*hole);
+            left.pieces.extend(of_hole.pieces.iter().map(|piece| (*piece, of_hole.face)));
+            self.unhook(*hole);
+        }
+        Some(())
     }
-}
 
-/// The half-edges of all regions that have changed, region by region in the order of where they begin and end: their numbers and
-/// themselves. Those that are gone are taken out of their regions.
-fn sorted(
-    table: &PlaneTable,
-    numbers: &Numbers,
-    regions: &mut Regions,
-    pieces: &Pieces,
-) -> (Vec<HalfEdgeId>, Vec<HalfEdge>) {
-    let mut order = Vec::new();
-    for &region in &regions.changed {
-        let members = &mut regions.regions[region.index()].pieces;
-        members.retain(|piece| !pieces.is_gone[piece.index()]);
-        // stable, as that finds what is sorted already
-        members.sort_by(|p, q| {
-            let [p, q] = [p, q].map(|piece| &pieces.half_edges[piece.index()]);
-            numbers.compare(table, p.from, q.from).then_with(|| numbers.compare(table, p.to, q.to))
+    /// Notes what edges the triangulations of touched faces lose and gain, where these are of the kind that can change; `new` are the loops that
+    /// came to faces.
+    fn note_edges(&self, pieces: &Pieces, left: &Left, new: &[LoopId], changes: &mut FxHashMap<FaceId, EdgeChanges>) {
+        let is_large = |face: FaceId| matches!(self.faces[face.index()].triangulation, Triangulation::Large(_));
+        if !left.touched.iter().any(|face| is_large(*face)) {
+            return;
+        }
+        let edge = |piece: HalfEdgeId| pieces.half_edges[piece.index()].edge_of_face(piece);
+        let mut before: FxHashMap<HalfEdgeId, FaceId> = FxHashMap::default();
+        for &(piece, face) in left.pieces.iter().filter(|(_, face)| is_large(*face)) {
+            before.insert(piece, face);
+            let now = pieces.loop_of[piece.index()];
+            if now == LoopId::NONE || self.loops.get(now).face != face {
+                changes.entry(face).or_default().gone.push(edge(piece));
+            }
+        }
+        for entry in new.iter().map(|number| self.loops.get(*number)).filter(|entry| is_large(entry.face)) {
+            let added = entry.pieces.iter().filter(|piece| before.get(piece) != Some(&entry.face));
+            changes.entry(entry.face).or_default().new.extend(added.map(|piece| edge(*piece)));
+        }
+    }
+
+    /// Lists the faces that are gone or others than before, and frees the numbers of those without an outer loop.
+    fn finish(&mut self, region: &mut Region, left: Left) {
+        for &face in &left.touched {
+            let entry = &mut self.faces[face.index()];
+            self.removed.push(face);
+            self.triangles -= entry.triangulation.count();
+            if entry.outer != LoopId::NONE {
+                self.added.push(face);
+                continue;
+            }
+            let place = std::mem::take(entry).place;
+            region.faces.swap_remove(place as usize);
+            if let Some(moved) = region.faces.get(place as usize) {
+                self.faces[moved.index()].place = place;
+            }
+            self.free.push(face);
+        }
+        self.added.extend(left.made);
+    }
+
+    /// Triangulates the faces that were added.
+    fn triangulate(&mut self, context: &Context<'_>, pieces: &Pieces, mut changes: FxHashMap<FaceId, EdgeChanges>) {
+        let (mut jobs, mut whole): (Vec<Job>, Vec<FaceId>) = (Vec::new(), Vec::new());
+        for &face in &self.added {
+            let entry = &mut self.faces[face.index()];
+            let nothing = Triangulation::Whole(Vec::new());
+            let large = match std::mem::replace(&mut entry.triangulation, nothing) {
+                Triangulation::Large(large) => Some(large),
+                Triangulation::Whole(_) => None,
+            };
+            if entry.corners < LARGE {
+                whole.push(face);
+            } else {
+                jobs.push(Job { face, large, changes: changes.remove(&face).unwrap_or_default() });
+            }
+        }
+        let faces = &*self;
+        let of_large = |job: Job| (job.face, faces.triangulate_large(context, pieces, job));
+        let done: Vec<(FaceId, Option<Box<LargeFace>>)> = if jobs.len() < 2 {
+            jobs.into_iter().map(of_large).collect()
+        } else {
+            jobs.into_par_iter().with_max_len(1).map(of_large).collect()
+        };
+        let corners = |face: &FaceId| self.faces[face.index()].corners;
+        whole.extend(done.iter().filter(|(_, large)| large.is_none()).map(|(face, _)| *face));
+        let in_parts = whole.len() > 1 && whole.iter().map(corners).sum::<usize>() >= CORNERS_FOR_THREADS;
+        let of_whole = |chunk: &[FaceId]| self.triangulate_whole(context, pieces, chunk);
+        let triangles = if in_parts { map_chunks(&whole, 1, of_whole).0.concat() } else { of_whole(&whole) };
+        let whole = whole.into_iter().zip(triangles.into_iter().map(Triangulation::Whole));
+        let large = done.into_iter().filter_map(|(face, large)| Some((face, Triangulation::Large(large?))));
+        for (face, triangulation) in whole.chain(large).collect::<Vec<_>>() {
+            self.triangles += triangulation.count();
+            self.faces[face.index()].triangulation = triangulation;
+        }
+    }
+
+    /// The triangulation of a large face: the old one where little has changed, or a new one; none where there is none.
+    fn triangulate_large(&self, context: &Context<'_>, pieces: &Pieces, job: Job) -> Option<Box<LargeFace>> {
+        let Job { face, large, changes: EdgeChanges { gone, new } } = job;
+        let entry = &self.faces[face.index()];
+        let plane = context.plane(entry.region);
+        let at = |point: PointId| plane.position(point);
+        if let Some(mut large) = large
+            && (gone.len() + new.len()) * CHANGED_SHARE < entry.corners
+            && large.change(&gone, &new, at).is_ok()
+        {
+            return Some(large);
+        }
+        let edge = |piece: &HalfEdgeId| pieces.half_edges[piece.index()].edge_of_face(*piece);
+        let edges: Vec<FaceEdge> = self.loops_of(entry).flat_map(|of| &of.pieces).map(edge).collect();
+        LargeFace::new(&edges, at).ok().map(Box::new)
+    }
+
+    /// The triangles of faces that are triangulated as a whole, loops in the order of the half-edges with which they begin.
+    fn triangulate_whole(&self, context: &Context<'_>, pieces: &Pieces, faces: &[FaceId]) -> Vec<Vec<[HalfEdgeId; 3]>> {
+        let Context { table, numbers } = *context;
+        let exact = WeldPoints { table, points: &numbers.points };
+        let mut triangulator = Triangulator::new(&exact);
+        let triangles = faces.iter().map(|face| {
+            let entry = &self.faces[face.index()];
+            let normal = table.half_space(numbers.planes[entry.region.index()]).normal();
+            triangulator.begin(Projection::new(normal));
+            let mut loops: Vec<&Loop> = self.loops_of(entry).collect();
+            loops[1..].sort_by(|p, q| pieces.compare(table, numbers, p.pieces[0], q.pieces[0]));
+            for members in loops {
+                let corner = |piece: &HalfEdgeId| numbers.points.corner(*piece, &pieces.half_edges[piece.index()]);
+                triangulator.add_loop(members.pieces.iter().map(corner));
+            }
+            let mut triangles = Triangles::default();
+            triangulator.triangulate(&mut triangles);
+            triangles.corners
         });
-        order.extend_from_slice(members);
+        triangles.collect()
     }
-    let half_edges = order.iter().map(|piece| pieces.half_edges[piece.index()]).collect();
-    (order, half_edges)
+
+    /// The loops of a face, the outer one first.
+    fn loops_of<'a>(&'a self, face: &'a Face) -> impl Iterator<Item = &'a Loop> {
+        std::iter::once(&face.outer).chain(&face.holes).map(|number| self.loops.get(*number))
+    }
 }

@@ -7,24 +7,30 @@
 //! ([`numbers`]); nothing depends on these numbers but the numbers of others.
 
 mod faces;
+mod grid;
+mod loops;
 mod names;
 mod numbers;
+mod regions;
 mod vertices;
+
+use std::cmp::Ordering;
 
 use crate::ids::number32;
 use rustc_hash::FxHashMap;
 
 use super::WeldError;
 use super::cancel::{Crossed, HalfEdge, LineWorker, Run, Surviving};
+use super::nest::RegionPlane;
 use super::pinches::PinchFinder;
-use crate::base::Bounds;
 use crate::boundary::BoundaryEdge;
-use crate::ids::{EdgeId, FaceId, HalfEdgeId, Id, LineId, PointId, PointOfRegion, PointOnLine, RegionId};
+use crate::ids::{EdgeId, FaceId, HalfEdgeId, Id, LineId, LoopId, PointId, PointOfRegion, PointOnLine, RegionId};
 use crate::plane_table::PlaneTable;
+use faces::Faces;
 pub(crate) use faces::WeldedFace;
-use faces::{Faces, Regions};
 use names::place;
 use numbers::{NumberedEdge, Numbers};
+use regions::Regions;
 use vertices::Vertices;
 
 /// A boundary, welded.
@@ -77,8 +83,10 @@ struct Pieces {
     half_edges: Vec<HalfEdge>,
     /// What follows each in its loop.
     following: Vec<HalfEdgeId>,
-    /// The face that each bounds.
-    face: Vec<FaceId>,
+    /// The loop that each is part of.
+    loop_of: Vec<LoopId>,
+    /// The place of each among those of its region.
+    places: Vec<u32>,
     /// Taken out; what else is said of such a half-edge is no longer true.
     is_gone: Vec<bool>,
     free: Vec<HalfEdgeId>,
@@ -184,6 +192,8 @@ impl LiveWeld {
 
 /// What it takes to cancel and cut lines, and buffers.
 struct Cutter<'a> {
+    table: &'a PlaneTable,
+    known: &'a Numbers,
     edges: &'a [Edge],
     worker: LineWorker<'a>,
     group: Vec<Run>,
@@ -198,6 +208,8 @@ struct Cutter<'a> {
 impl<'a> Cutter<'a> {
     fn new(table: &'a PlaneTable, numbers: &'a Numbers, edges: &'a [Edge]) -> Self {
         Self {
+            table,
+            known: numbers,
             edges,
             worker: LineWorker::new(table, &numbers.points, &numbers.lines, &numbers.planes),
             group: Vec::new(),
@@ -254,7 +266,7 @@ impl State {
             if !drops_pinches {
                 return Ok(());
             }
-            for (region, PointOnLine { line, point }) in self.regions.take_doubtful_pinches() {
+            for (region, PointOnLine { line, point }) in self.regions.take_doubtful_pinches(&self.pieces.half_edges) {
                 self.lines[line.index()].cuts.retain(|cut| *cut != PointOfRegion { region, point });
                 self.mark_line(line);
             }
@@ -270,6 +282,9 @@ impl State {
         let Self { lines, pieces, regions, .. } = self;
         let line = &mut lines[number.index()];
         cutter.cut()?;
+        let plane = |region: RegionId| {
+            RegionPlane::new(cutter.table, &cutter.known.points, cutter.known.planes[region.index()])
+        };
         let Cutter { cut, old, numbers, .. } = cutter;
         let key = |piece: &HalfEdge| (piece.region, piece.from, piece.to);
         old.clear();
@@ -282,13 +297,14 @@ impl State {
                 Ok(at) => std::mem::replace(&mut old[at].1, HalfEdgeId::NONE),
                 Err(_) => {
                     let number = pieces.add(*piece);
-                    regions.add_piece(number, piece);
+                    regions.add_piece(&mut pieces.places, piece, number, &plane(piece.region));
                     number
                 }
             });
         }
         for (_, gone) in old.iter().filter(|(_, number)| *number != HalfEdgeId::NONE) {
-            regions.change(&pieces.half_edges[gone.index()]);
+            let piece = &pieces.half_edges[gone.index()];
+            regions.remove_piece(&mut pieces.places, piece, *gone, &plane(piece.region));
             pieces.remove(*gone);
         }
         for (piece, number) in cut.iter().zip(numbers.iter()) {
@@ -345,25 +361,13 @@ impl State {
     /// Finds the new pinches of regions that have changed and marks their lines; whether there are any.
     fn find_pinches(&mut self, table: &PlaneTable, numbers: &Numbers) -> bool {
         let mut finder = PinchFinder::new(table, &numbers.points);
-        let (mut old, mut new) = (Vec::new(), Vec::new());
         let mut any = false;
         for k in 0..self.regions.changed().len() {
             let region = self.regions.changed()[k];
-            let alive = |number: &&HalfEdgeId| !self.pieces.is_gone[number.index()];
-            let half_edge = |number: &HalfEdgeId| self.pieces.half_edges[number.index()];
-            let (settled, added) = self.regions.pieces(region);
-            new.clear();
-            new.extend(added.iter().filter(alive).map(half_edge));
-            // what new pieces may touch, or be touched by
-            let reach = new.iter().fold(Bounds::EMPTY, |all, piece| all.union(&numbers.points.extent(piece)));
-            let may_touch = |piece: &HalfEdge| numbers.points.extent(piece).touches(&reach);
-            old.clear();
-            old.extend(settled.iter().filter(alive).map(half_edge).filter(may_touch));
-            finder.search_new(&old, &new);
+            self.regions.find_pinches(table, numbers, &self.pieces, region, &mut finder);
             for pinch in finder.found.drain(..) {
                 any = true;
                 self.lines[pinch.line.index()].cuts.push(PointOfRegion { region, point: pinch.point });
-                self.regions.add_pinch(region, pinch);
                 self.mark_line(pinch.line);
             }
         }
@@ -378,15 +382,22 @@ impl Pieces {
         let at = number.index();
         if at == self.is_gone.len() {
             self.following.push(HalfEdgeId::NONE);
-            self.face.push(FaceId::NONE);
+            self.loop_of.push(LoopId::NONE);
+            self.places.push(0);
             self.is_gone.push(false);
         }
-        (self.following[at], self.face[at], self.is_gone[at]) = (HalfEdgeId::NONE, FaceId::NONE, false);
+        (self.following[at], self.loop_of[at], self.is_gone[at]) = (HalfEdgeId::NONE, LoopId::NONE, false);
         number
     }
 
     fn remove(&mut self, number: HalfEdgeId) {
         self.is_gone[number.index()] = true;
         self.gone.push(number);
+    }
+
+    /// The order of half-edges by where they begin and end, whatever their numbers.
+    fn compare(&self, table: &PlaneTable, numbers: &Numbers, p: HalfEdgeId, q: HalfEdgeId) -> Ordering {
+        let [p, q] = [p, q].map(|piece| &self.half_edges[piece.index()]);
+        numbers.compare(table, p.from, q.from).then_with(|| numbers.compare(table, p.to, q.to))
     }
 }

@@ -197,7 +197,7 @@ impl Boundary<'_> {
 }
 
 /// Positive where three rounded points turn left, zero where they are collinear; the sign is exact.
-fn orient(a: DVec2, b: DVec2, c: DVec2) -> f64 {
+pub(super) fn orient(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     let coord = |p: DVec2| robust::Coord { x: p.x, y: p.y };
     robust::orient2d(coord(a), coord(b), coord(c))
 }

@@ -1,0 +1,132 @@
+//! Loops of half-edges, chained again where something changed.
+
+use super::Pieces;
+use super::names::place;
+use super::numbers::Numbers;
+use super::regions::Region;
+use crate::ids::{FaceId, HalfEdgeId, Id, LoopId, PointId};
+use crate::plane_table::{PlaneId, PlaneTable};
+use crate::weld::WeldError;
+use crate::weld::loops::first_clockwise;
+use crate::weld::nest::{Extent, LoopOf, RegionPlane};
+
+/// The loops, by number.
+#[derive(Default)]
+pub(super) struct Loops {
+    loops: Vec<Loop>,
+    free: Vec<LoopId>,
+}
+
+/// A loop around a face, or around a hole of it.
+pub(super) struct Loop {
+    /// Its half-edges in their order, from the one that is first by where it begins and ends.
+    pub(super) pieces: Vec<HalfEdgeId>,
+    pub(super) extent: Extent,
+    pub(super) is_outer: bool,
+    pub(super) face: FaceId,
+    /// Its place among the holes of its face.
+    pub(super) place: u32,
+}
+
+impl Loops {
+    pub(super) fn get(&self, number: LoopId) -> &Loop {
+        &self.loops[number.index()]
+    }
+
+    pub(super) fn get_mut(&mut self, number: LoopId) -> &mut Loop {
+        &mut self.loops[number.index()]
+    }
+
+    /// A loop for what is asked of outlines.
+    pub(super) fn outline<'a>(&'a self, pieces: &'a Pieces, number: LoopId) -> LoopOf<'a> {
+        LoopOf { pieces: &self.get(number).pieces, half_edges: &pieces.half_edges, base: 0 }
+    }
+
+    /// Finds again what follows the half-edges that end where something changed in a region; gives the loops that are no longer what
+    /// they were, ascending.
+    pub(super) fn chain(
+        &self,
+        table: &PlaneTable,
+        plane: PlaneId,
+        region: &Region,
+        pieces: &mut Pieces,
+    ) -> Result<Vec<LoopId>, WeldError> {
+        let ends = |number: &HalfEdgeId| {
+            let piece = &pieces.half_edges[number.index()];
+            [piece.from, piece.to]
+        };
+        let mut points: Vec<PointId> = region.new.iter().chain(&region.gone).flat_map(ends).collect();
+        points.sort_unstable();
+        points.dedup();
+        let mut broken: Vec<LoopId> = region.gone.iter().map(|gone| pieces.loop_of[gone.index()]).collect();
+        let mut outgoing: Vec<HalfEdgeId> = Vec::new();
+        let mut followed: Vec<(HalfEdgeId, HalfEdgeId)> = Vec::new();
+        for point in points {
+            outgoing.clear();
+            outgoing.extend(region.beginning_at(pieces, point));
+            for incoming in region.ending_at(pieces, point) {
+                let piece = &pieces.half_edges[incoming.index()];
+                let candidates = outgoing.iter().map(|next| (*next, &pieces.half_edges[next.index()]));
+                let next = first_clockwise(table, plane, piece, candidates).ok_or_else(|| WeldError::open(piece))?;
+                if pieces.following[incoming.index()] != next {
+                    followed.push((incoming, next));
+                }
+            }
+        }
+        for (piece, next) in followed {
+            pieces.following[piece.index()] = next;
+            pieces.turned.push(pieces.half_edges[piece.index()].twin);
+            broken.push(pieces.loop_of[piece.index()]);
+        }
+        broken.sort_unstable();
+        broken.dedup();
+        if broken.last() == Some(&LoopId::NONE) {
+            broken.pop();
+        }
+        Ok(broken)
+    }
+
+    /// Takes a loop apart; gives what it was.
+    pub(super) fn take(&mut self, pieces: &mut Pieces, number: LoopId) -> Loop {
+        let extent = self.get(number).extent;
+        let nothing = Loop { pieces: Vec::new(), extent, is_outer: false, face: FaceId::NONE, place: 0 };
+        let gone = std::mem::replace(self.get_mut(number), nothing);
+        for piece in &gone.pieces {
+            pieces.loop_of[piece.index()] = LoopId::NONE;
+        }
+        self.free.push(number);
+        gone
+    }
+
+    /// Makes the loop of a half-edge that is in none.
+    pub(super) fn walk(
+        &mut self,
+        table: &PlaneTable,
+        numbers: &Numbers,
+        plane: &RegionPlane<'_>,
+        pieces: &mut Pieces,
+        start: HalfEdgeId,
+    ) -> LoopId {
+        let mut members = Vec::new();
+        let mut piece = start;
+        loop {
+            members.push(piece);
+            piece = pieces.following[piece.index()];
+            if piece == start {
+                break;
+            }
+        }
+        let order = |p: &HalfEdgeId, q: &HalfEdgeId| pieces.compare(table, numbers, *p, *q);
+        let first = (0..members.len()).min_by(|p, q| order(&members[*p], &members[*q])).unwrap_or_default();
+        members.rotate_left(first);
+        let outline = LoopOf { pieces: &members, half_edges: &pieces.half_edges, base: 0 };
+        let extent = plane.extent(outline);
+        let is_outer = plane.is_outer(outline, &extent);
+        let new = Loop { pieces: members, extent, is_outer, face: FaceId::NONE, place: 0 };
+        let number: LoopId = place(&mut self.loops, &mut self.free, new);
+        for piece in &self.loops[number.index()].pieces {
+            pieces.loop_of[piece.index()] = number;
+        }
+        number
+    }
+}

@@ -1,0 +1,246 @@
+//! The half-edges of each region: which begin and end in a point, which are near a place.
+
+use rustc_hash::FxHashMap;
+
+use super::Pieces;
+use super::grid::{BoxGrid, Rectangle};
+use super::numbers::Numbers;
+use crate::ids::{FaceId, HalfEdgeId, Id, PointId, PointOnLine, RegionId, number32};
+use crate::plane_table::PlaneTable;
+use crate::weld::cancel::HalfEdge;
+use crate::weld::nest::RegionPlane;
+use crate::weld::pinches::PinchFinder;
+
+/// Number of half-edges from which those of a region are looked up in an index, and that below which there is none any more.
+const INDEXED: [usize; 2] = [64, 32];
+
+/// The regions, by number.
+#[derive(Default)]
+pub(super) struct Regions {
+    regions: Vec<Region>,
+    changed: Vec<RegionId>,
+}
+
+#[derive(Default)]
+pub(super) struct Region {
+    /// Its half-edges, in no order.
+    pieces: Vec<HalfEdgeId>,
+    /// Where they are, where there are many.
+    index: Option<Box<Index>>,
+    /// What came since the last update, some of it gone by now, and what went.
+    pub(super) new: Vec<HalfEdgeId>,
+    pub(super) gone: Vec<HalfEdgeId>,
+    /// Its faces, in no order.
+    pub(super) faces: Vec<FaceId>,
+    /// Where corners touch the inside of edges.
+    pinches: Vec<PointOnLine>,
+}
+
+/// Where the half-edges of a region are.
+#[derive(Default)]
+struct Index {
+    /// Those that begin, and that end, in each point.
+    at_point: FxHashMap<PointId, [Vec<HalfEdgeId>; 2]>,
+    grid: BoxGrid,
+}
+
+impl Index {
+    fn insert(&mut self, piece: &HalfEdge, number: HalfEdgeId, plane: &RegionPlane<'_>) {
+        for (end, point) in [piece.from, piece.to].into_iter().enumerate() {
+            self.at_point.entry(point).or_default()[end].push(number);
+        }
+        self.grid.insert(&rectangle(piece, plane), number);
+    }
+
+    fn remove(&mut self, piece: &HalfEdge, number: HalfEdgeId, plane: &RegionPlane<'_>) {
+        for (end, point) in [piece.from, piece.to].into_iter().enumerate() {
+            if let Some(ends) = self.at_point.get_mut(&point) {
+                ends[end].retain(|other| *other != number);
+                if ends.iter().all(Vec::is_empty) {
+                    self.at_point.remove(&point);
+                }
+            }
+        }
+        self.grid.remove(&rectangle(piece, plane), number);
+    }
+}
+
+fn rectangle(piece: &HalfEdge, plane: &RegionPlane<'_>) -> Rectangle {
+    let (from, to) = (plane.position(piece.from), plane.position(piece.to));
+    Rectangle { min: from.min(to), max: from.max(to) }
+}
+
+impl Region {
+    /// The half-edges that begin in a point.
+    pub(super) fn beginning_at<'a>(
+        &'a self,
+        pieces: &'a Pieces,
+        point: PointId,
+    ) -> impl Iterator<Item = HalfEdgeId> + 'a {
+        self.at_end(pieces, 0, move |piece| piece.from == point, point)
+    }
+
+    /// Those that end there.
+    pub(super) fn ending_at<'a>(&'a self, pieces: &'a Pieces, point: PointId) -> impl Iterator<Item = HalfEdgeId> + 'a {
+        self.at_end(pieces, 1, move |piece| piece.to == point, point)
+    }
+
+    fn at_end<'a>(
+        &'a self,
+        pieces: &'a Pieces,
+        end: usize,
+        is_there: impl Fn(&HalfEdge) -> bool + 'a,
+        point: PointId,
+    ) -> impl Iterator<Item = HalfEdgeId> + 'a {
+        let listed = match &self.index {
+            Some(index) => index.at_point.get(&point).map_or(&[][..], |ends| &ends[end]),
+            None => &self.pieces,
+        };
+        listed.iter().copied().filter(move |number| is_there(&pieces.half_edges[number.index()]))
+    }
+}
+
+impl Regions {
+    pub(super) fn get_mut(&mut self, region: RegionId) -> &mut Region {
+        &mut self.regions[region.index()]
+    }
+
+    pub(super) fn changed(&self) -> &[RegionId] {
+        &self.changed
+    }
+
+    pub(super) fn take_changed(&mut self) -> Vec<RegionId> {
+        std::mem::take(&mut self.changed)
+    }
+
+    /// The region of a half-edge that comes or goes.
+    fn note(&mut self, number: RegionId) -> &mut Region {
+        if number.index() >= self.regions.len() {
+            self.regions.resize_with(number.index() + 1, Region::default);
+        }
+        let region = &mut self.regions[number.index()];
+        if region.new.is_empty() && region.gone.is_empty() {
+            self.changed.push(number);
+        }
+        region
+    }
+
+    pub(super) fn add_piece(
+        &mut self,
+        places: &mut [u32],
+        piece: &HalfEdge,
+        number: HalfEdgeId,
+        plane: &RegionPlane<'_>,
+    ) {
+        let region = self.note(piece.region);
+        region.new.push(number);
+        places[number.index()] = number32(region.pieces.len());
+        region.pieces.push(number);
+        if let Some(index) = &mut region.index {
+            index.insert(piece, number, plane);
+        }
+    }
+
+    pub(super) fn remove_piece(
+        &mut self,
+        places: &mut [u32],
+        piece: &HalfEdge,
+        number: HalfEdgeId,
+        plane: &RegionPlane<'_>,
+    ) {
+        let region = self.note(piece.region);
+        region.gone.push(number);
+        let place = places[number.index()] as usize;
+        region.pieces.swap_remove(place);
+        if let Some(moved) = region.pieces.get(place) {
+            places[moved.index()] = number32(place);
+        }
+        if let Some(index) = &mut region.index {
+            index.remove(piece, number, plane);
+        }
+    }
+
+    /// Takes the pinches away that may be none any more, as something changed on their line or at their point; the region
+    /// of each as well.
+    pub(super) fn take_doubtful_pinches(&mut self, half_edges: &[HalfEdge]) -> Vec<(RegionId, PointOnLine)> {
+        let mut doubtful = Vec::new();
+        for &number in &self.changed {
+            let Region { pinches, new, gone, .. } = &mut self.regions[number.index()];
+            pinches.retain(|&pinch| {
+                let PointOnLine { line, point } = pinch;
+                let concerns = |piece: &HalfEdge| piece.line == line || piece.from == point || piece.to == point;
+                let is_doubtful = new.iter().chain(&*gone).any(|piece| concerns(&half_edges[piece.index()]));
+                if is_doubtful {
+                    doubtful.push((number, pinch));
+                }
+                !is_doubtful
+            });
+        }
+        doubtful
+    }
+
+    /// Leaves in the finder the pinches of a changed region that new half-edges make; they are noted, too.
+    pub(super) fn find_pinches(
+        &mut self,
+        table: &PlaneTable,
+        numbers: &Numbers,
+        pieces: &Pieces,
+        number: RegionId,
+        finder: &mut PinchFinder<'_>,
+    ) {
+        finder.found.clear();
+        let region = &mut self.regions[number.index()];
+        let plane = RegionPlane::new(table, &numbers.points, numbers.planes[number.index()]);
+        region.settle_index(pieces, &plane);
+        let half_edge = |number: &HalfEdgeId| pieces.half_edges[number.index()];
+        let alive = |number: &&HalfEdgeId| !pieces.is_gone[number.index()];
+        let (mut near, mut corners): (Vec<HalfEdgeId>, Vec<PointId>) = (Vec::new(), Vec::new());
+        match &region.index {
+            Some(index) => {
+                for number in region.new.iter().filter(alive) {
+                    let piece = half_edge(number);
+                    index.grid.find(&rectangle(&piece, &plane), &mut near);
+                    corners.clear();
+                    corners.extend(near.iter().map(|other| half_edge(other).from));
+                    finder.touching(&piece, &corners);
+                    let at = plane.position(piece.from);
+                    index.grid.find(&Rectangle { min: at, max: at }, &mut near);
+                    near.iter().for_each(|other| finder.touching(&half_edge(other), &[piece.from]));
+                }
+            }
+            None => {
+                let reach = region.new.iter().filter(alive).map(|new| rectangle(&half_edge(new), &plane));
+                let reach = reach.reduce(|a, b| Rectangle { min: a.min.min(b.min), max: a.max.max(b.max) });
+                let Some(reach) = reach else { return };
+                let touches = |number: &&HalfEdgeId| {
+                    let other = rectangle(&half_edge(number), &plane);
+                    other.min.cmple(reach.max).all() && other.max.cmpge(reach.min).all()
+                };
+                near.extend(region.pieces.iter().filter(touches));
+                corners.extend(region.new.iter().filter(alive).map(|number| half_edge(number).from));
+                near.iter().for_each(|old| finder.touching(&half_edge(old), &corners));
+                corners.clear();
+                corners.extend(near.iter().map(|number| half_edge(number).from));
+                region.new.iter().filter(alive).for_each(|new| finder.touching(&half_edge(new), &corners));
+            }
+        }
+        finder.found.sort_unstable();
+        finder.found.dedup();
+        region.pinches.extend(finder.found.iter());
+    }
+}
+
+impl Region {
+    /// Makes an index where there are many half-edges, or drops it where there are few.
+    fn settle_index(&mut self, pieces: &Pieces, plane: &RegionPlane<'_>) {
+        if self.index.is_some() && self.pieces.len() < INDEXED[1] {
+            self.index = None;
+        } else if self.index.is_none() && self.pieces.len() >= INDEXED[0] {
+            let mut index = Index::default();
+            for number in &self.pieces {
+                index.insert(&pieces.half_edges[number.index()], *number, plane);
+            }
+            self.index = Some(Box::new(index));
+        }
+    }
+}
