@@ -124,6 +124,11 @@ impl Body {
         numbers.iter().map(|number| &self.corners.different[number.index()])
     }
 
+    /// All corners, each once.
+    pub(crate) fn all_corners(&self) -> &[Corner] {
+        &self.corners.different
+    }
+
     /// How many different corners there are: their numbers are below this.
     #[inline]
     pub(crate) fn corner_count(&self) -> usize {

@@ -210,7 +210,7 @@ fn hand_over(
 }
 
 /// Whether two cycles of different planes are the same but for where they begin.
-fn is_rotated(one: &[PlaneId], other: &[PlaneId]) -> bool {
+pub(super) fn is_rotated(one: &[PlaneId], other: &[PlaneId]) -> bool {
     one.len() == other.len()
         && other.iter().position(|plane| one.first() == Some(plane)).is_some_and(|start| {
             let (end, begin) = other.split_at(start);

@@ -19,6 +19,9 @@ impl LiveModel {
     /// # Errors
     /// [`EvaluateError::Unbounded`]; then all is as it was. [`EvaluateError::Weld`]: a bug in this crate.
     pub(super) fn change_convex(&mut self, new: Vec<New>) -> Result<(Change, Vec<New>), EditError> {
+        if let Some(done) = self.move_in_place(&new) {
+            return Ok(done);
+        }
         let reach = self.reach(&new);
         let (before, numbers, settled) = self.set_states(new, &[]);
         let mut changed = numbers.clone();

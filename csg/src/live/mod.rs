@@ -7,6 +7,7 @@
 //! - [`edit`]: what users do, [`history`]: and take back.
 //! - [`change`]: how a change of brushes goes through [`planes`], [`bodies`], [`boundary`] and weld; [`polytopes`] are kept to
 //!   build bodies from, [`reach`] tells which faces are to be worked out again.
+//! - [`in_place`]: a plane that moves so little that nothing but places changes.
 //! - [`order`]: how brushes are combined, [`operand`]: what is known of each.
 //! - [`meshes`]: where a brush is a closed mesh, the boundary is [`evaluated`] as a whole by each edit; [`face`]: what users see of either.
 
@@ -17,6 +18,7 @@ mod edit;
 mod evaluated;
 mod face;
 mod history;
+mod in_place;
 mod meshes;
 mod operand;
 mod order;

@@ -110,6 +110,13 @@ impl Places {
         }
     }
 
+    /// The bodies whose closed boxes have a point in common with a box; none is told where some are not finite.
+    pub(super) fn touching(&self, bounds: &Bounds) -> Option<impl Iterator<Item = OperandId>> {
+        let envelope = rstar::AABB::from_corners(bounds.min.to_array(), bounds.max.to_array());
+        let all = self.tree.locate_in_envelope_intersecting(envelope).map(|entry| entry.data);
+        self.infinite.is_empty().then_some(all)
+    }
+
     /// The bodies whose boxes may share an area with a box.
     pub(super) fn near(&self, bounds: &Bounds) -> impl Iterator<Item = OperandId> {
         let envelope = rstar::AABB::from_corners(bounds.min.to_array(), bounds.max.to_array());

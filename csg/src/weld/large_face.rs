@@ -87,6 +87,18 @@ impl LargeFace {
         Ok(())
     }
 
+    /// Follows corners that have moved while the boundary has stayed the same otherwise.
+    ///
+    /// # Errors
+    /// [`Conflict`]: a triangle has turned over; then the face has to be triangulated as a whole.
+    pub(super) fn follow(&mut self, at: impl Fn(PointId) -> DVec2) -> Result<(), Conflict> {
+        let places = self.sites.iter().map(|(point, (site, _))| (*site, at(*point)));
+        let mut moved: Vec<(SiteId, DVec2)> = places.filter(|(site, at)| self.delaunay.at(*site) != *at).collect();
+        // whatever the order of the map
+        moved.sort_unstable_by_key(|(site, _)| *site);
+        self.delaunay.move_sites(&moved)
+    }
+
     /// Adds edges, whose ends lie in a box: first the corners that are new, along a curve, so that each is near the one before.
     fn add(
         &mut self,

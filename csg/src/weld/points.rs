@@ -90,6 +90,19 @@ impl Points {
         number
     }
 
+    /// Where a point is whose planes have moved along their normals, and which of its coordinates are exact.
+    pub(super) fn moved(&self, table: &PlaneTable, number: PointId) -> (DVec3, u8) {
+        let planes = self.planes[number.index()];
+        let position = table.position(planes).expect("the planes of a point are independent");
+        (position, exact_coordinates(table, planes, position))
+    }
+
+    /// Puts a point where it has moved to.
+    pub(super) fn put_at(&mut self, number: PointId, (position, exact): (DVec3, u8)) {
+        let number = number.index();
+        (self.positions[number], self.exact[number]) = (position, exact);
+    }
+
     /// Puts a point in the place of another.
     pub(super) fn put(&mut self, number: PointId, named: &Named) {
         let number = number.index();
@@ -160,13 +173,17 @@ impl Named {
         Self {
             planes: if right_handed { [a, b, c] } else { [a, c, b] },
             position,
-            exact: if [a, b, c].into_iter().all(|plane| holds_exactly(table, plane, position)) {
-                0b111
-            } else {
-                [a, b, c].into_iter().fold(0, |exact, plane| exact | axis_given_exactly(table, plane, position))
-            },
+            exact: exact_coordinates(table, [a, b, c], position),
         }
     }
+}
+
+/// Which coordinates of the meeting point of three planes are not rounded, a bit for each; not where that is not easily told.
+fn exact_coordinates(table: &PlaneTable, planes: [PlaneId; 3], position: DVec3) -> u8 {
+    if planes.into_iter().all(|plane| holds_exactly(table, plane, position)) {
+        return 0b111;
+    }
+    planes.into_iter().fold(0, |exact, plane| exact | axis_given_exactly(table, plane, position))
 }
 
 /// The order of points whose coordinates, rounded, differ.

@@ -130,6 +130,61 @@ impl LivePlanes {
         }
     }
 
+    /// Puts another plane in the place of one under the same index, where that changes nothing for other planes: one face alone uses it, no
+    /// other plane is near it, before or after, and what is near stays so. Otherwise nothing happens. `sizes` are those of the body before and after.
+    pub(super) fn move_plane(&mut self, used: PlaneUse, to: &HalfSpace, sizes: [Option<f64>; 2]) -> bool {
+        let (row, is_reversed) = first_side(&Row::new(to));
+        let group = &self.groups[used.group.index()];
+        let (Some(own), Some((before, _)), Some(plane)) = (group.own, group.hashed, group.plane) else { return false };
+        let is_alone = group.users.len() == 1
+            && group.id == Some(PlaneId::of_index(own))
+            && is_reversed == used.is_reversed
+            && !self.crowded.contains(&used.group);
+        let alike = self.by_key.get(&key(&row)).map_or(&[][..], |alike| alike);
+        let is_there = |other: &RowGroupId| *other != used.group && self.groups[other.index()].is_plane_of(&row);
+        let after = unit(&row);
+        let mut near = Vec::new();
+        self.near.find(&after, &mut near);
+        near.retain(|other| *other != used.group);
+        if !is_alone || alike.iter().any(is_there) || !near.is_empty() || !self.keeps_tolerance(sizes) {
+            return false;
+        }
+        self.near.remove(&before, used.group);
+        self.near.insert(&after, used.group);
+        if let Some(alike) = self.by_key.get_mut(&key(&plane)) {
+            alike.retain(|other| *other != used.group);
+            if alike.is_empty() {
+                self.by_key.remove(&key(&plane));
+            }
+        }
+        self.by_key.entry(key(&row)).or_default().push(used.group);
+        let group = &mut self.groups[used.group.index()];
+        group.plane = Some(row);
+        group.rows = vec![(row, 1)];
+        group.hashed = Some((after, is_exact(&row)));
+        self.table.put(own, &row);
+        true
+    }
+
+    /// Counts the size of a body that changes, where planes that are nearly the same stay so.
+    fn keeps_tolerance(&mut self, sizes: [Option<f64>; 2]) -> bool {
+        let [before, after] = sizes;
+        self.count_size(before, false);
+        self.count_size(after, true);
+        let smallest = self.smallest_size();
+        if smallest == self.size || self.crowded.is_empty() && cell_size(smallest) == self.near.size() {
+            self.size = smallest;
+            return true;
+        }
+        self.count_size(after, false);
+        self.count_size(before, true);
+        false
+    }
+
+    fn smallest_size(&self) -> f64 {
+        self.sizes.first_key_value().map_or(0.0, |(bits, _)| f64::from_bits(*bits))
+    }
+
     fn mark(&mut self, number: RowGroupId) {
         let group = &mut self.groups[number.index()];
         if !group.is_changed {
@@ -223,10 +278,10 @@ impl LivePlanes {
 
     /// Puts into the hash what is at another place, or all where the smallest size has grown or shrunk by much.
     fn rehash(&mut self, moved: &[RowGroupId], doubtful: &mut Vec<RowGroupId>) {
-        let smallest = self.sizes.first_key_value().map_or(0.0, |(bits, _)| f64::from_bits(*bits));
+        let smallest = self.smallest_size();
         let is_other_size = self.size != smallest;
         self.size = smallest;
-        let size = smallest.max(f64::MIN_POSITIVE).log2().ceil().exp2();
+        let size = cell_size(smallest);
         let all: Vec<RowGroupId>;
         let moved = if size == self.near.size() {
             moved
@@ -352,4 +407,9 @@ impl LivePlanes {
         }
         self.free_groups.push(number);
     }
+}
+
+/// The size for which planes are hashed where that of the smallest body is known: the next power of two.
+fn cell_size(smallest: f64) -> f64 {
+    smallest.max(f64::MIN_POSITIVE).log2().ceil().exp2()
 }

@@ -13,6 +13,7 @@ mod constraint;
 mod flip;
 mod insert;
 mod locate;
+mod move_sites;
 mod predicates;
 mod remove;
 mod zone;
@@ -27,6 +28,9 @@ const NONE: u32 = u32::MAX;
 
 /// A half-edge without a site at its start: that of a triangle that is free.
 const FREE: SiteId = SiteId::NONE;
+
+/// The first sites are the corners of the triangle around all others.
+const OUTER: usize = 3;
 
 /// Rounded coordinates for which there is no triangulation: two sites in one place, a constraint that crosses another one or passes a site, or
 /// coordinates so large or small that a determinant of them leaves the range of numbers.
@@ -152,7 +156,8 @@ impl Delaunay {
         }
     }
 
-    fn at(&self, site: SiteId) -> DVec2 {
+    /// Where a site is.
+    pub(super) fn at(&self, site: SiteId) -> DVec2 {
         self.sites[site.index()].at
     }
 
@@ -202,8 +207,11 @@ impl Delaunay {
         })
     }
 
-    /// The half-edge from one site to another, where there is one.
+    /// The half-edge from one site to another, of which one at least is no corner of the outer triangle, where there is one.
     fn find_edge(&self, from: SiteId, to: SiteId) -> Option<u32> {
+        if from.index() < OUTER {
+            return self.star(to).find(|half_edge| self.to(*half_edge) == from).map(|back| self.twin(back));
+        }
         self.star(from).find(|half_edge| self.to(*half_edge) == to)
     }
 

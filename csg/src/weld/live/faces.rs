@@ -19,7 +19,7 @@ use crate::plane_table::{PlaneId, PlaneTable};
 use crate::weld::WeldError;
 use crate::weld::large_face::{FaceEdge, LARGE, LargeFace};
 use crate::weld::nest::{Projection, RegionPlane};
-use crate::weld::triangulate::{Triangles, Triangulator, WeldPoints};
+use crate::weld::triangulate::{Triangles, Triangulator, WeldPoints, convex_quadrilateral};
 
 /// A planar, connected region of the boundary, with its triangles.
 #[derive(Clone, Copy)]
@@ -98,9 +98,10 @@ impl Default for Face {
     }
 }
 
-/// The triangles of a face.
+/// The triangles of a face: three half-edges each, those that begin at its corners.
 enum Triangulation {
-    /// Three half-edges each: those that begin at its corners.
+    One([HalfEdgeId; 3]),
+    Two([[HalfEdgeId; 3]; 2]),
     Whole(Vec<[HalfEdgeId; 3]>),
     /// Those of a face of many corners, kept so that they can change with it.
     Large(Box<LargeFace>),
@@ -109,6 +110,8 @@ enum Triangulation {
 impl Triangulation {
     fn count(&self) -> usize {
         match self {
+            Self::One(_) => 1,
+            Self::Two(_) => 2,
             Self::Whole(triangles) => triangles.len(),
             Self::Large(large) => large.triangle_count(),
         }
@@ -116,17 +119,27 @@ impl Triangulation {
 
     fn triangle(&self, place: usize) -> [HalfEdgeId; 3] {
         match self {
+            Self::One(triangle) => *triangle,
+            Self::Two(triangles) => triangles[place],
             Self::Whole(triangles) => triangles[place],
             Self::Large(large) => large.triangle(place),
         }
     }
 }
 
-/// A face that is to be triangulated: the triangulation that it has, where it can change with it, and the edges that it has lost and gained since.
+/// A face that is to be triangulated: the triangulation that it has, where it can change with it, and what has changed since.
 struct Job {
     face: FaceId,
     large: Option<Box<LargeFace>>,
-    changes: EdgeChanges,
+    changes: Changed,
+}
+
+/// What has changed of a large face.
+enum Changed {
+    /// Edges came and went.
+    Edges(EdgeChanges),
+    /// Corners have moved, and nothing else.
+    Places,
 }
 
 /// What a change of a region has left of its faces.
@@ -205,8 +218,36 @@ impl Faces {
         for number in regions.take_changed() {
             self.update_region(&context, number, regions.get_mut(number), pieces, &mut changes)?;
         }
-        self.triangulate(&context, pieces, changes);
+        self.triangulate(&context, pieces, |face| Changed::Edges(changes.remove(&face).unwrap_or_default()));
         Ok(())
+    }
+
+    /// The faces of some loops, ascending.
+    pub(super) fn of_loops(&self, loops: &[LoopId]) -> Vec<FaceId> {
+        let mut faces: Vec<FaceId> = loops.iter().map(|number| self.loops.get(*number).face).collect();
+        faces.sort_unstable();
+        faces.dedup();
+        faces
+    }
+
+    /// Triangulates faces again whose corners have moved, and measures their loops that have.
+    pub(super) fn follow(
+        &mut self,
+        table: &PlaneTable,
+        numbers: &Numbers,
+        pieces: &Pieces,
+        loops: &[LoopId],
+        faces: &[FaceId],
+    ) {
+        let context = Context { table, numbers };
+        for &number in loops {
+            let region = self.faces[self.loops.get(number).face.index()].region;
+            self.loops.follow(table, numbers, &context.plane(region), pieces, number);
+        }
+        self.removed.extend_from_slice(faces);
+        self.added.extend_from_slice(faces);
+        self.triangles -= faces.iter().map(|face| self.faces[face.index()].triangulation.count()).sum::<usize>();
+        self.triangulate(&context, pieces, |_| Changed::Places);
     }
 
     fn update_region(
@@ -411,19 +452,19 @@ impl Faces {
     }
 
     /// Triangulates the faces that were added.
-    fn triangulate(&mut self, context: &Context<'_>, pieces: &Pieces, mut changes: FxHashMap<FaceId, EdgeChanges>) {
+    fn triangulate(&mut self, context: &Context<'_>, pieces: &Pieces, mut changed: impl FnMut(FaceId) -> Changed) {
         let (mut jobs, mut whole): (Vec<Job>, Vec<FaceId>) = (Vec::new(), Vec::new());
         for &face in &self.added {
             let entry = &mut self.faces[face.index()];
             let nothing = Triangulation::Whole(Vec::new());
             let large = match std::mem::replace(&mut entry.triangulation, nothing) {
                 Triangulation::Large(large) => Some(large),
-                Triangulation::Whole(_) => None,
+                Triangulation::One(_) | Triangulation::Two(_) | Triangulation::Whole(_) => None,
             };
             if entry.corners < LARGE {
                 whole.push(face);
             } else {
-                jobs.push(Job { face, large, changes: changes.remove(&face).unwrap_or_default() });
+                jobs.push(Job { face, large, changes: changed(face) });
             }
         }
         let faces = &*self;
@@ -437,8 +478,9 @@ impl Faces {
         whole.extend(done.iter().filter(|(_, large)| large.is_none()).map(|(face, _)| *face));
         let in_parts = whole.len() > 1 && whole.iter().map(corners).sum::<usize>() >= CORNERS_FOR_THREADS;
         let of_whole = |chunk: &[FaceId]| self.triangulate_whole(context, pieces, chunk);
-        let triangles = if in_parts { map_chunks(&whole, 1, of_whole).0.concat() } else { of_whole(&whole) };
-        let whole = whole.into_iter().zip(triangles.into_iter().map(Triangulation::Whole));
+        let triangles: Vec<Triangulation> =
+            if in_parts { map_chunks(&whole, 1, of_whole).0.into_iter().flatten().collect() } else { of_whole(&whole) };
+        let whole = whole.into_iter().zip(triangles);
         let large = done.into_iter().filter_map(|(face, large)| Some((face, Triangulation::Large(large?))));
         for (face, triangulation) in whole.chain(large).collect::<Vec<_>>() {
             self.triangles += triangulation.count();
@@ -448,15 +490,20 @@ impl Faces {
 
     /// The triangulation of a large face: the old one where little has changed, or a new one; none where there is none.
     fn triangulate_large(&self, context: &Context<'_>, pieces: &Pieces, job: Job) -> Option<Box<LargeFace>> {
-        let Job { face, large, changes: EdgeChanges { gone, new } } = job;
+        let Job { face, large, changes } = job;
         let entry = &self.faces[face.index()];
         let plane = context.plane(entry.region);
         let at = |point: PointId| plane.position(point);
-        if let Some(mut large) = large
-            && (gone.len() + new.len()) * CHANGED_SHARE < entry.corners
-            && large.change(&gone, &new, at).is_ok()
-        {
-            return Some(large);
+        if let Some(mut large) = large {
+            let is_done = match &changes {
+                Changed::Places => large.follow(at).is_ok(),
+                Changed::Edges(EdgeChanges { gone, new }) => {
+                    (gone.len() + new.len()) * CHANGED_SHARE < entry.corners && large.change(gone, new, at).is_ok()
+                }
+            };
+            if is_done {
+                return Some(large);
+            }
         }
         let edge = |piece: &HalfEdgeId| pieces.half_edges[piece.index()].edge_of_face(*piece);
         let edges: Vec<FaceEdge> = self.loops_of(entry).flat_map(|of| &of.pieces).map(edge).collect();
@@ -464,23 +511,37 @@ impl Faces {
     }
 
     /// The triangles of faces that are triangulated as a whole, loops in the order of the half-edges with which they begin.
-    fn triangulate_whole(&self, context: &Context<'_>, pieces: &Pieces, faces: &[FaceId]) -> Vec<Vec<[HalfEdgeId; 3]>> {
+    fn triangulate_whole(&self, context: &Context<'_>, pieces: &Pieces, faces: &[FaceId]) -> Vec<Triangulation> {
         let Context { table, numbers } = *context;
         let exact = WeldPoints { table, points: &numbers.points };
         let mut triangulator = Triangulator::new(&exact);
+        let mut found = Triangles::default();
+        let half_edge = |piece: HalfEdgeId| &pieces.half_edges[piece.index()];
         let triangles = faces.iter().map(|face| {
             let entry = &self.faces[face.index()];
-            let normal = table.half_space(numbers.planes[entry.region.index()]).normal();
-            triangulator.begin(Projection::new(normal));
-            let mut loops: Vec<&Loop> = self.loops_of(entry).collect();
-            loops[1..].sort_by(|p, q| pieces.compare(table, numbers, p.pieces[0], q.pieces[0]));
-            for members in loops {
-                let corner = |piece: &HalfEdgeId| numbers.points.corner(*piece, &pieces.half_edges[piece.index()]);
+            let outer = &self.loops.get(entry.outer).pieces;
+            let projection = Projection::new(table.half_space(numbers.planes[entry.region.index()]).normal());
+            match outer[..] {
+                [a, b, c] if entry.holes.is_empty() => return Triangulation::One([a, b, c]),
+                [a, b, c, d] if entry.holes.is_empty() => {
+                    let at = |piece: HalfEdgeId| projection.of(numbers.position(half_edge(piece).from));
+                    if let Some(two) = convex_quadrilateral([a, b, c, d].map(at)) {
+                        return Triangulation::Two(two.map(|corners| corners.map(|corner| outer[corner])));
+                    }
+                }
+                _ => {}
+            }
+            triangulator.begin(projection);
+            let mut holes: Vec<&Loop> = self.loops_of(entry).skip(1).collect();
+            holes.sort_by(|p, q| pieces.compare(table, numbers, p.pieces[0], q.pieces[0]));
+            for members in self.loops_of(entry).take(1).chain(holes) {
+                let corner = |piece: &HalfEdgeId| numbers.points.corner(*piece, half_edge(*piece));
                 triangulator.add_loop(members.pieces.iter().map(corner));
             }
-            let mut triangles = Triangles::default();
-            triangulator.triangulate(&mut triangles);
-            triangles.corners
+            found.corners.clear();
+            found.labels.clear();
+            triangulator.triangulate(&mut found);
+            Triangulation::Whole(found.corners.clone())
         });
         triangles.collect()
     }

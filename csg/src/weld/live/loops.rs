@@ -116,9 +116,7 @@ impl Loops {
                 break;
             }
         }
-        let order = |p: &HalfEdgeId, q: &HalfEdgeId| pieces.compare(table, numbers, *p, *q);
-        let first = (0..members.len()).min_by(|p, q| order(&members[*p], &members[*q])).unwrap_or_default();
-        members.rotate_left(first);
+        begin_with_first(table, numbers, pieces, &mut members);
         let outline = LoopOf { pieces: &members, half_edges: &pieces.half_edges, base: 0 };
         let extent = plane.extent(outline);
         let is_outer = plane.is_outer(outline, &extent);
@@ -129,4 +127,25 @@ impl Loops {
         }
         number
     }
+
+    /// Measures a loop again whose corners have moved.
+    pub(super) fn follow(
+        &mut self,
+        table: &PlaneTable,
+        numbers: &Numbers,
+        plane: &RegionPlane<'_>,
+        pieces: &Pieces,
+        number: LoopId,
+    ) {
+        let entry = self.get_mut(number);
+        begin_with_first(table, numbers, pieces, &mut entry.pieces);
+        entry.extent = plane.extent(LoopOf { pieces: &entry.pieces, half_edges: &pieces.half_edges, base: 0 });
+    }
+}
+
+/// Turns a loop so that it begins with its first half-edge.
+fn begin_with_first(table: &PlaneTable, numbers: &Numbers, pieces: &Pieces, members: &mut [HalfEdgeId]) {
+    let order = |p: &usize, q: &usize| pieces.compare(table, numbers, members[*p], members[*q]);
+    let first = (0..members.len()).min_by(order).unwrap_or_default();
+    members.rotate_left(first);
 }

@@ -9,6 +9,7 @@
 mod faces;
 mod grid;
 mod loops;
+mod moved;
 mod names;
 mod numbers;
 mod regions;
@@ -28,6 +29,7 @@ use crate::ids::{EdgeId, FaceId, HalfEdgeId, Id, LineId, LoopId, PointId, PointO
 use crate::plane_table::PlaneTable;
 use faces::Faces;
 pub(crate) use faces::WeldedFace;
+use moved::Moving;
 use names::place;
 use numbers::{NumberedEdge, Numbers};
 use regions::Regions;
@@ -42,6 +44,7 @@ pub(crate) struct LiveWeld {
     /// Taken out, but for their numbers.
     removed: Vec<NumberedEdge>,
     state: State,
+    moving: Option<Moving>,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -108,6 +111,7 @@ struct Crossings {
 impl LiveWeld {
     /// Adds a boundary edge.
     pub(crate) fn insert(&mut self, table: &PlaneTable, edge: &BoundaryEdge) -> EdgeId {
+        self.moving = None;
         let numbered = self.numbers.take(table, edge);
         let line = numbered.run.line;
         self.state.make_room(line);
@@ -121,6 +125,7 @@ impl LiveWeld {
 
     /// Takes a boundary edge out.
     pub(crate) fn remove(&mut self, number: EdgeId) {
+        self.moving = None;
         let Edge { numbered, place } = self.edges[number.index()];
         let on_line = &mut self.state.lines[numbered.run.line.index()];
         on_line.edges.swap_remove(place as usize);

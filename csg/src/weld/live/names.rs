@@ -25,7 +25,7 @@ struct Name<N, T> {
     uses: u32,
 }
 
-#[derive(Debug)]
+#[derive(Debug, Clone, Copy)]
 struct Thing<M, T> {
     mark: M,
     /// The one before of the same mark, [`Id::NONE`] where there is none.
@@ -93,6 +93,28 @@ impl<N: Copy + Eq + Hash, M: Copy + Eq + Hash, T: Id> Names<N, M, T> {
             return None;
         }
         let (mark, before) = (*mark, *before);
+        self.unlink(thing, mark, before);
+        self.free_things.push(thing);
+        Some(thing)
+    }
+
+    /// Whether a thing has a name.
+    pub(super) fn is_in_use(&self, thing: T) -> bool {
+        self.things[thing.index()].names > 0
+    }
+
+    /// Gives a thing another mark, where it is in use.
+    pub(super) fn set_mark(&mut self, thing: T, mark: M) {
+        let Thing { mark: old, before, names } = self.things[thing.index()];
+        if names > 0 && old != mark {
+            self.unlink(thing, old, before);
+            let last = self.by_mark.insert(mark, thing).unwrap_or(T::NONE);
+            self.things[thing.index()] = Thing { mark, before: last, names };
+        }
+    }
+
+    /// Takes a thing out of the list of those of its mark.
+    fn unlink(&mut self, thing: T, mark: M, before: T) {
         let last = self.by_mark.get_mut(&mark).expect("the mark of a thing is known");
         if *last != thing {
             let mut later = *last;
@@ -105,8 +127,6 @@ impl<N: Copy + Eq + Hash, M: Copy + Eq + Hash, T: Id> Names<N, M, T> {
         } else {
             self.by_mark.remove(&mark);
         }
-        self.free_things.push(thing);
-        Some(thing)
     }
 }
 

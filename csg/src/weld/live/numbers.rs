@@ -6,7 +6,7 @@ use planecut_kernel::{DVec3, compare_exactly};
 use rustc_hash::FxHashMap;
 
 use super::names::{Names, place};
-use crate::base::sortable;
+use crate::base::{map_chunks, sortable};
 use crate::boundary::BoundaryEdge;
 use crate::ids::{Id, LineId, NameId, PointId, RegionId};
 use crate::model::MaterialId;
@@ -42,11 +42,22 @@ pub(super) struct Numbers {
     known_by: Vec<u32>,
     unnamed: Vec<u32>,
     axes: AxisPlanes,
+    /// Points and lines that have moved since they were marked.
+    unmarked: (Vec<PointId>, Vec<LineId>),
+}
+
+/// Number of points from which several threads work out where they are.
+const POINTS_FOR_THREADS: usize = 256;
+
+/// What equal points share.
+fn mark_of(position: DVec3) -> [u64; 3] {
+    position.to_array().map(sortable)
 }
 
 impl Numbers {
     /// Numbers an edge.
     pub(super) fn take(&mut self, table: &PlaneTable, edge: &BoundaryEdge) -> NumberedEdge {
+        self.mark_moved(table);
         let [from, to] = [edge.start, edge.end].map(|end| self.take_point(table, [edge.face, edge.edge, end]));
         let line = self.take_line(table, edge);
         let line_number = self.line_names.thing(line);
@@ -131,7 +142,7 @@ impl Numbers {
             return known;
         }
         let named = Named::of(table, points::planes(name));
-        let mark = named.position.to_array().map(sortable);
+        let mark = mark_of(named.position);
         let is_same = |point: PointId| points::is_at(table, self.points.planes[point.index()], named.planes);
         let (id, is_new) = self.point_names.add(name, mark, is_same);
         if is_new {
@@ -166,6 +177,44 @@ impl Numbers {
             line.planes.into_iter().for_each(|plane| self.gain(plane));
         }
         id
+    }
+
+    /// How many points and lines are known by the plane of an index.
+    pub(super) fn known_by(&self, index: u32) -> usize {
+        self.known_by.get(index as usize).map_or(0, |count| *count as usize)
+    }
+
+    /// Points and lines that a plane has moved, by which they are known, and which stay the same otherwise: puts the points where they are now. Lines do not
+    /// change as long as the direction of the plane does not.
+    pub(super) fn follow_plane(&mut self, table: &PlaneTable, moved: &[PointId], lines: &[LineId]) {
+        let follow =
+            |points: &[PointId]| points.iter().map(|point| self.points.moved(table, *point)).collect::<Vec<_>>();
+        let places: Vec<(DVec3, u8)> = if moved.len() < 2 * POINTS_FOR_THREADS {
+            follow(moved)
+        } else {
+            map_chunks(moved, POINTS_FOR_THREADS, follow).0.concat()
+        };
+        for (point, place) in moved.iter().zip(places) {
+            self.points.put_at(*point, place);
+            self.places[point.index()] = curve_number(place.0);
+        }
+        if self.unmarked.0 != moved {
+            self.mark_moved(table);
+            self.unmarked = (moved.to_vec(), lines.to_vec());
+        }
+    }
+
+    /// Marks again what has moved, before anything is looked up by marks.
+    fn mark_moved(&mut self, table: &PlaneTable) {
+        let (points, lines) = std::mem::take(&mut self.unmarked);
+        for point in points {
+            self.point_names.set_mark(point, mark_of(self.points.positions[point.index()]));
+        }
+        for line in lines {
+            if self.line_names.is_in_use(line) {
+                self.line_names.set_mark(line, lines::key(table, &self.lines[line.index()]));
+            }
+        }
     }
 
     fn take_region(&mut self, plane: PlaneId, material: MaterialId) -> RegionId {

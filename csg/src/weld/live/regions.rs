@@ -14,6 +14,9 @@ use crate::weld::pinches::PinchFinder;
 /// Number of half-edges from which those of a region are looked up in an index, and that below which there is none any more.
 const INDEXED: [usize; 2] = [64, 32];
 
+/// Where more than one in this number of the half-edges of a region move, they are looked up anew afterwards.
+const MOVED_SHARE: usize = 4;
+
 /// The regions, by number.
 #[derive(Default)]
 pub(super) struct Regions {
@@ -157,6 +160,50 @@ impl Regions {
         }
         if let Some(index) = &mut region.index {
             index.remove(piece, number, plane);
+        }
+    }
+
+    /// Takes half-edges out of the index of their region that are about to move, or drops the index where that is less work.
+    pub(super) fn lift(
+        &mut self,
+        table: &PlaneTable,
+        numbers: &Numbers,
+        pieces: &Pieces,
+        moving: &[(RegionId, HalfEdgeId)],
+    ) {
+        self.for_index_of(moving, |region, number| {
+            if moving.len() * MOVED_SHARE > region.pieces.len() {
+                region.index = None;
+            }
+            let plane = RegionPlane::new(table, &numbers.points, numbers.planes[number.index()]);
+            if let Some(index) = &mut region.index {
+                moving.iter().for_each(|(_, piece)| index.remove(&pieces.half_edges[piece.index()], *piece, &plane));
+            }
+        });
+    }
+
+    /// Puts them into it again, once they have moved.
+    pub(super) fn put_down(
+        &mut self,
+        table: &PlaneTable,
+        numbers: &Numbers,
+        pieces: &Pieces,
+        moving: &[(RegionId, HalfEdgeId)],
+    ) {
+        self.for_index_of(moving, |region, number| {
+            let plane = RegionPlane::new(table, &numbers.points, numbers.planes[number.index()]);
+            if let Some(index) = &mut region.index {
+                moving.iter().for_each(|(_, piece)| index.insert(&pieces.half_edges[piece.index()], *piece, &plane));
+            }
+        });
+    }
+
+    /// Does something with the region of some half-edges, where it has an index.
+    fn for_index_of(&mut self, moving: &[(RegionId, HalfEdgeId)], work: impl FnOnce(&mut Region, RegionId)) {
+        let Some((number, _)) = moving.first() else { return };
+        let region = self.get_mut(*number);
+        if region.index.is_some() {
+            work(region, *number);
         }
     }
 

@@ -119,7 +119,7 @@ fn apex(triangles: &[[NodeId; 3]], half_edge: u32) -> NodeId {
     triangles[half_edge as usize / 3][(half_edge as usize + 2) % 3]
 }
 /// Whether the diagonal `a b` of the quadrilateral `a d b c` should become `c d`.
-fn should_flip(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> bool {
+pub(super) fn should_flip(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> bool {
     let longest =
         a.distance_squared(b).max(c.distance_squared(d)).max(a.distance_squared(c)).max(b.distance_squared(d));
     if orient(a, d, c) <= FLAT_TRIANGLE * longest || orient(d, b, c) <= FLAT_TRIANGLE * longest {

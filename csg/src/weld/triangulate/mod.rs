@@ -135,6 +135,16 @@ impl<'a> Triangulator<'a> {
             out.labels.push(pieces);
             return;
         }
+        if let [a, b, c, d] = boundary.nodes[..]
+            && rings.len() == 1
+            && let Some(triangles) = convex_quadrilateral([a, b, c, d].map(|node| node.corner.at))
+        {
+            let pieces = [a, b, c, d].map(|node| node.corner.piece);
+            let label = |from: usize, to: usize| if to == (from + 1) % 4 { pieces[from] } else { HalfEdgeId::NONE };
+            out.corners.extend(triangles.map(|corners| corners.map(|corner| pieces[corner])));
+            out.labels.extend(triangles.map(|[a, b, c]| [label(a, b), label(b, c), label(c, a)]));
+            return;
+        }
         let start = rings[0];
         boundary.join_holes(start, &mut rings[1..]);
         ahead.clear();
@@ -147,6 +157,16 @@ impl<'a> Triangulator<'a> {
             |from: NodeId, to: NodeId| if ahead[from.index()] == to { corner(from).piece } else { HalfEdgeId::NONE };
         out.labels.extend(triangles.iter().map(|[a, b, c]| [label(*a, *b), label(*b, *c), label(*c, *a)]));
     }
+}
+
+/// The two triangles of a quadrilateral whose corners, counter-clockwise, all turn left for certain: those that cutting ears and flipping would give.
+pub(crate) fn convex_quadrilateral(at: [DVec2; 4]) -> Option<[[usize; 3]; 2]> {
+    let turns_left = |k: usize| {
+        let (value, bound) = rounded_turn(at[(k + 3) % 4], at[k], at[(k + 1) % 4]);
+        value > bound
+    };
+    let is_flipped = || flip::should_flip(at[1], at[3], at[0], at[2]);
+    (0..4).all(turns_left).then(|| if is_flipped() { [[1, 2, 0], [2, 3, 0]] } else { [[3, 0, 1], [1, 2, 3]] })
 }
 
 impl Boundary<'_> {

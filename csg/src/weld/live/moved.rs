@@ -1,0 +1,103 @@
+//! A plane that moves so little that nothing but places changes: the same edges, loops and faces, with their corners elsewhere.
+
+use super::{LiveWeld, Pieces};
+use crate::boundary::BoundaryEdge;
+use crate::ids::{EdgeId, FaceId, HalfEdgeId, Id, LineId, LoopId, PointId, RegionId};
+use crate::plane_table::{PlaneId, PlaneTable};
+
+/// All that moves with a plane; true until an edge comes or goes.
+pub(super) struct Moving {
+    /// The index of the plane.
+    plane: u32,
+    points: Vec<PointId>,
+    lines: Vec<LineId>,
+    /// Half-edges that begin or end in one of the points, by region.
+    pieces: Vec<(RegionId, HalfEdgeId)>,
+    loops: Vec<LoopId>,
+    faces: Vec<FaceId>,
+}
+
+impl LiveWeld {
+    /// Whether it is known what moves with the plane of an index.
+    pub(crate) fn knows_what_moves(&self, plane: u32) -> bool {
+        self.moving.as_ref().is_some_and(|moving| moving.plane == plane)
+    }
+
+    /// Finds what moves with the plane of an index, of which some edges, each with its number, name all points and lines; false where
+    /// a point or a line is known by the plane under one name and not under another: there more planes meet, and it does not stay one.
+    pub(crate) fn find_what_moves<'a>(
+        &mut self,
+        plane: u32,
+        edges: impl Iterator<Item = &'a (BoundaryEdge, EdgeId)>,
+    ) -> bool {
+        self.moving = None;
+        let is_plane = |id: PlaneId| id.index() == plane;
+        let (mut points, mut lines, mut along): (Vec<PointId>, Vec<LineId>, Vec<LineId>) = Default::default();
+        for (edge, number) in edges {
+            let run = self.edges[number.index()].numbered.run;
+            let is_line = is_plane(edge.face) || is_plane(edge.edge);
+            let known = &self.numbers;
+            if is_line != known.lines[run.line.index()].planes.into_iter().any(is_plane) {
+                return false;
+            }
+            let mut is_moved = is_line;
+            for (end, point) in [(edge.start, run.from), (edge.end, run.to)] {
+                let is_point = is_line || is_plane(end);
+                if is_point != known.points.planes[point.index()].into_iter().any(is_plane) {
+                    return false;
+                }
+                if is_point {
+                    points.push(point);
+                    is_moved = true;
+                }
+            }
+            if is_line {
+                lines.push(run.line);
+            }
+            if is_moved {
+                along.push(run.line);
+            }
+        }
+        for list in [&mut lines, &mut along] {
+            list.sort_unstable();
+            list.dedup();
+        }
+        points.sort_unstable();
+        points.dedup();
+        if points.len() + lines.len() != self.numbers.known_by(plane) {
+            return false;
+        }
+        let Pieces { half_edges, loop_of, .. } = &self.state.pieces;
+        let is_moved = |point: PointId| points.binary_search(&point).is_ok();
+        let on_lines = along.iter().flat_map(|line| &self.state.lines[line.index()].pieces);
+        let pieces = on_lines.copied().filter_map(|number| {
+            let piece = &half_edges[number.index()];
+            (is_moved(piece.from) || is_moved(piece.to)).then_some((piece.region, number))
+        });
+        let mut pieces: Vec<(RegionId, HalfEdgeId)> = pieces.collect();
+        pieces.sort_unstable();
+        let mut loops: Vec<LoopId> = pieces.iter().map(|(_, piece)| loop_of[piece.index()]).collect();
+        loops.sort_unstable();
+        loops.dedup();
+        let faces = self.state.faces.of_loops(&loops);
+        self.moving = Some(Moving { plane, points, lines, pieces, loops, faces });
+        true
+    }
+
+    /// Follows the plane that was asked for last, which has moved along its normal.
+    pub(crate) fn follow_plane(&mut self, table: &PlaneTable) {
+        let Some(moving) = self.moving.take() else { return };
+        let (numbers, state) = (&mut self.numbers, &mut self.state);
+        let by_region = || moving.pieces.chunk_by(|a, b| a.0 == b.0);
+        for pieces in by_region() {
+            state.regions.lift(table, numbers, &state.pieces, pieces);
+        }
+        numbers.follow_plane(table, &moving.points, &moving.lines);
+        for pieces in by_region() {
+            state.regions.put_down(table, numbers, &state.pieces, pieces);
+        }
+        state.faces.begin_changes();
+        state.faces.follow(table, numbers, &state.pieces, &moving.loops, &moving.faces);
+        self.moving = Some(moving);
+    }
+}
