@@ -1,9 +1,10 @@
 //! Undo and redo of edits.
 
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::VecDeque;
 use std::sync::Arc;
 
 use super::operand::State;
+use super::step::OpenStep;
 use super::{BrushId, Change, EditError, LiveModel};
 use crate::ids::Id;
 
@@ -18,26 +19,40 @@ pub(super) struct History {
     done: VecDeque<Step>,
     undone: Vec<Step>,
     limit: usize,
+    /// The step that edits are part of, while one is open.
+    pub(super) open: Option<OpenStep>,
 }
 
 /// The brushes that an edit has changed, before and after it.
-struct Step {
-    before: Vec<New>,
-    after: Vec<New>,
+pub(super) struct Step {
+    pub(super) before: Vec<New>,
+    pub(super) after: Vec<New>,
 }
 
 impl Default for History {
     fn default() -> Self {
-        Self { done: VecDeque::new(), undone: Vec::new(), limit: LIMIT }
+        Self { done: VecDeque::new(), undone: Vec::new(), limit: LIMIT, open: None }
     }
 }
 
 impl History {
-    /// Notes an edit; what was undone cannot be redone after it.
+    /// Notes an edit, of the open step where there is one.
     pub(super) fn note(&mut self, before: Vec<New>, after: Vec<New>) {
+        match &mut self.open {
+            Some(open) => open.add(before, after),
+            None => self.push(Step { before, after }),
+        }
+    }
+
+    /// Adds a step; what was undone cannot be redone after it.
+    pub(super) fn push(&mut self, step: Step) {
         self.undone.clear();
-        self.done.push_back(Step { before, after });
+        self.done.push_back(step);
         self.shorten();
+    }
+
+    fn refuse_in_step(&self) -> Result<(), EditError> {
+        if self.open.is_some() { Err(EditError::StepOpen) } else { Ok(()) }
     }
 
     fn shorten(&mut self) {
@@ -47,11 +62,12 @@ impl History {
 }
 
 impl LiveModel {
-    /// Undoes the last edit that is not yet undone. Brushes and planes have the numbers again that they had.
+    /// Undoes the last edit or [step](Self::begin_step) that is not yet undone. Brushes and planes have the numbers again that they had.
     ///
     /// # Errors
-    /// [`EditError::NothingToUndo`].
+    /// [`EditError::NothingToUndo`], [`EditError::StepOpen`].
     pub fn undo(&mut self) -> Result<Change, EditError> {
+        self.history.refuse_in_step()?;
         let mut step = self.history.done.pop_back().ok_or(EditError::NothingToUndo)?;
         self.keep_handles(&step.before, &mut step.after);
         let outcome = self.go_to(&step.before);
@@ -62,11 +78,12 @@ impl LiveModel {
         outcome
     }
 
-    /// Redoes the edit that was last undone.
+    /// Redoes the edit or step that was last undone.
     ///
     /// # Errors
-    /// [`EditError::NothingToRedo`].
+    /// [`EditError::NothingToRedo`], [`EditError::StepOpen`].
     pub fn redo(&mut self) -> Result<Change, EditError> {
+        self.history.refuse_in_step()?;
         let mut step = self.history.undone.pop().ok_or(EditError::NothingToRedo)?;
         self.keep_handles(&step.after, &mut step.before);
         let outcome = self.go_to(&step.after);
@@ -77,47 +94,13 @@ impl LiveModel {
         outcome
     }
 
-    /// Makes one edit of the last `count` ones, for [`undo`](Self::undo) and [`redo`](Self::redo): what a user does as one thing may take several calls. Edits that
-    /// can no longer be undone stay so.
-    ///
-    /// ```
-    /// use planecut_csg::{Brush, LiveModel, Material, MaterialId, Role};
-    /// use planecut_kernel::DVec3;
-    ///
-    /// # fn main() -> Result<(), planecut_csg::EditError> {
-    /// let cube = |at: f64| Brush::cuboid(DVec3::splat(at), DVec3::splat(at + 1.0), MaterialId(0));
-    /// let mut model = LiveModel::new(vec![Material::named("stone")]);
-    /// model.add_brush(cube(0.0), Role::Add)?;
-    /// model.add_brush(cube(2.0), Role::Add)?;
-    /// model.join_edits(2);
-    /// model.undo()?;
-    /// assert_eq!(model.brushes().len(), 0);
-    /// # Ok(())
-    /// # }
-    /// ```
-    pub fn join_edits(&mut self, count: usize) {
-        let done = &mut self.history.done;
-        if count < 2 || done.len() < 2 {
-            return;
-        }
-        let mut brushes: BTreeMap<BrushId, [Option<Arc<State>>; 2]> = BTreeMap::new();
-        for Step { before, after } in done.drain(done.len().saturating_sub(count)..) {
-            for ((id, before), (_, after)) in before.into_iter().zip(after) {
-                brushes.entry(id).and_modify(|states| states[1].clone_from(&after)).or_insert([before, after]);
-            }
-        }
-        // one that came and went again is none
-        brushes.retain(|_, states| states.iter().any(Option::is_some));
-        let (before, after) = brushes.into_iter().map(|(id, [before, after])| ((id, before), (id, after))).unzip();
-        done.push_back(Step { before, after });
+    /// How many edits and steps can be undone, and how many redone.
+    #[must_use]
+    pub fn history_len(&self) -> (usize, usize) {
+        (self.history.done.len(), self.history.undone.len())
     }
 
-    /// Forgets what was undone: it cannot be redone.
-    pub fn forget_undone(&mut self) {
-        self.history.undone.clear();
-    }
-
-    /// Maximum number of edits that can be undone, 1,000 unless another number is set: a model that is edited for long does not
+    /// Maximum number of edits and steps that can be undone, 1,000 unless another number is set: a model that is edited for long does not
     /// grow.
     pub fn set_history_limit(&mut self, limit: usize) {
         self.history.limit = limit;
@@ -137,7 +120,7 @@ impl LiveModel {
         }
     }
 
-    fn go_to(&mut self, states: &[New]) -> Result<Change, EditError> {
+    pub(super) fn go_to(&mut self, states: &[New]) -> Result<Change, EditError> {
         let again = |(id, state): &New| {
             let known = self.by_id.get(id).and_then(|number| self.operands[number.index()].as_ref());
             let next_plane = known.map_or(0, |operand| operand.state.next_plane);

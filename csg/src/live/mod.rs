@@ -4,7 +4,7 @@
 //! edit of a brush changes the boundary only within the old and the new extent of the brush: the faces that reach into these
 //! are worked out again among the bodies near them, and of their edges those that are new or gone are handed to the weld.
 //!
-//! - [`edit`]: what users do, [`history`]: and take back.
+//! - [`edit`]: what users do, [`step`]: several at once, [`history`]: and take back; [`error`]: or why they cannot.
 //! - [`change`]: how a change of brushes goes through [`planes`], [`bodies`], [`boundary`] and weld; [`polytopes`] are kept to
 //!   build bodies from, [`reach`] tells which faces are to be worked out again.
 //! - [`order`]: how brushes are combined, [`operand`]: what is known of each.
@@ -14,6 +14,7 @@ mod bodies;
 mod boundary;
 mod change;
 mod edit;
+mod error;
 mod evaluated;
 mod face;
 mod history;
@@ -23,6 +24,7 @@ mod order;
 mod planes;
 mod polytopes;
 mod reach;
+mod step;
 
 use crate::ids::number32;
 use std::collections::{BTreeMap, BTreeSet};
@@ -31,7 +33,6 @@ use std::sync::Arc;
 
 use planecut_kernel::PlaneIdx;
 use rustc_hash::FxHashSet;
-use thiserror::Error;
 
 use crate::body::{Body, BuiltBodies, OuterBox, ShapeBuilder};
 use crate::boundary::BoundaryEdge;
@@ -40,11 +41,12 @@ use crate::expression::Expression;
 pub use crate::ids::FaceId;
 use crate::ids::{BodyFaceId, BodyId, Id, OperandFace, OperandId};
 use crate::mesh::Mesh;
-use crate::model::{Brush, Material, MaterialId, Model, TransformError, TreeNode};
+use crate::model::{Brush, Material, MaterialId, Model, TreeNode};
 use crate::plane_table::PlaneTable;
 use crate::weld::{LiveWeld, weld};
 use bodies::Marks;
 pub use edit::{Edit, Edited};
+pub use error::EditError;
 use evaluated::EvaluatedBoundary;
 pub use face::{LiveFace, distance_along};
 use history::History;
@@ -89,45 +91,6 @@ impl Change {
             added: added.into_iter().collect(),
         }
     }
-}
-
-/// Why an edit was refused; the model is as it was, but after [`EvaluateError::Weld`], a bug in this crate.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-#[non_exhaustive]
-pub enum EditError {
-    /// There is no such brush, or no longer.
-    #[error("found brush {}, expected one that is part of the model", .0.0)]
-    UnknownBrush(BrushId),
-    /// The brush has no such plane, or no longer.
-    #[error("found plane {} of brush {}, expected a plane that the brush has", .plane.0, .brush.0)]
-    UnknownPlane {
-        /// The brush.
-        brush: BrushId,
-        /// The plane.
-        plane: PlaneIdx,
-    },
-    /// The brush is a closed mesh, which has no planes.
-    #[error("found brush {}, which is a closed mesh, expected one of planes", .0.0)]
-    Mesh(BrushId),
-    /// The brush is an operand of a nested operation, which is not one after another.
-    #[error("found brush {} within nested operations, expected one that is added, subtracted or intersected by itself", .0.0)]
-    Nested(BrushId),
-    /// The offset of a plane is out of range.
-    #[error("found a plane at offset {0:?}, expected a finite one that is not too large for its normal")]
-    Offset(f64),
-    /// A plane leaves the accepted range as it is transformed.
-    #[error(transparent)]
-    Transform(#[from] TransformError),
-    /// There is no edit to take back.
-    #[error("found nothing to take back, expected an edit before")]
-    NothingToUndo,
-    /// There is no edit to do again.
-    #[error("found nothing to do again, expected an edit that was undone just before")]
-    NothingToRedo,
-    /// As for a model that is evaluated: the solid is unbounded, a face names an unknown material, or the boundary does not
-    /// close.
-    #[error(transparent)]
-    Evaluate(#[from] EvaluateError),
 }
 
 /// Brushes in order, each with a [`Role`], and the boundary of the solid that they make.

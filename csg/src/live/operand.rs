@@ -47,6 +47,12 @@ impl State {
         Self { brush, planes: (0..next_plane).map(PlaneIdx).collect(), next_plane, role, line: None }
     }
 
+    /// Whether all that the user has said is the same; handles of planes that were given in between do not count.
+    pub(super) fn is_same(&self, other: &Self) -> bool {
+        let Self { brush, planes, next_plane: _, role, line } = self;
+        (brush, planes, role, line) == (&other.brush, &other.planes, &other.role, &other.line)
+    }
+
     /// The place of a plane among the faces of the brush.
     pub(super) fn place_of(&self, plane: PlaneIdx) -> Option<usize> {
         self.planes.binary_search(&plane).ok()

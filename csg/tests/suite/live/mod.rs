@@ -2,6 +2,7 @@
 //!
 //! - [`edits`]: sequences of edits, what they must come to, shrinking and printing them as Rust.
 //! - [`random`]: random sequences, [`large`]: such on brushes of many planes; [`cases`]: edits that once went wrong or easily could.
+//! - [`steps`]: several edits as one.
 //! - [`meshes`]: models some of whose brushes are closed meshes.
 
 mod cases;
@@ -9,3 +10,4 @@ mod edits;
 mod large;
 mod meshes;
 mod random;
+mod steps;
