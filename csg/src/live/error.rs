@@ -3,7 +3,7 @@
 use planecut_kernel::PlaneIdx;
 use thiserror::Error;
 
-use super::BrushId;
+use super::{BrushId, NodeId, TreeOperand};
 use crate::evaluate::EvaluateError;
 use crate::model::TransformError;
 
@@ -25,9 +25,40 @@ pub enum EditError {
     /// The brush is a closed mesh, which has no planes.
     #[error("found brush {}, which is a closed mesh, expected one of planes", .0.0)]
     Mesh(BrushId),
-    /// The brush is an operand of a nested operation, which is not one after another.
-    #[error("found brush {} within nested operations, expected one that is added, subtracted or intersected by itself", .0.0)]
-    Nested(BrushId),
+    /// The brush or operation is an operand of an operation, and no part of the model itself.
+    #[error("found {0} within nested operations, expected one that is added, subtracted or intersected by itself")]
+    Nested(TreeOperand),
+    /// There is no such operation, or no longer.
+    #[error("found node {}, expected an operation that is part of the model", .0.0)]
+    UnknownNode(NodeId),
+    /// Something is to be put before what is elsewhere.
+    #[error("found {operand}, expected an operand of {}", within(.of))]
+    NotAnOperand {
+        /// What is elsewhere.
+        operand: TreeOperand,
+        /// Where it should be; `None` is the model itself.
+        of: Option<NodeId>,
+    },
+    /// An operation is to be put below itself.
+    #[error("found node {} to be put below itself, expected an operation elsewhere", .0.0)]
+    WithinItself(NodeId),
+    /// Nothing is named where something must be.
+    #[error("found none, expected at least one brush or operation")]
+    NoOperands,
+    /// Something is named twice.
+    #[error("found {0} twice, expected each once")]
+    Twice(TreeOperand),
+    /// Operands of different operations are to become those of one.
+    #[error("found {} and {}, expected operands of one operation", .0[0], .0[1])]
+    Apart([TreeOperand; 2]),
+    /// There would be too many copies.
+    #[error("found {found} copies, expected at most {limit}")]
+    Copies {
+        /// How many there would be.
+        found: usize,
+        /// How many there may be.
+        limit: usize,
+    },
     /// The offset of a plane is out of range.
     #[error("found a plane at offset {0:?}, expected a finite one that is not too large for its normal")]
     Offset(f64),
@@ -50,4 +81,8 @@ pub enum EditError {
     /// close.
     #[error(transparent)]
     Evaluate(#[from] EvaluateError),
+}
+
+fn within(of: &Option<NodeId>) -> String {
+    of.map_or_else(|| "the model itself".to_owned(), |node| format!("node {}", node.0))
 }

@@ -2,7 +2,7 @@
 
 use planecut_kernel::{DVec3, PlaneIdx};
 
-use super::{BrushId, LiveModel, Operand, Role};
+use super::{BrushId, LiveModel, Operand};
 use crate::base::Bounds;
 use crate::ids::FaceId;
 use crate::mesh::Mesh;
@@ -90,7 +90,8 @@ impl LiveModel {
         let source = |operand: &Operand| {
             let place = operand.uses.iter().position(|used| self.planes.id(*used).index() == plane.index())?;
             // a face that is subtracted shows its back
-            let is_turned = (self.planes.id(operand.uses[place]) != plane) != (operand.state.role == Role::Subtract);
+            let is_turned = (self.planes.id(operand.uses[place]) != plane)
+                != self.tree.takes_away(operand.state.place, operand.state.role);
             let half_spaces = operand.state.brush.half_spaces();
             let outside = half_spaces.map(|half| half.signed_distance(middle)).fold(f64::NEG_INFINITY, f64::max);
             let size = (bounds.max - bounds.min).length() + middle.length();

@@ -1,15 +1,60 @@
 //! Undo and redo of edits.
 
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 
-use super::operand::State;
+use super::operand::{Role, State};
 use super::step::OpenStep;
+use super::tree::{NodeId, NodeState, Place, TreeOperand};
 use super::{BrushId, Change, EditError, LiveModel};
 use crate::ids::Id;
 
 /// A brush as it is to be; nothing where it is not to be there.
 pub(super) type New = (BrushId, Option<Arc<State>>);
+
+/// Brushes and operations as they are to be, or were; nothing where one is not to be there, or was not.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct States {
+    pub(super) brushes: BTreeMap<BrushId, Option<Arc<State>>>,
+    pub(super) nodes: BTreeMap<NodeId, Option<NodeState>>,
+}
+
+impl States {
+    /// A brush as it is to be.
+    pub(super) fn of_brush(id: BrushId, state: Option<Arc<State>>) -> Self {
+        Self { brushes: BTreeMap::from([(id, state)]), ..Self::default() }
+    }
+
+    /// An operand elsewhere.
+    pub(super) fn set_place(&mut self, model: &LiveModel, operand: TreeOperand, place: Place) -> Result<(), EditError> {
+        match operand {
+            TreeOperand::Brush(id) => {
+                let state = State { place, ..State::clone(model.state(id)?) };
+                self.brushes.insert(id, Some(Arc::new(state)));
+            }
+            TreeOperand::Node(id) => {
+                self.nodes.insert(id, Some(NodeState { place, ..model.node_state(id)? }));
+            }
+        }
+        Ok(())
+    }
+
+    /// Gives one that is to be there another role.
+    pub(super) fn set_role(&mut self, operand: TreeOperand, role: Role) {
+        match operand {
+            TreeOperand::Brush(id) => {
+                if let Some(Some(state)) = self.brushes.get_mut(&id) {
+                    Arc::make_mut(state).role = role;
+                }
+            }
+            TreeOperand::Node(id) => {
+                if let Some(Some(state)) = self.nodes.get_mut(&id) {
+                    state.role = role;
+                }
+            }
+        }
+    }
+}
 
 /// Number of edits that can be undone unless another number is set.
 const LIMIT: usize = 1000;
@@ -23,10 +68,10 @@ pub(super) struct History {
     pub(super) open: Option<OpenStep>,
 }
 
-/// The brushes that an edit has changed, before and after it.
+/// The brushes and operations that an edit has changed, before and after it.
 pub(super) struct Step {
-    pub(super) before: Vec<New>,
-    pub(super) after: Vec<New>,
+    pub(super) before: States,
+    pub(super) after: States,
 }
 
 impl Default for History {
@@ -37,7 +82,7 @@ impl Default for History {
 
 impl History {
     /// Notes an edit, of the open step where there is one.
-    pub(super) fn note(&mut self, before: Vec<New>, after: Vec<New>) {
+    pub(super) fn note(&mut self, before: States, after: States) {
         match &mut self.open {
             Some(open) => open.add(before, after),
             None => self.push(Step { before, after }),
@@ -62,7 +107,7 @@ impl History {
 }
 
 impl LiveModel {
-    /// Undoes the last edit or [step](Self::begin_step) that is not yet undone. Brushes and planes have the numbers again that they had.
+    /// Undoes the last edit or [step](Self::begin_step) that is not yet undone. Brushes, planes and operations have the numbers again that they had.
     ///
     /// # Errors
     /// [`EditError::NothingToUndo`], [`EditError::StepOpen`].
@@ -109,8 +154,9 @@ impl LiveModel {
 
     /// Brushes that are there now and not in the states to come have given handles of planes since they were in the states to
     /// come back to: those are not given again.
-    fn keep_handles(&self, to_come: &[New], to_come_back: &mut [New]) {
-        for ((id, coming), (_, state)) in to_come.iter().zip(to_come_back) {
+    fn keep_handles(&self, to_come: &States, to_come_back: &mut States) {
+        for (id, coming) in &to_come.brushes {
+            let state = to_come_back.brushes.get_mut(id).and_then(Option::as_mut);
             if let (None, Some(state), Some(number)) = (coming, state, self.by_id.get(id)) {
                 let next_plane = self.operand(*number).state.next_plane;
                 if state.next_plane < next_plane {
@@ -120,8 +166,8 @@ impl LiveModel {
         }
     }
 
-    pub(super) fn go_to(&mut self, states: &[New]) -> Result<Change, EditError> {
-        let again = |(id, state): &New| {
+    pub(super) fn go_to(&mut self, states: &States) -> Result<Change, EditError> {
+        let again = |(id, state): (&BrushId, &Option<Arc<State>>)| {
             let known = self.by_id.get(id).and_then(|number| self.operands[number.index()].as_ref());
             let next_plane = known.map_or(0, |operand| operand.state.next_plane);
             // no handle of a plane is given twice
@@ -131,7 +177,7 @@ impl LiveModel {
             });
             (*id, state)
         };
-        let new = states.iter().map(again).collect();
-        Ok(self.change(new)?.0)
+        let brushes = states.brushes.iter().map(again).collect();
+        Ok(self.change(States { brushes, nodes: states.nodes.clone() })?.0)
     }
 }

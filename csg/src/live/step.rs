@@ -1,36 +1,44 @@
 //! Several edits as one step for undo and redo: what a user does as one thing, or the many moves of a drag.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
-use super::history::{New, Step};
-use super::operand::State;
-use super::{BrushId, Change, EditError, LiveModel};
+use super::history::{States, Step};
+use super::{Change, EditError, LiveModel};
 
-/// What the edits of an open step have changed: each brush before the first of them and after the last, however many there are.
-#[derive(Default)]
+/// What the edits of an open step have changed: each brush and operation before the first of them and after the last, however many there are.
+#[derive(Clone, Default)]
 pub(super) struct OpenStep {
-    brushes: BTreeMap<BrushId, [Option<Arc<State>>; 2]>,
+    before: States,
+    after: States,
 }
 
 impl OpenStep {
     /// Takes an edit in.
-    pub(super) fn add(&mut self, before: Vec<New>, after: Vec<New>) {
-        for ((id, before), (_, after)) in before.into_iter().zip(after) {
-            self.brushes.entry(id).or_insert([before, None])[1] = after;
-        }
+    pub(super) fn add(&mut self, before: States, after: States) {
+        keep_first(&mut self.before.brushes, before.brushes);
+        keep_first(&mut self.before.nodes, before.nodes);
+        self.after.brushes.extend(after.brushes);
+        self.after.nodes.extend(after.nodes);
     }
 
     /// The step, without what is as it was before.
     fn to_step(&self) -> Step {
-        let is_changed = |[before, after]: &[Option<Arc<State>>; 2]| match (before, after) {
+        let mut step = Step { before: self.before.clone(), after: self.after.clone() };
+        let Step { before, after } = &mut step;
+        before.brushes.retain(|id, before| match (before, &after.brushes[id]) {
             (Some(before), Some(after)) => !before.is_same(after),
             (before, after) => before.is_some() || after.is_some(),
-        };
-        let changed = self.brushes.iter().filter(|(_, states)| is_changed(states));
-        let (before, after) =
-            changed.map(|(id, [before, after])| ((*id, before.clone()), (*id, after.clone()))).unzip();
-        Step { before, after }
+        });
+        before.nodes.retain(|id, before| *before != after.nodes[id]);
+        after.brushes.retain(|id, _| before.brushes.contains_key(id));
+        after.nodes.retain(|id, _| before.nodes.contains_key(id));
+        step
+    }
+}
+
+fn keep_first<K: Ord, V>(known: &mut BTreeMap<K, V>, new: BTreeMap<K, V>) {
+    for (id, state) in new {
+        known.entry(id).or_insert(state);
     }
 }
 
@@ -73,7 +81,7 @@ impl LiveModel {
     /// [`EditError::NoStep`].
     pub fn commit_step(&mut self) -> Result<bool, EditError> {
         let step = self.history.open.take().ok_or(EditError::NoStep)?.to_step();
-        let is_step = !step.before.is_empty();
+        let is_step = step.before != States::default();
         if is_step {
             self.history.push(step);
         }

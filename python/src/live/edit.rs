@@ -122,7 +122,7 @@ impl Edit {
     /// Gives a brush another role: "add", "subtract" or "intersect".
     fn set_role(&self, py: Python<'_>, brush: u64, role: &str) -> PyResult<()> {
         let role = role_of(role)?;
-        self.apply(py, CoreEdit::SetRole { brush: BrushId(brush), role }).map(|_| ())
+        self.apply(py, CoreEdit::SetRole { operand: BrushId(brush).into(), role }).map(|_| ())
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! - [`edits`]: sequences of edits, what they must come to, shrinking and printing them as Rust.
 //! - [`random`]: random sequences, [`large`]: such on brushes of many planes; [`cases`]: edits that once went wrong or easily could.
-//! - [`steps`]: several edits as one.
+//! - [`steps`]: several edits as one; [`tree`]: edits of how brushes are combined, and copies.
 //! - [`meshes`]: models some of whose brushes are closed meshes.
 
 mod cases;
@@ -11,3 +11,4 @@ mod large;
 mod meshes;
 mod random;
 mod steps;
+mod tree;
