@@ -47,7 +47,8 @@ pub use evaluate::{
     summarize,
 };
 pub use live::{
-    BrushId, Change, Edit, EditError, Edited, FaceId, LiveFace, LiveModel, LiveNode, NodeId, Role, TreeOperand,
+    BrushId, Change, ConvexPiece, Edit, EditError, Edited, FaceId, LiveFace, LiveModel, LiveNode, NodeId, PlaneRemoval,
+    Preview, PreviewFace, Role, Snap, SnapOptions, SnapTarget, TreeOperand,
 };
 pub use mesh::{Mesh, MeshFace, Noise, SolidMeasures, contract_edges, contract_short_edges};
 pub use model::{

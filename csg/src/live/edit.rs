@@ -3,7 +3,7 @@
 use planecut_kernel::{HalfSpace, PlaneIdx};
 
 use super::{BrushId, Change, EditError, LiveModel, NodeId, Role, TreeOperand};
-use crate::model::{Brush, MaterialId, Operation, Transform};
+use crate::model::{Brush, Material, MaterialId, Operation, Transform};
 
 /// An edit, to be kept in a list and applied again: see [`LiveModel::apply`].
 #[derive(Debug, Clone, PartialEq)]
@@ -195,6 +195,22 @@ impl Edited {
 }
 
 impl LiveModel {
+    /// Does an edit which names materials that are new: they come after those that are known. Where it is refused, they are not added either.
+    ///
+    /// # Errors
+    /// As of [`apply`](Self::apply).
+    pub fn apply_with(&mut self, edit: Edit, materials: Vec<Material>) -> Result<Edited, EditError> {
+        let known = self.materials().len();
+        for material in materials {
+            self.add_material(material);
+        }
+        let outcome = self.apply(edit);
+        if outcome.is_err() {
+            self.keep_materials(known);
+        }
+        outcome
+    }
+
     /// Does an edit.
     ///
     /// # Errors

@@ -1,10 +1,11 @@
 //! The faces of a live model, however its boundary is worked out: what they are, where they come from, and which one a ray meets.
 
 use planecut_kernel::{DVec3, PlaneIdx};
+use rustc_hash::FxHashMap;
 
 use super::{BrushId, LiveModel, Operand};
 use crate::base::Bounds;
-use crate::ids::FaceId;
+use crate::ids::{FaceId, number32};
 use crate::mesh::Mesh;
 use crate::model::MaterialId;
 use crate::plane_table::PlaneId;
@@ -74,6 +75,23 @@ impl<'a> LiveFace<'a> {
                 triangles[place].map(|vertex| (vertex, mesh.positions[vertex as usize]))
             }
         })
+    }
+}
+
+impl LiveFace<'_> {
+    /// Its corners, each once, and its triangles, counter-clockwise seen from outside, by places among them.
+    #[must_use]
+    pub fn indexed(&self) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+        let mut places: FxHashMap<u32, u32> = FxHashMap::default();
+        let mut positions = Vec::new();
+        let mut corner = |(vertex, position): (u32, DVec3)| {
+            *places.entry(vertex).or_insert_with(|| {
+                positions.push(position);
+                number32(positions.len()) - 1
+            })
+        };
+        let triangles = self.triangles().map(|corners| corners.map(&mut corner)).collect();
+        (positions, triangles)
     }
 }
 

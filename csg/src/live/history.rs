@@ -60,6 +60,7 @@ impl States {
 const LIMIT: usize = 1000;
 
 /// What edits have changed, the last one last.
+#[derive(Clone)]
 pub(super) struct History {
     done: VecDeque<Step>,
     undone: Vec<Step>,
@@ -69,6 +70,7 @@ pub(super) struct History {
 }
 
 /// The brushes and operations that an edit has changed, before and after it.
+#[derive(Clone)]
 pub(super) struct Step {
     pub(super) before: States,
     pub(super) after: States,

@@ -5,6 +5,7 @@
 //! are worked out again among the bodies near them, and of their edges those that are new or gone are handed to the weld.
 //!
 //! - [`brush_edits`], [`copies`]: what users do to brushes, [`edit`]: all that they do as values, [`step`]: several at once, [`history`]: and take back; [`error`]: or why they cannot.
+//! - [`preview`]: what an edit would change, [`removal`]: what a brush would gain without a plane, [`snap`]: where a plane may be meant to go. None of these changes anything.
 //! - [`change`]: how a change of brushes goes through [`planes`], [`bodies`], [`boundary`] and weld; [`polytopes`] are kept to
 //!   build bodies from, [`reach`] tells which faces are to be worked out again.
 //! - [`tree`]: how brushes are combined, [`order`]: all of it as a tree; [`operand`]: what is known of each brush.
@@ -25,7 +26,10 @@ mod operand;
 mod order;
 mod planes;
 mod polytopes;
+mod preview;
 mod reach;
+mod removal;
+mod snap;
 mod step;
 mod tree;
 
@@ -56,6 +60,9 @@ pub use operand::Role;
 use operand::{Operand, Places, State};
 use planes::LivePlanes;
 use polytopes::KeptPolytopes;
+pub use preview::{Preview, PreviewFace};
+pub use removal::{ConvexPiece, PlaneRemoval};
+pub use snap::{Snap, SnapOptions, SnapTarget};
 pub use tree::{LiveNode, NodeId, TreeOperand};
 use tree::{LiveTree, Read, read};
 
@@ -250,6 +257,15 @@ impl LiveModel {
         self.materials.push(material);
         self.rank = material_ranks(&self.materials);
         MaterialId(number32(self.materials.len()) - 1)
+    }
+
+    /// Forgets all materials but the first ones, which no face names.
+    fn keep_materials(&mut self, count: usize) {
+        if let Some(evaluated) = &mut self.evaluated {
+            evaluated.keep_materials(count);
+        }
+        self.materials.truncate(count);
+        self.rank = material_ranks(&self.materials);
     }
 
     /// Gives bodies that are built already: brushes to come that have one of them are not built.

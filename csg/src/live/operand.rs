@@ -76,7 +76,7 @@ impl State {
 }
 
 /// A brush of a live model, and what is worked out from it.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Operand {
     pub(super) id: BrushId,
     /// Whether it is still part of the model: what is not is forgotten at the end of the edit.
@@ -97,7 +97,7 @@ pub(super) struct Operand {
 type Entry = GeomWithData<Rectangle<[f64; 3]>, OperandId>;
 
 /// Where the bodies are, by number.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Places {
     tree: RTree<Entry>,
     /// Boxes that are not finite, beside the tree.

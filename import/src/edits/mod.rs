@@ -84,15 +84,16 @@ pub fn read_edits(text: &[u8], name: &str, known: &[Material]) -> Result<EditsIm
     Ok(EditsImport { edits, materials: names.new })
 }
 
-/// Reads one edit of a JSON object, which may have some other keys beside those of the edit; also the materials that it names for the first time, which come after those that are known.
+/// Reads one edit of the keys of a JSON object; also the materials that it names for the first time, which come after those that are known.
 ///
 /// # Errors
-/// [`EditFault`] as of a line of [`read_edits`].
-pub fn read_edit(text: &[u8], beside: &[&str], known: &[Material]) -> Result<(Edit, Vec<Material>), EditFault> {
-    let fault = |error: serde_json::Error| EditFault::new(error.to_string(), EXPECTED);
-    let mut keys: serde_json::Map<String, serde_json::Value> = serde_json::from_slice(text).map_err(fault)?;
-    keys.retain(|key, _| !beside.contains(&key.as_str()));
-    let record = Record::deserialize(serde_json::Value::Object(keys)).map_err(fault)?;
+/// [`EditFault`] for keys that are no edit, or a plane or a matrix that cannot be.
+pub fn edit_of_keys(
+    keys: serde_json::Map<String, serde_json::Value>,
+    known: &[Material],
+) -> Result<(Edit, Vec<Material>), EditFault> {
+    let record = Record::deserialize(serde_json::Value::Object(keys));
+    let record = record.map_err(|error| EditFault::new(error.to_string(), EXPECTED))?;
     let mut names = Names::new(known);
     let edit = edit_of(record, &mut names)?;
     Ok((edit, names.new))
@@ -358,12 +359,13 @@ mod tests {
     }
 
     #[test]
-    fn an_edit_may_stand_among_other_keys() {
-        let text = br#"{"op": "set_material", "brush": 0, "material": "glass", "buffers": true}"#;
-        let (edit, new) = read_edit(text, &["buffers"], &known()).unwrap();
+    fn an_edit_is_read_of_the_keys_of_an_object() {
+        let keys = |text: &str| serde_json::from_str(text).unwrap();
+        let (edit, new) =
+            edit_of_keys(keys(r#"{"op": "set_material", "brush": 0, "material": "glass"}"#), &known()).unwrap();
         let expected = Edit::SetMaterial { brush: BrushId(0), plane: None, material: MaterialId(2) };
         assert_eq!((edit, new), (expected, vec![Material::named("glass")]));
-        assert!(read_edit(text, &[], &known()).unwrap_err().found.starts_with("unknown field `buffers`"));
-        assert!(read_edit(b"[]", &[], &known()).is_err());
+        let fault = edit_of_keys(keys(r#"{"op": "undo", "buffers": true}"#), &known()).unwrap_err();
+        assert!(fault.to_string().starts_with("found unknown field `buffers`"), "{fault}");
     }
 }

@@ -15,13 +15,13 @@ use crate::weld::pinches::PinchFinder;
 const INDEXED: [usize; 2] = [64, 32];
 
 /// The regions, by number.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct Regions {
     regions: Vec<Region>,
     changed: Vec<RegionId>,
 }
 
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct Region {
     /// Its half-edges, in no order.
     pieces: Vec<HalfEdgeId>,
@@ -37,7 +37,7 @@ pub(super) struct Region {
 }
 
 /// Where the half-edges of a region are.
-#[derive(Default)]
+#[derive(Clone, Default)]
 struct Index {
     /// Those that begin, and that end, in each point.
     at_point: FxHashMap<PointId, [Vec<HalfEdgeId>; 2]>,
