@@ -11,14 +11,14 @@ pub(super) fn measures(live: &LiveModel) -> Map<String, Value> {
     let mut areas = vec![0.0; live.materials().len()];
     let (mut min, mut max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     let mut origin = None;
-    let (mut volume, mut faces) = (0.0, 0);
+    let (mut six_volumes, mut faces) = (0.0, 0);
     for (_, face) in live.faces() {
         faces += 1;
         for corners in face.triangles() {
             let corners = corners.map(|corner| corner.1);
             let origin = *origin.get_or_insert(corners[0]);
             let [a, b, c] = corners.map(|corner| corner - origin);
-            volume += a.dot(b.cross(c)) / 6.0;
+            six_volumes += a.dot(b.cross(c));
             areas[face.material().0 as usize] += (b - a).cross(c - a).length() / 2.0;
             (min, max) = corners.iter().fold((min, max), |(min, max), corner| (min.min(*corner), max.max(*corner)));
         }
@@ -27,7 +27,7 @@ pub(super) fn measures(live: &LiveModel) -> Map<String, Value> {
         live.materials().iter().zip(&areas).map(|(material, area)| json!({"name": material.name, "area": area}));
     let bounds = (faces > 0).then(|| [min.to_array(), max.to_array()]);
     keys(json!({
-        "volume": volume,
+        "volume": six_volumes / 6.0,
         "area": areas.iter().sum::<f64>(),
         "min": bounds.map(|bounds| bounds[0]),
         "max": bounds.map(|bounds| bounds[1]),
