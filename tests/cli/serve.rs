@@ -50,8 +50,8 @@ impl Served {
 
     /// The answer to what can be done.
     #[track_caller]
-    fn done(&mut self, line: Value) -> Value {
-        let answer = self.ask(&line);
+    fn done(&mut self, line: &Value) -> Value {
+        let answer = self.ask(line);
         assert_eq!(answer["ok"], json!(true), "{line}: {answer}");
         answer
     }
@@ -72,37 +72,41 @@ impl Served {
 fn edits_and_queries_are_answered_one_by_one() {
     let folder = folder();
     let mut served = Served::start(folder.path());
-    let faces = served.done(json!({"query": "faces", "buffers": true}));
+    let faces = served.done(&json!({"query": "faces", "buffers": true}));
     let all = faces["faces"].as_array().expect("a list");
     assert_eq!(all.len(), 10);
     assert!(all.iter().all(|face| face["material"] == "steel" && face["positions"].as_array().unwrap().len() >= 4));
-    let measures = served.done(json!({"query": "measures"}));
+    let measures = served.done(&json!({"query": "measures"}));
     assert_eq!((&measures["volume"], &measures["area"]), (&json!(192.0), &json!(288.0)));
     assert_eq!((&measures["min"], &measures["max"]), (&json!([0.0, 0.0, 0.0]), &json!([10.0, 10.0, 2.0])));
 
-    let hit = served.done(json!({"query": "pick", "origin": [1, 1, 9], "direction": [0, 0, -2]}))["hit"].clone();
+    let hit = served.done(&json!({"query": "pick", "origin": [1, 1, 9], "direction": [0, 0, -2]}))["hit"].clone();
     assert_eq!((&hit["distance"], &hit["point"], &hit["brush"]), (&json!(7.0), &json!([1.0, 1.0, 2.0]), &json!(0)));
-    let face = served.done(json!({"query": "face", "face": hit["face"]}));
+    let face = served.done(&json!({"query": "face", "face": hit["face"]}));
     assert_eq!((&face["normal"], &face["plane"]), (&json!([0.0, 0.0, 1.0]), &hit["plane"]));
-    assert_eq!(served.done(json!({"query": "pick", "origin": [5, 5, 9], "direction": [0, 0, -1]}))["hit"], Value::Null);
+    assert_eq!(
+        served.done(&json!({"query": "pick", "origin": [5, 5, 9], "direction": [0, 0, -1]}))["hit"],
+        Value::Null
+    );
 
     let preview =
         json!({"query": "preview", "edit": {"op": "move_plane", "brush": 0, "plane": 0, "offset": 12}, "id": 7});
-    let preview = served.done(preview);
+    let preview = served.done(&preview);
     assert_eq!((&preview["volume_change"], &preview["id"]), (&json!(40.0), &json!(7)));
-    let removed = served.done(json!({"query": "preview_remove_plane", "brush": 0, "plane": 0}));
+    let removed = served.done(&json!({"query": "preview_remove_plane", "brush": 0, "plane": 0}));
     assert_eq!(removed["gain"], "unbounded");
     let snap = json!({"query": "snap", "brush": 0, "plane": 0, "to": [1, 0, 0, 5.9], "planes": 0.2, "grid": 1});
-    let snap = served.done(snap);
+    let snap = served.done(&snap);
     assert_eq!(
         (&snap["snap"]["to"], &snap["snap"]["target"]),
         (&json!([1.0, 0.0, 0.0, 6.0]), &json!({"brush": 1, "plane": 0}))
     );
 
     // a drag
-    assert_eq!(served.done(json!({"op": "begin"}))["step"], json!(true));
+    assert_eq!(served.done(&json!({"op": "begin"}))["step"], json!(true));
     for offset in 11..20 {
-        let moved = served.done(json!({"op": "move_plane", "brush": 0, "plane": 0, "offset": offset, "buffers": true}));
+        let moved =
+            served.done(&json!({"op": "move_plane", "brush": 0, "plane": 0, "offset": offset, "buffers": true}));
         assert_eq!(moved["faces"].as_array().map(Vec::len), moved["added"].as_array().map(Vec::len));
         assert_eq!(moved["undo"], json!(0));
     }
@@ -111,29 +115,29 @@ fn edits_and_queries_are_answered_one_by_one() {
         (&refused["ok"], refused["error"].as_str().unwrap().contains("a step that is open")),
         (&json!(false), true)
     );
-    assert_eq!(served.done(json!({"op": "commit"}))["undo"], json!(1));
-    assert_eq!(served.done(json!({"query": "measures"}))["volume"], json!(192.0 + 9.0 * 20.0));
-    assert_eq!(served.done(json!({"op": "undo"}))["redo"], json!(1));
-    assert_eq!(served.done(json!({"query": "measures"}))["volume"], json!(192.0));
+    assert_eq!(served.done(&json!({"op": "commit"}))["undo"], json!(1));
+    assert_eq!(served.done(&json!({"query": "measures"}))["volume"], json!(192.0 + 9.0 * 20.0));
+    assert_eq!(served.done(&json!({"op": "undo"}))["redo"], json!(1));
+    assert_eq!(served.done(&json!({"query": "measures"}))["volume"], json!(192.0));
 
     // the tree
     let wrapped = json!({"op": "wrap", "operands": [{"brush": 0}, {"brush": 1}], "operation": "intersection"});
-    assert_eq!(served.done(wrapped)["node"], json!(0));
-    assert_eq!(served.done(json!({"query": "measures"}))["volume"], json!(8.0));
+    assert_eq!(served.done(&wrapped)["node"], json!(0));
+    assert_eq!(served.done(&json!({"query": "measures"}))["volume"], json!(8.0));
     let copied = json!({"op": "copy_brushes", "brushes": [1], "matrix": [[1, 0, 0, 2], [0, 1, 0, 0], [0, 0, 1, 0]]});
-    let copied = served.done(copied);
+    let copied = served.done(&copied);
     assert_eq!(copied["copies"], json!([2]));
-    let tree = served.done(json!({"query": "tree"}));
+    let tree = served.done(&json!({"query": "tree"}));
     assert_eq!(tree["parts"], json!([{"node": 0, "role": "add"}]));
     let operands = [json!([{"brush": 0}, {"node": 1}]), json!([{"brush": 1}, {"brush": 2}])];
     let nodes = tree["nodes"].as_array().expect("a list");
     assert!(nodes.iter().map(|node| &node["operands"]).eq(&operands), "{tree}");
-    served.done(json!({"op": "rename_brush", "brush": 2, "name": "peg"}));
-    served.done(json!({"op": "set_material", "brush": 2, "plane": 4, "material": "brass"}));
-    let brush = served.done(json!({"query": "brush", "brush": 2}));
+    served.done(&json!({"op": "rename_brush", "brush": 2, "name": "peg"}));
+    served.done(&json!({"op": "set_material", "brush": 2, "plane": 4, "material": "brass"}));
+    let brush = served.done(&json!({"query": "brush", "brush": 2}));
     assert_eq!((&brush["name"], &brush["parent"]), (&json!("peg"), &json!(1)));
     assert_eq!(brush["planes"][4], json!({"plane": 4, "half_space": [0.0, 0.0, 1.0, 3.0], "material": "brass"}));
-    let materials = served.done(json!({"query": "materials"}));
+    let materials = served.done(&json!({"query": "materials"}));
     assert_eq!(
         (&materials["materials"][0]["name"], &materials["materials"][1]["name"]),
         (&json!("steel"), &json!("brass"))
@@ -145,7 +149,7 @@ fn edits_and_queries_are_answered_one_by_one() {
 fn what_is_wrong_with_a_line_is_answered_and_the_session_goes_on() {
     let folder = folder();
     let mut served = Served::start(folder.path());
-    let before = served.done(json!({"query": "faces", "buffers": true}));
+    let before = served.done(&json!({"query": "faces", "buffers": true}));
     let huge = [b"{\"op\": \"".as_slice(), &vec![b'x'; (1 << 26) + 10], b"\"}"].concat();
     let nested = "[".repeat(100_000);
     let lines: [(&[u8], &str); 18] = [
@@ -181,8 +185,8 @@ fn what_is_wrong_with_a_line_is_answered_and_the_session_goes_on() {
     assert_eq!((&refused["ok"], &refused["id"]), (&json!(false), &json!("five")));
     // empty lines say nothing, and get no answer
     served.input.write_all(b"\n  \r\n").expect("the program reads");
-    assert_eq!(served.done(json!({"query": "faces", "buffers": true})), before);
-    assert_eq!(served.done(json!({"query": "materials"}))["materials"].as_array().map(Vec::len), Some(1));
+    assert_eq!(served.done(&json!({"query": "faces", "buffers": true})), before);
+    assert_eq!(served.done(&json!({"query": "materials"}))["materials"].as_array().map(Vec::len), Some(1));
     served.end();
 }
 
@@ -190,9 +194,9 @@ fn what_is_wrong_with_a_line_is_answered_and_the_session_goes_on() {
 fn a_model_is_saved_in_all_formats_or_not_at_all() {
     let folder = folder();
     let mut served = Served::start(folder.path());
-    served.done(json!({"op": "move_plane", "brush": 0, "plane": 0, "offset": 8}));
+    served.done(&json!({"op": "move_plane", "brush": 0, "plane": 0, "offset": 8}));
     for name in ["a.glb", "new/a.obj", "a.stl", "a.3mf", "a.ply", "a.gltf", "a.map", "a.csg"] {
-        assert_eq!(served.done(json!({"query": "save", "output": name}))["warnings"], json!([]));
+        assert_eq!(served.done(&json!({"query": "save", "output": name}))["warnings"], json!([]));
     }
     let saved = everything_in(folder.path());
     for (name, words) in [
@@ -273,7 +277,7 @@ fn edits_that_are_served_and_edits_of_a_file_give_the_same_mesh() {
         }
         assert!(done > 15, "seed {seed}: {done} edits");
         for name in ["a.glb", "a.obj"] {
-            served.done(json!({"query": "save", "output": name}));
+            served.done(&json!({"query": "save", "output": name}));
         }
         served.end();
         std::fs::write(folder.path().join("e.jsonl"), list).expect("a folder that can be written");
