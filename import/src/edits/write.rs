@@ -5,7 +5,7 @@ use planecut_kernel::PlaneIdx;
 
 use super::record::{MaterialNames, Record};
 
-/// Writes edits, a line each, as [`read_edits`] reads them. Those that put a closed mesh into the model have no such form, and are left out.
+/// Writes edits, a line each, as [`read_edits`](super::read_edits) reads them. Those that put a closed mesh into the model have no such form, and are left out.
 #[must_use]
 pub fn write_edits<'a>(edits: impl IntoIterator<Item = &'a Edit>, materials: &[Material]) -> String {
     let name = |material: MaterialId| materials.get(material.0 as usize).map(|material| material.name.clone());

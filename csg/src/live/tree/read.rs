@@ -153,7 +153,7 @@ mod tests {
     #[test]
     fn deep_trees_need_no_deep_stack() {
         let mut nodes = vec![TreeNode::Leaf; 100_001];
-        nodes.extend([TreeNode::Operation { operation: Operation::Xor, operands: 2 }; 100_000]);
+        nodes.extend(std::iter::repeat_n(TreeNode::Operation { operation: Operation::Xor, operands: 2 }, 100_000));
         assert_eq!(read(&nodes).nodes.len(), 100_000);
     }
 }
