@@ -46,7 +46,10 @@ pub use evaluate::{
     EvaluateError, Evaluation, ModelSummary, StageTimes, UnboundedBrushes, evaluate, evaluate_built, evaluate_with,
     summarize,
 };
-pub use live::{BrushId, Change, Edit, EditError, Edited, FaceId, LiveFace, LiveModel, Role};
+pub use live::{
+    BrushId, Change, ConvexPiece, Edit, EditError, Edited, FaceId, LiveFace, LiveModel, LiveNode, NodeId, PlaneRemoval,
+    Preview, PreviewFace, Role, Snap, SnapOptions, SnapTarget, TreeOperand,
+};
 pub use mesh::{Mesh, MeshFace, Noise, SolidMeasures, contract_edges, contract_short_edges};
 pub use model::{
     Brush, BrushFace, CutMaterial, Cutaway, FaceSource, Material, MaterialId, MeshBody, Model, Operation, TextureAxes,

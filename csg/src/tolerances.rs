@@ -66,9 +66,9 @@ pub const NEGLIGIBLE_COMPONENT: f64 = 1e-40;
 pub const DELAUNAY_MARGIN: f64 = 1e-12;
 
 /// A point of a face of a live model is on the brushes that hold it, up to this share of its coordinates and the size of the triangle that it is taken of; where a ray meets a triangle is in its box,
-/// up to this share of the coordinates.
+/// up to this share of the coordinates; a corner is in a plane that is about to move, up to this share of its coordinates.
 ///
-/// Decides: which brush a face is said to come from, and whether a ray meets a triangle that has no area but for rounding. Of the topology: nothing.
+/// Decides: which brush a face is said to come from, whether a ray meets a triangle that has no area but for rounding, and which corners a plane does not snap to. Of the topology: nothing.
 pub const ON_FACE: f64 = 1e-9;
 
 #[cfg(test)]

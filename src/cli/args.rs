@@ -164,13 +164,17 @@ pub(crate) struct InfoArgs {
 
 /// Arguments of `edit`.
 #[derive(Debug, Args)]
+#[command(mut_arg("outputs", |outputs| outputs.required(false).required_unless_present("serve")))]
 pub(crate) struct EditArgs {
     /// The model, map, tree or closed mesh to begin with (.json, .map, .csg, .obj, .stl, .ply, .glb, .gltf); `-` is standard input
     #[arg(value_name = "INPUT")]
     pub(crate) input: PathBuf,
     /// The edits, one JSON object a line
-    #[arg(value_name = "EDITS.jsonl")]
-    pub(crate) edits: PathBuf,
+    #[arg(value_name = "EDITS.jsonl", required_unless_present = "serve")]
+    pub(crate) edits: Option<PathBuf>,
+    /// Read edits and queries from standard input, a JSON object a line, and answer each by a line on standard output, until the input ends
+    #[arg(long, conflicts_with_all = ["edits", "outputs", "report", "verify", "format"])]
+    pub(crate) serve: bool,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
     /// After each edit, compare the mesh with that of a fresh build of the edited model

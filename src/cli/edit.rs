@@ -15,12 +15,16 @@ use super::output::{MeshTarget, Target, check_targets};
 use super::pieces::{bounded_tree_of, brushes, of_cells};
 use super::product::{Contents, Product, encode, first_written, produce};
 use super::progress::Progress;
+use super::reading_args::ReadingArgs;
 use super::report::{EditPart, Report, evaluation_time, milliseconds};
+use super::serve;
 use super::solve::{Read, Solved, evaluate_model, read, solid_warnings, solved, unbounded_of};
 
 /// What is to be written where.
 struct Plan<'a> {
     args: &'a EditArgs,
+    /// Where the edits are.
+    edits: &'a Path,
     input: Input,
     kind: InputKind,
     meshes: Vec<MeshTarget>,
@@ -32,26 +36,28 @@ struct Plan<'a> {
 /// # Errors
 /// Any [`CliError`] but those of `check`.
 pub(crate) fn run(args: &EditArgs) -> Result<Done, CliError> {
+    let Some(edits) = args.edits.as_deref().filter(|_| !args.serve) else { return serve::run(args) };
     let begin = Instant::now();
-    let plan = Plan::resolve(args)?;
+    let plan = Plan::resolve(args, edits)?;
     let product = produce(&args.common, &plan.input, plan.report.as_ref(), begin, |progress| plan.carry_out(progress));
     product.map(|warnings| Done::with(&warnings, args.reading.allow_loss))
 }
 
 impl<'a> Plan<'a> {
-    fn resolve(args: &'a EditArgs) -> Result<Self, CliError> {
+    fn resolve(args: &'a EditArgs, edits: &'a Path) -> Result<Self, CliError> {
         let (input, kind) = Input::resolve_any(&args.input, args.reading.input_format)?;
         args.reading.check(kind)?;
         args.output.assets.check_without_sources()?;
         let plan = Self {
             args,
+            edits,
             input,
             kind,
             meshes: args.output.targets()?,
             report: args.output.report.as_deref().map(Target::new),
         };
         let meshes: Vec<Target> = plan.meshes.iter().flat_map(MeshTarget::targets).collect();
-        for file in [plan.input.file(), Some(args.edits.as_path())] {
+        for file in [plan.input.file(), Some(edits)] {
             check_targets(file, meshes.iter().chain(&plan.report))?;
         }
         Ok(plan)
@@ -59,22 +65,17 @@ impl<'a> Plan<'a> {
 
     fn carry_out(&self, progress: &Progress) -> Result<Product, CliError> {
         let begin = Instant::now();
-        progress.stage("reading");
-        let Read { mut model, warnings, .. } = read(&self.input, self.kind, &self.args.reading)?;
-        // edits are of convex bodies
-        model.tree = of_cells(&self.input.path, &model.tree)?.into_owned();
-        let text = Input::plain(&self.args.edits).read()?;
-        let EditsImport { edits, materials } =
-            read_edits(&text, &self.args.edits.display().to_string(), &model.materials)?;
+        let (model, warnings) = read_model(&self.input, self.kind, &self.args.reading, progress)?;
+        let text = Input::plain(self.edits).read()?;
+        let EditsImport { edits, materials } = read_edits(&text, &self.edits.display().to_string(), &model.materials)?;
         let import_time = begin.elapsed();
-        progress.stage("evaluating");
-        let mut live = self.live(model)?;
+        let mut live = live_model(&self.input, self.kind, model, progress)?;
         for material in materials {
             live.add_material(material);
         }
         progress.stage("editing");
         let done = self.edit(&mut live, edits)?;
-        let mesh = mesh_of(&live, &self.args.edits, 0)?;
+        let mesh = mesh_of(&live, self.edits, 0)?;
         let read = Read { model: live.to_model(), warnings, ..Read::default() };
         let edited = if self.report.is_some() || self.args.verify {
             self.compared(mesh, read, done, import_time, progress)?
@@ -84,25 +85,18 @@ impl<'a> Plan<'a> {
         self.encode(edited, progress)
     }
 
-    fn live(&self, model: Model) -> Result<LiveModel, CliError> {
-        LiveModel::from_model_with(model, unbounded_of(self.kind)).map_err(|error| match error {
-            EditError::Evaluate(source) => CliError::of_evaluation(&self.input.path, source),
-            source => CliError::Edit { path: self.input.path.clone(), line: 0, source },
-        })
-    }
-
     /// Applies edits, each given with its line; with `--verify` each result is compared with a fresh build.
     fn edit(&self, live: &mut LiveModel, edits: Vec<(u32, Edit)>) -> Result<Applied, CliError> {
         let mut done = Applied { times: Vec::with_capacity(edits.len()), fresh_times: Vec::new(), fresh: None };
         for (line, edit) in edits {
-            let refused = |source| CliError::Edit { path: self.args.edits.clone(), line, source };
+            let refused = |source| CliError::Edit { path: self.edits.to_owned(), line, source };
             let before = Instant::now();
             live.apply(edit).map_err(refused)?;
             done.times.push(before.elapsed());
             if self.args.verify {
                 let fresh = evaluate_with(&live.to_model(), unbounded_of(self.kind));
                 let fresh = fresh.map_err(|source| refused(source.into()))?;
-                check_same(&mesh_of(live, &self.args.edits, line)?, &fresh.mesh, &self.args.edits, line)?;
+                check_same(&mesh_of(live, self.edits, line)?, &fresh.mesh, self.edits, line)?;
                 done.fresh_times.push(evaluation_time(&fresh.times));
                 done.fresh = Some(fresh);
             }
@@ -124,7 +118,7 @@ impl<'a> Plan<'a> {
             Some(fresh) => fresh,
             None => {
                 let fresh = evaluate_model(&self.input, self.kind, &read.model)?;
-                check_same(&mesh, &fresh.mesh, &self.args.edits, 0)?;
+                check_same(&mesh, &fresh.mesh, self.edits, 0)?;
                 done.fresh_times.push(evaluation_time(&fresh.times));
                 fresh
             }
@@ -164,6 +158,41 @@ impl<'a> Plan<'a> {
         }
         Ok(Product { warnings, report, outputs, encoding })
     }
+}
+
+/// A live model of an input, and what there is to warn of.
+///
+/// # Errors
+/// [`CliError`] for unusable input, [`CliError::Evaluate`] for a solid without a mesh, [`CliError::Bug`] for a bug.
+pub(crate) fn begin(
+    input: &Input,
+    kind: InputKind,
+    reading: &ReadingArgs,
+    progress: &Progress,
+) -> Result<(LiveModel, Vec<Warning>), CliError> {
+    let (model, warnings) = read_model(input, kind, reading, progress)?;
+    Ok((live_model(input, kind, model, progress)?, warnings))
+}
+
+/// What an input holds, as convex bodies: edits are of these.
+fn read_model(
+    input: &Input,
+    kind: InputKind,
+    reading: &ReadingArgs,
+    progress: &Progress,
+) -> Result<(Model, Vec<Warning>), CliError> {
+    progress.stage("reading");
+    let Read { mut model, warnings, .. } = read(input, kind, reading)?;
+    model.tree = of_cells(&input.path, &model.tree)?.into_owned();
+    Ok((model, warnings))
+}
+
+fn live_model(input: &Input, kind: InputKind, model: Model, progress: &Progress) -> Result<LiveModel, CliError> {
+    progress.stage("evaluating");
+    LiveModel::from_model_with(model, unbounded_of(kind)).map_err(|error| match error {
+        EditError::Evaluate(source) => CliError::of_evaluation(&input.path, source),
+        source => CliError::Edit { path: input.path.clone(), line: 0, source },
+    })
 }
 
 /// Edits that were applied, and how long each took.

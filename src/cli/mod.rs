@@ -25,6 +25,7 @@ mod render;
 mod report;
 mod rigid_body;
 mod schema;
+mod serve;
 mod solve;
 mod surface;
 mod terminal;

@@ -23,6 +23,7 @@ mod reference;
 mod regressions;
 mod render;
 mod report;
+mod serve;
 mod shared_maps;
 mod support;
 mod textures;

@@ -219,7 +219,7 @@ pub(super) fn is_rotated(one: &[PlaneId], other: &[PlaneId]) -> bool {
 }
 
 /// How many bodies have each mark.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Marks(FxHashMap<u64, u32>);
 
 impl Marks {

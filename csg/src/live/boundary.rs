@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use super::order::{restricted, sequence};
-use super::{BrushId, LiveModel, Member};
+use super::LiveModel;
+use super::tree::Member;
 use crate::base::{Bounds, map_chunks};
 use crate::body::{Body, kinds};
 use crate::boundary::{BoundaryEdge, FaceWorker, Scene};
@@ -25,7 +25,6 @@ impl LiveModel {
     /// Works out the boundary on some faces, sorted.
     pub(super) fn boundary_edges(&mut self, faces: &[OperandFace]) -> Vec<Found> {
         let mut place = std::mem::take(&mut self.buffers.place);
-        let id = |number: OperandId| self.operand(number).id;
         // what is near the faces of each body
         let mut near: Vec<Member> = Vec::new();
         let mut groups: Vec<FaceBatch> = Vec::new();
@@ -35,26 +34,17 @@ impl LiveModel {
             let boxes = of_body.iter().map(|entry| &body.faces[entry.face.index()].bounds);
             let bounds = boxes.fold(Bounds::EMPTY, |all, bounds| all.union(bounds));
             let (start, first) = (near.len(), groups.last().map_or(0, |group| group.faces.end));
-            near.extend(self.places.near(&bounds).map(|operand| Member { id: id(operand), operand }));
+            near.extend(self.places.near(&bounds).map(|operand| Member { at: self.position(operand), operand }));
             near[start..].sort_unstable();
             groups.push(FaceBatch { number, near: start..near.len(), faces: first..first + of_body.len() });
         }
         let mut members = near.clone();
         members.sort_unstable();
         members.dedup();
-        // nothing is left of what lies before an intersecting brush that does not come near
-        let far = self.intersecting.iter().rev().find(|entry| members.binary_search(entry).is_err());
-        if let Some(Member { id, .. }) = far {
-            members.retain(|member| member.id > *id);
-        }
+        let nodes = self.tree.near(&mut members, |member| self.operand(member.operand).state.role);
         let member = |leaf: LeafId| self.operand(members[leaf.index()].operand);
         let body = |leaf: LeafId| self.body_at(members[leaf.index()].operand);
-        let is_member = |leaf: u32| members.binary_search_by_key(&BrushId(leaf.into()), |member| member.id).is_ok();
-        let base = self.base.as_ref().filter(|_| far.is_none()).map(|base| restricted(&base.nodes, is_member));
-        let in_base = self.base.as_ref().map_or(0, |base| u64::from(base.leaves));
-        let in_sequence = members.partition_point(|member| member.id.0 < in_base)..members.len();
-        let roles = in_sequence.map(|leaf| member(LeafId::from_index(leaf)).state.role);
-        let expression = Expression::new(&sequence(base.unwrap_or_default(), roles));
+        let expression = Expression::new(&nodes);
         let kinds = kinds(members.len(), |leaf| body(leaf).planes_and_materials(), |leaf| member(leaf).mark);
         let repeated = expression.repeated_leaves(&kinds);
         let leaves: Vec<LeafId> = LeafId::all(members.len()).filter(|leaf| !repeated[leaf.index()]).collect();

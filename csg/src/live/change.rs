@@ -6,7 +6,8 @@ use super::history::New;
 use super::operand::{Operand, Role, State};
 use super::planes::{PlaneUse, Settled};
 use super::reach::Reach;
-use super::{BrushId, Change, EditError, LiveModel, Member};
+use super::tree::Extent;
+use super::{BrushId, Change, EditError, LiveModel};
 use crate::boundary::BoundaryEdge;
 use crate::evaluate::EvaluateError;
 use crate::ids::{Id, OperandId};
@@ -18,18 +19,19 @@ impl LiveModel {
     ///
     /// # Errors
     /// [`EvaluateError::Unbounded`]; then all is as it was. [`EvaluateError::Weld`]: a bug in this crate.
-    pub(super) fn change_convex(&mut self, new: Vec<New>) -> Result<(Change, Vec<New>), EditError> {
+    pub(super) fn change_convex(&mut self, new: Vec<New>, extent: &Extent) -> Result<(Change, Vec<New>), EditError> {
         if let Some(done) = self.move_in_place(&new) {
             return Ok(done);
         }
-        let reach = self.reach(&new);
+        let reach = Reach::of(extent);
         let (before, numbers, settled) = self.set_states(new, &[]);
         let mut changed = numbers.clone();
         changed.extend(settled.users.iter().filter(|user| self.operands[user.index()].is_some()));
+        changed.extend(extent.brushes.iter().filter_map(|id| self.by_id.get(id)));
         changed.sort_unstable();
         changed.dedup();
         let reach = if changed.len() > numbers.len() && reach == Reach::Appended { Reach::Near } else { reach };
-        let local = self.local(&changed, &before);
+        let local = self.local(&changed, &before, extent);
         let bodies = self.build(&changed, &before);
         let old = self.place(bodies);
         let faces = self.faces_to_redo(&changed, &old, reach, &local);
@@ -68,7 +70,6 @@ impl LiveModel {
             let known = self.by_id.get(&id).copied();
             assert!(known.is_some() || state.is_some(), "a brush that is to go is there");
             let number = known.unwrap_or_else(|| self.make_room(id));
-            let is_in_sequence = self.is_in_sequence(id);
             let operand = self.operands[number.index()].as_mut().expect("the brush is there");
             // planes that stay are in use all the time
             let mut old_uses: Vec<Option<PlaneUse>> = operand.uses.drain(..).map(Some).collect();
@@ -84,16 +85,12 @@ impl LiveModel {
             self.planes.count_size(operand.size.take(), false);
             operand.size = state.as_ref().and_then(|state| size_of(state.brush.half_spaces()));
             self.planes.count_size(operand.size, true);
-            self.intersecting.retain(|entry| entry.id != id);
             let old = match state {
                 Some(state) => {
                     let faces = state.brush.faces.iter().zip(staying);
                     let planes = &mut self.planes;
                     let uses = faces.map(|(face, used)| used.unwrap_or_else(|| planes.take(&face.half_space, number)));
                     operand.uses.extend(uses);
-                    if state.role == Role::Intersect && is_in_sequence {
-                        self.intersecting.push(Member { id, operand: number });
-                    }
                     std::mem::replace(&mut operand.state, state)
                 }
                 None => Arc::clone(&operand.state),
@@ -101,7 +98,6 @@ impl LiveModel {
             before.push((id, known.map(|_| old)));
             numbers.push(number);
         }
-        self.intersecting.sort_unstable();
         (before, numbers, self.planes.settle(kept))
     }
 

@@ -1,13 +1,9 @@
-//! What can be done to a live model.
-
-use std::sync::Arc;
+//! Edits of a live model as values, to be kept in a list.
 
 use planecut_kernel::{HalfSpace, PlaneIdx};
 
-use super::history::New;
-use super::operand::State;
-use super::{BrushId, Change, EditError, LiveModel, Role};
-use crate::model::{Brush, BrushFace, MaterialId, Transform};
+use super::{BrushId, Change, EditError, LiveModel, NodeId, Role, TreeOperand};
+use crate::model::{Brush, Material, MaterialId, Operation, Transform};
 
 /// An edit, to be kept in a list and applied again: see [`LiveModel::apply`].
 #[derive(Debug, Clone, PartialEq)]
@@ -38,6 +34,31 @@ pub enum Edit {
         /// The new offset, for the normal as it was given.
         offset: f64,
     },
+    /// [`LiveModel::move_plane`], to another normal as well.
+    TurnPlane {
+        /// The brush.
+        brush: BrushId,
+        /// The plane.
+        plane: PlaneIdx,
+        /// What is to be in its place.
+        half_space: HalfSpace,
+    },
+    /// [`LiveModel::set_material`].
+    SetMaterial {
+        /// The brush.
+        brush: BrushId,
+        /// The plane; where none is named, all of the brush.
+        plane: Option<PlaneIdx>,
+        /// What it is made of from now on.
+        material: MaterialId,
+    },
+    /// [`LiveModel::rename_brush`].
+    RenameBrush {
+        /// The brush.
+        brush: BrushId,
+        /// Its name, if it is to have one.
+        name: Option<String>,
+    },
     /// [`LiveModel::add_brush`].
     AddBrush {
         /// The brush.
@@ -66,11 +87,80 @@ pub enum Edit {
     },
     /// [`LiveModel::set_role`].
     SetRole {
-        /// The brush.
-        brush: BrushId,
+        /// The brush or the operation.
+        operand: TreeOperand,
         /// What it does from now on.
         role: Role,
     },
+    /// [`LiveModel::copy_brushes`].
+    CopyBrushes {
+        /// The brushes.
+        brushes: Vec<BrushId>,
+        /// Where the copies go.
+        transform: Transform,
+    },
+    /// [`LiveModel::mirror_brushes`].
+    MirrorBrushes {
+        /// The brushes.
+        brushes: Vec<BrushId>,
+        /// The plane; either side of it means the same.
+        plane: HalfSpace,
+    },
+    /// [`LiveModel::array_brushes`].
+    ArrayBrushes {
+        /// The brushes.
+        brushes: Vec<BrushId>,
+        /// The way from each copy to the next one.
+        transform: Transform,
+        /// How many copies of each.
+        count: usize,
+    },
+    /// [`LiveModel::move_operand`].
+    MoveOperand {
+        /// What is to go elsewhere.
+        operand: TreeOperand,
+        /// The operation that it is to be an operand of; `None` is the model itself.
+        to: Option<NodeId>,
+        /// The operand before which it goes; the last one where there is none.
+        before: Option<TreeOperand>,
+    },
+    /// [`LiveModel::move_brush_before`].
+    MoveBrushBefore {
+        /// The brush.
+        brush: BrushId,
+        /// The other brush; where there is none, it is the last one.
+        before: Option<BrushId>,
+    },
+    /// [`LiveModel::set_operation`].
+    SetOperation {
+        /// The operation.
+        node: NodeId,
+        /// What it does from now on.
+        operation: Operation,
+    },
+    /// [`LiveModel::wrap`].
+    Wrap {
+        /// What is to be the operands.
+        operands: Vec<TreeOperand>,
+        /// What to do with them.
+        operation: Operation,
+    },
+    /// [`LiveModel::dissolve`].
+    Dissolve {
+        /// The operation.
+        node: NodeId,
+    },
+    /// [`LiveModel::remove_node`].
+    RemoveNode {
+        /// The operation.
+        node: NodeId,
+    },
+    /// [`LiveModel::begin_step`].
+    BeginStep,
+    /// [`LiveModel::commit_step`].
+    CommitStep,
+    /// [`LiveModel::cancel_step`].
+    CancelStep,
     /// [`LiveModel::undo`].
     Undo,
     /// [`LiveModel::redo`].
@@ -84,6 +174,10 @@ pub struct Edited {
     pub brush: Option<BrushId>,
     /// The handle of a plane that was added.
     pub plane: Option<PlaneIdx>,
+    /// The numbers of copies that were made, one after another of each set of brushes.
+    pub copies: Vec<BrushId>,
+    /// The number of an operation that was added.
+    pub node: Option<NodeId>,
     /// What has changed.
     pub change: Change,
 }
@@ -94,7 +188,29 @@ impl From<Change> for Edited {
     }
 }
 
+impl Edited {
+    fn of_copies((copies, change): (Vec<BrushId>, Change)) -> Self {
+        Self { copies, ..change.into() }
+    }
+}
+
 impl LiveModel {
+    /// Does an edit which names materials that are new: they come after those that are known. Where it is refused, they are not added either.
+    ///
+    /// # Errors
+    /// As of [`apply`](Self::apply).
+    pub fn apply_with(&mut self, edit: Edit, materials: Vec<Material>) -> Result<Edited, EditError> {
+        let known = self.materials().len();
+        for material in materials {
+            self.add_material(material);
+        }
+        let outcome = self.apply(edit);
+        if outcome.is_err() {
+            self.keep_materials(known);
+        }
+        outcome
+    }
+
     /// Does an edit.
     ///
     /// # Errors
@@ -115,6 +231,9 @@ impl LiveModel {
                 let half_space = HalfSpace::new(normal, offset).map_err(|_| EditError::Offset(offset))?;
                 self.move_plane(brush, plane, half_space)?.into()
             }
+            Edit::TurnPlane { brush, plane, half_space } => self.move_plane(brush, plane, half_space)?.into(),
+            Edit::SetMaterial { brush, plane, material } => self.set_material(brush, plane, material)?.into(),
+            Edit::RenameBrush { brush, name } => self.rename_brush(brush, name)?.into(),
             Edit::AddBrush { brush, role } => {
                 let (brush, change) = self.add_brush(brush, role)?;
                 Edited { brush: Some(brush), ..change.into() }
@@ -122,147 +241,32 @@ impl LiveModel {
             Edit::RemoveBrush { brush } => self.remove_brush(brush)?.into(),
             Edit::ReplaceBrush { brush, by } => self.replace_brush(brush, by)?.into(),
             Edit::TransformBrush { brush, transform } => self.transform_brush(brush, &transform)?.into(),
-            Edit::SetRole { brush, role } => self.set_role(brush, role)?.into(),
+            Edit::SetRole { operand, role } => self.set_role(operand, role)?.into(),
+            Edit::CopyBrushes { brushes, transform } => Edited::of_copies(self.copy_brushes(&brushes, &transform)?),
+            Edit::MirrorBrushes { brushes, plane } => Edited::of_copies(self.mirror_brushes(&brushes, &plane)?),
+            Edit::ArrayBrushes { brushes, transform, count } => {
+                Edited::of_copies(self.array_brushes(&brushes, &transform, count)?)
+            }
+            Edit::MoveOperand { operand, to, before } => self.move_operand(operand, to, before)?.into(),
+            Edit::MoveBrushBefore { brush, before } => self.move_brush_before(brush, before)?.into(),
+            Edit::SetOperation { node, operation } => self.set_operation(node, operation)?.into(),
+            Edit::Wrap { operands, operation } => {
+                let (node, change) = self.wrap(&operands, operation)?;
+                Edited { node: Some(node), ..change.into() }
+            }
+            Edit::Dissolve { node } => self.dissolve(node)?.into(),
+            Edit::RemoveNode { node } => self.remove_node(node)?.into(),
+            Edit::BeginStep => {
+                self.begin_step()?;
+                Edited::default()
+            }
+            Edit::CommitStep => {
+                self.commit_step()?;
+                Edited::default()
+            }
+            Edit::CancelStep => self.cancel_step()?.into(),
             Edit::Undo => self.undo()?.into(),
             Edit::Redo => self.redo()?.into(),
         })
-    }
-
-    /// Cuts a brush down to a half-space; gives the handle of the plane in the brush, which is never given to another one.
-    /// [`LiveModel::remove_plane`] lets the brush grow back.
-    ///
-    /// # Errors
-    /// [`EditError::UnknownBrush`], [`EditError::Mesh`], [`EditError::Evaluate`].
-    pub fn add_plane(
-        &mut self,
-        brush: BrushId,
-        half_space: HalfSpace,
-        material: MaterialId,
-    ) -> Result<(PlaneIdx, Change), EditError> {
-        let mut state = State::clone(self.convex_state(brush)?);
-        let plane = PlaneIdx(state.next_plane);
-        state.next_plane += 1;
-        state.planes.push(plane);
-        state.brush.faces.push(BrushFace { half_space, material });
-        self.check_materials(&state.brush)?;
-        Ok((plane, self.edit_brush(brush, state)?))
-    }
-
-    /// Takes a plane out of a brush, which grows to what its other planes leave.
-    ///
-    /// # Errors
-    /// [`EditError::UnknownBrush`], [`EditError::Mesh`], [`EditError::UnknownPlane`], [`EditError::Evaluate`].
-    pub fn remove_plane(&mut self, brush: BrushId, plane: PlaneIdx) -> Result<Change, EditError> {
-        let mut state = State::clone(self.convex_state(brush)?);
-        let place = state.place_of(plane).ok_or(EditError::UnknownPlane { brush, plane })?;
-        state.planes.remove(place);
-        state.brush.faces.remove(place);
-        self.edit_brush(brush, state)
-    }
-
-    /// Puts another half-space in the place of a plane of a brush, which keeps its handle and its material.
-    ///
-    /// # Errors
-    /// [`EditError::UnknownBrush`], [`EditError::Mesh`], [`EditError::UnknownPlane`], [`EditError::Evaluate`].
-    pub fn move_plane(&mut self, brush: BrushId, plane: PlaneIdx, half_space: HalfSpace) -> Result<Change, EditError> {
-        let mut state = State::clone(self.convex_state(brush)?);
-        let place = state.place_of(plane).ok_or(EditError::UnknownPlane { brush, plane })?;
-        state.brush.faces[place].half_space = half_space;
-        self.edit_brush(brush, state)
-    }
-
-    /// Adds a brush, which may be a closed mesh, after all others.
-    ///
-    /// # Errors
-    /// [`EditError::Evaluate`].
-    pub fn add_brush(&mut self, brush: Brush, role: Role) -> Result<(BrushId, Change), EditError> {
-        let (ids, change) = self.add_brushes(vec![(brush, role)])?;
-        Ok((ids[0], change))
-    }
-
-    /// Adds brushes after all others, in their order, as one edit.
-    ///
-    /// # Errors
-    /// [`EditError::Evaluate`]; then none is added.
-    pub fn add_brushes(&mut self, brushes: Vec<(Brush, Role)>) -> Result<(Vec<BrushId>, Change), EditError> {
-        let first = self.next_id;
-        let (change, before, after) = self.append(brushes.into_iter().map(|(brush, role)| State::new(brush, role)))?;
-        self.history.note(before, after);
-        Ok(((first..self.next_id).map(BrushId).collect(), change))
-    }
-
-    /// Adds brushes; also what they were before, and are now.
-    pub(super) fn append(
-        &mut self,
-        brushes: impl IntoIterator<Item = State>,
-    ) -> Result<(Change, Vec<New>, Vec<New>), EditError> {
-        let state = |(id, state): (BrushId, State)| {
-            self.check_materials(&state.brush)?;
-            Ok((id, Some(Arc::new(state))))
-        };
-        let new: Vec<New> = (self.next_id..).map(BrushId).zip(brushes).map(state).collect::<Result<_, EditError>>()?;
-        let end = self.next_id + new.len() as u64;
-        let (change, before) = self.change(new.clone())?;
-        self.next_id = end;
-        Ok((change, before, new))
-    }
-
-    /// Takes a brush out.
-    ///
-    /// # Errors
-    /// [`EditError::UnknownBrush`], [`EditError::Evaluate`].
-    pub fn remove_brush(&mut self, id: BrushId) -> Result<Change, EditError> {
-        self.state(id)?;
-        self.edit(vec![(id, None)])
-    }
-
-    /// Puts another brush in the place of one; its planes get new handles.
-    ///
-    /// # Errors
-    /// [`EditError::UnknownBrush`], [`EditError::Evaluate`].
-    pub fn replace_brush(&mut self, id: BrushId, brush: Brush) -> Result<Change, EditError> {
-        self.check_materials(&brush)?;
-        let State { next_plane, role, .. } = **self.state(id)?;
-        let count = brush.faces.len();
-        let planes = (next_plane..next_plane + count).map(PlaneIdx).collect();
-        self.edit_brush(id, State { brush, planes, next_plane: next_plane + count, role, line: None })
-    }
-
-    /// Moves a brush, or a closed mesh, by an affine map; planes keep their handles.
-    ///
-    /// # Errors
-    /// [`EditError::UnknownBrush`], [`EditError::Transform`], [`EditError::Evaluate`].
-    pub fn transform_brush(&mut self, id: BrushId, transform: &Transform) -> Result<Change, EditError> {
-        let mut state = State::clone(self.state(id)?);
-        state.brush = state.brush.transformed(transform)?;
-        self.edit_brush(id, state)
-    }
-
-    /// Gives a brush another role.
-    ///
-    /// # Errors
-    /// [`EditError::UnknownBrush`], [`EditError::Nested`], [`EditError::Evaluate`].
-    pub fn set_role(&mut self, id: BrushId, role: Role) -> Result<Change, EditError> {
-        let state = State { role, ..State::clone(self.state(id)?) };
-        if !self.is_in_sequence(id) {
-            return Err(EditError::Nested(id));
-        }
-        self.edit_brush(id, state)
-    }
-
-    /// What is said of a brush that has planes.
-    fn convex_state(&self, id: BrushId) -> Result<&Arc<State>, EditError> {
-        let state = self.state(id)?;
-        if state.brush.is_mesh() { Err(EditError::Mesh(id)) } else { Ok(state) }
-    }
-
-    fn edit_brush(&mut self, id: BrushId, state: State) -> Result<Change, EditError> {
-        self.edit(vec![(id, Some(Arc::new(state)))])
-    }
-
-    fn edit(&mut self, new: Vec<New>) -> Result<Change, EditError> {
-        let (change, before) = self.change(new.clone())?;
-        self.history.note(before, new);
-        Ok(change)
     }
 }

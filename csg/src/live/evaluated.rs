@@ -10,7 +10,7 @@ use crate::mesh::Mesh;
 use crate::model::Material;
 
 /// The boundary of a model some of whose leaves are closed meshes.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct EvaluatedBoundary {
     mesh: Mesh,
     /// Where the triangles of each face begin, and last where those of the last one end.
@@ -96,6 +96,11 @@ impl EvaluatedBoundary {
 
     pub(super) fn add_material(&mut self, material: Material) {
         self.mesh.materials.push(material);
+    }
+
+    /// Forgets all materials but the first ones, which no face names.
+    pub(super) fn keep_materials(&mut self, count: usize) {
+        self.mesh.materials.truncate(count);
     }
 
     pub(super) fn face(&self, id: FaceId) -> Option<LiveFace<'_>> {

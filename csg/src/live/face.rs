@@ -1,10 +1,11 @@
 //! The faces of a live model, however its boundary is worked out: what they are, where they come from, and which one a ray meets.
 
 use planecut_kernel::{DVec3, PlaneIdx};
+use rustc_hash::FxHashMap;
 
-use super::{BrushId, LiveModel, Operand, Role};
+use super::{BrushId, LiveModel, Operand};
 use crate::base::Bounds;
-use crate::ids::FaceId;
+use crate::ids::{FaceId, number32};
 use crate::mesh::Mesh;
 use crate::model::MaterialId;
 use crate::plane_table::PlaneId;
@@ -77,6 +78,23 @@ impl<'a> LiveFace<'a> {
     }
 }
 
+impl LiveFace<'_> {
+    /// Its corners, each once, and its triangles, counter-clockwise seen from outside, by places among them.
+    #[must_use]
+    pub fn indexed(&self) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+        let mut places: FxHashMap<u32, u32> = FxHashMap::default();
+        let mut positions = Vec::new();
+        let mut corner = |(vertex, position): (u32, DVec3)| {
+            *places.entry(vertex).or_insert_with(|| {
+                positions.push(position);
+                number32(positions.len()) - 1
+            })
+        };
+        let triangles = self.triangles().map(|corners| corners.map(&mut corner)).collect();
+        (positions, triangles)
+    }
+}
+
 impl LiveModel {
     /// The brush and its plane on which a face lies; of several the first that faces the same way. `None` where there is no such face, and where a brush of the model
     /// is a closed mesh.
@@ -90,7 +108,8 @@ impl LiveModel {
         let source = |operand: &Operand| {
             let place = operand.uses.iter().position(|used| self.planes.id(*used).index() == plane.index())?;
             // a face that is subtracted shows its back
-            let is_turned = (self.planes.id(operand.uses[place]) != plane) != (operand.state.role == Role::Subtract);
+            let is_turned = (self.planes.id(operand.uses[place]) != plane)
+                != self.tree.takes_away(operand.state.place, operand.state.role);
             let half_spaces = operand.state.brush.half_spaces();
             let outside = half_spaces.map(|half| half.signed_distance(middle)).fold(f64::NEG_INFINITY, f64::max);
             let size = (bounds.max - bounds.min).length() + middle.length();

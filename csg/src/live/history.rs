@@ -3,41 +3,103 @@
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 
-use super::operand::State;
+use super::operand::{Role, State};
+use super::step::OpenStep;
+use super::tree::{NodeId, NodeState, Place, TreeOperand};
 use super::{BrushId, Change, EditError, LiveModel};
 use crate::ids::Id;
 
 /// A brush as it is to be; nothing where it is not to be there.
 pub(super) type New = (BrushId, Option<Arc<State>>);
 
+/// Brushes and operations as they are to be, or were; nothing where one is not to be there, or was not.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct States {
+    pub(super) brushes: BTreeMap<BrushId, Option<Arc<State>>>,
+    pub(super) nodes: BTreeMap<NodeId, Option<NodeState>>,
+}
+
+impl States {
+    /// A brush as it is to be.
+    pub(super) fn of_brush(id: BrushId, state: Option<Arc<State>>) -> Self {
+        Self { brushes: BTreeMap::from([(id, state)]), ..Self::default() }
+    }
+
+    /// An operand elsewhere.
+    pub(super) fn set_place(&mut self, model: &LiveModel, operand: TreeOperand, place: Place) -> Result<(), EditError> {
+        match operand {
+            TreeOperand::Brush(id) => {
+                let state = State { place, ..State::clone(model.state(id)?) };
+                self.brushes.insert(id, Some(Arc::new(state)));
+            }
+            TreeOperand::Node(id) => {
+                self.nodes.insert(id, Some(NodeState { place, ..model.node_state(id)? }));
+            }
+        }
+        Ok(())
+    }
+
+    /// Gives one that is to be there another role.
+    pub(super) fn set_role(&mut self, operand: TreeOperand, role: Role) {
+        match operand {
+            TreeOperand::Brush(id) => {
+                if let Some(Some(state)) = self.brushes.get_mut(&id) {
+                    Arc::make_mut(state).role = role;
+                }
+            }
+            TreeOperand::Node(id) => {
+                if let Some(Some(state)) = self.nodes.get_mut(&id) {
+                    state.role = role;
+                }
+            }
+        }
+    }
+}
+
 /// Number of edits that can be undone unless another number is set.
 const LIMIT: usize = 1000;
 
 /// What edits have changed, the last one last.
+#[derive(Clone)]
 pub(super) struct History {
     done: VecDeque<Step>,
     undone: Vec<Step>,
     limit: usize,
+    /// The step that edits are part of, while one is open.
+    pub(super) open: Option<OpenStep>,
 }
 
-/// The brushes that an edit has changed, before and after it.
-struct Step {
-    before: Vec<New>,
-    after: Vec<New>,
+/// The brushes and operations that an edit has changed, before and after it.
+#[derive(Clone)]
+pub(super) struct Step {
+    pub(super) before: States,
+    pub(super) after: States,
 }
 
 impl Default for History {
     fn default() -> Self {
-        Self { done: VecDeque::new(), undone: Vec::new(), limit: LIMIT }
+        Self { done: VecDeque::new(), undone: Vec::new(), limit: LIMIT, open: None }
     }
 }
 
 impl History {
-    /// Notes an edit; what was undone cannot be redone after it.
-    pub(super) fn note(&mut self, before: Vec<New>, after: Vec<New>) {
+    /// Notes an edit, of the open step where there is one.
+    pub(super) fn note(&mut self, before: States, after: States) {
+        match &mut self.open {
+            Some(open) => open.add(before, after),
+            None => self.push(Step { before, after }),
+        }
+    }
+
+    /// Adds a step; what was undone cannot be redone after it.
+    pub(super) fn push(&mut self, step: Step) {
         self.undone.clear();
-        self.done.push_back(Step { before, after });
+        self.done.push_back(step);
         self.shorten();
+    }
+
+    fn refuse_in_step(&self) -> Result<(), EditError> {
+        if self.open.is_some() { Err(EditError::StepOpen) } else { Ok(()) }
     }
 
     fn shorten(&mut self) {
@@ -47,11 +109,12 @@ impl History {
 }
 
 impl LiveModel {
-    /// Undoes the last edit that is not yet undone. Brushes and planes have the numbers again that they had.
+    /// Undoes the last edit or [step](Self::begin_step) that is not yet undone. Brushes, planes and operations have the numbers again that they had.
     ///
     /// # Errors
-    /// [`EditError::NothingToUndo`].
+    /// [`EditError::NothingToUndo`], [`EditError::StepOpen`].
     pub fn undo(&mut self) -> Result<Change, EditError> {
+        self.history.refuse_in_step()?;
         let mut step = self.history.done.pop_back().ok_or(EditError::NothingToUndo)?;
         self.keep_handles(&step.before, &mut step.after);
         let outcome = self.go_to(&step.before);
@@ -62,11 +125,12 @@ impl LiveModel {
         outcome
     }
 
-    /// Redoes the edit that was last undone.
+    /// Redoes the edit or step that was last undone.
     ///
     /// # Errors
-    /// [`EditError::NothingToRedo`].
+    /// [`EditError::NothingToRedo`], [`EditError::StepOpen`].
     pub fn redo(&mut self) -> Result<Change, EditError> {
+        self.history.refuse_in_step()?;
         let mut step = self.history.undone.pop().ok_or(EditError::NothingToRedo)?;
         self.keep_handles(&step.after, &mut step.before);
         let outcome = self.go_to(&step.after);
@@ -77,47 +141,13 @@ impl LiveModel {
         outcome
     }
 
-    /// Makes one edit of the last `count` ones, for [`undo`](Self::undo) and [`redo`](Self::redo): what a user does as one thing may take several calls. Edits that
-    /// can no longer be undone stay so.
-    ///
-    /// ```
-    /// use planecut_csg::{Brush, LiveModel, Material, MaterialId, Role};
-    /// use planecut_kernel::DVec3;
-    ///
-    /// # fn main() -> Result<(), planecut_csg::EditError> {
-    /// let cube = |at: f64| Brush::cuboid(DVec3::splat(at), DVec3::splat(at + 1.0), MaterialId(0));
-    /// let mut model = LiveModel::new(vec![Material::named("stone")]);
-    /// model.add_brush(cube(0.0), Role::Add)?;
-    /// model.add_brush(cube(2.0), Role::Add)?;
-    /// model.join_edits(2);
-    /// model.undo()?;
-    /// assert_eq!(model.brushes().len(), 0);
-    /// # Ok(())
-    /// # }
-    /// ```
-    pub fn join_edits(&mut self, count: usize) {
-        let done = &mut self.history.done;
-        if count < 2 || done.len() < 2 {
-            return;
-        }
-        let mut brushes: BTreeMap<BrushId, [Option<Arc<State>>; 2]> = BTreeMap::new();
-        for Step { before, after } in done.drain(done.len().saturating_sub(count)..) {
-            for ((id, before), (_, after)) in before.into_iter().zip(after) {
-                brushes.entry(id).and_modify(|states| states[1].clone_from(&after)).or_insert([before, after]);
-            }
-        }
-        // one that came and went again is none
-        brushes.retain(|_, states| states.iter().any(Option::is_some));
-        let (before, after) = brushes.into_iter().map(|(id, [before, after])| ((id, before), (id, after))).unzip();
-        done.push_back(Step { before, after });
+    /// How many edits and steps can be undone, and how many redone.
+    #[must_use]
+    pub fn history_len(&self) -> (usize, usize) {
+        (self.history.done.len(), self.history.undone.len())
     }
 
-    /// Forgets what was undone: it cannot be redone.
-    pub fn forget_undone(&mut self) {
-        self.history.undone.clear();
-    }
-
-    /// Maximum number of edits that can be undone, 1,000 unless another number is set: a model that is edited for long does not
+    /// Maximum number of edits and steps that can be undone, 1,000 unless another number is set: a model that is edited for long does not
     /// grow.
     pub fn set_history_limit(&mut self, limit: usize) {
         self.history.limit = limit;
@@ -126,8 +156,9 @@ impl LiveModel {
 
     /// Brushes that are there now and not in the states to come have given handles of planes since they were in the states to
     /// come back to: those are not given again.
-    fn keep_handles(&self, to_come: &[New], to_come_back: &mut [New]) {
-        for ((id, coming), (_, state)) in to_come.iter().zip(to_come_back) {
+    fn keep_handles(&self, to_come: &States, to_come_back: &mut States) {
+        for (id, coming) in &to_come.brushes {
+            let state = to_come_back.brushes.get_mut(id).and_then(Option::as_mut);
             if let (None, Some(state), Some(number)) = (coming, state, self.by_id.get(id)) {
                 let next_plane = self.operand(*number).state.next_plane;
                 if state.next_plane < next_plane {
@@ -137,8 +168,8 @@ impl LiveModel {
         }
     }
 
-    fn go_to(&mut self, states: &[New]) -> Result<Change, EditError> {
-        let again = |(id, state): &New| {
+    pub(super) fn go_to(&mut self, states: &States) -> Result<Change, EditError> {
+        let again = |(id, state): (&BrushId, &Option<Arc<State>>)| {
             let known = self.by_id.get(id).and_then(|number| self.operands[number.index()].as_ref());
             let next_plane = known.map_or(0, |operand| operand.state.next_plane);
             // no handle of a plane is given twice
@@ -148,7 +179,7 @@ impl LiveModel {
             });
             (*id, state)
         };
-        let new = states.iter().map(again).collect();
-        Ok(self.change(new)?.0)
+        let brushes = states.brushes.iter().map(again).collect();
+        Ok(self.change(States { brushes, nodes: states.nodes.clone() })?.0)
     }
 }

@@ -72,16 +72,18 @@ impl LiveModel {
     fn shift(&self, number: OperandId, state: &State) -> Option<Shift> {
         let operand = self.operand(number);
         let (old, body) = (&operand.state, operand.body.as_ref()?);
-        let is_same =
-            (&old.planes, old.role, &old.brush.faces.len()) == (&state.planes, state.role, &state.brush.faces.len());
-        if !is_same || !operand.is_there || state.brush.is_mesh() {
+        if !operand.is_there || state.brush.is_mesh() || old.brush.faces.len() != state.brush.faces.len() {
             return None;
         }
-        let mut differing = old.brush.faces.iter().zip(&state.brush.faces).enumerate().filter(|(_, (a, b))| a != b);
-        let (place, (before, after)) = differing.next()?;
+        let place = old.brush.faces.iter().zip(&state.brush.faces).position(|(before, after)| before != after)?;
+        let [before, after] = [&**old, state].map(|state| state.brush.faces[place]);
         let (from, to) = (before.half_space, after.half_space);
-        let is_shift = from.normal() == to.normal() && before.material == after.material;
-        if !is_shift || differing.next().is_some() {
+        if from.normal() != to.normal() || before.material != after.material {
+            return None;
+        }
+        let mut moved_back = state.clone();
+        moved_back.brush.faces[place] = before;
+        if moved_back != **old {
             return None;
         }
         let plane = self.planes.id(operand.uses[place]);

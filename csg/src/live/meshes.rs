@@ -5,20 +5,21 @@
 
 use super::evaluated::EvaluatedBoundary;
 use super::history::New;
+use super::tree::Extent;
 use super::{Change, EditError, LiveModel};
 use crate::evaluate::evaluate_built;
 use crate::ids::FaceId;
 
 impl LiveModel {
-    /// Gives brushes other states; gives the ones before.
+    /// Gives brushes other states, in a tree that is already another; gives the ones before.
     ///
     /// # Errors
     /// Where the boundary of what they come to cannot be had: then all is as it was. [`EvaluateError::Weld`](crate::EvaluateError::Weld): a bug
     /// in this crate.
-    pub(super) fn change(&mut self, new: Vec<New>) -> Result<(Change, Vec<New>), EditError> {
+    pub(super) fn change_brushes(&mut self, new: Vec<New>, extent: &Extent) -> Result<(Change, Vec<New>), EditError> {
         let meshes = self.meshes_after(&new);
         if meshes == 0 && self.evaluated.is_none() {
-            return self.change_convex(new);
+            return self.change_convex(new, extent);
         }
         let mesh = match meshes {
             0 => None,
@@ -28,7 +29,7 @@ impl LiveModel {
             Some(evaluated) => evaluated.ids().to_vec(),
             None => self.welded_faces(),
         };
-        let (change, states) = self.change_convex(new)?;
+        let (change, states) = self.change_convex(new, extent)?;
         self.meshes = meshes;
         let (removed, added) = match (self.evaluated.take(), mesh) {
             (Some(old), Some(mesh)) => {

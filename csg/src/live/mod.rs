@@ -4,17 +4,21 @@
 //! edit of a brush changes the boundary only within the old and the new extent of the brush: the faces that reach into these
 //! are worked out again among the bodies near them, and of their edges those that are new or gone are handed to the weld.
 //!
-//! - [`edit`]: what users do, [`history`]: and take back.
+//! - [`brush_edits`], [`copies`]: what users do to brushes, [`edit`]: all that they do as values, [`step`]: several at once, [`history`]: and take back; [`error`]: or why they cannot.
+//! - [`preview`]: what an edit would change, [`removal`]: what a brush would gain without a plane, [`snap`]: where a plane may be meant to go. None of these changes anything.
 //! - [`change`]: how a change of brushes goes through [`planes`], [`bodies`], [`boundary`] and weld; [`polytopes`] are kept to
 //!   build bodies from, [`reach`] tells which faces are to be worked out again.
 //! - [`in_place`]: a plane that moves so little that nothing but places changes.
-//! - [`order`]: how brushes are combined, [`operand`]: what is known of each.
+//! - [`tree`]: how brushes are combined, [`order`]: all of it as a tree; [`operand`]: what is known of each brush.
 //! - [`meshes`]: where a brush is a closed mesh, the boundary is [`evaluated`] as a whole by each edit; [`face`]: what users see of either.
 
 mod bodies;
 mod boundary;
+mod brush_edits;
 mod change;
+mod copies;
 mod edit;
+mod error;
 mod evaluated;
 mod face;
 mod history;
@@ -24,7 +28,12 @@ mod operand;
 mod order;
 mod planes;
 mod polytopes;
+mod preview;
 mod reach;
+mod removal;
+mod snap;
+mod step;
+mod tree;
 
 use crate::ids::number32;
 use std::collections::{BTreeMap, BTreeSet};
@@ -33,27 +42,31 @@ use std::sync::Arc;
 
 use planecut_kernel::PlaneIdx;
 use rustc_hash::FxHashSet;
-use thiserror::Error;
 
 use crate::body::{Body, BuiltBodies, OuterBox, ShapeBuilder};
 use crate::boundary::BoundaryEdge;
 use crate::evaluate::{EvaluateError, UnboundedBrushes, check_materials, material_ranks};
-use crate::expression::Expression;
 pub use crate::ids::FaceId;
 use crate::ids::{BodyFaceId, BodyId, Id, OperandFace, OperandId};
 use crate::mesh::Mesh;
-use crate::model::{Brush, Material, MaterialId, Model, TransformError, TreeNode};
+use crate::model::{Brush, Material, MaterialId, Model};
 use crate::plane_table::PlaneTable;
 use crate::weld::{LiveWeld, weld};
 use bodies::Marks;
 pub use edit::{Edit, Edited};
+pub use error::EditError;
 use evaluated::EvaluatedBoundary;
 pub use face::{LiveFace, distance_along};
-use history::History;
+use history::{History, States};
 pub use operand::Role;
 use operand::{Operand, Places, State};
 use planes::LivePlanes;
 use polytopes::KeptPolytopes;
+pub use preview::{Preview, PreviewFace};
+pub use removal::{ConvexPiece, PlaneRemoval};
+pub use snap::{Snap, SnapOptions, SnapTarget};
+pub use tree::{LiveNode, NodeId, TreeOperand};
+use tree::{LiveTree, Read, read};
 
 /// A brush of a [`LiveModel`]: brushes are numbered from 0 as they are added, and no number is given twice.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -91,45 +104,6 @@ impl Change {
             added: added.into_iter().collect(),
         }
     }
-}
-
-/// Why an edit was refused; the model is as it was, but after [`EvaluateError::Weld`], a bug in this crate.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-#[non_exhaustive]
-pub enum EditError {
-    /// There is no such brush, or no longer.
-    #[error("found brush {}, expected one that is part of the model", .0.0)]
-    UnknownBrush(BrushId),
-    /// The brush has no such plane, or no longer.
-    #[error("found plane {} of brush {}, expected a plane that the brush has", .plane.0, .brush.0)]
-    UnknownPlane {
-        /// The brush.
-        brush: BrushId,
-        /// The plane.
-        plane: PlaneIdx,
-    },
-    /// The brush is a closed mesh, which has no planes.
-    #[error("found brush {}, which is a closed mesh, expected one of planes", .0.0)]
-    Mesh(BrushId),
-    /// The brush is an operand of a nested operation, which is not one after another.
-    #[error("found brush {} within nested operations, expected one that is added, subtracted or intersected by itself", .0.0)]
-    Nested(BrushId),
-    /// The offset of a plane is out of range.
-    #[error("found a plane at offset {0:?}, expected a finite one that is not too large for its normal")]
-    Offset(f64),
-    /// A plane leaves the accepted range as it is transformed.
-    #[error(transparent)]
-    Transform(#[from] TransformError),
-    /// There is no edit to take back.
-    #[error("found nothing to take back, expected an edit before")]
-    NothingToUndo,
-    /// There is no edit to do again.
-    #[error("found nothing to do again, expected an edit that was undone just before")]
-    NothingToRedo,
-    /// As for a model that is evaluated: the solid is unbounded, a face names an unknown material, or the boundary does not
-    /// close.
-    #[error(transparent)]
-    Evaluate(#[from] EvaluateError),
 }
 
 /// Brushes in order, each with a [`Role`], and the boundary of the solid that they make.
@@ -174,16 +148,14 @@ pub struct LiveModel {
     built: BuiltBodies,
     /// What becomes of brushes that are not bounded.
     unbounded: UnboundedBrushes,
-    /// The first brushes, where these are not one after another.
-    base: Option<Base>,
+    /// How brushes are combined.
+    tree: LiveTree,
     places: Places,
     /// How many bodies have equal faces.
     marks: Marks,
     polytopes: KeptPolytopes,
     /// How many bodies have a face on each plane; 255 stands for more as well, until none has one any more.
     bodies_on_plane: Vec<u8>,
-    /// The brushes that intersect, in order.
-    intersecting: Vec<Member>,
     welded: LiveWeld,
     /// How many brushes are closed meshes.
     meshes: usize,
@@ -191,19 +163,6 @@ pub struct LiveModel {
     evaluated: Option<EvaluatedBoundary>,
     history: History,
     buffers: Buffers,
-}
-
-/// A brush, by the order in which brushes are combined, and its place.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Member {
-    id: BrushId,
-    operand: OperandId,
-}
-
-/// The tree of the first brushes.
-struct Base {
-    nodes: Vec<TreeNode>,
-    leaves: u32,
 }
 
 #[derive(Default)]
@@ -235,12 +194,11 @@ impl LiveModel {
             next_id: 0,
             built: BuiltBodies::default(),
             unbounded: UnboundedBrushes::Keep,
-            base: None,
+            tree: LiveTree::default(),
             places: Places::default(),
             marks: Marks::default(),
             polytopes: KeptPolytopes::default(),
             bodies_on_plane: Vec::new(),
-            intersecting: Vec::new(),
             welded: LiveWeld::default(),
             meshes: 0,
             evaluated: None,
@@ -249,9 +207,8 @@ impl LiveModel {
         }
     }
 
-    /// A model to begin with. Its brushes have their numbers, and roles where the tree does no more than to combine them one
-    /// after another; brushes of other trees stay operands of what they are operands of, and one that is taken out leaves
-    /// nothing in its place. That cannot be undone as an edit.
+    /// A model to begin with. Its brushes have their numbers. What its tree combines one after another has roles, brushes as well as operations that are nested; these are numbered in the
+    /// order in which they begin when the tree is read from left to right. That cannot be undone as an edit.
     ///
     /// # Errors
     /// [`EditError::Evaluate`].
@@ -266,17 +223,18 @@ impl LiveModel {
     pub fn from_model_with(model: Model, unbounded: UnboundedBrushes) -> Result<Self, EditError> {
         let Model { materials, tree } = model;
         let mut live = Self { unbounded, ..Self::new(materials) };
-        if Expression::new(tree.nodes()).base() {
-            return Err(EvaluateError::Unbounded.into());
-        }
-        let roles = order::roles_of(&tree);
-        if roles.is_none() {
-            live.base = Some(Base { nodes: tree.nodes().to_vec(), leaves: number32(tree.brushes().len()) });
-        }
-        let roles = roles.unwrap_or_else(|| vec![Role::Add; tree.brushes().len()]);
+        let Read { brushes: places, nodes } = read(tree.nodes());
         let lines: Vec<Option<NonZeroU32>> = tree.source_lines().collect();
-        let brushes = tree.into_brushes().into_iter().zip(roles).zip(lines);
-        live.append(brushes.map(|((brush, role), line)| State { line, ..State::new(brush, role) }))?;
+        let brushes = tree.into_brushes().into_iter().zip(places).zip(lines);
+        let states = brushes.map(|((brush, (place, role)), line)| State { line, place, ..State::new(brush, role) });
+        let mut new =
+            States { nodes: nodes.into_iter().map(|(id, node)| (id, Some(node))).collect(), ..States::default() };
+        for (id, state) in (0..).map(BrushId).zip(states) {
+            live.check_materials(&state.brush)?;
+            new.brushes.insert(id, Some(Arc::new(state)));
+        }
+        live.next_id = new.brushes.len() as u64;
+        live.change(new)?;
         Ok(live)
     }
 
@@ -301,6 +259,15 @@ impl LiveModel {
         self.materials.push(material);
         self.rank = material_ranks(&self.materials);
         MaterialId(number32(self.materials.len()) - 1)
+    }
+
+    /// Forgets all materials but the first ones, which no face names.
+    fn keep_materials(&mut self, count: usize) {
+        if let Some(evaluated) = &mut self.evaluated {
+            evaluated.keep_materials(count);
+        }
+        self.materials.truncate(count);
+        self.rank = material_ranks(&self.materials);
     }
 
     /// Gives bodies that are built already: brushes to come that have one of them are not built.
@@ -390,11 +357,6 @@ impl LiveModel {
     /// The body of a brush that has one.
     fn body_at(&self, number: OperandId) -> &Body {
         self.operand(number).body.as_ref().expect("what has a place or faces has a body")
-    }
-
-    /// Whether brushes of a number are combined one after another.
-    fn is_in_sequence(&self, id: BrushId) -> bool {
-        self.base.as_ref().is_none_or(|base| id.0 >= u64::from(base.leaves))
     }
 
     fn check_materials(&self, brush: &Brush) -> Result<(), EvaluateError> {

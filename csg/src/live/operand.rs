@@ -9,6 +9,7 @@ use rstar::primitives::{GeomWithData, Rectangle};
 
 use super::BrushId;
 use super::planes::PlaneUse;
+use super::tree::{OrderKey, Place};
 use crate::base::Bounds;
 use crate::body::Body;
 use crate::boundary::BoundaryEdge;
@@ -36,15 +37,25 @@ pub(super) struct State {
     /// The number in the handle of the next plane.
     pub(super) next_plane: usize,
     pub(super) role: Role,
+    /// Where it is in the tree.
+    pub(super) place: Place,
     /// Where the input has it, until another brush takes its place.
     pub(super) line: Option<NonZeroU32>,
 }
 
 impl State {
-    /// A brush whose planes are numbered from 0.
+    /// A brush whose planes are numbered from 0, without a place of its own yet.
     pub(super) fn new(brush: Brush, role: Role) -> Self {
         let next_plane = brush.faces.len();
-        Self { brush, planes: (0..next_plane).map(PlaneIdx).collect(), next_plane, role, line: None }
+        let place = Place { parent: None, key: OrderKey::FIRST };
+        Self { brush, planes: (0..next_plane).map(PlaneIdx).collect(), next_plane, role, place, line: None }
+    }
+
+    /// Whether all that the user has said is the same; handles of planes that were given in between do not count.
+    pub(super) fn is_same(&self, other: &Self) -> bool {
+        let Self { brush, planes, next_plane: _, role, place, line } = self;
+        (brush, planes) == (&other.brush, &other.planes)
+            && (role, place, line) == (&other.role, &other.place, &other.line)
     }
 
     /// The place of a plane among the faces of the brush.
@@ -65,7 +76,7 @@ impl State {
 }
 
 /// A brush of a live model, and what is worked out from it.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Operand {
     pub(super) id: BrushId,
     /// Whether it is still part of the model: what is not is forgotten at the end of the edit.
@@ -86,7 +97,7 @@ pub(super) struct Operand {
 type Entry = GeomWithData<Rectangle<[f64; 3]>, OperandId>;
 
 /// Where the bodies are, by number.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Places {
     tree: RTree<Entry>,
     /// Boxes that are not finite, beside the tree.

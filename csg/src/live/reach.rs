@@ -1,9 +1,10 @@
 //! How far a change of brushes reaches: the faces on which the boundary may be another.
 
+use super::LiveModel;
 use super::bodies::{MANY, Placed};
 use super::history::New;
-use super::operand::{Operand, Role};
-use super::{BrushId, LiveModel};
+use super::operand::Operand;
+use super::tree::Extent;
 use crate::base::Bounds;
 use crate::body::{Body, BodyFace};
 use crate::boundary::misses;
@@ -20,39 +21,32 @@ pub(super) enum Reach {
     Everywhere,
 }
 
-impl LiveModel {
-    /// How far a change reaches that gives brushes new states.
-    pub(super) fn reach(&self, new: &[New]) -> Reach {
-        let role_now = |id: BrushId| {
-            let operand = self.by_id.get(&id).and_then(|number| self.operands[number.index()].as_ref());
-            operand.map(|operand| operand.state.role)
-        };
-        let intersects_differently = |(id, state): &New| {
-            let roles = [role_now(*id), state.as_ref().map(|state| state.role)];
-            self.is_in_sequence(*id) && roles[0] != roles[1] && roles.contains(&Some(Role::Intersect))
-        };
-        let last = self.by_id.last_key_value().map(|(id, _)| *id);
-        if new.iter().any(intersects_differently) {
-            Reach::Everywhere
-        } else if new.iter().all(|(id, _)| self.is_in_sequence(*id) && last.is_none_or(|last| *id > last)) {
-            Reach::Appended
+impl Reach {
+    /// How far a change reaches, as the tree tells.
+    pub(super) fn of(extent: &Extent) -> Self {
+        if extent.is_everywhere {
+            Self::Everywhere
+        } else if extent.is_appended {
+            Self::Appended
         } else {
-            Reach::Near
+            Self::Near
         }
     }
+}
 
-    /// The brushes, ascending, among some that change, whose roles stay and whose bodies, still the old ones, have no equal.
+impl LiveModel {
+    /// The brushes, ascending, among some that change, whose roles and places stay and whose bodies, still the old ones, have no equal.
     /// `before` are those that were edited, as they were.
-    pub(super) fn local(&self, changed: &[OperandId], before: &[New]) -> Vec<OperandId> {
+    pub(super) fn local(&self, changed: &[OperandId], before: &[New], extent: &Extent) -> Vec<OperandId> {
         let is_local = |number: &OperandId| {
             let operand = self.operand(*number);
             let edited = before.iter().find(|(id, _)| *id == operand.id);
-            let keeps_role =
-                edited.is_none_or(|(_, old)| old.as_ref().is_some_and(|old| old.role == operand.state.role));
-            keeps_role && self.has_no_equal(operand)
+            let keeps_spot =
+                edited.is_none_or(|(_, old)| old.as_ref().is_some_and(|old| old.spot() == operand.state.spot()));
+            keeps_spot && self.has_no_equal(operand)
         };
         // in nested operations it depends on what is near a face which of two bodies speaks for a plane of both
-        let few = if changed.len() < MANY && self.base.is_none() { changed } else { &[] };
+        let few = if changed.len() < MANY && !extent.is_nested { changed } else { &[] };
         few.iter().copied().filter(is_local).collect()
     }
 

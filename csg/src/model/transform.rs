@@ -121,6 +121,23 @@ impl Transform {
         Self::new(DMat3::IDENTITY - outer * 2.0, DVec3::ZERO)
     }
 
+    /// The mirror image in a plane, of which either side may be given. For planes across an axis no entry is rounded but the shift, which is once.
+    ///
+    /// # Errors
+    /// [`TransformError::NotFinite`] where products leave the range of numbers.
+    pub fn mirror_at(plane: &HalfSpace) -> Result<Self, TransformError> {
+        // a power of two takes the length away from where products leave the range
+        let size = plane.normal().abs().max_element();
+        let scale = f64::from_bits(size.to_bits() & (0x7ff << 52));
+        let (n, offset) = (plane.normal() / scale, plane.offset() / scale);
+        let square = n.length_squared();
+        let column = |of: f64| (2.0 * of * n) / square;
+        let linear = DMat3::IDENTITY - DMat3::from_cols(column(n.x), column(n.y), column(n.z));
+        let shift =
+            n.to_array().map(|of| if of * of == square { 2.0 * offset / of } else { 2.0 * offset * of / square });
+        Self::new(linear, DVec3::from_array(shift))
+    }
+
     /// This map, and then `next`.
     ///
     /// # Errors

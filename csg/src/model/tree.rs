@@ -21,6 +21,19 @@ pub enum Operation {
     Complement,
 }
 
+impl Operation {
+    /// The value for operands of some values.
+    pub(crate) fn value(self, operands: &[bool]) -> bool {
+        match self {
+            Self::Union => operands.contains(&true),
+            Self::Intersection => !operands.contains(&false),
+            Self::Difference => operands.split_first().is_some_and(|(first, others)| *first && !others.contains(&true)),
+            Self::Xor => operands.iter().filter(|value| **value).count() % 2 == 1,
+            Self::Complement => !operands.contains(&true),
+        }
+    }
+}
+
 /// One entry of a [`Tree`] in postfix order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -314,15 +327,7 @@ pub(crate) fn holds_outside(nodes: &[TreeNode]) -> bool {
             continue;
         };
         let operands = values.split_off(values.len() - *operands as usize);
-        values.push(match operation {
-            Operation::Union => operands.contains(&true),
-            Operation::Intersection => !operands.contains(&false),
-            Operation::Difference => {
-                operands.split_first().is_some_and(|(first, others)| *first && !others.contains(&true))
-            }
-            Operation::Xor => operands.iter().filter(|value| **value).count() % 2 == 1,
-            Operation::Complement => !operands.contains(&true),
-        });
+        values.push(operation.value(&operands));
     }
     values.pop().expect("a root")
 }

@@ -118,7 +118,7 @@ pub(super) fn may_be_near(units: &[[f64; 4]], size: f64) -> Vec<bool> {
 }
 
 /// Groups of planes by where they are, to be put in and taken out.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct NearCells {
     cells: FxHashMap<[i64; 4], Vec<([f64; 4], RowGroupId)>>,
     /// At least the size of the smallest body.

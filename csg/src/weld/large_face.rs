@@ -20,7 +20,7 @@ pub(super) struct FaceEdge {
 }
 
 /// A face and its triangulation.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct LargeFace {
     delaunay: Delaunay,
     /// The site of each point, and how many edges begin there.

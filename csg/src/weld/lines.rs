@@ -197,6 +197,7 @@ impl Line {
 }
 
 /// The coordinate planes through the origin.
+#[derive(Clone)]
 pub(super) struct AxisPlanes {
     at_zero: [Row; 3],
 }

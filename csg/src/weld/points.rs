@@ -16,7 +16,7 @@ use crate::ids::{HalfEdgeId, Id, NameId, PointId};
 use crate::plane_table::{PlaneId, PlaneTable, curve_number};
 
 /// The points of a weld.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Points {
     /// Three planes through each point, right-handed.
     pub(super) planes: Vec<[PlaneId; 3]>,

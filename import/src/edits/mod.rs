@@ -1,16 +1,24 @@
 //! Reader and writer of lists of edits, one JSON object a line (`docs/command-line.md`).
 
+mod record;
+mod write;
+
 use std::collections::HashMap;
 
-use planecut_csg::{Brush, BrushFace, BrushId, Edit, Material, MaterialId, Role, Transform};
+use planecut_csg::{Brush, BrushFace, BrushId, Edit, Material, MaterialId, NodeId, Transform, TreeOperand};
 use planecut_kernel::{DMat3, DVec3, HalfSpace, PlaneIdx};
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 use thiserror::Error;
 
 use crate::source::without_byte_order_mark;
+use record::{MaterialNames, Record};
+pub use write::write_edits;
 
 /// Material of brushes and planes of which nothing is said, where the model has none.
 const DEFAULT: &str = "default";
+
+/// What a line should be.
+const EXPECTED: &str = "an edit: a JSON object with \"op\" and what belongs to it";
 
 /// Why a list of edits could not be read.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -26,6 +34,16 @@ pub struct EditsError {
     pub expected: String,
 }
 
+/// What is wrong with an edit.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("found {found}, expected {expected}")]
+pub struct EditFault {
+    /// What stands there.
+    pub found: String,
+    /// What may stand there.
+    pub expected: String,
+}
+
 /// A list of edits that was read.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct EditsImport {
@@ -33,74 +51,6 @@ pub struct EditsImport {
     pub edits: Vec<(u32, Edit)>,
     /// Materials that are named for the first time: they come after those that were known.
     pub materials: Vec<Material>,
-}
-
-/// An edit as it is written.
-#[derive(Debug, Deserialize, Serialize)]
-#[serde(tag = "op", rename_all = "snake_case", deny_unknown_fields)]
-enum Record {
-    AddPlane {
-        brush: u64,
-        plane: [f64; 4],
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        material: Option<String>,
-    },
-    RemovePlane {
-        brush: u64,
-        plane: u32,
-    },
-    MovePlane {
-        brush: u64,
-        plane: u32,
-        offset: f64,
-    },
-    AddBrush {
-        planes: Vec<[f64; 4]>,
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        material: Option<MaterialNames>,
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        name: Option<String>,
-        #[serde(default)]
-        role: RoleName,
-    },
-    RemoveBrush {
-        brush: u64,
-    },
-    ReplaceBrush {
-        brush: u64,
-        planes: Vec<[f64; 4]>,
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        material: Option<MaterialNames>,
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        name: Option<String>,
-    },
-    TransformBrush {
-        brush: u64,
-        matrix: Vec<[f64; 4]>,
-    },
-    SetRole {
-        brush: u64,
-        role: RoleName,
-    },
-    Undo {},
-    Redo {},
-}
-
-/// One name for all faces, or one for each.
-#[derive(Debug, Deserialize, Serialize)]
-#[serde(untagged)]
-enum MaterialNames {
-    One(String),
-    Each(Vec<String>),
-}
-
-#[derive(Debug, Clone, Copy, Default, Deserialize, Serialize)]
-#[serde(rename_all = "snake_case")]
-enum RoleName {
-    #[default]
-    Add,
-    Subtract,
-    Intersect,
 }
 
 /// Reads edits of a model whose materials are known; `name` is what errors call the text. Empty lines say nothing.
@@ -121,44 +71,43 @@ enum RoleName {
 /// # Errors
 /// [`EditsError`] for the first line that is no edit, or has a plane or a matrix that cannot be.
 pub fn read_edits(text: &[u8], name: &str, known: &[Material]) -> Result<EditsImport, EditsError> {
-    let mut names = Names {
-        numbers: known.iter().zip(0..).map(|(material, k)| (material.name.clone(), MaterialId(k))).collect(),
-        known: known.len() as u32,
-        new: Vec::new(),
-    };
+    let mut names = Names::new(known);
     let mut edits = Vec::new();
     for (line, text) in (1..).zip(without_byte_order_mark(text).split(|byte| *byte == b'\n')) {
         if text.trim_ascii().is_empty() {
             continue;
         }
-        let fault = |Fault { found, expected }| EditsError { name: name.to_owned(), line, found, expected };
-        edits.push((line, read_edit(text, &mut names).map_err(fault)?));
+        let fault = |EditFault { found, expected }| EditsError { name: name.to_owned(), line, found, expected };
+        let edit = read_record(text).and_then(|record| edit_of(record, &mut names));
+        edits.push((line, edit.map_err(fault)?));
     }
     Ok(EditsImport { edits, materials: names.new })
 }
 
-/// Writes edits, a line each, as [`read_edits`] reads them. Those that put a closed mesh into the model have no such form, and are left out.
-#[must_use]
-pub fn write_edits<'a>(edits: impl IntoIterator<Item = &'a Edit>, materials: &[Material]) -> String {
-    let name = |material: MaterialId| materials.get(material.0 as usize).map(|material| material.name.clone());
-    let mut text = String::new();
-    for edit in edits {
-        let Some(record) = Record::of(edit, &name) else { continue };
-        text += &serde_json::to_string(&record).expect("numbers are finite, keys are texts");
-        text.push('\n');
-    }
-    text
+/// Reads one edit of the keys of a JSON object; also the materials that it names for the first time, which come after those that are known.
+///
+/// # Errors
+/// [`EditFault`] for keys that are no edit, or a plane or a matrix that cannot be.
+pub fn edit_of_keys(
+    keys: serde_json::Map<String, serde_json::Value>,
+    known: &[Material],
+) -> Result<(Edit, Vec<Material>), EditFault> {
+    let record = Record::deserialize(serde_json::Value::Object(keys));
+    let record = record.map_err(|error| EditFault::new(error.to_string(), EXPECTED))?;
+    let mut names = Names::new(known);
+    let edit = edit_of(record, &mut names)?;
+    Ok((edit, names.new))
 }
 
-/// What is wrong with a line.
-struct Fault {
-    found: String,
-    expected: String,
-}
-
-impl Fault {
+impl EditFault {
     fn new(found: impl Into<String>, expected: impl Into<String>) -> Self {
         Self { found: found.into(), expected: expected.into() }
+    }
+
+    /// Of two keys both are there, or neither.
+    fn of_two(both: bool, one: &str, other: &str) -> Self {
+        let found = if both { format!("{one} and {other}") } else { format!("neither {one} nor {other}") };
+        Self::new(found, format!("either {one} or {other}"))
     }
 }
 
@@ -170,6 +119,14 @@ struct Names {
 }
 
 impl Names {
+    fn new(known: &[Material]) -> Self {
+        Self {
+            numbers: known.iter().zip(0..).map(|(material, k)| (material.name.clone(), MaterialId(k))).collect(),
+            known: known.len() as u32,
+            new: Vec::new(),
+        }
+    }
+
     fn number(&mut self, name: &str) -> MaterialId {
         if let Some(known) = self.numbers.get(name) {
             return *known;
@@ -185,15 +142,18 @@ impl Names {
     }
 }
 
-fn read_edit(text: &[u8], names: &mut Names) -> Result<Edit, Fault> {
-    let record = serde_json::from_slice(text).map_err(|error| {
+fn read_record(text: &[u8]) -> Result<Record, EditFault> {
+    serde_json::from_slice(text).map_err(|error| {
         // the place is that within the line
         let message = error.to_string();
         let place = format!(" at line {} column {}", error.line(), error.column());
         let message = message.strip_suffix(&place).unwrap_or(&message);
         let found = format!("{message} (column {})", error.column());
-        Fault::new(found, "an edit: a JSON object with \"op\" and what belongs to it")
-    })?;
+        EditFault::new(found, EXPECTED)
+    })
+}
+
+fn edit_of(record: Record, names: &mut Names) -> Result<Edit, EditFault> {
     Ok(match record {
         Record::AddPlane { brush, plane, material } => Edit::AddPlane {
             brush: BrushId(brush),
@@ -203,9 +163,20 @@ fn read_edit(text: &[u8], names: &mut Names) -> Result<Edit, Fault> {
         Record::RemovePlane { brush, plane } => {
             Edit::RemovePlane { brush: BrushId(brush), plane: PlaneIdx(plane as usize) }
         }
-        Record::MovePlane { brush, plane, offset } => {
-            Edit::MovePlane { brush: BrushId(brush), plane: PlaneIdx(plane as usize), offset }
+        Record::MovePlane { brush, plane, offset, to } => {
+            let (brush, plane) = (BrushId(brush), PlaneIdx(plane as usize));
+            match (offset, to) {
+                (Some(offset), None) => Edit::MovePlane { brush, plane, offset },
+                (None, Some(to)) => Edit::TurnPlane { brush, plane, half_space: half_space(to)? },
+                (offset, _) => return Err(EditFault::of_two(offset.is_some(), "\"offset\"", "\"to\"")),
+            }
         }
+        Record::SetMaterial { brush, plane, material } => Edit::SetMaterial {
+            brush: BrushId(brush),
+            plane: plane.map(|plane| PlaneIdx(plane as usize)),
+            material: names.number(&material),
+        },
+        Record::RenameBrush { brush, name } => Edit::RenameBrush { brush: BrushId(brush), name },
         Record::AddBrush { planes, material, name, role } => {
             Edit::AddBrush { brush: brush(&planes, material, name, names)?, role: role.into() }
         }
@@ -216,30 +187,64 @@ fn read_edit(text: &[u8], names: &mut Names) -> Result<Edit, Fault> {
         Record::TransformBrush { brush, matrix } => {
             Edit::TransformBrush { brush: BrushId(brush), transform: transform(&matrix)? }
         }
-        Record::SetRole { brush, role } => Edit::SetRole { brush: BrushId(brush), role: role.into() },
+        Record::SetRole { brush, node, role } => {
+            let operand = match (brush, node) {
+                (Some(brush), None) => TreeOperand::Brush(BrushId(brush)),
+                (None, Some(node)) => TreeOperand::Node(NodeId(node)),
+                (brush, _) => return Err(EditFault::of_two(brush.is_some(), "\"brush\"", "\"node\"")),
+            };
+            Edit::SetRole { operand, role: role.into() }
+        }
+        Record::CopyBrushes { brushes, matrix } => {
+            Edit::CopyBrushes { brushes: ids(brushes), transform: transform(&matrix)? }
+        }
+        Record::MirrorBrushes { brushes, plane } => {
+            Edit::MirrorBrushes { brushes: ids(brushes), plane: half_space(plane)? }
+        }
+        Record::ArrayBrushes { brushes, matrix, count } => {
+            Edit::ArrayBrushes { brushes: ids(brushes), transform: transform(&matrix)?, count: count as usize }
+        }
+        Record::MoveBrushBefore { brush, before } => {
+            Edit::MoveBrushBefore { brush: BrushId(brush), before: before.map(BrushId) }
+        }
+        Record::MoveOperand { operand, to, before } => {
+            Edit::MoveOperand { operand: operand.into(), to: to.map(NodeId), before: before.map(Into::into) }
+        }
+        Record::SetOperation { node, operation } => {
+            Edit::SetOperation { node: NodeId(node), operation: operation.into() }
+        }
+        Record::Wrap { operands, operation } => {
+            Edit::Wrap { operands: operands.into_iter().map(Into::into).collect(), operation: operation.into() }
+        }
+        Record::Dissolve { node } => Edit::Dissolve { node: NodeId(node) },
+        Record::RemoveNode { node } => Edit::RemoveNode { node: NodeId(node) },
+        Record::Begin {} => Edit::BeginStep,
+        Record::Commit {} => Edit::CommitStep,
+        Record::Cancel {} => Edit::CancelStep,
         Record::Undo {} => Edit::Undo,
         Record::Redo {} => Edit::Redo,
     })
 }
 
-fn half_space([x, y, z, d]: [f64; 4]) -> Result<HalfSpace, Fault> {
+fn half_space([x, y, z, d]: [f64; 4]) -> Result<HalfSpace, EditFault> {
     HalfSpace::new(DVec3::new(x, y, z), d)
-        .map_err(|error| Fault::new(format!("plane {:?}", [x, y, z, d]), format!("a half-space: {error}")))
+        .map_err(|error| EditFault::new(format!("plane {:?}", [x, y, z, d]), format!("a half-space: {error}")))
 }
 
-fn transform(rows: &[[f64; 4]]) -> Result<Transform, Fault> {
+fn transform(rows: &[[f64; 4]]) -> Result<Transform, EditFault> {
     const EXPECTED: &str = "3 or 4 rows of 4, the fourth [0, 0, 0, 1]";
     let (rows, last) = match rows {
         [a, b, c] => ([*a, *b, *c], [0.0, 0.0, 0.0, 1.0]),
         [a, b, c, d] => ([*a, *b, *c], *d),
-        _ => return Err(Fault::new(format!("a matrix of {} rows", rows.len()), EXPECTED)),
+        _ => return Err(EditFault::new(format!("a matrix of {} rows", rows.len()), EXPECTED)),
     };
     if last != [0.0, 0.0, 0.0, 1.0] {
-        return Err(Fault::new(format!("a matrix whose last row is {last:?}"), EXPECTED));
+        return Err(EditFault::new(format!("a matrix whose last row is {last:?}"), EXPECTED));
     }
     let column = |column: usize| DVec3::new(rows[0][column], rows[1][column], rows[2][column]);
-    Transform::new(DMat3::from_cols(column(0), column(1), column(2)), column(3))
-        .map_err(|error| Fault::new(format!("matrix {rows:?}"), format!("an affine map that can be undone: {error}")))
+    Transform::new(DMat3::from_cols(column(0), column(1), column(2)), column(3)).map_err(|error| {
+        EditFault::new(format!("matrix {rows:?}"), format!("an affine map that can be undone: {error}"))
+    })
 }
 
 fn brush(
@@ -247,7 +252,7 @@ fn brush(
     material: Option<MaterialNames>,
     name: Option<String>,
     names: &mut Names,
-) -> Result<Brush, Fault> {
+) -> Result<Brush, EditFault> {
     let count = planes.len();
     let materials: Vec<MaterialId> = match material {
         None => vec![names.default(); count],
@@ -255,94 +260,22 @@ fn brush(
         Some(MaterialNames::Each(each)) if each.len() == count => each.iter().map(|name| names.number(name)).collect(),
         Some(MaterialNames::Each(each)) => {
             let found = format!("{} materials", each.len());
-            return Err(Fault::new(found, format!("one, or one for each of {count} planes")));
+            return Err(EditFault::new(found, format!("one, or one for each of {count} planes")));
         }
     };
     let face = |(plane, material): (&[f64; 4], MaterialId)| Ok(BrushFace { half_space: half_space(*plane)?, material });
-    let faces = planes.iter().zip(materials).map(face).collect::<Result<_, Fault>>()?;
+    let faces = planes.iter().zip(materials).map(face).collect::<Result<_, EditFault>>()?;
     Ok(Brush { faces, name, mesh: None })
 }
 
-/// The names of the materials of a brush, as short as may be.
-fn material_names(brush: &Brush, name: &impl Fn(MaterialId) -> Option<String>) -> Option<MaterialNames> {
-    let names: Vec<String> = brush.faces.iter().filter_map(|face| name(face.material)).collect();
-    let (first, others) = names.split_first()?;
-    if others.iter().all(|other| other == first) {
-        return Some(MaterialNames::One(first.clone()));
-    }
-    (names.len() == brush.faces.len()).then_some(MaterialNames::Each(names))
-}
-
-fn planes(brush: &Brush) -> Vec<[f64; 4]> {
-    brush.faces.iter().map(|face| plane(&face.half_space)).collect()
-}
-
-impl Record {
-    /// Nothing for an edit of a kind that has no form as a line.
-    fn of(edit: &Edit, name: &impl Fn(MaterialId) -> Option<String>) -> Option<Self> {
-        Some(match edit {
-            Edit::AddPlane { brush, half_space, material } => {
-                Self::AddPlane { brush: brush.0, plane: plane(half_space), material: material.and_then(name) }
-            }
-            Edit::RemovePlane { brush, plane } => {
-                Self::RemovePlane { brush: brush.0, plane: u32::try_from(plane.0).ok()? }
-            }
-            Edit::MovePlane { brush, plane, offset } => {
-                Self::MovePlane { brush: brush.0, plane: u32::try_from(plane.0).ok()?, offset: *offset }
-            }
-            Edit::AddBrush { brush, .. } | Edit::ReplaceBrush { by: brush, .. } if brush.is_mesh() => return None,
-            Edit::AddBrush { brush, role } => Self::AddBrush {
-                planes: planes(brush),
-                material: material_names(brush, name),
-                name: brush.name.clone(),
-                role: (*role).into(),
-            },
-            Edit::RemoveBrush { brush } => Self::RemoveBrush { brush: brush.0 },
-            Edit::ReplaceBrush { brush, by } => Self::ReplaceBrush {
-                brush: brush.0,
-                planes: planes(by),
-                material: material_names(by, name),
-                name: by.name.clone(),
-            },
-            Edit::TransformBrush { brush, transform } => {
-                let (linear, offset) = (transform.linear(), transform.offset());
-                let rows = (0..3).map(|row| linear.row(row).extend(offset[row]).to_array());
-                Self::TransformBrush { brush: brush.0, matrix: rows.collect() }
-            }
-            Edit::SetRole { brush, role } => Self::SetRole { brush: brush.0, role: (*role).into() },
-            Edit::Undo => Self::Undo {},
-            Edit::Redo => Self::Redo {},
-            _ => return None,
-        })
-    }
-}
-
-fn plane(half_space: &HalfSpace) -> [f64; 4] {
-    half_space.normal().extend(half_space.offset()).to_array()
-}
-
-impl From<RoleName> for Role {
-    fn from(name: RoleName) -> Self {
-        match name {
-            RoleName::Add => Self::Add,
-            RoleName::Subtract => Self::Subtract,
-            RoleName::Intersect => Self::Intersect,
-        }
-    }
-}
-
-impl From<Role> for RoleName {
-    fn from(role: Role) -> Self {
-        match role {
-            Role::Add => Self::Add,
-            Role::Subtract => Self::Subtract,
-            Role::Intersect => Self::Intersect,
-        }
-    }
+fn ids(brushes: Vec<u64>) -> Vec<BrushId> {
+    brushes.into_iter().map(BrushId).collect()
 }
 
 #[cfg(test)]
 mod tests {
+    use planecut_csg::Role;
+
     use super::*;
 
     const MATERIALS: [&str; 2] = ["stone", "wood"];
@@ -363,11 +296,31 @@ mod tests {
 {"op": "replace_brush", "brush": 3, "planes": [[1,2,3,4]]}
 {"op": "transform_brush", "brush": 7, "matrix": [[1,0,0,16],[0,1,0,0],[0,0,1,0],[0,0,0,1]]}
 {"op": "set_role", "brush": 7, "role": "intersect"}
+{"op": "move_plane", "brush": 12, "plane": 0, "to": [0.0, 0.6, 0.8, 64.0]}
+{"op": "set_material", "brush": 3, "plane": 2, "material": "wood"}
+{"op": "set_material", "brush": 3, "material": "stone"}
+{"op": "rename_brush", "brush": 3, "name": "wall"}
+{"op": "rename_brush", "brush": 3}
+{"op": "set_role", "node": 7, "role": "subtract"}
+{"op": "copy_brushes", "brushes": [1, 2], "matrix": [[1,0,0,16],[0,1,0,0],[0,0,1,0]]}
+{"op": "mirror_brushes", "brushes": [1], "plane": [1,0,0,16]}
+{"op": "array_brushes", "brushes": [1], "matrix": [[1,0,0,16],[0,1,0,0],[0,0,1,0]], "count": 5}
+{"op": "move_brush_before", "brush": 1, "before": 4}
+{"op": "move_brush_before", "brush": 1}
+{"op": "move_operand", "operand": {"brush": 1}, "to": 3, "before": {"node": 4}}
+{"op": "move_operand", "operand": {"node": 1}}
+{"op": "set_operation", "node": 2, "operation": "difference"}
+{"op": "wrap", "operands": [{"brush": 1}, {"node": 2}], "operation": "xor"}
+{"op": "dissolve", "node": 2}
+{"op": "remove_node", "node": 2}
+{"op": "begin"}
+{"op": "commit"}
+{"op": "cancel"}
 {"op": "undo"}
 {"op": "redo"}"#;
         let import = read_edits(text, "e", &known()).unwrap();
         let lines: Vec<u32> = import.edits.iter().map(|edit| edit.0).collect();
-        assert_eq!(lines, [1, 2, 3, 5, 6, 7, 8, 9, 10, 11, 12]);
+        assert_eq!(lines, [1, 2, 3].into_iter().chain(5..=32).collect::<Vec<u32>>());
         assert_eq!(import.materials, [Material::named("glass")]);
         let materials = [known(), import.materials.clone()].concat();
         let written = write_edits(import.edits.iter().map(|edit| &edit.1), &materials);
@@ -381,7 +334,7 @@ mod tests {
 
     #[test]
     fn errors_name_file_and_line() {
-        let cases: [(&str, &str); 9] = [
+        let cases: [(&str, &str); 12] = [
             (r#"{"op": "explode"}"#, "unknown variant `explode`"),
             (r#"{"op": "undo", "brush": 1}"#, "unknown field `brush`"),
             (r#"{"op": "remove_brush"}"#, "missing field `brush`"),
@@ -391,6 +344,9 @@ mod tests {
             (r#"{"op": "transform_brush", "brush": 0, "matrix": [[1,0,0,0]]}"#, "a matrix of 1 rows"),
             (r#"{"op": "transform_brush", "brush": 0, "matrix": [[0,0,0,0],[0,1,0,0],[0,0,1,0]]}"#, "matrix [[0.0"),
             (r#"{"op": "add_brush", "planes": [[1,0,0,1]], "material": ["a", "b"]}"#, "2 materials"),
+            (r#"{"op": "move_plane", "brush": 0, "plane": 0}"#, "neither \"offset\" nor \"to\""),
+            (r#"{"op": "move_plane", "brush": 0, "plane": 0, "offset": 1, "to": [1,0,0,1]}"#, "\"offset\" and \"to\""),
+            (r#"{"op": "set_role", "brush": 0, "node": 0, "role": "add"}"#, "\"brush\" and \"node\""),
         ];
         for (text, found) in cases {
             let text = format!("{{\"op\": \"undo\"}}\n\n{text}\n");
@@ -400,5 +356,16 @@ mod tests {
         }
         assert!(read_edits(b"\xff", "e", &[]).is_err());
         assert_eq!(read_edits(b"", "e", &[]).unwrap(), EditsImport::default());
+    }
+
+    #[test]
+    fn an_edit_is_read_of_the_keys_of_an_object() {
+        let keys = |text: &str| serde_json::from_str(text).unwrap();
+        let (edit, new) =
+            edit_of_keys(keys(r#"{"op": "set_material", "brush": 0, "material": "glass"}"#), &known()).unwrap();
+        let expected = Edit::SetMaterial { brush: BrushId(0), plane: None, material: MaterialId(2) };
+        assert_eq!((edit, new), (expected, vec![Material::named("glass")]));
+        let fault = edit_of_keys(keys(r#"{"op": "undo", "buffers": true}"#), &known()).unwrap_err();
+        assert!(fault.to_string().starts_with("found unknown field `buffers`"), "{fault}");
     }
 }

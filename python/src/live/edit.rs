@@ -28,7 +28,8 @@ impl Edit {
     fn __enter__<'py>(slf: Bound<'py, Self>, py: Python<'py>) -> PyResult<Bound<'py, Self>> {
         slf.get().live.get().with(py, |state| {
             state.refuse_while_open("edit")?;
-            state.open = Some((0, CoreChange::default()));
+            state.model.begin_step()?;
+            state.open = Some(CoreChange::default());
             Ok(())
         })?;
         Ok(slf)
@@ -43,13 +44,12 @@ impl Edit {
     ) -> PyResult<()> {
         let is_failed = !exception.is_none();
         self.live.get().with(py, |state| {
-            let Some((count, change)) = state.open.take() else { return Ok(()) };
-            state.model.join_edits(count);
-            if !is_failed {
+            let Some(change) = state.open.take() else { return Ok(()) };
+            if is_failed {
+                state.model.cancel_step()?;
+            } else {
+                state.model.commit_step()?;
                 state.change = change;
-            } else if count > 0 {
-                state.model.undo()?;
-                state.model.forget_undone();
             }
             Ok(())
         })
@@ -122,7 +122,7 @@ impl Edit {
     /// Gives a brush another role: "add", "subtract" or "intersect".
     fn set_role(&self, py: Python<'_>, brush: u64, role: &str) -> PyResult<()> {
         let role = role_of(role)?;
-        self.apply(py, CoreEdit::SetRole { brush: BrushId(brush), role }).map(|_| ())
+        self.apply(py, CoreEdit::SetRole { operand: BrushId(brush).into(), role }).map(|_| ())
     }
 }
 

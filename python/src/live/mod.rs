@@ -52,8 +52,8 @@ pub(crate) struct Live {
 struct State {
     model: LiveModel,
     change: CoreChange,
-    /// How many calls the edit that is open has made, and what they changed.
-    open: Option<(usize, CoreChange)>,
+    /// What the edit that is open has changed.
+    open: Option<CoreChange>,
 }
 
 impl Live {
@@ -79,11 +79,10 @@ impl State {
 
     /// Does a call of the edit that is open.
     fn apply(&mut self, edit: CoreEdit) -> Outcome<(Option<BrushId>, Option<PlaneIdx>)> {
-        let Some((count, change)) = &mut self.open else {
+        let Some(change) = &mut self.open else {
             return Err(Failure::of("found an edit that is over, expected calls within `with live.edit() as e`"));
         };
         let edited = self.model.apply(edit)?;
-        *count += 1;
         *change = std::mem::take(change).then(edited.change);
         Ok((edited.brush, edited.plane))
     }

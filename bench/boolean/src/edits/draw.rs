@@ -109,7 +109,7 @@ impl Draw {
                 let by = middle - turn * middle + self.point(-0.1 * size, 0.1 * size);
                 Edit::TransformBrush { brush, transform: Transform::new(turn, by).expect("a rotation") }
             }
-            Kind::SetRole => Edit::SetRole { brush, role: Role::Subtract },
+            Kind::SetRole => Edit::SetRole { operand: brush.into(), role: Role::Subtract },
         }
     }
 }

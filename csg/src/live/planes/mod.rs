@@ -28,7 +28,7 @@ pub(super) struct PlaneUse {
 }
 
 /// Planes in use.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct LivePlanes {
     pub(super) table: PlaneTable,
     groups: Vec<EqualRows>,
@@ -47,7 +47,7 @@ pub(super) struct LivePlanes {
 }
 
 /// Rows of exactly one plane, on its side with a positive first coefficient.
-#[derive(Default)]
+#[derive(Clone, Default)]
 struct EqualRows {
     /// One of them, in use or not.
     plane: Option<Row>,

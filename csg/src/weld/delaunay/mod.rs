@@ -59,7 +59,7 @@ struct Site {
 }
 
 /// A constrained Delaunay triangulation.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Delaunay {
     sites: Vec<Site>,
     free_sites: Vec<SiteId>,

@@ -67,7 +67,7 @@ const CORNERS_FOR_THREADS: usize = 400;
 const CHANGED_SHARE: usize = 3;
 
 /// The faces, by number.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct Faces {
     faces: Vec<Face>,
     free: Vec<FaceId>,
@@ -77,6 +77,7 @@ pub(super) struct Faces {
     added: Vec<FaceId>,
 }
 
+#[derive(Clone)]
 struct Face {
     /// [`Id::NONE`] for a number that is free.
     region: RegionId,
@@ -99,6 +100,7 @@ impl Default for Face {
 }
 
 /// The triangles of a face: three half-edges each, those that begin at its corners.
+#[derive(Clone)]
 enum Triangulation {
     One([HalfEdgeId; 3]),
     Two([[HalfEdgeId; 3]; 2]),

@@ -25,12 +25,12 @@ type Cell = [i64; 2];
 
 /// Half-edges by the cell of the lower corner of their box: cells of one level are of one size, and no box is larger than the cells of
 /// its level.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct BoxGrid {
     levels: Vec<Level>,
 }
 
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct Level {
     power: i32,
     cells: FxHashMap<Cell, Vec<HalfEdgeId>>,

@@ -11,13 +11,14 @@ use crate::weld::loops::first_clockwise;
 use crate::weld::nest::{Extent, LoopOf, RegionPlane};
 
 /// The loops, by number.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct Loops {
     loops: Vec<Loop>,
     free: Vec<LoopId>,
 }
 
 /// A loop around a face, or around a hole of it.
+#[derive(Clone)]
 pub(super) struct Loop {
     /// Its half-edges in their order, from the one that is first by where it begins and ends.
     pub(super) pieces: Vec<HalfEdgeId>,

@@ -36,7 +36,7 @@ use regions::Regions;
 use vertices::Vertices;
 
 /// A boundary, welded.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(crate) struct LiveWeld {
     numbers: Numbers,
     edges: Vec<Edge>,
@@ -55,7 +55,7 @@ struct Edge {
 }
 
 /// What is worked out from the edges.
-#[derive(Default)]
+#[derive(Clone, Default)]
 struct State {
     lines: Vec<OnLine>,
     dirty_lines: Vec<LineId>,
@@ -67,7 +67,7 @@ struct State {
 }
 
 /// What lies on a line.
-#[derive(Default)]
+#[derive(Clone, Default)]
 struct OnLine {
     edges: Vec<EdgeId>,
     /// The pieces that are left of them, cut and paired.
@@ -81,7 +81,7 @@ struct OnLine {
 }
 
 /// Half-edges by number, and what is known of each.
-#[derive(Default)]
+#[derive(Clone, Default)]
 struct Pieces {
     half_edges: Vec<HalfEdge>,
     /// What follows each in its loop.
@@ -100,7 +100,7 @@ struct Pieces {
 }
 
 /// Where edges cross in points: there they are cut. What the weld makes of faces that cross in lines is not worked out here.
-#[derive(Default)]
+#[derive(Clone, Default)]
 struct Crossings {
     /// For each region and point the lines that pass it.
     passing: FxHashMap<PointOfRegion, Vec<LineId>>,

@@ -6,6 +6,7 @@ use crate::ids::{EdgeId, FaceId, HalfEdgeId, Id, LineId, LoopId, PointId, Region
 use crate::plane_table::{PlaneId, PlaneTable};
 
 /// All that moves with a plane; true until an edge comes or goes.
+#[derive(Clone)]
 pub(super) struct Moving {
     /// The index of the plane.
     plane: u32,

@@ -7,7 +7,7 @@ use rustc_hash::FxHashMap;
 use crate::ids::{Id, NameId};
 
 /// The numbers of things by name. Equal things have equal marks; different ones hardly ever do.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Names<N, M, T> {
     by_name: FxHashMap<N, NameId>,
     names: Vec<Name<N, T>>,
@@ -18,7 +18,7 @@ pub(super) struct Names<N, M, T> {
     free_things: Vec<T>,
 }
 
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct Name<N, T> {
     name: N,
     thing: T,

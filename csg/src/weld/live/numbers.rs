@@ -24,7 +24,7 @@ pub(super) struct NumberedEdge {
 }
 
 /// All numbers in use. Those of entries that are free stay until they are used again.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct Numbers {
     point_names: Names<points::Triple, [u64; 3], PointId>,
     line_names: Names<u64, lines::Key, LineId>,

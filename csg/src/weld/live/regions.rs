@@ -18,13 +18,13 @@ const INDEXED: [usize; 2] = [64, 32];
 const MOVED_SHARE: usize = 4;
 
 /// The regions, by number.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct Regions {
     regions: Vec<Region>,
     changed: Vec<RegionId>,
 }
 
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct Region {
     /// Its half-edges, in no order.
     pieces: Vec<HalfEdgeId>,
@@ -40,7 +40,7 @@ pub(super) struct Region {
 }
 
 /// Where the half-edges of a region are.
-#[derive(Default)]
+#[derive(Clone, Default)]
 struct Index {
     /// Those that begin, and that end, in each point.
     at_point: FxHashMap<PointId, [Vec<HalfEdgeId>; 2]>,

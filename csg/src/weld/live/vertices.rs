@@ -5,7 +5,7 @@ use super::names::place;
 use crate::ids::{HalfEdgeId, Id, VertexId};
 
 /// The vertices in use.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct Vertices {
     /// The vertex at the start of each half-edge.
     of_piece: Vec<VertexId>,

@@ -147,7 +147,7 @@ fn brushes_of_nested_operations_are_edited_where_they_are() {
     brushes[0] = Tree::empty();
     assert_eq!(live.mesh().unwrap(), fresh(&nested(&brushes)));
     assert_eq!(evaluate(&live.to_model()).unwrap().mesh, fresh(&nested(&brushes)));
-    assert_eq!(live.set_role(BrushId(2), Role::Subtract), Err(EditError::Nested(BrushId(2))));
+    assert_eq!(live.set_role(BrushId(2), Role::Subtract), Err(EditError::Nested(BrushId(2).into())));
     let (last, _) = live.add_brush(cuboid([2.0; 3], [5.0; 3]), Role::Subtract).unwrap();
     assert_eq!((last, live.mesh().unwrap()), (BrushId(4), fresh(&(nested(&brushes) - cube(2.0, 5.0)))));
     (0..3).for_each(|_| drop(live.undo().unwrap()));

@@ -179,7 +179,7 @@ fn nested_operations_of_meshes_are_edited_where_they_are() {
     live.transform_brush(BrushId(1), &transform).unwrap();
     parts[1] = parts[1].clone().transformed(&transform).unwrap();
     assert_eq!(live.mesh(), fresh(&parts));
-    assert_eq!(live.set_role(BrushId(1), Role::Add), Err(EditError::Nested(BrushId(1))));
+    assert_eq!(live.set_role(BrushId(2), Role::Add), Err(EditError::Nested(BrushId(2).into())));
     live.remove_brush(BrushId(3)).unwrap();
     parts[3] = Brush::cuboid(DVec3::ZERO, DVec3::ZERO, MaterialId(0));
     assert_eq!(live.mesh(), fresh(&parts));

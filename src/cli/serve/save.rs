@@ -1,0 +1,47 @@
+//! A live model as a file.
+
+use std::path::Path;
+
+use planecut::csg::{LiveModel, summarize};
+use planecut::export::Part;
+use planecut::import::Warning;
+
+use crate::cli::args::EditArgs;
+use crate::cli::error::CliError;
+use crate::cli::input::{Input, InputKind};
+use crate::cli::output::{MeshTarget, Output, OutputFormat, Target, check_targets};
+use crate::cli::pieces::{bounded_tree_of, brushes};
+use crate::cli::product::{Contents, encode};
+use crate::cli::solve::solid_warnings;
+
+/// Writes the model to a file, which gets its name when it is complete; gives what there is to warn of.
+///
+/// # Errors
+/// As of `-o`: [`CliError`] of a name, of encoding and of writing; [`CliError::Usage`] for standard output.
+pub(super) fn save(
+    live: &LiveModel,
+    args: &EditArgs,
+    input: &Input,
+    kind: InputKind,
+    path: &Path,
+) -> Result<Vec<Warning>, CliError> {
+    if Target::new(path) == Target::Stdout {
+        return Err(CliError::Usage("found standard output, expected the name of a file".into()));
+    }
+    let targets = MeshTarget::resolve_all(&[path.to_owned()], None, args.output.assets.mtl)?;
+    if targets.iter().any(|target| matches!(target.format, OutputFormat::Physics(_))) {
+        let expected = "`.glb`, `.gltf`, `.obj`, `.stl`, `.3mf`, `.ply`, `.map` or `.csg`";
+        return Err(CliError::Ending { path: path.to_owned(), expected });
+    }
+    let all: Vec<Target> = targets.iter().flat_map(MeshTarget::targets).collect();
+    check_targets(input.file(), all.iter())?;
+    let mesh = live.mesh().map_err(|source| CliError::of_evaluation(&input.path, source))?;
+    let model = live.to_model();
+    let summary = summarize(&model);
+    let warnings = solid_warnings(kind, &model, &summary, &mesh);
+    let parts = [Part::new("solid", &mesh)];
+    let brushes = || brushes(&input.path, &bounded_tree_of(kind, &model, &summary.unbounded));
+    let contents = Contents { parts: &parts, materials: &model.materials, brushes: &brushes };
+    Output::commit_all(encode(&contents, &targets, &args.output.assets.options(args.output.scale))?)?;
+    Ok(warnings)
+}
