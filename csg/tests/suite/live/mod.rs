@@ -2,10 +2,12 @@
 //!
 //! - [`edits`]: sequences of edits, what they must come to, shrinking and printing them as Rust.
 //! - [`random`]: random sequences, [`large`]: such on brushes of many planes; [`cases`]: edits that once went wrong or easily could.
+//! - [`growth`]: what an edit costs as the model grows.
 //! - [`meshes`]: models some of whose brushes are closed meshes.
 
 mod cases;
 mod edits;
+mod growth;
 mod large;
 mod meshes;
 mod random;
