@@ -19,7 +19,6 @@ mod picture;
 mod polytope;
 mod shapes;
 mod solid;
-mod surface;
 
 use pyo3::prelude::*;
 

@@ -106,7 +106,7 @@ pub(crate) fn all() -> Vec<Workload> {
             Workload::new(format!("dome_carve_{count}_one_by_one"), move || workloads::dome_carve_one_by_one(count));
         all.push(made.of(DOME_ONE_BY_ONE, count).quick(count == 250));
     }
-    all.push(Workload::new("terrain_224_cuts", || workloads::terrain(32, 224)).quick(true));
+    all.push(Workload::new("terrain_224_cuts", || workloads::terrain(32, 224)));
     for triangles in [1000, 5000, 32_768, 200_000, 1_000_000] {
         let name = plain("dense_spheres", triangles, 32_768);
         let made = Workload::new(name, move || workloads::dense_spheres(triangles));

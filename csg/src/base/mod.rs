@@ -1,10 +1,11 @@
-//! What several stages build on: boxes and a tree of them, union-find, numbers for keys, sums, a clock, work in parallel.
+//! What several stages build on: boxes and a tree of them, rays, union-find, numbers for keys, sums, a clock, work in parallel.
 
 mod bounds;
 mod box_tree;
 mod clock;
 mod interning;
 mod parallel;
+mod rays;
 pub(crate) mod sum;
 pub(crate) mod union_find;
 
@@ -13,5 +14,7 @@ pub use box_tree::Boxes;
 pub(crate) use clock::Clock;
 pub(crate) use interning::{WEIGHTS, by_group, intern, sortable};
 pub(crate) use parallel::{map_chunks, map_weighed_chunks};
+pub(crate) use rays::IN_BOX;
+pub use rays::{Ray, RayCaster};
 pub use sum::CompensatedSum;
 pub use union_find::DisjointSets;

@@ -8,7 +8,8 @@
 //! - [`change`]: how a change of brushes goes through [`planes`], [`bodies`], [`boundary`] and weld; [`polytopes`] are kept to
 //!   build bodies from, [`reach`] tells which faces are to be worked out again.
 //! - [`order`]: how brushes are combined, [`operand`]: what is known of each.
-//! - [`meshes`]: where a brush is a closed mesh, the boundary is [`evaluated`] as a whole by each edit; [`face`]: what users see of either.
+//! - [`meshes`]: where a brush is a closed mesh, the boundary is [`evaluated`] as a whole by each edit; [`face`]: what users see of either,
+//!   [`pick`]: which face a ray meets.
 
 mod bodies;
 mod boundary;
@@ -20,6 +21,7 @@ mod history;
 mod meshes;
 mod operand;
 mod order;
+mod pick;
 mod planes;
 mod polytopes;
 mod reach;
@@ -46,7 +48,7 @@ use crate::weld::{LiveWeld, weld};
 use bodies::Marks;
 pub use edit::{Edit, Edited};
 use evaluated::EvaluatedBoundary;
-pub use face::{LiveFace, distance_along};
+pub use face::LiveFace;
 use history::History;
 pub use operand::Role;
 use operand::{Operand, Places, State};
@@ -202,6 +204,8 @@ struct Member {
 struct Base {
     nodes: Vec<TreeNode>,
     leaves: u32,
+    /// The same, to be asked about a few leaves.
+    expression: Expression,
 }
 
 #[derive(Default)]
@@ -264,12 +268,13 @@ impl LiveModel {
     pub fn from_model_with(model: Model, unbounded: UnboundedBrushes) -> Result<Self, EditError> {
         let Model { materials, tree } = model;
         let mut live = Self { unbounded, ..Self::new(materials) };
-        if Expression::new(tree.nodes()).base() {
+        let expression = Expression::new(tree.nodes());
+        if expression.base() {
             return Err(EvaluateError::Unbounded.into());
         }
         let roles = order::roles_of(&tree);
         if roles.is_none() {
-            live.base = Some(Base { nodes: tree.nodes().to_vec(), leaves: number32(tree.brushes().len()) });
+            live.base = Some(Base { nodes: tree.nodes().to_vec(), leaves: number32(tree.brushes().len()), expression });
         }
         let roles = roles.unwrap_or_else(|| vec![Role::Add; tree.brushes().len()]);
         let lines: Vec<Option<NonZeroU32>> = tree.source_lines().collect();

@@ -4,10 +4,12 @@
 //! - [`random`]: random sequences, [`large`]: such on brushes of many planes; [`cases`]: edits that once went wrong or easily could.
 //! - [`growth`]: what an edit costs as the model grows.
 //! - [`meshes`]: models some of whose brushes are closed meshes.
+//! - [`picks`]: which face a ray meets.
 
 mod cases;
 mod edits;
 mod growth;
 mod large;
 mod meshes;
+mod picks;
 mod random;
