@@ -3,6 +3,7 @@
 mod bounds;
 mod box_tree;
 mod clock;
+mod exact_sum;
 mod interning;
 mod parallel;
 mod rays;
@@ -12,6 +13,7 @@ pub(crate) mod union_find;
 pub use bounds::Bounds;
 pub use box_tree::Boxes;
 pub(crate) use clock::Clock;
+pub(crate) use exact_sum::ExactSum;
 pub(crate) use interning::{WEIGHTS, by_group, intern, sortable};
 pub(crate) use parallel::{map_chunks, map_weighed_chunks};
 pub(crate) use rays::IN_BOX;

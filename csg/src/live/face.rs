@@ -77,6 +77,21 @@ impl<'a> LiveFace<'a> {
     }
 }
 
+impl LiveFace<'_> {
+    /// Directed edges of which those that are left when opposite ones cancel go around it, counter-clockwise seen from outside.
+    pub(super) fn edges(&self) -> impl Iterator<Item = [DVec3; 2]> {
+        let (welded, evaluated) = match self.0 {
+            Kind::Welded(face) => (Some(face), None),
+            Kind::Evaluated { .. } => (None, Some(self.triangles())),
+        };
+        let around = |corners: [(u32, DVec3); 3]| {
+            let [a, b, c] = corners.map(|corner| corner.1);
+            [[a, b], [b, c], [c, a]]
+        };
+        welded.into_iter().flat_map(WeldedFace::edges).chain(evaluated.into_iter().flatten().flat_map(around))
+    }
+}
+
 impl LiveModel {
     /// The brush and its plane on which a face lies; of several the first that faces the same way. `None` where there is no such face, and where a brush of the model
     /// is a closed mesh.

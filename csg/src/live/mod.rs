@@ -9,7 +9,7 @@
 //!   build bodies from, [`reach`] tells which faces are to be worked out again.
 //! - [`order`]: how brushes are combined, [`operand`]: what is known of each.
 //! - [`meshes`]: where a brush is a closed mesh, the boundary is [`evaluated`] as a whole by each edit; [`face`]: what users see of either,
-//!   [`pick`]: which face a ray meets.
+//!   [`pick`]: which face a ray meets, [`measures`]: volume and area.
 
 mod bodies;
 mod boundary;
@@ -18,6 +18,7 @@ mod edit;
 mod evaluated;
 mod face;
 mod history;
+mod measures;
 mod meshes;
 mod operand;
 mod order;
@@ -50,6 +51,7 @@ pub use edit::{Edit, Edited};
 use evaluated::EvaluatedBoundary;
 pub use face::LiveFace;
 use history::History;
+use measures::KeptMeasures;
 pub use operand::Role;
 use operand::{Operand, Places, State};
 use planes::LivePlanes;
@@ -190,6 +192,7 @@ pub struct LiveModel {
     /// The boundary, where some are.
     evaluated: Option<EvaluatedBoundary>,
     history: History,
+    measured: KeptMeasures,
     buffers: Buffers,
 }
 
@@ -247,6 +250,7 @@ impl LiveModel {
             meshes: 0,
             evaluated: None,
             history: History::default(),
+            measured: KeptMeasures::default(),
             buffers: Buffers::default(),
         }
     }

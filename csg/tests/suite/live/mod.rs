@@ -4,12 +4,13 @@
 //! - [`random`]: random sequences, [`large`]: such on brushes of many planes; [`cases`]: edits that once went wrong or easily could.
 //! - [`growth`]: what an edit costs as the model grows.
 //! - [`meshes`]: models some of whose brushes are closed meshes.
-//! - [`picks`]: which face a ray meets.
+//! - [`picks`]: which face a ray meets, [`measures`]: volume and area.
 
 mod cases;
 mod edits;
 mod growth;
 mod large;
+mod measures;
 mod meshes;
 mod picks;
 mod random;
