@@ -46,7 +46,9 @@ pub use evaluate::{
     EvaluateError, Evaluation, ModelSummary, StageTimes, UnboundedBrushes, evaluate, evaluate_built, evaluate_with,
     summarize,
 };
-pub use live::{BrushId, Change, Edit, EditError, Edited, FaceId, LiveFace, LiveModel, Role};
+pub use live::{
+    BrushId, Change, Edit, EditError, Edited, FaceBuffers, FaceId, FaceRange, LiveFace, LiveModel, ModelBuffers, Role,
+};
 pub use mesh::{Mesh, MeshFace, Noise, SolidMeasures, contract_edges, contract_short_edges};
 pub use model::{
     Brush, BrushFace, CutMaterial, Cutaway, FaceSource, Material, MaterialId, MeshBody, Model, Operation, TextureAxes,

@@ -9,10 +9,11 @@
 //!   build bodies from, [`reach`] tells which faces are to be worked out again.
 //! - [`order`]: how brushes are combined, [`operand`]: what is known of each.
 //! - [`meshes`]: where a brush is a closed mesh, the boundary is [`evaluated`] as a whole by each edit; [`face`]: what users see of either,
-//!   [`pick`]: which face a ray meets, [`measures`]: volume and area.
+//!   [`pick`]: which face a ray meets, [`measures`]: volume and area, [`buffers`]: what renderers take.
 
 mod bodies;
 mod boundary;
+mod buffers;
 mod change;
 mod edit;
 mod evaluated;
@@ -47,6 +48,7 @@ use crate::model::{Brush, Material, MaterialId, Model, TransformError, TreeNode}
 use crate::plane_table::PlaneTable;
 use crate::weld::{LiveWeld, weld};
 use bodies::Marks;
+pub use buffers::{FaceBuffers, FaceRange, ModelBuffers};
 pub use edit::{Edit, Edited};
 use evaluated::EvaluatedBoundary;
 pub use face::LiveFace;

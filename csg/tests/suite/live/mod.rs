@@ -4,8 +4,9 @@
 //! - [`random`]: random sequences, [`large`]: such on brushes of many planes; [`cases`]: edits that once went wrong or easily could.
 //! - [`growth`]: what an edit costs as the model grows.
 //! - [`meshes`]: models some of whose brushes are closed meshes.
-//! - [`picks`]: which face a ray meets, [`measures`]: volume and area.
+//! - [`picks`]: which face a ray meets, [`measures`]: volume and area, [`buffers`]: faces for renderers.
 
+mod buffers;
 mod cases;
 mod edits;
 mod growth;
