@@ -19,6 +19,7 @@ use crate::ids::{FaceId, Id, KeptLeafId, LeafId};
 use crate::model::MaterialId;
 use crate::plane_table::{PlaneId, PlaneTable};
 use crate::tolerances::RAY_MARGIN;
+use crate::weld::{Projection, WeldedFace};
 
 /// What bodies tell of a ray.
 enum Told {
@@ -130,19 +131,16 @@ impl LiveModel {
         let mut materials: Vec<MaterialId> = ends.iter().filter_map(|end| Some(end.face?.1)).collect();
         materials.sort_unstable();
         materials.dedup();
-        let faces = || materials.iter().flat_map(|material| self.welded.faces_on(outward, *material));
-        let mut some = faces().take(2);
-        let found = match [some.next(), some.next()] {
-            [Some((only, _)), None] => Some(only),
-            _ => {
-                let is_met = |face: LiveFace<'_>| {
-                    face.triangles().any(|corners| ray.distance_to(corners.map(|c| c.1)).is_some())
-                };
-                let mut met = faces().filter(|(_, face)| is_met(LiveFace::welded(*face)));
-                met.next().filter(|_| met.next().is_none()).map(|(face, _)| face)
-            }
+        let mut faces: Vec<(FaceId, WeldedFace<'_>)> =
+            materials.iter().flat_map(|material| self.faces_near(ray, outward, *material)).collect();
+        // it is one of them: where it is none of the others, it is the largest
+        faces.sort_unstable_by_key(|(_, face)| face.triangle_count());
+        let Some(((largest, _), others)) = faces.split_last() else { return Told::Unclear };
+        let is_met = |(_, face): &&(FaceId, WeldedFace<'_>)| {
+            LiveFace::welded(*face).triangles().any(|corners| ray.distance_to(corners.map(|c| c.1)).is_some())
         };
-        found.map_or(Told::Unclear, |face| Told::Met(face, *at))
+        let found = others.iter().find(is_met).map_or(*largest, |(face, _)| *face);
+        Told::Met(found, *at)
     }
 
     /// The first face by the triangles of all faces on planes of bodies near the ray.
@@ -153,13 +151,31 @@ impl LiveModel {
                 self.body_at(number).faces.iter().filter(|face| ray.distance_to_box(&face.bounds, IN_BOX).is_some());
             sides.extend(near.flat_map(|face| [(face.plane, face.material), (face.plane.flipped(), face.material)]));
         }
-        let faces = sides.into_iter().flat_map(|(plane, material)| self.welded.faces_on(plane, material));
+        let faces = sides.into_iter().flat_map(|(plane, material)| self.faces_near(ray, plane, material));
         let distance = |(id, face)| {
             let distances =
                 LiveFace::welded(face).triangles().filter_map(|corners| ray.distance_to(corners.map(|c| c.1)));
             distances.min_by(f64::total_cmp).map(|distance| (id, distance))
         };
         faces.filter_map(distance).min_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)))
+    }
+
+    /// The faces on a plane of which a ray may meet the boxes around them.
+    fn faces_near(
+        &self,
+        ray: &Ray,
+        plane: PlaneId,
+        material: MaterialId,
+    ) -> impl Iterator<Item = (FaceId, WeldedFace<'_>)> {
+        let half_space = self.planes.table.half_space(plane);
+        let (normal, projection) = (half_space.normal(), Projection::new(half_space.normal()));
+        let rise = normal.dot(ray.direction());
+        let place = ray.origin() + (half_space.offset() - normal.dot(ray.origin())) / rise * ray.direction();
+        let size = place.abs().max_element().max(ray.origin().abs().max_element());
+        // the less the ray is inclined to the plane, the less is known of where it meets it
+        let margin = IN_BOX * size * normal.length() / rise.abs();
+        let is_near = move |face: &WeldedFace<'_>| !margin.is_finite() || face.may_hold(projection, place, margin);
+        self.welded.faces_on(plane, material).filter(move |(_, face)| is_near(face))
     }
 }
 

@@ -49,6 +49,11 @@ impl<'a> WeldedFace<'a> {
         self.face.triangulation.count()
     }
 
+    /// Whether it may hold a place on its plane, seen in a projection, or pass it by no more than a margin.
+    pub(crate) fn may_hold(&self, projection: Projection, place: DVec3, margin: f64) -> bool {
+        self.state.faces.loops.get(self.face.outer).extent.is_near(projection.of(place), margin)
+    }
+
     /// The edges around it, loop by loop: first around all of it, then around holes in the order of where they begin.
     pub(crate) fn edges(self) -> impl Iterator<Item = [DVec3; 2]> + use<'a> {
         let Self { numbers, state, face } = self;
