@@ -34,6 +34,7 @@ fn _planecut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_class::<cells::Cell>()?;
     module.add_class::<coarsen::Coarsened>()?;
+    module.add_class::<live::Buffers>()?;
     module.add_class::<live::Live>()?;
     module.add_class::<live::Edit>()?;
     module.add_class::<live::Change>()?;
