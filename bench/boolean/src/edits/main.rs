@@ -1,5 +1,5 @@
 //! Times edits of live models beside building the same models from scratch, in one run: on maps, of planes and brushes that are
-//! dragged, of brushes of many planes, in grids that grow, and a million times in a row.
+//! dragged, of brushes of many planes, in grids that grow, and a million times in a row; and what is asked between edits.
 
 #![forbid(unsafe_code)]
 
@@ -13,6 +13,7 @@ mod draw;
 mod endurance;
 mod grid;
 mod maps;
+mod questions;
 mod table;
 
 use std::path::Path;
@@ -72,7 +73,7 @@ fn run(options: &Options) -> Result<(), String> {
     println!("\n{}", table::of_endurance(&endurance));
     let plates: &[u32] = if options.is_quick { &[12] } else { &[12, 24, 48] };
     let mut dragged = dragging::plates(plates, options.verifies)?;
-    let mut of_maps = Vec::new();
+    let (mut of_maps, mut asked) = (Vec::new(), Vec::new());
     for name in MAPS {
         let file = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/map")).join(name);
         if !file.exists() {
@@ -84,11 +85,14 @@ fn run(options: &Options) -> Result<(), String> {
         if outcome.name == DRAGGED {
             let (name, model) = maps::read(&file)?;
             dragged.push(dragging::map(&format!("`{name}`"), &model, options.verifies)?);
+            asked.push((name, model));
         }
         of_maps.push(outcome);
     }
     let of_dragged: Vec<String> = dragged.iter().map(table::of_dragged).collect();
     println!("\n{}", of_dragged.join("\n"));
+    let questions = questions::measure(options.is_quick, &asked)?;
+    println!("\n{}", table::of_questions(&questions));
     let bodies = bodies::measure(options.is_quick)?;
     println!("\n{}", table::of_bodies(&bodies));
     let sides: &[u32] = if options.is_quick { &[4, 8] } else { &[4, 6, 8, 12, 16, 20] };
@@ -97,7 +101,7 @@ fn run(options: &Options) -> Result<(), String> {
     let seconds = begin.elapsed().as_secs_f64();
     if let Some(file) = &options.json {
         let json = serde_json::json!({
-            "maps": of_maps, "dragged": dragged, "bodies": bodies, "grids": grids, "endurance": endurance, "seconds": seconds, "verified": options.verifies,
+            "maps": of_maps, "dragged": dragged, "questions": questions, "bodies": bodies, "grids": grids, "endurance": endurance, "seconds": seconds, "verified": options.verifies,
             "processor": machine::processor(), "compiler": machine::compiler(), "commit": machine::commit(),
         });
         write(file, &format!("{json:#}\n"))?;
@@ -115,6 +119,7 @@ fn run(options: &Options) -> Result<(), String> {
             ("run", run),
             ("maps", maps.join("\n")),
             ("dragging", of_dragged.join("\n")),
+            ("questions", table::of_questions(&questions)),
             ("bodies", table::of_bodies(&bodies)),
             ("grids", table::of_grids(&grids)),
             ("endurance", table::of_endurance(&endurance)),

@@ -7,6 +7,7 @@ use super::dragging::Dragged;
 use super::endurance::Stand;
 use super::grid::GridTimes;
 use super::maps::{MapTimes, Times};
+use super::questions::QuestionTimes;
 
 pub(crate) fn of_map(map: &MapTimes) -> String {
     let mut table = format!(
@@ -76,6 +77,22 @@ pub(crate) fn of_dragged(dragged: &Dragged) -> String {
             let _ = write!(table, " | {edits} | {median_ms:.3} | {p99_ms:.2} | {max_ms:.2} | {fresh_ratio:.1}×");
         }
         table += " |\n";
+    }
+    table
+}
+
+pub(crate) fn of_questions(questions: &[QuestionTimes]) -> String {
+    let mut table = String::from(
+        "| model | triangles | a ray: median µs | 99 % µs | measures: first ms | after an edit µs | buffers of added faces µs |\n\
+         |---|---:|---:|---:|---:|---:|---:|\n",
+    );
+    for times in questions {
+        let QuestionTimes { name, triangles, first_measures_ms, measures_us, buffers_us, pick_us, pick_p99_us, .. } =
+            times;
+        let _ = writeln!(
+            table,
+            "| {name} | {triangles} | {pick_us:.1} | {pick_p99_us:.0} | {first_measures_ms:.2} | {measures_us:.1} | {buffers_us:.1} |"
+        );
     }
     table
 }
