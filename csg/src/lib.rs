@@ -47,8 +47,9 @@ pub use evaluate::{
     summarize,
 };
 pub use live::{
-    BrushId, Change, ConvexPiece, Edit, EditError, Edited, FaceId, LiveFace, LiveModel, LiveNode, NodeId, PlaneRemoval,
-    Preview, PreviewFace, Role, Snap, SnapOptions, SnapTarget, TreeOperand,
+    BrushId, Change, ConvexPiece, Edit, EditError, Edited, FaceBuffers, FaceId, FaceRange, LiveFace, LiveModel,
+    LiveNode, ModelBuffers, NodeId, PlaneRemoval, Preview, PreviewFace, Role, Snap, SnapOptions, SnapTarget,
+    TreeOperand,
 };
 pub use mesh::{Mesh, MeshFace, Noise, SolidMeasures, contract_edges, contract_short_edges};
 pub use model::{

@@ -5,12 +5,11 @@
 //!   [`compare`] orders half-spaces, [`curve_number`] places.
 //! - [`HalfEdges`] tells which triangles of an index mesh meet at its edges.
 //! - [`Body`] is what planes bound, and [`mesh_of_union`] the boundary of several bodies.
-//! - [`distance_along`] tells where a ray meets a triangle.
+//! - [`Ray`] and [`RayCaster`] tell where rays meet boxes and triangles.
 //! - [`evaluate_shape`] evaluates a tree whatever its materials.
 
-pub use crate::base::{Bounds, Boxes, CompensatedSum, DisjointSets};
+pub use crate::base::{Bounds, Boxes, CompensatedSum, DisjointSets, Ray, RayCaster};
 pub use crate::body::Body;
 pub use crate::closed_mesh::connectivity::{HalfEdges, NO_TWIN, next, previous};
 pub use crate::evaluate::{check_materials, evaluate_shape, material_ranks, mesh_of_union};
-pub use crate::live::distance_along;
 pub use crate::plane_table::{KnownPlanes, compare, curve_number, size_of, smallest_size};

@@ -71,6 +71,12 @@ pub const DELAUNAY_MARGIN: f64 = 1e-12;
 /// Decides: which brush a face is said to come from, whether a ray meets a triangle that has no area but for rounding, and which corners a plane does not snap to. Of the topology: nothing.
 pub const ON_FACE: f64 = 1e-9;
 
+/// Where a ray enters and leaves a convex body is clear where all other planes of it, and the ends of all other bodies, are farther away than this share of the coordinates, and the ray
+/// is no more parallel to a plane than that.
+///
+/// Decides: which of two ways the first face that a ray meets is found in, by bodies, or by the triangles near the ray. Of the topology: nothing.
+pub const RAY_MARGIN: f64 = 1e-12;
+
 #[cfg(test)]
 mod tests {
     use std::path::Path;

@@ -15,6 +15,7 @@ owns; arrays that come in are copied. Long calls release the interpreter's lock 
 
 from . import compat
 from ._planecut import (
+    Buffers,
     Cell,
     Change,
     Coarsened,
@@ -48,6 +49,7 @@ from ._trimesh import trimesh_engine
 from ._view import View
 
 __all__ = [
+    "Buffers",
     "Cell",
     "Change",
     "Coarsened",

@@ -212,10 +212,10 @@ pub(crate) fn view_points<'py>(owner: &Bound<'py, PyAny>, points: &[DVec3]) -> B
 }
 
 /// A new read-only array of a few rows.
-pub(crate) fn small_rows<'py, const N: usize>(
+pub(crate) fn small_rows<'py, T: Element + Copy, const N: usize>(
     py: Python<'py>,
-    rows: &[[f64; N]],
-) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    rows: &[[T; N]],
+) -> PyResult<Bound<'py, PyArray2<T>>> {
     let array = PyArray1::from_slice(py, rows.as_flattened()).reshape([rows.len(), N])?;
     array.readwrite().make_nonwriteable();
     Ok(array)

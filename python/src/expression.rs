@@ -5,10 +5,10 @@ use std::mem;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use planecut::csg::{Brush, Evaluation, Material, MaterialId, Model, Operation, Transform, Tree, evaluate};
+use planecut_csg::stages::RayCaster;
 
 use crate::errors::{Failure, Outcome};
 use crate::shapes::DEFAULT_MATERIAL;
-use crate::surface::Surface;
 
 /// Most convex bodies and meshes of a solid, each counted as often as it is used.
 const MAX_PIECES: u64 = planecut::import::model::MAX_BRUSHES as u64;
@@ -40,16 +40,18 @@ enum Kind {
 #[derive(Debug)]
 pub(crate) struct Evaluated {
     pub(crate) evaluation: Evaluation,
-    surface: Mutex<Option<Arc<Surface>>>,
+    rays: Mutex<Option<Arc<RayCaster>>>,
 }
 
 impl Evaluated {
     /// The boundary ready for rays.
-    pub(crate) fn surface(&self) -> Arc<Surface> {
-        let known = lock(&self.surface).clone();
+    pub(crate) fn rays(&self) -> Arc<RayCaster> {
+        let known = lock(&self.rays).clone();
         known.unwrap_or_else(|| {
-            let surface = Arc::new(Surface::new(&self.evaluation.mesh));
-            Arc::clone(lock(&self.surface).insert(surface))
+            let mesh = &self.evaluation.mesh;
+            let corners = |triangle: &[u32; 3]| triangle.map(|corner| mesh.positions[corner as usize]);
+            let rays = Arc::new(RayCaster::new(mesh.triangles.iter().map(corners).collect()));
+            Arc::clone(lock(&self.rays).insert(rays))
         })
     }
 }
@@ -146,7 +148,7 @@ impl Node {
             return Ok(known);
         }
         let evaluation = evaluate(&self.model()?)?;
-        let evaluated = Arc::new(Evaluated { evaluation, surface: Mutex::new(None) });
+        let evaluated = Arc::new(Evaluated { evaluation, rays: Mutex::new(None) });
         Ok(Arc::clone(lock(&self.evaluated).get_or_insert(evaluated)))
     }
 

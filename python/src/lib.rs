@@ -19,7 +19,6 @@ mod picture;
 mod polytope;
 mod shapes;
 mod solid;
-mod surface;
 
 use pyo3::prelude::*;
 
@@ -35,6 +34,7 @@ fn _planecut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_class::<cells::Cell>()?;
     module.add_class::<coarsen::Coarsened>()?;
+    module.add_class::<live::Buffers>()?;
     module.add_class::<live::Live>()?;
     module.add_class::<live::Edit>()?;
     module.add_class::<live::Change>()?;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DMat3, DVec3};
 use numpy::{PyArray1, PyArray2, PyArray3};
 use planecut::csg::{Brush, Material, Model, Operation, SolidMeasures, Transform, shaping};
-use planecut_csg::stages::check_materials;
+use planecut_csg::stages::{Ray, check_materials};
 use planecut_parallel::job::check;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -275,28 +275,25 @@ impl Solid {
         directions: &Bound<'py, PyAny>,
         threads: Option<usize>,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let (origins, mut directions) = (points(origins, "origins")?, points(directions, "directions")?);
-        if directions.len() == 1 {
-            directions = vec![directions[0]; origins.len()];
-        }
-        if directions.len() != origins.len() {
+        let (origins, directions) = (points(origins, "origins")?, points(directions, "directions")?);
+        if directions.len() != 1 && directions.len() != origins.len() {
             let (found, expected) = (directions.len(), origins.len());
             return Err(refuse(format!("directions: found {found} rows, expected 1, or {expected} as of origins")));
         }
-        for (number, direction) in directions.iter_mut().enumerate() {
-            let scaled = *direction / direction.abs().max_element();
-            *direction = scaled
-                .try_normalize()
-                .ok_or_else(|| refuse(format!("directions[{number}]: found the zero vector, expected another")))?;
-        }
+        let ray = |(number, (origin, direction)): (usize, (&DVec3, &DVec3))| {
+            let zero = || refuse(format!("directions[{number}]: found the zero vector, expected another"));
+            Ray::new(*origin, *direction).ok_or_else(zero)
+        };
+        let pairs = origins.iter().zip(directions.iter().cycle());
+        let rays = pairs.enumerate().map(ray).collect::<PyResult<Vec<Ray>>>()?;
         let node = Arc::clone(&self.node);
         let cast = move || -> Outcome<Vec<f64>> {
-            let surface = node.evaluated()?.surface();
-            let hit = |near: &mut Vec<u32>, (origin, direction): (&DVec3, &DVec3)| {
+            let caster = node.evaluated()?.rays();
+            let hit = |ray: &Ray| {
                 check();
-                surface.first_hit(*origin, *direction, near)
+                caster.first_hit(ray).map_or(f64::INFINITY, |hit| hit.1)
             };
-            Ok(origins.par_iter().zip(&directions).with_min_len(64).map_init(Vec::new, hit).collect())
+            Ok(rays.par_iter().with_min_len(64).map(hit).collect())
         };
         let hits = Job::new(py, threads, None)?.run(py, cast)?;
         Ok(PyArray1::from_vec(py, hits))

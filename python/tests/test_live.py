@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pickle
+
 import numpy as np
 import planecut as pc
 import pytest
@@ -314,3 +316,108 @@ def test_a_solid_does_not_change_with_the_live_model_of_it():
     with live.edit() as e:
         e.move_plane(0, 0, 2.0)
     assert (solid.volume, before.volume, mesh.volume, live.volume) == (1.0, 1.0, 1.0, 2.0)
+
+
+@pytest.mark.parametrize("case", range(6))
+def test_measures_follow_each_edit(case):
+    rng = generator(case)
+    live = start()
+    for step in range(12):
+        with live.edit() as e:
+            e.add_brush(some_body(rng), str(rng.choice(["add", "subtract"])))
+            if step % 3 == 2:
+                e.remove_brush(int(rng.choice(live.brushes)))
+        if step % 4 == 1:
+            live.undo()
+        soup, areas = [], {}
+        for face in map(live.face, live.faces.tolist()):
+            soup.append(face.vertices[face.triangles].reshape(-1, 3))
+            areas[face.material] = areas.get(face.material, 0.0) + mesh_area(face.vertices, face.triangles)
+        soup = np.concatenate(soup)
+        triangles = np.arange(len(soup)).reshape(-1, 3)
+        assert live.volume == pytest.approx(mesh_volume(soup, triangles), rel=1e-9)
+        assert live.area == pytest.approx(mesh_area(soup, triangles), rel=1e-9)
+        assert live.areas == pytest.approx(areas, rel=1e-9)
+        np.testing.assert_array_equal(live.bounds, [soup.min(axis=0), soup.max(axis=0)])
+        corners = soup.reshape(-1, 3, 3)
+        weights = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6
+        np.testing.assert_allclose(live.centroid, weights @ corners.sum(axis=1) / 4 / weights.sum(), rtol=1e-9, atol=1e-9)
+        anew = pc.Live(live.to_solid())
+        assert (live.volume, live.area, live.areas) == (anew.volume, anew.area, anew.areas)
+        assert (live.centroid.tobytes(), live.bounds.tobytes()) == (anew.centroid.tobytes(), anew.bounds.tobytes())
+
+
+def test_an_empty_model_has_measures():
+    live = start()
+    with live.edit() as e:
+        e.remove_brush(0)
+    assert (live.volume, live.area, live.areas) == (0, 0, {})
+    assert np.isnan(live.centroid).all() and live.centroid.shape == (3,)
+    assert np.isnan(live.bounds).all() and live.bounds.shape == (2, 3)
+
+
+def test_a_viewer_needs_the_buffers_of_added_faces_alone():
+    rng = generator(3)
+    live = start()
+    center = np.array([2.0, 1.0, 0.5])
+    first = live.buffers(live.faces, center)
+    assert first.materials == [live.face(number).material for number in first.faces.tolist()]
+    drawn = dict(zip(first.faces.tolist(), pieces(first), strict=True))
+    for _ in range(8):
+        with live.edit() as e:
+            e.add_brush(some_body(rng), str(rng.choice(["add", "subtract"])))
+        for number in live.change.removed:
+            del drawn[number]
+        added = live.buffers(live.change.added, center)
+        assert added.faces.tolist() == live.change.added
+        drawn.update(zip(live.change.added, pieces(added), strict=True))
+    assert sorted(drawn) == sorted(live.faces.tolist())
+    for number, (positions, normals, indices) in drawn.items():
+        face = live.face(number)
+        alone = face.buffers(center)
+        for found, expected in zip((positions, normals[0], indices), alone, strict=True):
+            assert found.dtype == expected.dtype and not expected.flags.writeable
+            np.testing.assert_array_equal(found, expected)
+        assert (normals == normals[0]).all() and [array.dtype for array in alone] == [np.float32, np.float32, np.uint32]
+        np.testing.assert_allclose(positions[indices], (face.vertices - center)[face.triangles], atol=1e-6)
+        np.testing.assert_allclose(normals[0], face.normal, atol=1e-6)
+
+
+def pieces(buffers: pc.Buffers) -> list[tuple]:
+    """Positions, normals and indices of each face by itself."""
+    arrays = buffers.positions, buffers.normals, buffers.indices
+    assert [(array.dtype.name, array.flags.writeable) for array in arrays] == [("float32", False), ("float32", False), ("uint32", False)]
+    assert buffers.vertex_starts[-1] == len(buffers.positions) and buffers.index_starts[-1] == len(buffers.indices)
+    result = []
+    for k in range(len(buffers.faces)):
+        own = slice(buffers.vertex_starts[k], buffers.vertex_starts[k + 1])
+        triangles = buffers.indices[buffers.index_starts[k] : buffers.index_starts[k + 1]] - buffers.vertex_starts[k]
+        result.append((buffers.positions[own], buffers.normals[own], triangles))
+    return result
+
+
+def test_buffers_are_of_faces_that_are_there():
+    live = start()
+    with pytest.raises(pc.PlanecutError, match="faces: found 4711"):
+        live.buffers([4711])
+    with pytest.raises(pc.PlanecutError, match="faces: found -1"):
+        live.buffers([-1])
+    with pytest.raises(pc.PlanecutError, match="center"):
+        live.buffers([], [1, 2])
+    nothing = live.buffers([])
+    assert nothing.positions.shape == (0, 3) and nothing.indices.shape == (0, 3) and nothing.vertex_starts.tolist() == [0]
+    buffers = live.buffers(live.faces.tolist())
+    again = pickle.loads(pickle.dumps(buffers))
+    for name in ("positions", "normals", "indices", "faces", "vertex_starts", "index_starts"):
+        np.testing.assert_array_equal(getattr(again, name), getattr(buffers, name))
+    assert again.materials == buffers.materials and repr(again) == repr(buffers)
+
+
+def test_rays_through_corners_and_along_faces_meet_what_is_there():
+    live = start()
+    assert live.pick([-1, -1, 9], [0, 0, -1]) is None
+    assert live.pick([4, 4, 9], [0, 0, -1])[1] == 5
+    assert live.pick([0.5, 0.5, 2], [0, 0, 1])[1] == 2
+    assert live.pick([0.5, 0.5, 4], [0, 0, 1])[1] == 0
+    number, distance = live.pick([1.5, 1.5, 9], [0, 0, -1e-200])
+    assert distance == 8 and live.face(number).normal.tolist() == [0, 0, 1]

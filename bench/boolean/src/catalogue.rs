@@ -12,6 +12,7 @@ const BOXES: &str = "random boxes";
 const CARVE: &str = "carve";
 const CARVE_ONE_BY_ONE: &str = "carve, one by one";
 const DOME: &str = "dome carve";
+const DOME_ONE_BY_ONE: &str = "dome carve, one by one";
 const GRID: &str = "grid, one by one";
 const MOVE: &str = "a brush moved among others";
 const MESH_SPHERES: &str = "spheres as meshes";
@@ -100,6 +101,12 @@ pub(crate) fn all() -> Vec<Workload> {
     for count in [100, 250, 500, 1000, 2000, 5000] {
         all.push(Workload::new(format!("dome_carve_{count}"), move || workloads::dome_carve(count)).of(DOME, count));
     }
+    for count in [100, 250, 1000] {
+        let made =
+            Workload::new(format!("dome_carve_{count}_one_by_one"), move || workloads::dome_carve_one_by_one(count));
+        all.push(made.of(DOME_ONE_BY_ONE, count).quick(count == 250));
+    }
+    all.push(Workload::new("terrain_224_cuts", || workloads::terrain(32, 224)));
     for triangles in [1000, 5000, 32_768, 200_000, 1_000_000] {
         let name = plain("dense_spheres", triangles, 32_768);
         let made = Workload::new(name, move || workloads::dense_spheres(triangles));

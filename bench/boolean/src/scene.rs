@@ -51,9 +51,12 @@ pub(crate) enum Plan {
     Tree(Vec<Entry>),
     /// One body after another, by number; the result of each step is materialised.
     Steps(Vec<(Action, u32)>),
-    /// the union of a number of first bodies is there already; each further body then takes the place of the first, one after
+    /// The union of a number of first bodies is there already; each further body then takes the place of the first, one after
     /// another, and each result is materialised.
     Moves(u32),
+    /// The union of a number of first bodies is there already; each further body is taken from it, one after another, and each
+    /// result is materialised.
+    Cuts(u32),
 }
 
 /// Bodies and what is done with them.
@@ -142,6 +145,11 @@ impl Scene {
             Plan::Moves(count) => {
                 let last = Self::moves(&self.bodies, *count).last();
                 Tree::union_of(last.into_iter().flatten().map(Body::brush).collect())
+            }
+            Plan::Cuts(count) => {
+                let (model, tools) = self.bodies.split_at(*count as usize);
+                let model = Tree::union_of(model.iter().map(Body::brush).collect());
+                Tree::difference(std::iter::once(model).chain(tools.iter().map(|tool| tool.brush().into())))
             }
         }
     }
@@ -248,12 +256,18 @@ fn read_corners(file: &mut impl Read) -> std::io::Result<[u32; 3]> {
 mod tests {
     use super::{Action, Body, Entry, Plan, Scene};
     use crate::workloads::{Menger, boxes, menger};
+    use planecut_csg::Tree;
 
     #[test]
     fn a_file_holds_all_of_a_scene() {
         let mut scene = menger(1, Menger::Combs).scene;
         let file = std::env::temp_dir().join(format!("planecut-bench-test-{}.scene", std::process::id()));
-        for plan in [scene.plan.clone(), Plan::Steps(vec![(Action::Add, 1), (Action::Subtract, 0)]), Plan::Moves(3)] {
+        for plan in [
+            scene.plan.clone(),
+            Plan::Steps(vec![(Action::Add, 1), (Action::Subtract, 0)]),
+            Plan::Moves(3),
+            Plan::Cuts(2),
+        ] {
             scene.plan = plan;
             scene.write(&file).unwrap();
             assert_eq!(Scene::read(&file).unwrap(), scene);
@@ -281,7 +295,10 @@ mod tests {
         assert_eq!(scene.at_once().brushes().len(), 4);
         let batch = Scene::batch(scene.bodies.clone(), Entry::Union);
         assert_eq!(batch.at_once().brushes().len(), 3);
-        let moves = Scene { bodies: scene.bodies, plan: Plan::Moves(1) };
+        let moves = Scene { bodies: scene.bodies.clone(), plan: Plan::Moves(1) };
         assert_eq!(moves.at_once().brushes(), [moves.bodies[2].brush()]);
+        let cuts = Scene { bodies: scene.bodies, plan: Plan::Cuts(2) };
+        let brush = |k: usize| Tree::from(cuts.bodies[k].brush());
+        assert_eq!(cuts.at_once(), Tree::difference([Tree::union([brush(0), brush(1)]), brush(2)]));
     }
 }

@@ -13,7 +13,7 @@ pub(crate) fn expected(known: Option<f64>, scene: &Scene, records: &[(Entrant, R
     if known.is_some() {
         return known;
     }
-    if let Plan::Steps(_) | Plan::Moves(_) = scene.plan {
+    if let Plan::Steps(_) | Plan::Moves(_) | Plan::Cuts(_) = scene.plan {
         let model = Model { materials: vec![Material::named("all")], tree: scene.at_once() };
         return evaluate(&model).ok().map(|evaluation| evaluation.solid.volume);
     }

@@ -119,27 +119,86 @@ pub(crate) fn carve_one_by_one(count: usize) -> Task {
     Task::new(Scene::one_by_one(capsules_in_block(count, tangent_capsule), Action::Subtract))
 }
 
-/// A block minus a chain of capsules along a spiral from the top of a dome to its rim, as a ball-nosed tool would cut
-/// it: each overlaps those before and after it and those of the next turns, however many there are.
+/// A block minus a chain of capsules along a spiral from the top of a dome to its rim.
 pub(crate) fn dome_carve(count: usize) -> Task {
+    let block = convex(&Brush::cuboid(DVec3::new(-2.0, -2.0, 0.0), DVec3::splat(2.0), ONE));
+    let bodies = std::iter::once(block).chain(tools_over_dome(count)).collect();
+    Task::new(Scene::batch(bodies, Entry::Difference))
+}
+
+/// A dome, half a ball of 200 tangent planes, minus the same capsules, one by one.
+pub(crate) fn dome_carve_one_by_one(count: usize) -> Task {
+    let tangents = directions(400).filter(|normal| normal.z > 0.0).map(|normal| half_space(normal, 1.0));
+    let dome = Brush::from_half_spaces(tangents.chain([half_space(-DVec3::Z, 0.0)]), ONE);
+    let bodies = std::iter::once(convex(&dome)).chain(tools_over_dome(count)).collect();
+    Task::new(Scene::one_by_one(bodies, Action::Subtract))
+}
+
+/// Capsules along a spiral from the top of the unit hemisphere to its rim, as a ball-nosed tool would go: each overlaps those
+/// before and after it and those of the next turns, however many there are.
+fn tools_over_dome(count: usize) -> impl Iterator<Item = Body> {
     // the turns are as far apart as the capsules are long, and all of them cover the unit hemisphere of area 2π
     let spacing = (2.0 * PI / count as f64).sqrt();
-    let point = |k: usize| {
+    let point = move |k: usize| {
         let z = 1.0 - k as f64 / count as f64;
         let (sin, cos) = (2.0 * PI * z.acos() / spacing).sin_cos();
         let radius = (1.0 - z * z).sqrt();
         DVec3::new(radius * cos, radius * sin, z)
     };
-    let mut bodies = vec![convex(&Brush::cuboid(DVec3::new(-2.0, -2.0, 0.0), DVec3::splat(2.0), ONE))];
-    for k in 0..count {
-        let (from, to) = (point(k), point(k + 1));
-        let along = (to - from).normalize();
-        let side = along.cross(from + to).normalize();
-        let turn = DMat3::from_cols(side, along.cross(side), along);
-        let brush = capsule((to - from).length(), 0.7 * spacing, 14, ONE).expect("sizes within the limits");
-        bodies.push(convex(&transformed(brush, &Transform::new(turn, from).expect("a rotation"))));
-    }
-    Task::new(Scene::batch(bodies, Entry::Difference))
+    let side = |from: DVec3, to: DVec3| (to - from).cross(from + to);
+    (0..count).map(move |k| tool(point(k), point(k + 1), side(point(k), point(k + 1)), 0.7 * spacing))
+}
+
+/// A capsule of 100 planes between two points, turned so that a plane of symmetry is across `side`.
+fn tool(from: DVec3, to: DVec3, side: DVec3, radius: f64) -> Body {
+    let (along, side) = ((to - from).normalize(), side.normalize());
+    let turn = DMat3::from_cols(side, along.cross(side), along);
+    let brush = capsule((to - from).length(), radius, 14, ONE).expect("sizes within the limits");
+    convex(&transformed(brush, &Transform::new(turn, from).expect("a rotation")))
+}
+
+/// A terrain, and a tool that goes over it along a winding path: each cut takes a capsule from what is left, one by one.
+///
+/// The terrain is a field of heights on a grid of `side` squares a side, two wedges each: their sides touch, and their tops meet in edges.
+pub(crate) fn terrain(side: u32, cuts: usize) -> Task {
+    let size = f64::from(side);
+    let mut bodies: Vec<Body> = (0..side * side).flat_map(|k| square(k % side, k / side)).map(|b| convex(&b)).collect();
+    let count = bodies.len() as u32;
+    let point = |k: usize| {
+        // three ways across, and back
+        let t = k as f64 / cuts as f64;
+        let (x, y) = (0.5 - 0.45 * (3.0 * PI * t).cos(), 0.1 + 0.8 * t + 0.05 * (20.0 * PI * t).sin());
+        DVec3::new(size * x, size * y, height(size * x, size * y) + 0.1)
+    };
+    let step = |k: usize| (point(k), point(k + 1));
+    let tools = (0..cuts).map(step).map(|(from, to)| tool(from, to, (to - from).cross(DVec3::Z), 0.8));
+    bodies.extend(tools);
+    Task::new(Scene { bodies, plan: Plan::Cuts(count) })
+}
+
+/// The height of a terrain, on a grid of 1/1024 so that the planes of wedges are exact.
+fn height(x: f64, y: f64) -> f64 {
+    let waves =
+        (0.31 * x + 0.17 * y).sin() + 0.6 * (0.47 * y - 0.29 * x + 1.0).sin() + 0.3 * (1.3 * x).sin() * (1.1 * y).cos();
+    ((4.0 + waves) * 1024.0).round() / 1024.0
+}
+
+/// The two wedges of a square of a terrain, from the ground to a triangle each.
+fn square(x: u32, y: u32) -> [Brush; 2] {
+    let (low, high) = ([f64::from(x), f64::from(y)], [f64::from(x) + 1.0, f64::from(y) + 1.0]);
+    let corner = |x: f64, y: f64| DVec3::new(x, y, height(x, y));
+    let [a, b, c, d] =
+        [corner(low[0], low[1]), corner(high[0], low[1]), corner(high[0], high[1]), corner(low[0], high[1])];
+    [[a, b, c], [a, c, d]].map(|[p, q, r]| {
+        let across = |p: DVec3, q: DVec3| {
+            let normal = DVec3::new(q.y - p.y, p.x - q.x, 0.0);
+            half_space(normal, normal.dot(p))
+        };
+        let top = (q - p).cross(r - p);
+        let sides = [across(p, q), across(q, r), across(r, p)];
+        let ends = [half_space(top, top.dot(p)), half_space(-DVec3::Z, 0.0)];
+        Brush::from_half_spaces(sides.into_iter().chain(ends), ONE)
+    })
 }
 
 /// A grid of touching unit cubes, united one by one and then subtracted one by one; nothing must be left.

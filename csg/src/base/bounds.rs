@@ -4,13 +4,19 @@
 use glam::DVec3;
 use planecut_kernel::HalfSpace;
 
-/// A box; empty where a minimum exceeds its maximum.
+/// A box; empty where a minimum exceeds its maximum, as at first.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bounds {
     /// The smallest coordinates.
     pub min: DVec3,
     /// The largest coordinates.
     pub max: DVec3,
+}
+
+impl Default for Bounds {
+    fn default() -> Self {
+        Self::EMPTY
+    }
 }
 
 impl Bounds {

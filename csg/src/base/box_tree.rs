@@ -102,6 +102,47 @@ impl Boxes {
         }
         found.sort_unstable();
     }
+
+    /// The box with the smallest value, and that value; of equal ones the first. `least` is a lower bound of the values of all boxes within a box, nothing
+    /// where there are none; `value` is the value of a box.
+    pub fn nearest(
+        &self,
+        least: impl Fn(&Bounds) -> Option<f64>,
+        mut value: impl FnMut(u32) -> Option<f64>,
+    ) -> Option<(u32, f64)> {
+        let mut best: Option<(u32, f64)> = None;
+        let is_worse = |least: f64, best: Option<(u32, f64)>| best.is_some_and(|(_, value)| least > value);
+        let mut look = |numbers: &[u32], best: &mut Option<(u32, f64)>| {
+            for &number in numbers {
+                if least(self.get(number)).is_none_or(|least| is_worse(least, *best)) {
+                    continue;
+                }
+                if let Some(new) = value(number)
+                    && best.is_none_or(|(other, old)| new < old || (new == old && number < other))
+                {
+                    *best = Some((number, new));
+                }
+            }
+        };
+        look(&self.infinite, &mut best);
+        let bound = |number: u32| Some((least(&self.nodes.get(number as usize)?.bounds)?, number));
+        let mut waiting: Vec<(f64, u32)> = bound(0).into_iter().collect();
+        while let Some((least, number)) = waiting.pop() {
+            if is_worse(least, best) {
+                continue;
+            }
+            let node = &self.nodes[number as usize];
+            if node.second == 0 {
+                look(&self.order[node.start as usize..node.end as usize], &mut best);
+                continue;
+            }
+            let first = waiting.len();
+            waiting.extend([number + 1, node.second].into_iter().filter_map(bound));
+            // the nearer one next
+            waiting[first..].sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
+        }
+        best
+    }
 }
 
 #[cfg(test)]

@@ -1,17 +1,22 @@
-//! What several stages build on: boxes and a tree of them, union-find, numbers for keys, sums, a clock, work in parallel.
+//! What several stages build on: boxes and a tree of them, rays, union-find, numbers for keys, sums, a clock, work in parallel.
 
 mod bounds;
 mod box_tree;
 mod clock;
+mod exact_sum;
 mod interning;
 mod parallel;
+mod rays;
 pub(crate) mod sum;
 pub(crate) mod union_find;
 
 pub use bounds::Bounds;
 pub use box_tree::Boxes;
 pub(crate) use clock::Clock;
+pub(crate) use exact_sum::ExactSum;
 pub(crate) use interning::{WEIGHTS, by_group, intern, sortable};
 pub(crate) use parallel::{map_chunks, map_weighed_chunks};
+pub(crate) use rays::IN_BOX;
+pub use rays::{Ray, RayCaster};
 pub use sum::CompensatedSum;
 pub use union_find::DisjointSets;

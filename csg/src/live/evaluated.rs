@@ -1,10 +1,12 @@
 //! A boundary that is evaluated again by each edit, its faces numbered on.
 
 use std::cmp::Ordering;
+use std::sync::OnceLock;
 
 use planecut_kernel::DVec3;
 
 use super::LiveFace;
+use crate::base::{Ray, RayCaster};
 use crate::ids::{FaceId, Id, number32};
 use crate::mesh::Mesh;
 use crate::model::Material;
@@ -21,6 +23,8 @@ pub(super) struct EvaluatedBoundary {
     by_id: Vec<Option<u32>>,
     /// The faces, sorted by what they are.
     order: Vec<u32>,
+    /// The triangles, for rays; made when first asked for.
+    rays: OnceLock<RayCaster>,
 }
 
 impl EvaluatedBoundary {
@@ -106,6 +110,16 @@ impl EvaluatedBoundary {
     pub(super) fn face(&self, id: FaceId) -> Option<LiveFace<'_>> {
         let face = (*self.by_id.get(id.index())?)?;
         Some(LiveFace::evaluated(&self.mesh, self.triangles(face), self.mesh.faces[face as usize].material))
+    }
+
+    /// The first face that a ray meets, and how far away that is.
+    pub(super) fn first_hit(&self, ray: &Ray) -> Option<(FaceId, f64)> {
+        let at = |vertex: u32| self.mesh.positions[vertex as usize];
+        let rays = self
+            .rays
+            .get_or_init(|| RayCaster::new(self.mesh.triangles.iter().map(|triangle| triangle.map(at)).collect()));
+        let (triangle, distance) = rays.first_hit(ray)?;
+        Some((self.ids[self.mesh.triangle_faces[triangle as usize] as usize], distance))
     }
 
     /// The numbers of all faces.

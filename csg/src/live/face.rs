@@ -1,4 +1,4 @@
-//! The faces of a live model, however its boundary is worked out: what they are, where they come from, and which one a ray meets.
+//! The faces of a live model, however its boundary is worked out: what they are, and where they come from.
 
 use planecut_kernel::{DVec3, PlaneIdx};
 use rustc_hash::FxHashMap;
@@ -93,6 +93,19 @@ impl LiveFace<'_> {
         let triangles = self.triangles().map(|corners| corners.map(&mut corner)).collect();
         (positions, triangles)
     }
+
+    /// Directed edges of which those that are left when opposite ones cancel go around it, counter-clockwise seen from outside.
+    pub(super) fn edges(&self) -> impl Iterator<Item = [DVec3; 2]> {
+        let (welded, evaluated) = match self.0 {
+            Kind::Welded(face) => (Some(face), None),
+            Kind::Evaluated { .. } => (None, Some(self.triangles())),
+        };
+        let around = |corners: [(u32, DVec3); 3]| {
+            let [a, b, c] = corners.map(|corner| corner.1);
+            [[a, b], [b, c], [c, a]]
+        };
+        welded.into_iter().flat_map(WeldedFace::edges).chain(evaluated.into_iter().flatten().flat_map(around))
+    }
 }
 
 impl LiveModel {
@@ -118,50 +131,9 @@ impl LiveModel {
         let near = self.places.near(&bounds).map(|number| self.operand(number));
         near.filter_map(source).min().map(|(_, _, brush, plane)| (brush, plane))
     }
-
-    /// The first face that the ray `origin + t·direction`, `t ≥ 0`, meets from either side, and the distance from the origin to where it does. `None` where it meets none, the
-    /// direction is zero, or a number is not finite.
-    #[must_use]
-    pub fn pick(&self, origin: DVec3, direction: DVec3) -> Option<(FaceId, f64)> {
-        let direction = direction.try_normalize()?;
-        let meets = |(id, face): (FaceId, LiveFace<'_>)| {
-            let distances =
-                face.triangles().filter_map(|corners| distance_along(origin, direction, corners.map(|c| c.1)));
-            distances.min_by(f64::total_cmp).map(|distance| (id, distance))
-        };
-        self.faces().filter_map(meets).min_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)))
-    }
 }
 
 /// Twice the area of a triangle along its normal.
 fn across([a, b, c]: [DVec3; 3]) -> DVec3 {
     (b - a).cross(c - a)
-}
-
-/// How far a ray goes until it meets a triangle, from either side. Rays through an edge meet one of its triangles at least: signs of the volumes between ray and edges are
-/// the same from both, as they are computed from the same numbers (Woop, Benthin, Wald 2013).
-pub fn distance_along(origin: DVec3, direction: DVec3, corners: [DVec3; 3]) -> Option<f64> {
-    let axis = direction.abs().max_position();
-    let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
-    let shear = [direction[u] / direction[axis], direction[v] / direction[axis]];
-    let [a, b, c] = corners.map(|corner| {
-        let p = corner - origin;
-        [p[u] - shear[0] * p[axis], p[v] - shear[1] * p[axis], p[axis] / direction[axis]]
-    });
-    let area = |p: [f64; 3], q: [f64; 3]| p[0] * q[1] - p[1] * q[0];
-    let weights = [area(b, c), area(c, a), area(a, b)];
-    if weights.iter().any(|w| *w < 0.0) && weights.iter().any(|w| *w > 0.0) {
-        return None;
-    }
-    let sum: f64 = weights.iter().sum();
-    let distance = (weights[0] * a[2] + weights[1] * b[2] + weights[2] * c[2]) / sum;
-    // a triangle along the ray has no area seen from there
-    if sum == 0.0 || distance < 0.0 {
-        return None;
-    }
-    // of one that has next to none, the weights are noise: the place tells
-    let place = origin + direction * distance;
-    let [low, high] = [DVec3::min, DVec3::max].map(|farther| corners.into_iter().reduce(farther).unwrap_or(place));
-    let margin = ON_FACE * (low.abs().max(high.abs()).max_element() + origin.abs().max_element());
-    (place.cmpge(low - margin).all() && place.cmple(high + margin).all()).then_some(distance)
 }

@@ -17,6 +17,12 @@ impl LiveModel {
     /// Where the boundary of what they come to cannot be had: then all is as it was. [`EvaluateError::Weld`](crate::EvaluateError::Weld): a bug
     /// in this crate.
     pub(super) fn change_brushes(&mut self, new: Vec<New>, extent: &Extent) -> Result<(Change, Vec<New>), EditError> {
+        let (change, before) = self.change_boundary(new, extent)?;
+        self.measured.note(&change.removed, &change.added);
+        Ok((change, before))
+    }
+
+    fn change_boundary(&mut self, new: Vec<New>, extent: &Extent) -> Result<(Change, Vec<New>), EditError> {
         let meshes = self.meshes_after(&new);
         if meshes == 0 && self.evaluated.is_none() {
             return self.change_convex(new, extent);

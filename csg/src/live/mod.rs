@@ -10,11 +10,13 @@
 //!   build bodies from, [`reach`] tells which faces are to be worked out again.
 //! - [`in_place`]: a plane that moves so little that nothing but places changes.
 //! - [`tree`]: how brushes are combined, [`order`]: all of it as a tree; [`operand`]: what is known of each brush.
-//! - [`meshes`]: where a brush is a closed mesh, the boundary is [`evaluated`] as a whole by each edit; [`face`]: what users see of either.
+//! - [`meshes`]: where a brush is a closed mesh, the boundary is [`evaluated`] as a whole by each edit; [`face`]: what users see of either,
+//!   [`pick`]: which face a ray meets, [`measures`]: volume and area, [`buffers`]: what renderers take.
 
 mod bodies;
 mod boundary;
 mod brush_edits;
+mod buffers;
 mod change;
 mod copies;
 mod edit;
@@ -23,9 +25,11 @@ mod evaluated;
 mod face;
 mod history;
 mod in_place;
+mod measures;
 mod meshes;
 mod operand;
 mod order;
+mod pick;
 mod planes;
 mod polytopes;
 mod preview;
@@ -53,11 +57,13 @@ use crate::model::{Brush, Material, MaterialId, Model};
 use crate::plane_table::PlaneTable;
 use crate::weld::{LiveWeld, weld};
 use bodies::Marks;
+pub use buffers::{FaceBuffers, FaceRange, ModelBuffers};
 pub use edit::{Edit, Edited};
 pub use error::EditError;
 use evaluated::EvaluatedBoundary;
-pub use face::{LiveFace, distance_along};
+pub use face::LiveFace;
 use history::{History, States};
+use measures::KeptMeasures;
 pub use operand::Role;
 use operand::{Operand, Places, State};
 use planes::LivePlanes;
@@ -162,6 +168,7 @@ pub struct LiveModel {
     /// The boundary, where some are.
     evaluated: Option<EvaluatedBoundary>,
     history: History,
+    measured: KeptMeasures,
     buffers: Buffers,
 }
 
@@ -203,6 +210,7 @@ impl LiveModel {
             meshes: 0,
             evaluated: None,
             history: History::default(),
+            measured: KeptMeasures::default(),
             buffers: Buffers::default(),
         }
     }

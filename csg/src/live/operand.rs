@@ -4,13 +4,13 @@ use std::num::NonZeroU32;
 use std::sync::Arc;
 
 use planecut_kernel::{DVec3, PlaneIdx};
-use rstar::RTree;
 use rstar::primitives::{GeomWithData, Rectangle};
+use rstar::{AABB, RTree, SelectionFunction};
 
 use super::BrushId;
 use super::planes::PlaneUse;
 use super::tree::{OrderKey, Place};
-use crate::base::Bounds;
+use crate::base::{Bounds, IN_BOX, Ray};
 use crate::body::Body;
 use crate::boundary::BoundaryEdge;
 use crate::ids::{EdgeId, OperandId};
@@ -123,14 +123,14 @@ impl Places {
 
     /// The bodies whose closed boxes have a point in common with a box; none is told where some are not finite.
     pub(super) fn touching(&self, bounds: &Bounds) -> Option<impl Iterator<Item = OperandId>> {
-        let envelope = rstar::AABB::from_corners(bounds.min.to_array(), bounds.max.to_array());
+        let envelope = AABB::from_corners(bounds.min.to_array(), bounds.max.to_array());
         let all = self.tree.locate_in_envelope_intersecting(envelope).map(|entry| entry.data);
         self.infinite.is_empty().then_some(all)
     }
 
     /// The bodies whose boxes may share an area with a box.
     pub(super) fn near(&self, bounds: &Bounds) -> impl Iterator<Item = OperandId> {
-        let envelope = rstar::AABB::from_corners(bounds.min.to_array(), bounds.max.to_array());
+        let envelope = AABB::from_corners(bounds.min.to_array(), bounds.max.to_array());
         let shares = |entry: &&Entry| {
             let box_of = entry.geom();
             let other = Bounds { min: DVec3::from(box_of.lower()), max: DVec3::from(box_of.upper()) };
@@ -139,6 +139,23 @@ impl Places {
         let finite = self.tree.locate_in_envelope_intersecting(envelope).filter(shares).map(|entry| entry.data);
         let infinite = self.infinite.iter().filter(|(other, _)| other.may_share_area(bounds));
         finite.chain(infinite.map(|(_, number)| *number))
+    }
+
+    /// The bodies whose boxes a ray may meet.
+    pub(super) fn along(&self, ray: &Ray) -> impl Iterator<Item = OperandId> {
+        let finite = self.tree.locate_with_selection_function(Along(*ray)).map(|entry| entry.data);
+        let infinite = self.infinite.iter().filter(|(bounds, _)| ray.distance_to_box(bounds, IN_BOX).is_some());
+        finite.chain(infinite.map(|(_, number)| *number))
+    }
+}
+
+/// What a ray meets.
+struct Along(Ray);
+
+impl SelectionFunction<Entry> for Along {
+    fn should_unpack_parent(&self, envelope: &AABB<[f64; 3]>) -> bool {
+        let bounds = Bounds { min: DVec3::from(envelope.lower()), max: DVec3::from(envelope.upper()) };
+        self.0.distance_to_box(&bounds, IN_BOX).is_some()
     }
 }
 

@@ -2,6 +2,7 @@
 
 use planecut_kernel::DVec3;
 
+use super::measures::KeptMeasures;
 use super::polytopes::KeptPolytopes;
 use super::{BrushId, Buffers, Edit, EditError, FaceId, LiveFace, LiveModel};
 use crate::model::{Material, MaterialId};
@@ -107,6 +108,7 @@ impl LiveModel {
             welded: self.welded.clone(),
             meshes: self.meshes,
             evaluated: self.evaluated.clone(),
+            measured: KeptMeasures::default(),
             history: self.history.clone(),
             buffers: Buffers::default(),
         }

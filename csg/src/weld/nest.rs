@@ -108,6 +108,11 @@ impl Extent {
     pub(super) fn holds(&self, other: &Self) -> bool {
         self.min.cmple(other.min).all() && self.max.cmpge(other.max).all()
     }
+
+    /// Whether a place lies within the box, or outside of it by no more than a margin.
+    pub(super) fn is_near(&self, place: DVec2, margin: f64) -> bool {
+        self.min.cmple(place + margin).all() && self.max.cmpge(place - margin).all()
+    }
 }
 
 /// The plane of a region, seen from outside.

@@ -1,5 +1,6 @@
-//! The live model: edits that cost what they touch. [`edit`] has the calls of an edit, [`face`] what users see of the boundary.
+//! The live model: edits that cost what they touch. [`edit`] has the calls of an edit, [`face`] what users see of the boundary, [`buffers`] what renderers take of it.
 
+mod buffers;
 mod edit;
 mod face;
 
@@ -7,21 +8,23 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex};
 
 use glam::DVec3;
-use numpy::PyArray1;
-use planecut::check::measure_triangles;
+use numpy::{PyArray1, PyArray2};
 use planecut::csg::{
-    BrushId, Change as CoreChange, Edit as CoreEdit, FaceId, LiveModel, Material, MaterialId, Model, Role, Tree,
+    BrushId, Change as CoreChange, Edit as CoreEdit, FaceId, LiveModel, Material, MaterialId, Model, Role,
+    SolidMeasures, Tree,
 };
 use planecut::kernel::PlaneIdx;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::arrays::{small, vector};
+use crate::arrays::{small, small_rows, vector};
 use crate::errors::{Failure, Outcome, refuse};
 use crate::expression::Node;
 use crate::job::{Job, on_threads_of_process};
 use crate::mesh::Mesh;
 use crate::solid::Solid;
+pub(crate) use buffers::Buffers;
+use buffers::center_of;
 pub(crate) use edit::Edit;
 use face::face_number;
 pub(crate) use face::{Change, Face};
@@ -66,6 +69,12 @@ impl Live {
             work(&mut state)
         };
         Ok(py.detach(|| on_threads_of_process(locked))?)
+    }
+}
+
+impl Live {
+    fn measures(&self, py: Python<'_>) -> PyResult<SolidMeasures> {
+        self.with(py, |state| Ok(state.model.measures()))
     }
 }
 
@@ -254,13 +263,67 @@ impl Live {
         Ok(Mesh::of_core(self.with(py, |state| Ok(state.model.mesh()?))?))
     }
 
-    /// The volume.
+    /// Faces as a renderer takes them, in one call: after an edit, those of `live.change.added`.
+    ///
+    /// Args:
+    ///     faces: Their numbers.
+    ///     center: What positions are relative to, shape (3,); by default the origin. Near the model, single precision loses least.
+    #[pyo3(signature = (faces, center=None))]
+    fn buffers(&self, py: Python<'_>, faces: Vec<i64>, center: Option<&Bound<'_, PyAny>>) -> PyResult<Buffers> {
+        let center = center_of(center)?;
+        self.with(py, |state| {
+            let known = |id: &i64| {
+                let number = u32::try_from(*id).ok().map(FaceId::from).filter(|id| state.model.face(*id).is_some());
+                number
+                    .ok_or_else(|| Failure::of(format!("faces: found {id}, expected numbers of faces that are there")))
+            };
+            let faces = faces.iter().map(known).collect::<Outcome<Vec<FaceId>>>()?;
+            let materials = state.model.materials();
+            Ok(Buffers::of(state.model.buffers(&faces, center), |material| materials[material].name.clone()))
+        })
+    }
+
+    /// The volume. Like all measures it is kept up with each edit: only faces that changed since the last question are looked at, and the number is, bit for bit, that of a new model.
     #[getter]
     fn volume(&self, py: Python<'_>) -> PyResult<f64> {
-        self.with(py, |state| {
-            let mesh = state.model.mesh()?;
-            Ok(measure_triangles(&mesh.positions, &mesh.triangles).map_or(0.0, |measures| measures.volume))
-        })
+        Ok(self.measures(py)?.volume)
+    }
+
+    /// The area of the boundary.
+    #[getter]
+    fn area(&self, py: Python<'_>) -> PyResult<f64> {
+        Ok(self.measures(py)?.area)
+    }
+
+    /// The center of mass of a solid of the same density everywhere, shape (3,); NaN where the solid is empty.
+    #[getter]
+    fn centroid<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let SolidMeasures { area, centroid, .. } = self.measures(py)?;
+        Ok(small(py, &if area > 0.0 { centroid } else { DVec3::NAN }.to_array()))
+    }
+
+    /// The least and the greatest coordinates, shape (2, 3); NaN where the solid is empty.
+    #[getter]
+    fn bounds<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let SolidMeasures { area, min, max, .. } = self.measures(py)?;
+        let bounds = if area > 0.0 { [min, max] } else { [DVec3::NAN; 2] };
+        small_rows(py, &bounds.map(|corner| corner.to_array()))
+    }
+
+    /// The area of the boundary by material: a dict from names to areas, of the materials that the boundary has.
+    #[getter]
+    fn areas<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let areas = self.with(py, |state| {
+            let areas = state.model.areas_of_materials();
+            let mut by_name: BTreeMap<String, f64> = BTreeMap::new();
+            for (material, area) in state.model.materials().iter().zip(areas).filter(|(_, area)| *area > 0.0) {
+                *by_name.entry(material.name.clone()).or_default() += area;
+            }
+            Ok(by_name)
+        })?;
+        let dict = PyDict::new(py);
+        areas.into_iter().try_for_each(|(name, area)| dict.set_item(name, area))?;
+        Ok(dict)
     }
 
     /// The model as it is now, as a Solid.

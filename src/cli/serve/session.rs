@@ -55,44 +55,43 @@ impl<'a> Session<'a> {
         (answer, outcome)
     }
 
-    fn query(&self, query: Query, buffers: bool) -> Content {
-        let live = &self.live;
+    fn query(&mut self, query: Query, buffers: bool) -> Content {
         match query {
             Query::Faces {} => {
-                let all = || live.faces().map(|(id, _)| id);
+                let all = || self.live.faces().map(|(id, _)| id);
                 let faces = match buffers {
-                    true => answer::faces(live, all()),
+                    true => answer::faces(&self.live, all()),
                     false => all().map(u32::from).collect(),
                 };
                 Ok(keys(json!({"faces": faces})))
             }
-            Query::Face { face } => answer::face(live, FaceId::from(face))
+            Query::Face { face } => answer::face(&self.live, FaceId::from(face))
                 .ok_or_else(|| format!("found face {face}, expected one that is part of the boundary")),
             Query::Pick { origin, direction } => Ok(keys(json!({"hit": self.pick(origin.into(), direction.into())}))),
-            Query::Measures {} => Ok(measures(live)),
+            Query::Measures {} => Ok(measures(&mut self.live)),
             Query::Brush { brush } => self.brush(BrushId(brush)).map_err(|error| error.to_string()),
             Query::Tree {} => self.tree().map_err(|error| error.to_string()),
             Query::Materials {} => {
-                Ok(keys(json!({"materials": live.materials().iter().map(material).collect::<Vec<Value>>()})))
+                Ok(keys(json!({"materials": self.live.materials().iter().map(material).collect::<Vec<Value>>()})))
             }
             Query::Snap { brush, plane, to, grid, planes, vertices } => {
                 let options = SnapOptions { grid, planes, vertices };
                 self.snap(BrushId(brush), PlaneIdx(plane as usize), to, &options)
             }
             Query::Preview { edit } => {
-                let (edit, materials) = edit_of_keys(edit, live.materials()).map_err(|fault| fault.to_string())?;
+                let (edit, materials) = edit_of_keys(edit, self.live.materials()).map_err(|fault| fault.to_string())?;
                 let names: Vec<String> =
-                    live.materials().iter().chain(&materials).map(|material| material.name.clone()).collect();
-                let preview = live.preview_with(edit, materials).map_err(|error| error.to_string())?;
+                    self.live.materials().iter().chain(&materials).map(|material| material.name.clone()).collect();
+                let preview = self.live.preview_with(edit, materials).map_err(|error| error.to_string())?;
                 Ok(answer::preview(&preview, |material| names[material as usize].clone()))
             }
             Query::PreviewRemovePlane { brush, plane } => {
-                let removal = live.preview_remove_plane(BrushId(brush), PlaneIdx(plane as usize));
+                let removal = self.live.preview_remove_plane(BrushId(brush), PlaneIdx(plane as usize));
                 Ok(answer::removal(&removal.map_err(|error| error.to_string())?))
             }
             Query::Save { output } => {
                 let warnings =
-                    save(live, self.args, self.input, self.kind, &output).map_err(|error| error.to_string())?;
+                    save(&self.live, self.args, self.input, self.kind, &output).map_err(|error| error.to_string())?;
                 let warnings: Vec<String> = warnings.into_iter().map(|warning| warning.message).collect();
                 Ok(keys(json!({"output": output.display().to_string(), "warnings": warnings})))
             }

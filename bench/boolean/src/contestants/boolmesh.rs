@@ -5,7 +5,7 @@ use std::time::Instant;
 use boolmesh::compute_boolean;
 use boolmesh::prelude::{Manifold, OpType};
 
-use super::{Binary, Contestant, Outcome, fold, outcome};
+use super::{Binary, Contestant, Outcome, begun, fold, halves, outcome};
 use crate::scene::{Body, Plan, Scene};
 
 pub(super) struct Boolmesh {
@@ -16,7 +16,8 @@ pub(super) struct Boolmesh {
 impl Boolmesh {
     pub(super) fn new(scene: Scene) -> Result<Self, String> {
         let bodies = scene.bodies.iter().map(|body| manifold(body).map(Some)).collect::<Result<_, _>>()?;
-        Ok(Self { bodies, plan: scene.plan })
+        let (plan, bodies) = begun(scene.plan, bodies, |model| halves(model, &None, Binary::Union, &combine))?;
+        Ok(Self { bodies, plan })
     }
 }
 

@@ -5,7 +5,7 @@ use std::time::Instant;
 use csgrs::mesh::Mesh;
 use csgrs::traits::CSG;
 
-use super::{Binary, Contestant, Outcome, fold, outcome};
+use super::{Binary, Contestant, Outcome, begun, fold, halves, outcome};
 use crate::scene::{Body, Plan, Scene};
 
 pub(super) struct Csgrs {
@@ -16,7 +16,8 @@ pub(super) struct Csgrs {
 impl Csgrs {
     pub(super) fn new(scene: Scene) -> Result<Self, String> {
         let bodies = scene.bodies.iter().map(mesh).collect::<Result<_, _>>()?;
-        Ok(Self { bodies, plan: scene.plan })
+        let (plan, bodies) = begun(scene.plan, bodies, |model| halves(model, &Mesh::new(), Binary::Union, &combine))?;
+        Ok(Self { bodies, plan })
     }
 }
 

@@ -6,7 +6,7 @@ use manifold_rust::csg_tree::{CsgLeafNode, CsgNode};
 use manifold_rust::manifold::Manifold;
 use manifold_rust::types::{Error, MeshGL64, OpType};
 
-use super::{Contestant, Outcome};
+use super::{Contestant, Outcome, begun};
 use crate::scene::{Action, Body, Entry, Plan, Scene};
 
 pub(super) struct ManifoldRust {
@@ -19,8 +19,11 @@ pub(super) struct ManifoldRust {
 impl ManifoldRust {
     pub(super) fn new(scene: Scene) -> Result<Self, String> {
         let bodies: Vec<Manifold> = scene.bodies.iter().map(manifold).collect::<Result<_, _>>()?;
-        let leaves = bodies.iter().map(|body| CsgLeafNode::new(body.as_impl().clone())).collect();
-        Ok(Self { bodies, leaves, plan: scene.plan })
+        let leaf = |body: &Manifold| CsgLeafNode::new(body.as_impl().clone());
+        let unite = |model: &[Manifold]| Ok(union_of(model.iter().map(leaf)));
+        let (plan, bodies) = begun(scene.plan, bodies, unite)?;
+        let leaves = bodies.iter().map(leaf).collect();
+        Ok(Self { bodies, leaves, plan })
     }
 
     fn result(&self) -> Manifold {
@@ -34,12 +37,10 @@ impl ManifoldRust {
                 }
             }),
             Plan::Moves(count) => {
-                let unions = Scene::moves(&self.leaves, *count).map(|leaves| {
-                    let leaves = leaves.cloned().map(CsgNode::leaf_node).collect();
-                    Manifold::from_impl(CsgNode::op_n(OpType::Add, leaves).evaluate())
-                });
+                let unions = Scene::moves(&self.leaves, *count).map(|leaves| union_of(leaves.cloned()));
                 unions.last().unwrap_or_else(Manifold::empty)
             }
+            Plan::Cuts(_) => unreachable!("its union was made before"),
         }
     }
 
@@ -62,6 +63,10 @@ impl ManifoldRust {
         let Some(root) = stack.pop() else { return Manifold::empty() };
         Manifold::from_impl(root.evaluate())
     }
+}
+
+fn union_of(leaves: impl Iterator<Item = CsgLeafNode>) -> Manifold {
+    Manifold::from_impl(CsgNode::op_n(OpType::Add, leaves.map(CsgNode::leaf_node).collect()).evaluate())
 }
 
 fn manifold(body: &Body) -> Result<Manifold, String> {

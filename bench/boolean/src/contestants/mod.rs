@@ -52,6 +52,19 @@ pub(crate) fn prepare(name: &str, scene: Scene, file: &Path) -> Result<Box<dyn C
     }
 }
 
+/// A plan and bodies with all that is there before the clock starts: where the first bodies are united, their union takes their place.
+fn begun<T: Clone>(
+    plan: Plan,
+    bodies: Vec<T>,
+    unite: impl FnOnce(&[T]) -> Result<T, String>,
+) -> Result<(Plan, Vec<T>), String> {
+    let Plan::Cuts(count) = plan else { return Ok((plan, bodies)) };
+    let (model, tools) = bodies.split_at(count as usize);
+    let bodies: Vec<T> = std::iter::once(unite(model)?).chain(tools.iter().cloned()).collect();
+    let cuts = (1..bodies.len() as u32).map(|tool| (Action::Subtract, tool));
+    Ok((Plan::Steps(std::iter::once((Action::Add, 0)).chain(cuts).collect()), bodies))
+}
+
 /// Folds a plan for kernels that combine two solids at a time.
 ///
 /// A union of many is made of halves, so that both operands of each step are about equally large. A difference takes
@@ -77,6 +90,7 @@ fn fold<T: Clone>(
             });
             unions.last().unwrap_or_else(|| Ok(empty.clone()))
         }
+        Plan::Cuts(_) => unreachable!("its union was made before"),
         Plan::Tree(entries) => {
             let mut stack: Vec<T> = Vec::new();
             let mut leaves = bodies.iter();

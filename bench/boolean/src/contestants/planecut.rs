@@ -20,6 +20,8 @@ enum Task {
     Steps(Vec<(Brush, Role)>),
     /// A model, the brush that is moved, and its forms.
     Moves(Box<LiveModel>, BrushId, Vec<Brush>),
+    /// The brushes of a model that is live before the clock starts, and those that are taken from it.
+    Cuts(Vec<Brush>, Vec<Brush>),
 }
 
 fn materials() -> Vec<Material> {
@@ -34,6 +36,7 @@ impl Planecut {
             Task::AtOnce(model) => BuiltBodies::of(model.tree.brushes()),
             Task::Steps(steps) => BuiltBodies::of(steps.iter().map(|(brush, _)| brush)),
             Task::Moves(_, _, forms) => BuiltBodies::of(forms),
+            Task::Cuts(_, tools) => BuiltBodies::of(tools),
         };
         if let Task::Moves(live, _, _) = &mut planecut.task {
             live.set_built_bodies(planecut.built.clone());
@@ -67,6 +70,11 @@ impl Task {
                 let (ids, _) = live.add_brushes(brushes).map_err(|error| error.to_string())?;
                 let first = *ids.first().ok_or("no brush to move")?;
                 Ok(Self::Moves(Box::new(live), first, forms.iter().map(Body::brush).collect()))
+            }
+            Plan::Cuts(count) => {
+                let (model, tools) = scene.bodies.split_at(*count as usize);
+                let [model, tools] = [model, tools].map(|bodies| bodies.iter().map(Body::brush).collect());
+                Ok(Self::Cuts(model, tools))
             }
         }
     }
@@ -108,6 +116,18 @@ impl Contestant for Planecut {
                 let outcome = outcome(live, begin.elapsed().as_secs_f64());
                 live.replace_brush(*moved, before).map_err(|error| error.to_string())?;
                 Ok(outcome)
+            }
+            Task::Cuts(model, tools) => {
+                let mut live = LiveModel::new(materials());
+                let brushes = model.iter().map(|brush| (brush.clone(), Role::Add)).collect();
+                live.add_brushes(brushes).map_err(|error| error.to_string())?;
+                live.set_built_bodies(self.built.clone());
+                let tools = tools.clone();
+                let begin = Instant::now();
+                for tool in tools {
+                    live.add_brush(tool, Role::Subtract).map_err(|error| error.to_string())?;
+                }
+                Ok(outcome(&live, begin.elapsed().as_secs_f64()))
             }
         }
     }

@@ -2,68 +2,80 @@
 
 use std::time::{Duration, Instant};
 
-use planecut_csg::{Brush, BrushId, LiveModel, Material, MaterialId, Role, Transform};
-use planecut_kernel::{DVec3, HalfSpace};
+use planecut_csg::{BrushId, EditError, LiveModel, Transform, evaluate};
+use planecut_kernel::DVec3;
+use planecut_kernel::sign::Counts;
+use planecut_testkit::edited::capsule_grid;
 use serde::Serialize;
 
 use super::maps::{milliseconds, quantile};
 
 const EDITS: u32 = 400;
 
-/// a grid with a number of capsules a side.
+/// A grid with a number of capsules a side.
 #[derive(Debug, Clone, Serialize)]
 pub(crate) struct GridTimes {
     pub(crate) side: u32,
     pub(crate) capsules: usize,
     pub(crate) triangles: usize,
-    /// The whole grid as one edit.
+    /// The model built from scratch.
+    pub(crate) fresh_ms: f64,
+    /// The model made live.
     pub(crate) first_ms: f64,
     /// A capsule moved.
     pub(crate) median_ms: f64,
     pub(crate) p99_ms: f64,
+    /// Signs that are asked for when one is moved: the mean.
+    pub(crate) signs: f64,
 }
 
 pub(crate) fn measure(sides: &[u32]) -> Result<Vec<GridTimes>, String> {
     sides.iter().map(|side| grid(*side).map_err(|error| error.to_string())).collect()
 }
 
-fn grid(side: u32) -> Result<GridTimes, planecut_csg::EditError> {
-    let places =
-        (0..side.pow(3)).map(|k| DVec3::new((k % side).into(), (k / side % side).into(), (k / side.pow(2)).into()));
-    let block = Brush::cuboid(DVec3::splat(-1.0), DVec3::splat(f64::from(side)), MaterialId(0));
-    let brushes = std::iter::once((block, Role::Add)).chain(places.map(|at| (capsule(at), Role::Subtract)));
-    let mut live = LiveModel::new(vec![Material::named("block")]);
+fn grid(side: u32) -> Result<GridTimes, EditError> {
+    let model = capsule_grid(side);
     let begin = Instant::now();
-    let (ids, _) = live.add_brushes(brushes.collect())?;
+    let fresh = evaluate(&model)?;
+    let fresh_ms = milliseconds(begin.elapsed());
+    let capsules = model.tree.brushes().len() - 1;
+    let begin = Instant::now();
+    let mut live = LiveModel::from_model(model)?;
     let first_ms = milliseconds(begin.elapsed());
+    assert_eq!(live.triangle_count(), fresh.mesh.triangles.len(), "a grid of {side}");
     let mut times: Vec<Duration> = Vec::new();
     for k in 0..EDITS {
-        // everywhere in the grid, to and fro
-        let BrushId(moved) = ids[1 + (k as usize / 2 * 7919) % (ids.len() - 1)];
-        let by = if k % 2 == 0 { DVec3::new(0.1, 0.05, 0.2) } else { DVec3::new(-0.1, -0.05, -0.2) };
         let begin = Instant::now();
-        live.transform_brush(BrushId(moved), &Transform::translation(by)?)?;
+        move_one(&mut live, side, k)?;
         times.push(begin.elapsed());
     }
+    let signs = signs_of_edits(&mut live, side)?.total as f64 / f64::from(EDITS);
     Ok(GridTimes {
         side,
-        capsules: ids.len() - 1,
+        capsules,
         triangles: live.triangle_count(),
+        fresh_ms,
         first_ms,
         median_ms: milliseconds(quantile(&mut times, 0.5)),
         p99_ms: milliseconds(quantile(&mut times, 0.99)),
+        signs,
     })
 }
 
-/// 60 planes around a segment.
-fn capsule(at: DVec3) -> Brush {
-    const COUNT: u32 = 60;
-    let tangent = |k: u32| {
-        let z = 1.0 - (2.0 * f64::from(k) + 1.0) / f64::from(COUNT);
-        let (sine, cosine) = (f64::from(k) * std::f64::consts::PI * (3.0 - 5.0_f64.sqrt())).sin_cos();
-        let normal = DVec3::new((1.0 - z * z).sqrt() * cosine, (1.0 - z * z).sqrt() * sine, z);
-        let end = DVec3::new(0.0, 0.0, 0.25_f64.copysign(z));
-        HalfSpace::new(normal, normal.dot(at + end) + 0.2).expect("a unit normal")
-    };
-    Brush::from_half_spaces((0..COUNT).map(tangent), MaterialId(0))
+/// Edit `k`: capsules everywhere in the grid move to and fro.
+fn move_one(live: &mut LiveModel, side: u32, k: u32) -> Result<(), EditError> {
+    let moved = BrushId(1 + u64::from(k / 2 * 7919 % side.pow(3)));
+    let by = if k.is_multiple_of(2) { DVec3::new(0.1, 0.05, 0.2) } else { DVec3::new(-0.1, -0.05, -0.2) };
+    live.transform_brush(moved, &Transform::translation(by)?)?;
+    Ok(())
+}
+
+/// The signs of the same edits, on the one thread that counts them.
+fn signs_of_edits(live: &mut LiveModel, side: u32) -> Result<Counts, EditError> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
+    pool.install(|| {
+        let start = Counts::now();
+        (0..EDITS).try_for_each(|k| move_one(live, side, k))?;
+        Ok(Counts::since(start))
+    })
 }

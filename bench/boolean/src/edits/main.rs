@@ -1,5 +1,5 @@
-//! Times edits of live models beside building the same models from scratch, in one run: on maps, of brushes of many planes, in
-//! grids that grow, and a million times in a row.
+//! Times edits of live models beside building the same models from scratch, in one run: on maps, of planes and brushes that are
+//! dragged, of brushes of many planes, in grids that grow, and a million times in a row; and what is asked between edits.
 
 #![forbid(unsafe_code)]
 
@@ -8,10 +8,12 @@
 mod machine;
 
 mod bodies;
+mod dragging;
 mod draw;
 mod endurance;
 mod grid;
 mod maps;
+mod questions;
 mod table;
 
 use std::path::Path;
@@ -20,6 +22,8 @@ use std::time::Instant;
 
 const USAGE: &str = "usage: bench/edits [--quick] [--verify] [--json FILE] [--markdown FILE]";
 const TEMPLATE: &str = include_str!("../../edits.template.md");
+/// The map in which planes are dragged.
+const DRAGGED: &str = "e1m1";
 const MAPS: [&str; 3] = ["spacehare/64u_rabbit.map", "romero/e1m1.map", "romero/e2m7.map"];
 
 /// How much is done.
@@ -67,7 +71,9 @@ fn run(options: &Options) -> Result<(), String> {
     // first, so that the memory is its own
     let endurance = endurance::measure(if options.is_quick { 20_000 } else { 1_000_000 })?;
     println!("\n{}", table::of_endurance(&endurance));
-    let mut of_maps = Vec::new();
+    let plates: &[u32] = if options.is_quick { &[12] } else { &[12, 24, 48] };
+    let mut dragged = dragging::plates(plates, options.verifies)?;
+    let (mut of_maps, mut asked) = (Vec::new(), Vec::new());
     for name in MAPS {
         let file = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/map")).join(name);
         if !file.exists() {
@@ -76,17 +82,26 @@ fn run(options: &Options) -> Result<(), String> {
         }
         let outcome = maps::measure(&file, if options.is_quick { 100 } else { 1000 }, options.verifies)?;
         println!("\n{}", table::of_map(&outcome));
+        if outcome.name == DRAGGED {
+            let (name, model) = maps::read(&file)?;
+            dragged.push(dragging::map(&format!("`{name}`"), &model, options.verifies)?);
+            asked.push((name, model));
+        }
         of_maps.push(outcome);
     }
+    let of_dragged: Vec<String> = dragged.iter().map(table::of_dragged).collect();
+    println!("\n{}", of_dragged.join("\n"));
+    let questions = questions::measure(options.is_quick, &asked)?;
+    println!("\n{}", table::of_questions(&questions));
     let bodies = bodies::measure(options.is_quick)?;
     println!("\n{}", table::of_bodies(&bodies));
-    let sides: &[u32] = if options.is_quick { &[4, 8] } else { &[4, 8, 12, 16, 20] };
+    let sides: &[u32] = if options.is_quick { &[4, 8] } else { &[4, 6, 8, 12, 16, 20] };
     let grids = grid::measure(sides)?;
     println!("\n{}", table::of_grids(&grids));
     let seconds = begin.elapsed().as_secs_f64();
     if let Some(file) = &options.json {
         let json = serde_json::json!({
-            "maps": of_maps, "bodies": bodies, "grids": grids, "endurance": endurance, "seconds": seconds, "verified": options.verifies,
+            "maps": of_maps, "dragged": dragged, "questions": questions, "bodies": bodies, "grids": grids, "endurance": endurance, "seconds": seconds, "verified": options.verifies,
             "processor": machine::processor(), "compiler": machine::compiler(), "commit": machine::commit(),
         });
         write(file, &format!("{json:#}\n"))?;
@@ -103,6 +118,8 @@ fn run(options: &Options) -> Result<(), String> {
         let parts = [
             ("run", run),
             ("maps", maps.join("\n")),
+            ("dragging", of_dragged.join("\n")),
+            ("questions", table::of_questions(&questions)),
             ("bodies", table::of_bodies(&bodies)),
             ("grids", table::of_grids(&grids)),
             ("endurance", table::of_endurance(&endurance)),

@@ -21,6 +21,13 @@ pub(crate) struct Times {
     pub(crate) fresh_ratio: f64,
 }
 
+impl Times {
+    pub(crate) fn of(name: &'static str, mut times: Vec<Duration>, fresh_ms: f64) -> Self {
+        let [median_ms, p99_ms, max_ms] = [0.5, 0.99, 1.0].map(|share| milliseconds(quantile(&mut times, share)));
+        Self { name, edits: times.len(), median_ms, p99_ms, max_ms, fresh_ratio: fresh_ms / median_ms }
+    }
+}
+
 /// A map that was edited.
 #[derive(Debug, Clone, Serialize)]
 pub(crate) struct MapTimes {
@@ -36,10 +43,16 @@ pub(crate) struct MapTimes {
     pub(crate) compared: usize,
 }
 
-pub(crate) fn measure(file: &Path, edits: usize, verifies: bool) -> Result<MapTimes, String> {
+/// The name of a map and what is in its file.
+pub(crate) fn read(file: &Path) -> Result<(String, Model), String> {
     let name = file.file_stem().map_or(String::new(), |name| name.to_string_lossy().into_owned());
     let text = std::fs::read(file).map_err(|error| format!("{}: {error}", file.display()))?;
     let model = read_map(&text, &name, &MapOptions::default()).map_err(|error| error.to_string())?.model;
+    Ok((name, model))
+}
+
+pub(crate) fn measure(file: &Path, edits: usize, verifies: bool) -> Result<MapTimes, String> {
+    let (name, model) = read(file)?;
     let brushes = model.tree.brushes().len();
     let begin = Instant::now();
     let mut live = LiveModel::from_model_with(model.clone(), UnboundedBrushes::LeaveOut).map_err(|e| e.to_string())?;
@@ -71,11 +84,7 @@ pub(crate) fn measure(file: &Path, edits: usize, verifies: bool) -> Result<MapTi
         }
     }
     let fresh_ms = milliseconds(quantile(&mut fresh, 0.5));
-    let times = |(name, mut times): (&'static str, Vec<Duration>)| {
-        let [median_ms, p99_ms, max_ms] = [0.5, 0.99, 1.0].map(|share| milliseconds(quantile(&mut times, share)));
-        Times { name, edits: times.len(), median_ms, p99_ms, max_ms, fresh_ratio: fresh_ms / median_ms }
-    };
-    let kinds = of_kind.into_iter().map(times).collect();
+    let kinds = of_kind.into_iter().map(|(name, times)| Times::of(name, times, fresh_ms)).collect();
     Ok(MapTimes { name, brushes, triangles: first.triangles.len(), fresh_ms, first_ms, kinds, compared })
 }
 
@@ -115,13 +124,13 @@ fn edit(
 }
 
 /// A model built from scratch, and how long that takes.
-fn build(model: &Model) -> Result<(Duration, Mesh), String> {
+pub(crate) fn build(model: &Model) -> Result<(Duration, Mesh), String> {
     let begin = Instant::now();
     let evaluation = evaluate_with(model, UnboundedBrushes::LeaveOut).map_err(|error| error.to_string())?;
     Ok((begin.elapsed(), evaluation.mesh))
 }
 
-fn compare(live: &LiveModel, edit: &str) -> Result<(), String> {
+pub(crate) fn compare(live: &LiveModel, edit: &str) -> Result<(), String> {
     let (_, fresh) = build(&live.to_model())?;
     let mesh = live.mesh().map_err(|error| error.to_string())?;
     if mesh == fresh {

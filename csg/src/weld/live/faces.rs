@@ -12,7 +12,7 @@ use super::names::place;
 use super::numbers::Numbers;
 use super::regions::{Region, Regions};
 use super::{Pieces, State};
-use crate::base::map_chunks;
+use crate::base::{map_chunks, sortable};
 use crate::ids::{FaceId, HalfEdgeId, Id, LoopId, PointId, RegionId, holds, number32};
 use crate::model::MaterialId;
 use crate::plane_table::{PlaneId, PlaneTable};
@@ -47,6 +47,23 @@ impl<'a> WeldedFace<'a> {
 
     pub(crate) fn triangle_count(&self) -> usize {
         self.face.triangulation.count()
+    }
+
+    /// Whether it may hold a place on its plane, seen in a projection, or pass it by no more than a margin.
+    pub(crate) fn may_hold(&self, projection: Projection, place: DVec3, margin: f64) -> bool {
+        self.state.faces.loops.get(self.face.outer).extent.is_near(projection.of(place), margin)
+    }
+
+    /// The edges around it, loop by loop: first around all of it, then around holes in the order of where they begin.
+    pub(crate) fn edges(self) -> impl Iterator<Item = [DVec3; 2]> + use<'a> {
+        let Self { numbers, state, face } = self;
+        let ends = |piece: &HalfEdgeId| {
+            let half_edge = &state.pieces.half_edges[piece.index()];
+            [half_edge.from, half_edge.to].map(|point| numbers.position(point))
+        };
+        let mut loops: Vec<&Loop> = state.faces.loops_of(face).collect();
+        loops[1..].sort_by_cached_key(|hole| ends(&hole.pieces[0]).map(|at| at.to_array().map(sortable)));
+        loops.into_iter().flat_map(|members| &members.pieces).map(ends)
     }
 
     /// A triangle: for each corner the number of its vertex, and its position.

@@ -26,7 +26,8 @@ use super::nest::RegionPlane;
 use super::pinches::PinchFinder;
 use crate::boundary::BoundaryEdge;
 use crate::ids::{EdgeId, FaceId, HalfEdgeId, Id, LineId, LoopId, PointId, PointOfRegion, PointOnLine, RegionId};
-use crate::plane_table::PlaneTable;
+use crate::model::MaterialId;
+use crate::plane_table::{PlaneId, PlaneTable};
 use faces::Faces;
 pub(crate) use faces::WeldedFace;
 use moved::Moving;
@@ -177,6 +178,16 @@ impl LiveWeld {
     /// All faces.
     pub(crate) fn faces(&self) -> impl Iterator<Item = (FaceId, WeldedFace<'_>)> {
         self.state.faces.ids().filter_map(|id| Some((id, self.face(id)?)))
+    }
+
+    /// The faces on a plane, directed out of the solid, of one material.
+    pub(crate) fn faces_on(
+        &self,
+        plane: PlaneId,
+        material: MaterialId,
+    ) -> impl Iterator<Item = (FaceId, WeldedFace<'_>)> {
+        let faces = self.numbers.region(plane, material).map_or(&[][..], |region| self.state.regions.faces(region));
+        faces.iter().filter_map(|id| Some((*id, self.face(*id)?)))
     }
 
     /// How many triangles there are.

@@ -132,6 +132,11 @@ impl Numbers {
         coordinates(p).cmp(&coordinates(q)).then_with(|| compare_exactly(rows(p), rows(q), &[0, 1, 2]))
     }
 
+    /// The region of a plane and a material, where there is one.
+    pub(super) fn region(&self, plane: PlaneId, material: MaterialId) -> Option<RegionId> {
+        self.region_numbers.get(&(plane, material)).copied()
+    }
+
     pub(super) fn material(&self, region: RegionId) -> MaterialId {
         self.materials[region.index()]
     }

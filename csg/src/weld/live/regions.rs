@@ -108,6 +108,11 @@ impl Regions {
         &mut self.regions[region.index()]
     }
 
+    /// The faces of a region.
+    pub(super) fn faces(&self, region: RegionId) -> &[FaceId] {
+        self.regions.get(region.index()).map_or(&[], |region| &region.faces)
+    }
+
     pub(super) fn changed(&self) -> &[RegionId] {
         &self.changed
     }

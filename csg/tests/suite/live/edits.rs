@@ -264,6 +264,12 @@ pub(crate) fn run(edits: &[Edit], faces: Faces) -> Result<Tally, String> {
         if step % 8 == 0 && evaluate(&model.to_model()).map(|evaluation| evaluation.mesh) != Ok(fresh.clone()) {
             return Err(fault("as a tree the model has another mesh"));
         }
+        if step % 8 == 4 {
+            let mut anew = LiveModel::from_model(model.to_model()).map_err(|error| fault(&error.to_string()))?;
+            if model.measures() != anew.measures() || model.areas_of_materials() != anew.areas_of_materials() {
+                return Err(fault("the measures are not those of a model made anew"));
+            }
+        }
         if !model.has_faces() {
             continue;
         }
