@@ -3,85 +3,19 @@
 //! What is said of a face depends on its loops alone. A loop that stays keeps its face, unless a new outer loop around it has come; so of the loops of a
 //! region only those are looked at that changed, and those of the faces that these bound.
 
-use planecut_kernel::DVec3;
-use planecut_parallel::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::loops::{Loop, Loops};
 use super::names::place;
-use super::numbers::Numbers;
+use super::numbers::{Context, Numbers};
+use super::pieces::Pieces;
 use super::regions::{Region, Regions};
-use super::{Pieces, State};
-use crate::base::{map_chunks, sortable};
-use crate::ids::{FaceId, HalfEdgeId, Id, LoopId, PointId, RegionId, holds, number32};
-use crate::model::MaterialId;
-use crate::plane_table::{PlaneId, PlaneTable};
+use super::triangulation::{Changed, EdgeChanges, FaceTriangulator, Job, Triangulation};
+use crate::ids::{FaceId, HalfEdgeId, Id, LoopId, RegionId, holds, number32};
+use crate::plane_table::PlaneTable;
 use crate::weld::WeldError;
-use crate::weld::large_face::{FaceEdge, LARGE, LargeFace};
-use crate::weld::nest::{Projection, RegionPlane};
-use crate::weld::triangulate::{Triangles, Triangulator, WeldPoints, convex_quadrilateral};
-
-/// A planar, connected region of the boundary, with its triangles.
-#[derive(Clone, Copy)]
-pub(crate) struct WeldedFace<'a> {
-    numbers: &'a Numbers,
-    state: &'a State,
-    face: &'a Face,
-}
-
-impl<'a> WeldedFace<'a> {
-    pub(super) fn new(numbers: &'a Numbers, state: &'a State, number: FaceId) -> Option<Self> {
-        let face = state.faces.faces.get(number.index()).filter(|face| face.region != RegionId::NONE)?;
-        Some(Self { numbers, state, face })
-    }
-
-    /// What it is made of.
-    pub(crate) fn material(&self) -> MaterialId {
-        self.numbers.material(self.face.region)
-    }
-
-    /// Its plane, directed out of the solid.
-    pub(crate) fn plane(&self) -> PlaneId {
-        self.numbers.planes[self.face.region.index()]
-    }
-
-    pub(crate) fn triangle_count(&self) -> usize {
-        self.face.triangulation.count()
-    }
-
-    /// Whether it may hold a place on its plane, seen in a projection, or pass it by no more than a margin.
-    pub(crate) fn may_hold(&self, projection: Projection, place: DVec3, margin: f64) -> bool {
-        self.state.faces.loops.get(self.face.outer).extent.is_near(projection.of(place), margin)
-    }
-
-    /// The edges around it, loop by loop: first around all of it, then around holes in the order of where they begin.
-    pub(crate) fn edges(self) -> impl Iterator<Item = [DVec3; 2]> + use<'a> {
-        let Self { numbers, state, face } = self;
-        let ends = |piece: &HalfEdgeId| {
-            let half_edge = &state.pieces.half_edges[piece.index()];
-            [half_edge.from, half_edge.to].map(|point| numbers.position(point))
-        };
-        let mut loops: Vec<&Loop> = state.faces.loops_of(face).collect();
-        loops[1..].sort_by_cached_key(|hole| ends(&hole.pieces[0]).map(|at| at.to_array().map(sortable)));
-        loops.into_iter().flat_map(|members| &members.pieces).map(ends)
-    }
-
-    /// A triangle: for each corner the number of its vertex, and its position.
-    pub(crate) fn triangle(&self, place: usize) -> [(u32, DVec3); 3] {
-        let Self { numbers, state, face } = self;
-        let corner = |piece: HalfEdgeId| {
-            let position = numbers.position(state.pieces.half_edges[piece.index()].from);
-            (state.vertices.at(piece).number(), position)
-        };
-        face.triangulation.triangle(place).map(corner)
-    }
-}
-
-/// Number of corners, of all faces together, from which several threads triangulate them.
-const CORNERS_FOR_THREADS: usize = 400;
-
-/// A triangulation changes with its face where fewer than one in this number of its edges come or go; otherwise it is made anew, which takes less for each edge.
-const CHANGED_SHARE: usize = 3;
+use crate::weld::large_face::LargeFace;
+use crate::weld::nest::RegionPlane;
 
 /// The faces, by number.
 #[derive(Clone, Default)]
@@ -95,15 +29,15 @@ pub(super) struct Faces {
 }
 
 #[derive(Clone)]
-struct Face {
+pub(super) struct Face {
     /// [`Id::NONE`] for a number that is free.
-    region: RegionId,
+    pub(super) region: RegionId,
     outer: LoopId,
     /// The holes, in no order.
     holes: Vec<LoopId>,
     /// How many half-edges its loops have.
     corners: usize,
-    triangulation: Triangulation,
+    pub(super) triangulation: Triangulation,
     /// Its place among the faces of its region.
     place: u32,
 }
@@ -114,51 +48,6 @@ impl Default for Face {
         let (holes, triangulation) = (Vec::new(), Triangulation::Whole(Vec::new()));
         Self { region: RegionId::NONE, outer: LoopId::NONE, holes, corners: 0, triangulation, place: 0 }
     }
-}
-
-/// The triangles of a face: three half-edges each, those that begin at its corners.
-#[derive(Clone)]
-enum Triangulation {
-    One([HalfEdgeId; 3]),
-    Two([[HalfEdgeId; 3]; 2]),
-    Whole(Vec<[HalfEdgeId; 3]>),
-    /// Those of a face of many corners, kept so that they can change with it.
-    Large(Box<LargeFace>),
-}
-
-impl Triangulation {
-    fn count(&self) -> usize {
-        match self {
-            Self::One(_) => 1,
-            Self::Two(_) => 2,
-            Self::Whole(triangles) => triangles.len(),
-            Self::Large(large) => large.triangle_count(),
-        }
-    }
-
-    fn triangle(&self, place: usize) -> [HalfEdgeId; 3] {
-        match self {
-            Self::One(triangle) => *triangle,
-            Self::Two(triangles) => triangles[place],
-            Self::Whole(triangles) => triangles[place],
-            Self::Large(large) => large.triangle(place),
-        }
-    }
-}
-
-/// A face that is to be triangulated: the triangulation that it has, where it can change with it, and what has changed since.
-struct Job {
-    face: FaceId,
-    large: Option<Box<LargeFace>>,
-    changes: Changed,
-}
-
-/// What has changed of a large face.
-enum Changed {
-    /// Edges came and went.
-    Edges(EdgeChanges),
-    /// Corners have moved, and nothing else.
-    Places,
 }
 
 /// What a change of a region has left of its faces.
@@ -182,26 +71,6 @@ impl Left {
     /// All of them.
     fn faces(&self) -> impl Iterator<Item = FaceId> + '_ {
         self.touched.iter().chain(&self.made).copied()
-    }
-}
-
-/// Edges that a face has lost and gained.
-#[derive(Default)]
-struct EdgeChanges {
-    gone: Vec<FaceEdge>,
-    new: Vec<FaceEdge>,
-}
-
-/// What it takes to work on regions.
-#[derive(Clone, Copy)]
-struct Context<'a> {
-    table: &'a PlaneTable,
-    numbers: &'a Numbers,
-}
-
-impl Context<'_> {
-    fn plane(&self, region: RegionId) -> RegionPlane<'_> {
-        RegionPlane::new(self.table, &self.numbers.points, self.numbers.planes[region.index()])
     }
 }
 
@@ -472,101 +341,39 @@ impl Faces {
 
     /// Triangulates the faces that were added.
     fn triangulate(&mut self, context: &Context<'_>, pieces: &Pieces, mut changed: impl FnMut(FaceId) -> Changed) {
-        let (mut jobs, mut whole): (Vec<Job>, Vec<FaceId>) = (Vec::new(), Vec::new());
-        for &face in &self.added {
-            let entry = &mut self.faces[face.index()];
+        let mut old: Vec<Option<Box<LargeFace>>> = Vec::with_capacity(self.added.len());
+        for face in &self.added {
             let nothing = Triangulation::Whole(Vec::new());
-            let large = match std::mem::replace(&mut entry.triangulation, nothing) {
+            old.push(match std::mem::replace(&mut self.faces[face.index()].triangulation, nothing) {
                 Triangulation::Large(large) => Some(large),
                 Triangulation::One(_) | Triangulation::Two(_) | Triangulation::Whole(_) => None,
-            };
-            if entry.corners < LARGE {
-                whole.push(face);
-            } else {
-                jobs.push(Job { face, large, changes: changed(face) });
-            }
+            });
         }
-        let faces = &*self;
-        let of_large = |job: Job| (job.face, faces.triangulate_large(context, pieces, job));
-        let done: Vec<(FaceId, Option<Box<LargeFace>>)> = if jobs.len() < 2 {
-            jobs.into_iter().map(of_large).collect()
-        } else {
-            jobs.into_par_iter().with_max_len(1).map(of_large).collect()
+        let job = |(face, large): (&FaceId, Option<Box<LargeFace>>)| {
+            let Face { region, outer, holes, corners, .. } = &self.faces[face.index()];
+            let outer = self.loops.get(*outer);
+            Job { face: *face, region: *region, outer, holes, corners: *corners, large, changed: changed(*face) }
         };
-        let corners = |face: &FaceId| self.faces[face.index()].corners;
-        whole.extend(done.iter().filter(|(_, large)| large.is_none()).map(|(face, _)| *face));
-        let in_parts = whole.len() > 1 && whole.iter().map(corners).sum::<usize>() >= CORNERS_FOR_THREADS;
-        let of_whole = |chunk: &[FaceId]| self.triangulate_whole(context, pieces, chunk);
-        let triangles: Vec<Triangulation> =
-            if in_parts { map_chunks(&whole, 1, of_whole).0.into_iter().flatten().collect() } else { of_whole(&whole) };
-        let whole = whole.into_iter().zip(triangles);
-        let large = done.into_iter().filter_map(|(face, large)| Some((face, Triangulation::Large(large?))));
-        for (face, triangulation) in whole.chain(large).collect::<Vec<_>>() {
+        let jobs = self.added.iter().zip(old).map(job).collect();
+        let triangulator = FaceTriangulator { context: *context, pieces, loops: &self.loops };
+        for (face, triangulation) in triangulator.triangulate(jobs) {
             self.triangles += triangulation.count();
             self.faces[face.index()].triangulation = triangulation;
         }
     }
 
-    /// The triangulation of a large face: the old one where little has changed, or a new one; none where there is none.
-    fn triangulate_large(&self, context: &Context<'_>, pieces: &Pieces, job: Job) -> Option<Box<LargeFace>> {
-        let Job { face, large, changes } = job;
-        let entry = &self.faces[face.index()];
-        let plane = context.plane(entry.region);
-        let at = |point: PointId| plane.position(point);
-        if let Some(mut large) = large {
-            let is_done = match &changes {
-                Changed::Places => large.follow(at).is_ok(),
-                Changed::Edges(EdgeChanges { gone, new }) => {
-                    (gone.len() + new.len()) * CHANGED_SHARE < entry.corners && large.change(gone, new, at).is_ok()
-                }
-            };
-            if is_done {
-                return Some(large);
-            }
-        }
-        let edge = |piece: &HalfEdgeId| pieces.half_edges[piece.index()].edge_of_face(*piece);
-        let edges: Vec<FaceEdge> = self.loops_of(entry).flat_map(|of| &of.pieces).map(edge).collect();
-        LargeFace::new(&edges, at).ok().map(Box::new)
+    /// A face, where there is one of this number.
+    pub(super) fn get(&self, number: FaceId) -> Option<&Face> {
+        self.faces.get(number.index()).filter(|face| face.region != RegionId::NONE)
     }
 
-    /// The triangles of faces that are triangulated as a whole, loops in the order of the half-edges with which they begin.
-    fn triangulate_whole(&self, context: &Context<'_>, pieces: &Pieces, faces: &[FaceId]) -> Vec<Triangulation> {
-        let Context { table, numbers } = *context;
-        let exact = WeldPoints { table, points: &numbers.points };
-        let mut triangulator = Triangulator::new(&exact);
-        let mut found = Triangles::default();
-        let half_edge = |piece: HalfEdgeId| &pieces.half_edges[piece.index()];
-        let triangles = faces.iter().map(|face| {
-            let entry = &self.faces[face.index()];
-            let outer = &self.loops.get(entry.outer).pieces;
-            let projection = Projection::new(table.half_space(numbers.planes[entry.region.index()]).normal());
-            match outer[..] {
-                [a, b, c] if entry.holes.is_empty() => return Triangulation::One([a, b, c]),
-                [a, b, c, d] if entry.holes.is_empty() => {
-                    let at = |piece: HalfEdgeId| projection.of(numbers.position(half_edge(piece).from));
-                    if let Some(two) = convex_quadrilateral([a, b, c, d].map(at)) {
-                        return Triangulation::Two(two.map(|corners| corners.map(|corner| outer[corner])));
-                    }
-                }
-                _ => {}
-            }
-            triangulator.begin(projection);
-            let mut holes: Vec<&Loop> = self.loops_of(entry).skip(1).collect();
-            holes.sort_by(|p, q| pieces.compare(table, numbers, p.pieces[0], q.pieces[0]));
-            for members in self.loops_of(entry).take(1).chain(holes) {
-                let corner = |piece: &HalfEdgeId| numbers.points.corner(*piece, half_edge(*piece));
-                triangulator.add_loop(members.pieces.iter().map(corner));
-            }
-            found.corners.clear();
-            found.labels.clear();
-            triangulator.triangulate(&mut found);
-            Triangulation::Whole(found.corners.clone())
-        });
-        triangles.collect()
+    /// The loop around a face.
+    pub(super) fn outer_loop(&self, face: &Face) -> &Loop {
+        self.loops.get(face.outer)
     }
 
     /// The loops of a face, the outer one first.
-    fn loops_of<'a>(&'a self, face: &'a Face) -> impl Iterator<Item = &'a Loop> {
+    pub(super) fn loops_of<'a>(&'a self, face: &'a Face) -> impl Iterator<Item = &'a Loop> {
         std::iter::once(&face.outer).chain(&face.holes).map(|number| self.loops.get(*number))
     }
 }

@@ -1,8 +1,8 @@
 //! Loops of half-edges, chained again where something changed.
 
-use super::Pieces;
 use super::names::place;
 use super::numbers::Numbers;
+use super::pieces::Pieces;
 use super::regions::Region;
 use crate::ids::{FaceId, HalfEdgeId, Id, LoopId, PointId};
 use crate::plane_table::{PlaneId, PlaneTable};

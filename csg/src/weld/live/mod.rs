@@ -12,10 +12,11 @@ mod loops;
 mod moved;
 mod names;
 mod numbers;
+mod pieces;
 mod regions;
+mod triangulation;
 mod vertices;
-
-use std::cmp::Ordering;
+mod welded_face;
 
 use crate::ids::number32;
 use rustc_hash::FxHashMap;
@@ -25,16 +26,17 @@ use super::cancel::{Crossed, HalfEdge, LineWorker, Run, Surviving};
 use super::nest::RegionPlane;
 use super::pinches::PinchFinder;
 use crate::boundary::BoundaryEdge;
-use crate::ids::{EdgeId, FaceId, HalfEdgeId, Id, LineId, LoopId, PointId, PointOfRegion, PointOnLine, RegionId};
+use crate::ids::{EdgeId, FaceId, HalfEdgeId, Id, LineId, PointId, PointOfRegion, PointOnLine, RegionId};
 use crate::model::MaterialId;
 use crate::plane_table::{PlaneId, PlaneTable};
 use faces::Faces;
-pub(crate) use faces::WeldedFace;
 use moved::Moving;
 use names::place;
 use numbers::{NumberedEdge, Numbers};
+use pieces::Pieces;
 use regions::Regions;
 use vertices::Vertices;
+pub(crate) use welded_face::WeldedFace;
 
 /// A boundary, welded.
 #[derive(Clone, Default)]
@@ -79,25 +81,6 @@ struct OnLine {
     /// Where edges end inside runs.
     passed: Vec<PointOfRegion>,
     has_slits: bool,
-}
-
-/// Half-edges by number, and what is known of each.
-#[derive(Clone, Default)]
-struct Pieces {
-    half_edges: Vec<HalfEdge>,
-    /// What follows each in its loop.
-    following: Vec<HalfEdgeId>,
-    /// The loop that each is part of.
-    loop_of: Vec<LoopId>,
-    /// The place of each among those of its region.
-    places: Vec<u32>,
-    /// Taken out; what else is said of such a half-edge is no longer true.
-    is_gone: Vec<bool>,
-    free: Vec<HalfEdgeId>,
-    /// Gone since the last update; their numbers are not used again before it ends.
-    gone: Vec<HalfEdgeId>,
-    /// Those whose way around their first corner may have changed.
-    turned: Vec<HalfEdgeId>,
 }
 
 /// Where edges cross in points: there they are cut. What the weld makes of faces that cross in lines is not worked out here.
@@ -388,32 +371,5 @@ impl State {
             }
         }
         any
-    }
-}
-
-impl Pieces {
-    fn add(&mut self, piece: HalfEdge) -> HalfEdgeId {
-        let piece = HalfEdge { twin: HalfEdgeId::NONE, ..piece };
-        let number: HalfEdgeId = place(&mut self.half_edges, &mut self.free, piece);
-        let at = number.index();
-        if at == self.is_gone.len() {
-            self.following.push(HalfEdgeId::NONE);
-            self.loop_of.push(LoopId::NONE);
-            self.places.push(0);
-            self.is_gone.push(false);
-        }
-        (self.following[at], self.loop_of[at], self.is_gone[at]) = (HalfEdgeId::NONE, LoopId::NONE, false);
-        number
-    }
-
-    fn remove(&mut self, number: HalfEdgeId) {
-        self.is_gone[number.index()] = true;
-        self.gone.push(number);
-    }
-
-    /// The order of half-edges by where they begin and end, whatever their numbers.
-    fn compare(&self, table: &PlaneTable, numbers: &Numbers, p: HalfEdgeId, q: HalfEdgeId) -> Ordering {
-        let [p, q] = [p, q].map(|piece| &self.half_edges[piece.index()]);
-        numbers.compare(table, p.from, q.from).then_with(|| numbers.compare(table, p.to, q.to))
     }
 }

@@ -1,6 +1,7 @@
 //! A plane that moves so little that nothing but places changes: the same edges, loops and faces, with their corners elsewhere.
 
-use super::{LiveWeld, Pieces};
+use super::LiveWeld;
+use super::pieces::Pieces;
 use crate::boundary::BoundaryEdge;
 use crate::ids::{EdgeId, FaceId, HalfEdgeId, Id, LineId, LoopId, PointId, RegionId};
 use crate::plane_table::{PlaneId, PlaneTable};

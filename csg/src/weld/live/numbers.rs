@@ -13,6 +13,7 @@ use crate::model::MaterialId;
 use crate::plane_table::{PlaneId, PlaneTable, curve_number};
 use crate::weld::cancel::Run;
 use crate::weld::lines::{self, AxisPlanes, Line};
+use crate::weld::nest::RegionPlane;
 use crate::weld::points::{self, Named, Points};
 
 /// An edge, and the names under which its points and its line are known.
@@ -44,6 +45,20 @@ pub(super) struct Numbers {
     axes: AxisPlanes,
     /// Points and lines that have moved since they were marked.
     unmarked: (Vec<PointId>, Vec<LineId>),
+}
+
+/// The planes, and what is numbered by them.
+#[derive(Clone, Copy)]
+pub(super) struct Context<'a> {
+    pub(super) table: &'a PlaneTable,
+    pub(super) numbers: &'a Numbers,
+}
+
+impl<'a> Context<'a> {
+    /// The plane of a region.
+    pub(super) fn plane(&self, region: RegionId) -> RegionPlane<'a> {
+        RegionPlane::new(self.table, &self.numbers.points, self.numbers.planes[region.index()])
+    }
 }
 
 /// Number of points from which several threads work out where they are.

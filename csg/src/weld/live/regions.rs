@@ -2,9 +2,9 @@
 
 use rustc_hash::FxHashMap;
 
-use super::Pieces;
 use super::grid::{BoxGrid, Rectangle};
 use super::numbers::Numbers;
+use super::pieces::Pieces;
 use crate::ids::{FaceId, HalfEdgeId, Id, PointId, PointOnLine, RegionId, number32};
 use crate::plane_table::PlaneTable;
 use crate::weld::cancel::HalfEdge;

@@ -1,7 +1,7 @@
 //! Vertices: corners joined around each fan.
 
-use super::Pieces;
 use super::names::place;
+use super::pieces::Pieces;
 use crate::ids::{HalfEdgeId, Id, VertexId};
 
 /// The vertices in use.

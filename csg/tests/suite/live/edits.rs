@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::fmt::{Display, Formatter};
 
 use planecut_csg::{
-    Brush, BrushFace, BrushId, Change, EditError, EvaluateError, FaceId, LiveModel, Material, MaterialId, Mesh, Model,
-    Operation, Role, Transform, Tree, evaluate,
+    Brush, BrushFace, BrushId, Change, EditError, EvaluateError, FaceId, LiveFace, LiveModel, Material, MaterialId,
+    Mesh, Model, Operation, Role, Transform, Tree, evaluate,
 };
 use planecut_kernel::{DMat3, DVec3, HalfSpace, PlaneIdx};
 
@@ -24,6 +24,8 @@ pub(crate) enum Edit {
     AddPlane(usize, Plane, u32),
     RemovePlane(usize, usize),
     MovePlane(usize, usize, f64),
+    /// By how far a plane is moved on.
+    Nudge(usize, usize, f64),
     /// Axis and degrees of a rotation, and a translation.
     Move(usize, [f64; 3], f64, [f64; 3]),
     Undo,
@@ -165,11 +167,17 @@ impl Brushes {
                 let (number, _) = held.faces.remove(plane % held.faces.len().max(1));
                 model.remove_plane(held.id, number)
             }
-            Edit::MovePlane(at, plane, offset) => {
+            Edit::MovePlane(at, plane, _) | Edit::Nudge(at, plane, _) => {
                 let held = &mut new[at % count];
                 let place = plane % held.faces.len().max(1);
                 let (number, face) = &mut held.faces[place];
-                face.half_space = HalfSpace::new(face.half_space.normal(), *offset).expect("a valid plane");
+                let normal = face.half_space.normal();
+                let offset = match edit {
+                    Edit::MovePlane(_, _, offset) => *offset,
+                    Edit::Nudge(_, _, by) => face.half_space.offset() + by * normal.length(),
+                    _ => unreachable!("one of both"),
+                };
+                face.half_space = HalfSpace::new(normal, offset).expect("a valid plane");
                 model.move_plane(held.id, *number, face.half_space)
             }
             Edit::Move(at, axis, degrees, by) => {
@@ -334,6 +342,11 @@ pub(crate) fn triangles_of(mesh: &Mesh) -> Vec<Corners> {
 pub(crate) struct Viewer(BTreeMap<FaceId, Vec<Corners>>);
 
 impl Viewer {
+    /// Takes a face that is there at the beginning.
+    pub(crate) fn add(&mut self, id: FaceId, face: LiveFace<'_>) {
+        self.0.insert(id, face.triangles().map(|triangle| corners(triangle.map(|corner| corner.1))).collect());
+    }
+
     pub(crate) fn follow(&mut self, model: &LiveModel, change: &Change) -> Result<(), String> {
         for face in &change.removed {
             self.0.remove(face).ok_or_else(|| format!("{face:?} is removed, but was not there"))?;

@@ -44,7 +44,7 @@ fn around_lines(random: &mut Rng) -> Planes {
 }
 
 /// Turned bodies of up to 26 planes in general position.
-fn turned(random: &mut Rng) -> Planes {
+pub(crate) fn turned(random: &mut Rng) -> Planes {
     let mut place = || DVec3::new(random.float(0.0, 1.0), random.float(0.0, 1.0), random.float(0.0, 1.0));
     let center = 3.0 * place();
     let count = 6 + (place().x * 20.0) as usize;

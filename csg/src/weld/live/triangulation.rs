@@ -1,0 +1,169 @@
+//! The triangles of faces that have changed.
+
+use planecut_parallel::prelude::*;
+
+use super::loops::{Loop, Loops};
+use super::numbers::Context;
+use super::pieces::Pieces;
+use crate::base::map_chunks;
+use crate::ids::{FaceId, HalfEdgeId, Id, LoopId, PointId, RegionId};
+use crate::weld::large_face::{FaceEdge, LARGE, LargeFace};
+use crate::weld::nest::Projection;
+use crate::weld::triangulate::{Triangles, Triangulator, WeldPoints, convex_quadrilateral};
+
+/// Number of corners, of all faces together, from which several threads triangulate them.
+const CORNERS_FOR_THREADS: usize = 400;
+
+/// A triangulation changes with its face where fewer than one in this number of its edges come or go; otherwise it is made anew, which takes less for each edge.
+const CHANGED_SHARE: usize = 3;
+
+/// The triangles of a face: three half-edges each, those that begin at its corners.
+#[derive(Clone)]
+pub(super) enum Triangulation {
+    One([HalfEdgeId; 3]),
+    Two([[HalfEdgeId; 3]; 2]),
+    Whole(Vec<[HalfEdgeId; 3]>),
+    /// Those of a face of many corners, kept so that they can change with it.
+    Large(Box<LargeFace>),
+}
+
+impl Triangulation {
+    pub(super) fn count(&self) -> usize {
+        match self {
+            Self::One(_) => 1,
+            Self::Two(_) => 2,
+            Self::Whole(triangles) => triangles.len(),
+            Self::Large(large) => large.triangle_count(),
+        }
+    }
+
+    pub(super) fn triangle(&self, place: usize) -> [HalfEdgeId; 3] {
+        match self {
+            Self::One(triangle) => *triangle,
+            Self::Two(triangles) => triangles[place],
+            Self::Whole(triangles) => triangles[place],
+            Self::Large(large) => large.triangle(place),
+        }
+    }
+}
+
+/// What has changed of a large face.
+pub(super) enum Changed {
+    /// Edges came and went.
+    Edges(EdgeChanges),
+    /// Corners have moved, and nothing else.
+    Places,
+}
+
+/// Edges that a face has lost and gained.
+#[derive(Default)]
+pub(super) struct EdgeChanges {
+    pub(super) gone: Vec<FaceEdge>,
+    pub(super) new: Vec<FaceEdge>,
+}
+
+/// A face that is to be triangulated.
+pub(super) struct Job<'a> {
+    pub(super) face: FaceId,
+    pub(super) region: RegionId,
+    pub(super) outer: &'a Loop,
+    /// Its holes, in no order.
+    pub(super) holes: &'a [LoopId],
+    /// How many half-edges its loops have.
+    pub(super) corners: usize,
+    /// The triangulation that it has, where it can change with it, and what has changed since.
+    pub(super) large: Option<Box<LargeFace>>,
+    pub(super) changed: Changed,
+}
+
+/// What it takes to triangulate faces.
+#[derive(Clone, Copy)]
+pub(super) struct FaceTriangulator<'a> {
+    pub(super) context: Context<'a>,
+    pub(super) pieces: &'a Pieces,
+    pub(super) loops: &'a Loops,
+}
+
+impl<'a> FaceTriangulator<'a> {
+    /// Triangulates faces, on several threads where there are many corners.
+    pub(super) fn triangulate(self, jobs: Vec<Job<'a>>) -> Vec<(FaceId, Triangulation)> {
+        let (large, mut whole): (Vec<Job<'a>>, Vec<Job<'a>>) = jobs.into_iter().partition(|job| job.corners >= LARGE);
+        let of_large = |mut job: Job<'a>| (self.large(&mut job), job);
+        let large: Vec<(Option<Box<LargeFace>>, Job<'a>)> = if large.len() < 2 {
+            large.into_iter().map(of_large).collect()
+        } else {
+            large.into_par_iter().with_max_len(1).map(of_large).collect()
+        };
+        let mut done = Vec::with_capacity(large.len() + whole.len());
+        for (triangulation, job) in large {
+            match triangulation {
+                Some(large) => done.push((job.face, Triangulation::Large(large))),
+                None => whole.push(job),
+            }
+        }
+        let in_parts = whole.len() > 1 && whole.iter().map(|job| job.corners).sum::<usize>() >= CORNERS_FOR_THREADS;
+        if in_parts {
+            done.extend(map_chunks(&whole, 1, |jobs| self.whole(jobs)).0.into_iter().flatten());
+        } else {
+            done.extend(self.whole(&whole));
+        }
+        done
+    }
+
+    /// The triangulation of a large face: the old one where little has changed, or a new one; none where there is none.
+    fn large(self, job: &mut Job<'_>) -> Option<Box<LargeFace>> {
+        let plane = self.context.plane(job.region);
+        let at = |point: PointId| plane.position(point);
+        if let Some(mut large) = job.large.take() {
+            let is_done = match &job.changed {
+                Changed::Places => large.follow(at).is_ok(),
+                Changed::Edges(EdgeChanges { gone, new }) => {
+                    (gone.len() + new.len()) * CHANGED_SHARE < job.corners && large.change(gone, new, at).is_ok()
+                }
+            };
+            if is_done {
+                return Some(large);
+            }
+        }
+        let edge = |piece: &HalfEdgeId| self.pieces.half_edges[piece.index()].edge_of_face(*piece);
+        let holes = job.holes.iter().map(|hole| self.loops.get(*hole));
+        let edges: Vec<FaceEdge> =
+            std::iter::once(job.outer).chain(holes).flat_map(|members| &members.pieces).map(edge).collect();
+        LargeFace::new(&edges, at).ok().map(Box::new)
+    }
+
+    /// The triangles of faces that are triangulated as a whole, loops in the order of the half-edges with which they begin.
+    fn whole(self, jobs: &[Job<'_>]) -> Vec<(FaceId, Triangulation)> {
+        let Context { table, numbers } = self.context;
+        let exact = WeldPoints { table, points: &numbers.points };
+        let mut triangulator = Triangulator::new(&exact);
+        let mut found = Triangles::default();
+        let half_edge = |piece: HalfEdgeId| &self.pieces.half_edges[piece.index()];
+        let mut triangulate = |job: &Job<'_>| {
+            let outer = &job.outer.pieces;
+            let projection = Projection::new(table.half_space(numbers.planes[job.region.index()]).normal());
+            match outer[..] {
+                [a, b, c] if job.holes.is_empty() => return Triangulation::One([a, b, c]),
+                [a, b, c, d] if job.holes.is_empty() => {
+                    let at = |piece: HalfEdgeId| projection.of(numbers.position(half_edge(piece).from));
+                    if let Some(two) = convex_quadrilateral([a, b, c, d].map(at)) {
+                        return Triangulation::Two(two.map(|corners| corners.map(|corner| outer[corner])));
+                    }
+                }
+                _ => {}
+            }
+            triangulator.begin(projection);
+            let mut holes: Vec<&Loop> = job.holes.iter().map(|hole| self.loops.get(*hole)).collect();
+            holes.sort_by(|p, q| self.pieces.compare(table, numbers, p.pieces[0], q.pieces[0]));
+            for members in std::iter::once(job.outer).chain(holes) {
+                let corner = |piece: &HalfEdgeId| numbers.points.corner(*piece, half_edge(*piece));
+                triangulator.add_loop(members.pieces.iter().map(corner));
+            }
+            found.corners.clear();
+            found.labels.clear();
+            triangulator.triangulate(&mut found);
+            Triangulation::Whole(found.corners.clone())
+        };
+        jobs.iter().map(|job| (job.face, triangulate(job))).collect()
+    }
+}
