@@ -25,7 +25,7 @@ pub const PLATE_TOP: PlaneIdx = PlaneIdx(4);
 pub const HOLE_END: PlaneIdx = PlaneIdx(25);
 
 /// A plate on the ground, of one unit for each of `side` × `side` holes from above: cylinders of 24 sides that end within it. The holes are the brushes from 1
-/// on. It has `576·side² + 12` triangles.
+/// on. It has `96·side² + 12` triangles.
 #[must_use]
 pub fn plate(side: u32) -> Model {
     let block = cuboid(DVec3::ZERO, DVec3::new(side.into(), side.into(), THICKNESS));
@@ -93,7 +93,7 @@ mod tests {
     #[test]
     fn a_plate_has_the_triangles_that_it_says() {
         for side in [1, 2, 12] {
-            let count = 576 * side as usize * side as usize + 12;
+            let count = 96 * side as usize * side as usize + 12;
             for model in [plate(side), turned_far_away(&plate(side))] {
                 assert_eq!(evaluate(&model).unwrap().mesh.triangles.len(), count, "{side}");
             }
