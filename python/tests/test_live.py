@@ -84,8 +84,24 @@ def random_call(rng, live: pc.Live, e: pc.Edit) -> None:
     elif what == 7 and len(brushes) > 3:
         e.remove_brush(brush)
         assert brush not in live.brushes
+    elif rng.random() < 0.5:
+        e.replace_brush(brush, some_body(rng))
     else:
-        e.replace_brush(brush, some_body(rng)) if rng.random() < 0.5 else e.set_role(brush, str(rng.choice(ROLES, p=[0.65, 0.33, 0.02])))
+        e.set_role(brush, str(rng.choice(ROLES, p=[0.65, 0.33, 0.02])))
+        # where it has that role, nothing has changed, and that alone would be no step
+        plane, (*_, offset) = next(iter(planes.items()))
+        e.move_plane(brush, plane, offset + float(rng.normal() * 0.1))
+
+
+def test_a_step_that_changes_nothing_is_none() -> None:
+    live = pc.Live(pc.box([0, 0, 0], [1, 1, 1]))
+    with live.edit() as e:
+        e.set_role(0, "add")
+    with live.edit() as e:
+        e.move_plane(0, 0, 2)
+        e.move_plane(0, 0, live.planes(0)[0][3] - 1)
+    with pytest.raises(pc.PlanecutError):
+        live.undo()
 
 
 @pytest.mark.parametrize("case", range(10))
