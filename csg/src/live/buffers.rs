@@ -57,8 +57,8 @@ impl LiveFace<'_> {
 }
 
 impl LiveModel {
-    /// Faces as one list of vertices and triangles; those that are not there are left out. What a renderer has to draw anew after an edit are the faces that the
-    /// edit [added](super::Change::added).
+    /// Faces as one list of vertices and triangles; those that are not there are left out. After an edit a renderer has to take the faces that
+    /// it [added](super::Change::added).
     ///
     /// ```
     /// use planecut_csg::{Brush, LiveModel, Material, MaterialId, Role};
@@ -96,16 +96,8 @@ impl LiveModel {
 impl ModelBuffers {
     /// Adds the corners and triangles of a face; gives its normal. `places` is a buffer.
     fn append(&mut self, face: LiveFace<'_>, center: DVec3, places: &mut FxHashMap<u32, u32>) -> [f32; 3] {
-        places.clear();
-        for triangle in face.triangles() {
-            let positions = &mut self.positions;
-            self.indices.push(triangle.map(|(vertex, at)| {
-                *places.entry(vertex).or_insert_with(|| {
-                    positions.push((at - center).as_vec3().to_array());
-                    number32(positions.len()) - 1
-                })
-            }));
-        }
+        let form = |at: DVec3| (at - center).as_vec3().to_array();
+        face.append_indexed(&mut self.positions, &mut self.indices, form, places);
         face.normal().as_vec3().to_array()
     }
 }

@@ -82,16 +82,27 @@ impl LiveFace<'_> {
     /// Its corners, each once, and its triangles, counter-clockwise seen from outside, by places among them.
     #[must_use]
     pub fn indexed(&self) -> (Vec<DVec3>, Vec<[u32; 3]>) {
-        let mut places: FxHashMap<u32, u32> = FxHashMap::default();
-        let mut positions = Vec::new();
-        let mut corner = |(vertex, position): (u32, DVec3)| {
+        let (mut positions, mut triangles) = (Vec::new(), Vec::new());
+        self.append_indexed(&mut positions, &mut triangles, |at| at, &mut FxHashMap::default());
+        (positions, triangles)
+    }
+
+    /// Adds its corners, each once and in another form, and its triangles by places among all corners that are there then. `places` is a buffer.
+    pub(super) fn append_indexed<P>(
+        &self,
+        positions: &mut Vec<P>,
+        triangles: &mut Vec<[u32; 3]>,
+        form: impl Fn(DVec3) -> P,
+        places: &mut FxHashMap<u32, u32>,
+    ) {
+        places.clear();
+        let mut corner = |(vertex, at): (u32, DVec3)| {
             *places.entry(vertex).or_insert_with(|| {
-                positions.push(position);
+                positions.push(form(at));
                 number32(positions.len()) - 1
             })
         };
-        let triangles = self.triangles().map(|corners| corners.map(&mut corner)).collect();
-        (positions, triangles)
+        triangles.extend(self.triangles().map(|corners| corners.map(&mut corner)));
     }
 
     /// Directed edges of which those that are left when opposite ones cancel go around it, counter-clockwise seen from outside.

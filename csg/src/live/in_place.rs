@@ -36,6 +36,8 @@ impl LiveModel {
     pub(super) fn move_in_place(&mut self, new: &[New]) -> Option<(Change, Vec<New>)> {
         let [(id, Some(state))] = new else { return None };
         let shift = self.shift(*self.by_id.get(id)?, state)?;
+        // mostly what is near the face as it is tells already, before a body is built for nothing
+        self.passing(&shift, &self.body_at(shift.number).faces[shift.face.index()].bounds)?;
         let Shift { number, place, from, to, .. } = shift;
         let operand = self.operand(number);
         let used = operand.uses[place];
@@ -101,11 +103,16 @@ impl LiveModel {
 
     /// Whether a body whose plane has moved makes the same boundary edges as before; then it is known what moves with them.
     fn is_same_but_for_places(&mut self, shift: &Shift, new: &Body, plane: u32) -> bool {
-        let Some(near) = self.passing(shift, new) else { return false };
+        let old = self.body_at(shift.number);
+        if !has_same_faces(old, new) {
+            return false;
+        }
+        let [one, other] = [old, new].map(|body| &body.faces[shift.face.index()].bounds);
+        let within = one.union(other);
+        let Some(near) = self.passing(shift, &within) else { return false };
         if self.welded.knows_what_moves(plane) {
             return true;
         }
-        let within = self.swept_box(shift, new);
         let operands = near.iter().chain([&shift.number]).map(|number| self.operand(*number));
         let edges = operands.flat_map(|operand| {
             let faces = operand.body.iter().flat_map(|body| &body.faces);
@@ -116,19 +123,10 @@ impl LiveModel {
         self.welded.find_what_moves(plane, edges.iter())
     }
 
-    /// A box around the face where it was and where it is.
-    fn swept_box(&self, shift: &Shift, new: &Body) -> Bounds {
+    /// The bodies that pass through the part of space between the face where it was and where it is, of those that touch a box; nothing where
+    /// something else may change than places.
+    fn passing(&self, shift: &Shift, within: &Bounds) -> Option<Vec<OperandId>> {
         let old = self.body_at(shift.number);
-        old.faces[shift.face.index()].bounds.union(&new.faces[shift.face.index()].bounds)
-    }
-
-    /// The bodies that pass through the part of space between the face where it was and where it is; nothing where something else may change
-    /// than places.
-    fn passing(&self, shift: &Shift, new: &Body) -> Option<Vec<OperandId>> {
-        let old = self.body_at(shift.number);
-        if !has_same_faces(old, new) {
-            return None;
-        }
         let table: &PlaneTable = &self.planes.table;
         let sides: Vec<&HalfSpace> =
             old.edges(&old.faces[shift.face.index()]).iter().map(|side| table.half_space(*side)).collect();
@@ -139,7 +137,7 @@ impl LiveModel {
         let axes = [across, normal.cross(across)];
         let mut passing = Vec::new();
         let mut shadows: Vec<Shadow> = Vec::new();
-        for number in self.places.touching(&self.swept_box(shift, new))?.filter(|number| *number != shift.number) {
+        for number in self.places.touching(within)?.filter(|number| *number != shift.number) {
             let body = self.body_at(number);
             let corners = body.all_corners();
             let extent = |side: &HalfSpace| body.bounds.extent_along(side.normal(), side.offset());

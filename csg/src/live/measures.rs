@@ -1,7 +1,7 @@
 //! Volume, area, centroid and extent of a live model, kept up from face to face.
 //!
 //! What each face gives to the sums is kept, so that a face that is gone is taken out again. The sums are exact, so that neither how many edits there were nor in which order
-//! they came makes a difference: after any edits the measures are, bit for bit, those of the same model made anew.
+//! they came makes a difference: after any edits the measures are, bit for bit, those of a new live model of the same brushes.
 //!
 //! Materials are those of faces. What a place inside the solid is made of is not said by the model: bodies may have faces of several materials, bodies of
 //! several materials may overlap, and what is taken away leaves faces of the tool's. So there is an area for each material, but a volume for all of them alone.
@@ -140,7 +140,7 @@ impl KeptMeasures {
 
 impl LiveModel {
     /// Volume, area, centroid and extent of the solid. Only faces that changed since they were last asked for are looked at, and after any edits the numbers are, bit for
-    /// bit, those of the same model made anew: exact sums over the faces, of which the rounding of vertices, and the last digits, are all that is lost.
+    /// bit, those of a new live model of the same brushes: exact sums over the faces, of which the rounding of vertices, and the last digits, are all that is lost.
     ///
     /// ```
     /// use planecut_csg::{Brush, LiveModel, Material, MaterialId, Role};

@@ -4,7 +4,7 @@
 //! edit of a brush changes the boundary only within the old and the new extent of the brush: the faces that reach into these
 //! are worked out again among the bodies near them, and of their edges those that are new or gone are handed to the weld.
 //!
-//! - [`brush_edits`], [`copies`]: what users do to brushes, [`edit`]: all that they do as values, [`step`]: several at once, [`history`]: and take back; [`error`]: or why they cannot.
+//! - [`brush_edits`], [`copies`]: what users do to brushes, [`edit`]: all that they do as values, [`step`]: several at once, [`history`]: undo and redo; [`error`]: why an edit is refused.
 //! - [`preview`]: what an edit would change, [`removal`]: what a brush would gain without a plane, [`snap`]: where a plane may be meant to go. None of these changes anything.
 //! - [`change`]: how a change of brushes goes through [`planes`], [`bodies`], [`boundary`] and weld; [`polytopes`] are kept to
 //!   build bodies from, [`reach`] tells which faces are to be worked out again.

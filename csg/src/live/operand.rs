@@ -28,6 +28,18 @@ pub enum Role {
     Intersect,
 }
 
+impl Role {
+    /// The name by which files and programs call it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Add => "add",
+            Self::Subtract => "subtract",
+            Self::Intersect => "intersect",
+        }
+    }
+}
+
 /// All that the user has said of a brush.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct State {

@@ -1,7 +1,9 @@
 //! Faces of many corners: their constrained Delaunay triangulations, which change where the boundary does.
 
+use std::collections::hash_map::Entry;
+
 use planecut_kernel::DVec2;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::delaunay::{Conflict, Delaunay};
 use super::triangulate::Triangles;
@@ -23,8 +25,7 @@ pub(super) struct FaceEdge {
 #[derive(Debug, Clone)]
 pub(super) struct LargeFace {
     delaunay: Delaunay,
-    /// The site of each point, and how many edges begin there.
-    sites: FxHashMap<PointId, (SiteId, u32)>,
+    sites: FxHashMap<PointId, SiteId>,
 }
 
 impl LargeFace {
@@ -60,17 +61,15 @@ impl LargeFace {
         at: impl Fn(PointId) -> DVec2,
     ) -> Result<(), Conflict> {
         for edge in gone {
-            let [from, to] = [edge.from, edge.to].map(|point| self.sites.get(&point).map(|site| site.0));
-            self.delaunay.release(from.ok_or(Conflict)?, to.ok_or(Conflict)?)?;
+            let [from, to] = self.ends(edge)?;
+            self.delaunay.release(from, to)?;
         }
-        let mut stays: FxHashMap<PointId, u32> = FxHashMap::default();
-        new.iter().for_each(|edge| *stays.entry(edge.from).or_default() += 1);
-        for edge in gone {
-            let entry = self.sites.get_mut(&edge.from).ok_or(Conflict)?;
-            entry.1 -= 1;
-            if entry.1 == 0 && !stays.contains_key(&edge.from) {
-                let (site, _) = *entry;
-                self.sites.remove(&edge.from);
+        let stays: FxHashSet<PointId> = new.iter().map(|edge| edge.from).collect();
+        for point in gone.iter().map(|edge| edge.from).filter(|point| !stays.contains(point)) {
+            if let Some(site) = self.sites.get(&point).copied()
+                && !self.delaunay.is_corner(site)
+            {
+                self.sites.remove(&point);
                 self.delaunay.remove(site)?;
             }
         }
@@ -92,7 +91,7 @@ impl LargeFace {
     /// # Errors
     /// [`Conflict`]: a triangle has turned over; then the face has to be triangulated as a whole.
     pub(super) fn follow(&mut self, at: impl Fn(PointId) -> DVec2) -> Result<(), Conflict> {
-        let places = self.sites.iter().map(|(point, (site, _))| (*site, at(*point)));
+        let places = self.sites.iter().map(|(point, site)| (*site, at(*point)));
         let mut moved: Vec<(SiteId, DVec2)> = places.filter(|(site, at)| self.delaunay.at(*site) != *at).collect();
         // whatever the order of the map
         moved.sort_unstable_by_key(|(site, _)| *site);
@@ -109,22 +108,27 @@ impl LargeFace {
         let mut new: Vec<(u32, PointId)> = Vec::new();
         let scale = f64::from(SIDE) / (max - min).max_element().max(f64::MIN_POSITIVE);
         for edge in edges {
-            let site = self.sites.entry(edge.from).or_insert((SiteId::NONE, 0));
-            site.1 += 1;
-            if site.0 == SiteId::NONE && site.1 == 1 {
+            if let Entry::Vacant(unknown) = self.sites.entry(edge.from) {
+                unknown.insert(SiteId::NONE);
                 new.push((hilbert((at(edge.from) - min) * scale), edge.from));
             }
         }
         new.sort_unstable();
         for (_, point) in new {
             let site = self.delaunay.insert(at(point))?;
-            self.sites.entry(point).and_modify(|entry| entry.0 = site);
+            self.sites.insert(point, site);
         }
-        for FaceEdge { piece, from, to } in edges {
-            let [from, to] = [from, to].map(|point| self.sites.get(point).map(|site| site.0));
-            self.delaunay.constrain(from.ok_or(Conflict)?, to.ok_or(Conflict)?, *piece)?;
+        for edge in edges {
+            let [from, to] = self.ends(edge)?;
+            self.delaunay.constrain(from, to, edge.piece)?;
         }
         Ok(())
+    }
+
+    /// The sites at which an edge begins and ends.
+    fn ends(&self, edge: &FaceEdge) -> Result<[SiteId; 2], Conflict> {
+        let site = |point| self.sites.get(&point).copied().ok_or(Conflict);
+        Ok([site(edge.from)?, site(edge.to)?])
     }
 
     pub(super) fn triangle_count(&self) -> usize {

@@ -51,7 +51,7 @@ pub(crate) struct DragTimes {
     pub(crate) jumps: Times,
 }
 
-/// Drags in plates of so many holes a side, as they are and turned.
+/// Drags in plates, by the number of holes a side, as they are and turned.
 pub(crate) fn plates(sides: &[u32], verifies: bool) -> Result<Vec<Dragged>, String> {
     let mut all = Vec::new();
     for side in sides {

@@ -28,7 +28,7 @@ impl Delaunay {
         Ok(())
     }
 
-    /// Takes a boundary edge back.
+    /// Removes a boundary edge.
     ///
     /// # Errors
     /// [`Conflict`] where there is none.

@@ -156,6 +156,11 @@ impl Delaunay {
         }
     }
 
+    /// Whether a boundary edge begins at a site.
+    pub(super) fn is_corner(&self, site: SiteId) -> bool {
+        self.sites[site.index()].pieces > 0
+    }
+
     /// Where a site is.
     pub(super) fn at(&self, site: SiteId) -> DVec2 {
         self.sites[site.index()].at

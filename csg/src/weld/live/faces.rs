@@ -7,12 +7,11 @@ use rustc_hash::FxHashMap;
 
 use super::loops::{Loop, Loops};
 use super::names::place;
-use super::numbers::{Context, Numbers};
+use super::numbers::Context;
 use super::pieces::Pieces;
 use super::regions::{Region, Regions};
 use super::triangulation::{Changed, EdgeChanges, FaceTriangulator, Job, Triangulation};
 use crate::ids::{FaceId, HalfEdgeId, Id, LoopId, RegionId, holds, number32};
-use crate::plane_table::PlaneTable;
 use crate::weld::WeldError;
 use crate::weld::large_face::LargeFace;
 use crate::weld::nest::RegionPlane;
@@ -96,17 +95,15 @@ impl Faces {
     /// Chains and nests what has changed in regions, and triangulates the faces that are others than before.
     pub(super) fn update(
         &mut self,
-        table: &PlaneTable,
-        numbers: &Numbers,
+        context: &Context<'_>,
         regions: &mut Regions,
         pieces: &mut Pieces,
     ) -> Result<(), WeldError> {
-        let context = Context { table, numbers };
         let mut changes: FxHashMap<FaceId, EdgeChanges> = FxHashMap::default();
         for number in regions.take_changed() {
-            self.update_region(&context, number, regions.get_mut(number), pieces, &mut changes)?;
+            self.update_region(context, number, regions.get_mut(number), pieces, &mut changes)?;
         }
-        self.triangulate(&context, pieces, |face| Changed::Edges(changes.remove(&face).unwrap_or_default()));
+        self.triangulate(context, pieces, |face| Changed::Edges(changes.remove(&face).unwrap_or_default()));
         Ok(())
     }
 
@@ -119,23 +116,15 @@ impl Faces {
     }
 
     /// Triangulates faces again whose corners have moved, and measures their loops that have.
-    pub(super) fn follow(
-        &mut self,
-        table: &PlaneTable,
-        numbers: &Numbers,
-        pieces: &Pieces,
-        loops: &[LoopId],
-        faces: &[FaceId],
-    ) {
-        let context = Context { table, numbers };
+    pub(super) fn follow(&mut self, context: &Context<'_>, pieces: &Pieces, loops: &[LoopId], faces: &[FaceId]) {
         for &number in loops {
             let region = self.faces[self.loops.get(number).face.index()].region;
-            self.loops.follow(table, numbers, &context.plane(region), pieces, number);
+            self.loops.follow(context, &context.plane(region), pieces, number);
         }
         self.removed.extend_from_slice(faces);
         self.added.extend_from_slice(faces);
         self.triangles -= faces.iter().map(|face| self.faces[face.index()].triangulation.count()).sum::<usize>();
-        self.triangulate(&context, pieces, |_| Changed::Places);
+        self.triangulate(context, pieces, |_| Changed::Places);
     }
 
     fn update_region(
@@ -158,7 +147,7 @@ impl Faces {
         let mut new: Vec<LoopId> = Vec::new();
         for piece in left.pieces.iter().map(|(piece, _)| *piece).chain(region.new.drain(..)) {
             if !pieces.is_gone[piece.index()] && pieces.loop_of[piece.index()] == LoopId::NONE {
-                new.push(self.loops.walk(context.table, context.numbers, &plane, pieces, piece));
+                new.push(self.loops.walk(context, &plane, pieces, piece));
             }
         }
         region.gone.clear();

@@ -1,7 +1,7 @@
 //! Loops of half-edges, chained again where something changed.
 
 use super::names::place;
-use super::numbers::Numbers;
+use super::numbers::Context;
 use super::pieces::Pieces;
 use super::regions::Region;
 use crate::ids::{FaceId, HalfEdgeId, Id, LoopId, PointId};
@@ -102,8 +102,7 @@ impl Loops {
     /// Makes the loop of a half-edge that is in none.
     pub(super) fn walk(
         &mut self,
-        table: &PlaneTable,
-        numbers: &Numbers,
+        context: &Context<'_>,
         plane: &RegionPlane<'_>,
         pieces: &mut Pieces,
         start: HalfEdgeId,
@@ -117,7 +116,7 @@ impl Loops {
                 break;
             }
         }
-        begin_with_first(table, numbers, pieces, &mut members);
+        begin_with_first(context, pieces, &mut members);
         let outline = LoopOf { pieces: &members, half_edges: &pieces.half_edges, base: 0 };
         let extent = plane.extent(outline);
         let is_outer = plane.is_outer(outline, &extent);
@@ -130,23 +129,16 @@ impl Loops {
     }
 
     /// Measures a loop again whose corners have moved.
-    pub(super) fn follow(
-        &mut self,
-        table: &PlaneTable,
-        numbers: &Numbers,
-        plane: &RegionPlane<'_>,
-        pieces: &Pieces,
-        number: LoopId,
-    ) {
+    pub(super) fn follow(&mut self, context: &Context<'_>, plane: &RegionPlane<'_>, pieces: &Pieces, number: LoopId) {
         let entry = self.get_mut(number);
-        begin_with_first(table, numbers, pieces, &mut entry.pieces);
+        begin_with_first(context, pieces, &mut entry.pieces);
         entry.extent = plane.extent(LoopOf { pieces: &entry.pieces, half_edges: &pieces.half_edges, base: 0 });
     }
 }
 
 /// Turns a loop so that it begins with its first half-edge.
-fn begin_with_first(table: &PlaneTable, numbers: &Numbers, pieces: &Pieces, members: &mut [HalfEdgeId]) {
-    let order = |p: &usize, q: &usize| pieces.compare(table, numbers, members[*p], members[*q]);
+fn begin_with_first(context: &Context<'_>, pieces: &Pieces, members: &mut [HalfEdgeId]) {
+    let order = |p: &usize, q: &usize| pieces.compare(context, members[*p], members[*q]);
     let first = (0..members.len()).min_by(order).unwrap_or_default();
     members.rotate_left(first);
 }

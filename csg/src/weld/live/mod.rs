@@ -23,7 +23,6 @@ use rustc_hash::FxHashMap;
 
 use super::WeldError;
 use super::cancel::{Crossed, HalfEdge, LineWorker, Run, Surviving};
-use super::nest::RegionPlane;
 use super::pinches::PinchFinder;
 use crate::boundary::BoundaryEdge;
 use crate::ids::{EdgeId, FaceId, HalfEdgeId, Id, LineId, PointId, PointOfRegion, PointOnLine, RegionId};
@@ -32,7 +31,7 @@ use crate::plane_table::{PlaneId, PlaneTable};
 use faces::Faces;
 use moved::Moving;
 use names::place;
-use numbers::{NumberedEdge, Numbers};
+use numbers::{Context, NumberedEdge, Numbers};
 use pieces::Pieces;
 use regions::Regions;
 use vertices::Vertices;
@@ -128,13 +127,14 @@ impl LiveWeld {
     pub(crate) fn update(&mut self, table: &PlaneTable) -> Result<(), WeldError> {
         let (numbers, state) = (&self.numbers, &mut self.state);
         state.faces.begin_changes();
-        let mut cutter = Cutter::new(table, numbers, &self.edges);
+        let context = Context { table, numbers };
+        let mut cutter = Cutter::new(context, &self.edges);
         state.cut_dirty_lines(&mut cutter, true)?;
-        if state.find_pinches(table, numbers) {
+        if state.find_pinches(&context) {
             state.cut_dirty_lines(&mut cutter, false)?;
         }
         let State { pieces, regions, faces, vertices, .. } = state;
-        faces.update(table, numbers, regions, pieces)?;
+        faces.update(&context, regions, pieces)?;
         vertices.update(pieces);
         pieces.free.append(&mut pieces.gone);
         for edge in self.removed.drain(..) {
@@ -191,8 +191,7 @@ impl LiveWeld {
 
 /// What it takes to cancel and cut lines, and buffers.
 struct Cutter<'a> {
-    table: &'a PlaneTable,
-    known: &'a Numbers,
+    context: Context<'a>,
     edges: &'a [Edge],
     worker: LineWorker<'a>,
     group: Vec<Run>,
@@ -205,10 +204,10 @@ struct Cutter<'a> {
 }
 
 impl<'a> Cutter<'a> {
-    fn new(table: &'a PlaneTable, numbers: &'a Numbers, edges: &'a [Edge]) -> Self {
+    fn new(context: Context<'a>, edges: &'a [Edge]) -> Self {
+        let Context { table, numbers } = context;
         Self {
-            table,
-            known: numbers,
+            context,
             edges,
             worker: LineWorker::new(table, &numbers.points, &numbers.lines, &numbers.planes),
             group: Vec::new(),
@@ -281,10 +280,7 @@ impl State {
         let Self { lines, pieces, regions, .. } = self;
         let line = &mut lines[number.index()];
         cutter.cut()?;
-        let plane = |region: RegionId| {
-            RegionPlane::new(cutter.table, &cutter.known.points, cutter.known.planes[region.index()])
-        };
-        let Cutter { cut, old, numbers, .. } = cutter;
+        let Cutter { context, cut, old, numbers, .. } = cutter;
         let key = |piece: &HalfEdge| (piece.region, piece.from, piece.to);
         old.clear();
         old.extend(line.pieces.iter().map(|number| (key(&pieces.half_edges[number.index()]), *number)));
@@ -296,14 +292,14 @@ impl State {
                 Ok(at) => std::mem::replace(&mut old[at].1, HalfEdgeId::NONE),
                 Err(_) => {
                     let number = pieces.add(*piece);
-                    regions.add_piece(&mut pieces.places, piece, number, &plane(piece.region));
+                    regions.add_piece(context, &mut pieces.places, piece, number);
                     number
                 }
             });
         }
         for (_, gone) in old.iter().filter(|(_, number)| *number != HalfEdgeId::NONE) {
             let piece = &pieces.half_edges[gone.index()];
-            regions.remove_piece(&mut pieces.places, piece, *gone, &plane(piece.region));
+            regions.remove_piece(context, &mut pieces.places, piece, *gone);
             pieces.remove(*gone);
         }
         for (piece, number) in cut.iter().zip(numbers.iter()) {
@@ -358,12 +354,12 @@ impl State {
     }
 
     /// Finds the new pinches of regions that have changed and marks their lines; whether there are any.
-    fn find_pinches(&mut self, table: &PlaneTable, numbers: &Numbers) -> bool {
-        let mut finder = PinchFinder::new(table, &numbers.points);
+    fn find_pinches(&mut self, context: &Context<'_>) -> bool {
+        let mut finder = PinchFinder::new(context.table, &context.numbers.points);
         let mut any = false;
         for k in 0..self.regions.changed().len() {
             let region = self.regions.changed()[k];
-            self.regions.find_pinches(table, numbers, &self.pieces, region, &mut finder);
+            self.regions.find_pinches(context, &self.pieces, region, &mut finder);
             for pinch in finder.found.drain(..) {
                 any = true;
                 self.lines[pinch.line.index()].cuts.push(PointOfRegion { region, point: pinch.point });

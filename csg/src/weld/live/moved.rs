@@ -1,6 +1,7 @@
 //! A plane that moves so little that nothing but places changes: the same edges, loops and faces, with their corners elsewhere.
 
 use super::LiveWeld;
+use super::numbers::Context;
 use super::pieces::Pieces;
 use crate::boundary::BoundaryEdge;
 use crate::ids::{EdgeId, FaceId, HalfEdgeId, Id, LineId, LoopId, PointId, RegionId};
@@ -92,14 +93,15 @@ impl LiveWeld {
         let (numbers, state) = (&mut self.numbers, &mut self.state);
         let by_region = || moving.pieces.chunk_by(|a, b| a.0 == b.0);
         for pieces in by_region() {
-            state.regions.lift(table, numbers, &state.pieces, pieces);
+            state.regions.lift(&Context { table, numbers }, &state.pieces, pieces);
         }
         numbers.follow_plane(table, &moving.points, &moving.lines);
+        let context = Context { table, numbers };
         for pieces in by_region() {
-            state.regions.put_down(table, numbers, &state.pieces, pieces);
+            state.regions.put_down(&context, &state.pieces, pieces);
         }
         state.faces.begin_changes();
-        state.faces.follow(table, numbers, &state.pieces, &moving.loops, &moving.faces);
+        state.faces.follow(&context, &state.pieces, &moving.loops, &moving.faces);
         self.moving = Some(moving);
     }
 }

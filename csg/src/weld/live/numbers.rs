@@ -125,7 +125,7 @@ impl Numbers {
 
     /// Whether a point or a line is known by the plane of an index.
     pub(super) fn names(&self, index: u32) -> bool {
-        self.known_by.get(index as usize).is_some_and(|uses| *uses > 0)
+        self.known_by(index) > 0
     }
 
     /// The indices of planes by which no point and no line is known any more, perhaps.
@@ -226,6 +226,9 @@ impl Numbers {
 
     /// Marks again what has moved, before anything is looked up by marks.
     fn mark_moved(&mut self, table: &PlaneTable) {
+        if self.unmarked.0.is_empty() {
+            return;
+        }
         let (points, lines) = std::mem::take(&mut self.unmarked);
         for point in points {
             self.point_names.set_mark(point, mark_of(self.points.positions[point.index()]));

@@ -3,9 +3,8 @@
 use std::cmp::Ordering;
 
 use super::names::place;
-use super::numbers::Numbers;
+use super::numbers::Context;
 use crate::ids::{HalfEdgeId, Id, LoopId};
-use crate::plane_table::PlaneTable;
 use crate::weld::cancel::HalfEdge;
 
 /// Half-edges by number, and what is known of each.
@@ -48,7 +47,8 @@ impl Pieces {
     }
 
     /// The order of half-edges by where they begin and end, whatever their numbers.
-    pub(super) fn compare(&self, table: &PlaneTable, numbers: &Numbers, p: HalfEdgeId, q: HalfEdgeId) -> Ordering {
+    pub(super) fn compare(&self, context: &Context<'_>, p: HalfEdgeId, q: HalfEdgeId) -> Ordering {
+        let Context { table, numbers } = *context;
         let [p, q] = [p, q].map(|piece| &self.half_edges[piece.index()]);
         numbers.compare(table, p.from, q.from).then_with(|| numbers.compare(table, p.to, q.to))
     }

@@ -3,10 +3,9 @@
 use rustc_hash::FxHashMap;
 
 use super::grid::{BoxGrid, Rectangle};
-use super::numbers::Numbers;
+use super::numbers::Context;
 use super::pieces::Pieces;
 use crate::ids::{FaceId, HalfEdgeId, Id, PointId, PointOnLine, RegionId, number32};
-use crate::plane_table::PlaneTable;
 use crate::weld::cancel::HalfEdge;
 use crate::weld::nest::RegionPlane;
 use crate::weld::pinches::PinchFinder;
@@ -14,7 +13,7 @@ use crate::weld::pinches::PinchFinder;
 /// Number of half-edges from which those of a region are looked up in an index, and that below which there is none any more.
 const INDEXED: [usize; 2] = [64, 32];
 
-/// Where more than one in this number of the half-edges of a region move, they are looked up anew afterwards.
+/// Where more than one in this number of the half-edges of a region move, its index is made again when it is next needed.
 const MOVED_SHARE: usize = 4;
 
 /// The regions, by number.
@@ -135,26 +134,26 @@ impl Regions {
 
     pub(super) fn add_piece(
         &mut self,
+        context: &Context<'_>,
         places: &mut [u32],
         piece: &HalfEdge,
         number: HalfEdgeId,
-        plane: &RegionPlane<'_>,
     ) {
         let region = self.note(piece.region);
         region.new.push(number);
         places[number.index()] = number32(region.pieces.len());
         region.pieces.push(number);
         if let Some(index) = &mut region.index {
-            index.insert(piece, number, plane);
+            index.insert(piece, number, &context.plane(piece.region));
         }
     }
 
     pub(super) fn remove_piece(
         &mut self,
+        context: &Context<'_>,
         places: &mut [u32],
         piece: &HalfEdge,
         number: HalfEdgeId,
-        plane: &RegionPlane<'_>,
     ) {
         let region = self.note(piece.region);
         region.gone.push(number);
@@ -164,51 +163,37 @@ impl Regions {
             places[moved.index()] = number32(place);
         }
         if let Some(index) = &mut region.index {
-            index.remove(piece, number, plane);
+            index.remove(piece, number, &context.plane(piece.region));
         }
     }
 
     /// Takes half-edges out of the index of their region that are about to move, or drops the index where that is less work.
-    pub(super) fn lift(
-        &mut self,
-        table: &PlaneTable,
-        numbers: &Numbers,
-        pieces: &Pieces,
-        moving: &[(RegionId, HalfEdgeId)],
-    ) {
-        self.for_index_of(moving, |region, number| {
-            if moving.len() * MOVED_SHARE > region.pieces.len() {
-                region.index = None;
-            }
-            let plane = RegionPlane::new(table, &numbers.points, numbers.planes[number.index()]);
-            if let Some(index) = &mut region.index {
-                moving.iter().for_each(|(_, piece)| index.remove(&pieces.half_edges[piece.index()], *piece, &plane));
-            }
-        });
+    pub(super) fn lift(&mut self, context: &Context<'_>, pieces: &Pieces, moving: &[(RegionId, HalfEdgeId)]) {
+        let Some((number, _)) = moving.first() else { return };
+        let region = self.get_mut(*number);
+        if moving.len() * MOVED_SHARE > region.pieces.len() {
+            region.index = None;
+        }
+        self.for_indexed(context, pieces, moving, Index::remove);
     }
 
     /// Puts them into it again, once they have moved.
-    pub(super) fn put_down(
-        &mut self,
-        table: &PlaneTable,
-        numbers: &Numbers,
-        pieces: &Pieces,
-        moving: &[(RegionId, HalfEdgeId)],
-    ) {
-        self.for_index_of(moving, |region, number| {
-            let plane = RegionPlane::new(table, &numbers.points, numbers.planes[number.index()]);
-            if let Some(index) = &mut region.index {
-                moving.iter().for_each(|(_, piece)| index.insert(&pieces.half_edges[piece.index()], *piece, &plane));
-            }
-        });
+    pub(super) fn put_down(&mut self, context: &Context<'_>, pieces: &Pieces, moving: &[(RegionId, HalfEdgeId)]) {
+        self.for_indexed(context, pieces, moving, Index::insert);
     }
 
-    /// Does something with the region of some half-edges, where it has an index.
-    fn for_index_of(&mut self, moving: &[(RegionId, HalfEdgeId)], work: impl FnOnce(&mut Region, RegionId)) {
+    /// Does something with each of some half-edges of one region, where that has an index.
+    fn for_indexed(
+        &mut self,
+        context: &Context<'_>,
+        pieces: &Pieces,
+        moving: &[(RegionId, HalfEdgeId)],
+        work: impl Fn(&mut Index, &HalfEdge, HalfEdgeId, &RegionPlane<'_>),
+    ) {
         let Some((number, _)) = moving.first() else { return };
-        let region = self.get_mut(*number);
-        if region.index.is_some() {
-            work(region, *number);
+        if let Some(index) = &mut self.get_mut(*number).index {
+            let plane = context.plane(*number);
+            moving.iter().for_each(|(_, piece)| work(index, &pieces.half_edges[piece.index()], *piece, &plane));
         }
     }
 
@@ -234,15 +219,14 @@ impl Regions {
     /// Leaves in the finder the pinches of a changed region that new half-edges make; they are noted, too.
     pub(super) fn find_pinches(
         &mut self,
-        table: &PlaneTable,
-        numbers: &Numbers,
+        context: &Context<'_>,
         pieces: &Pieces,
         number: RegionId,
         finder: &mut PinchFinder<'_>,
     ) {
         finder.found.clear();
         let region = &mut self.regions[number.index()];
-        let plane = RegionPlane::new(table, &numbers.points, numbers.planes[number.index()]);
+        let plane = context.plane(number);
         region.settle_index(pieces, &plane);
         let half_edge = |number: &HalfEdgeId| pieces.half_edges[number.index()];
         let alive = |number: &&HalfEdgeId| !pieces.is_gone[number.index()];

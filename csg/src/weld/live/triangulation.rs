@@ -14,7 +14,7 @@ use crate::weld::triangulate::{Triangles, Triangulator, WeldPoints, convex_quadr
 /// Number of corners, of all faces together, from which several threads triangulate them.
 const CORNERS_FOR_THREADS: usize = 400;
 
-/// A triangulation changes with its face where fewer than one in this number of its edges come or go; otherwise it is made anew, which takes less for each edge.
+/// A triangulation changes with its face where fewer than one in this number of its edges come or go; otherwise a new one is made, which takes less for each edge.
 const CHANGED_SHARE: usize = 3;
 
 /// The triangles of a face: three half-edges each, those that begin at its corners.
@@ -154,7 +154,7 @@ impl<'a> FaceTriangulator<'a> {
             }
             triangulator.begin(projection);
             let mut holes: Vec<&Loop> = job.holes.iter().map(|hole| self.loops.get(*hole)).collect();
-            holes.sort_by(|p, q| self.pieces.compare(table, numbers, p.pieces[0], q.pieces[0]));
+            holes.sort_by(|p, q| self.pieces.compare(&self.context, p.pieces[0], q.pieces[0]));
             for members in std::iter::once(job.outer).chain(holes) {
                 let corner = |piece: &HalfEdgeId| numbers.points.corner(*piece, half_edge(*piece));
                 triangulator.add_loop(members.pieces.iter().map(corner));

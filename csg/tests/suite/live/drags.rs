@@ -57,7 +57,7 @@ fn a_plate_of_many_holes_is_dragged_by_its_side_its_top_and_the_end_of_a_hole() 
     }
 }
 
-/// A prism of so many sides around a place, along z.
+/// A prism around a place, along z, by its number of sides.
 fn prism(sides: u32, [x, y]: [f64; 2], radius: f64, [low, high]: [f64; 2]) -> Planes {
     let side = |k: u32| {
         let (sine, cosine) = (TAU * f64::from(k) / f64::from(sides)).sin_cos();

@@ -1,4 +1,4 @@
-//! Measures of live models: against inclusion and exclusion, against triangles, and bit for bit against models made anew.
+//! Measures of live models: against inclusion and exclusion, against triangles, and bit for bit against new models.
 
 use planecut_csg::{BrushId, LiveModel, Material, MaterialId, Model, Role, SolidMeasures, Transform, Tree, evaluate};
 use planecut_kernel::DVec3;
@@ -87,7 +87,7 @@ fn volumes_of_trees_are_sums_over_intersections() {
 }
 
 #[test]
-fn after_any_edits_measures_are_bit_for_bit_those_of_a_model_made_anew() {
+fn after_any_edits_measures_are_bit_for_bit_those_of_a_new_model() {
     let (mut compared, mut volumes) = (0, 0.0);
     for (kind, count) in [(Kind::Lattice, 40), (Kind::Turned, 25), (Kind::Mixed, 25)] {
         for seed in 0..count {
