@@ -8,13 +8,13 @@ use planecut::csg::{Brush, Material, MaterialId, Model, Tree};
 use planecut::kernel::{HalfSpace, IncrementalPolytope};
 use planecut_parallel::job::check;
 use pyo3::prelude::*;
-use pyo3::types::PyBytes;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::arrays::{view_points, view_rows};
 use crate::errors::{Failure, Outcome, refuse};
 use crate::expression::Node;
+use crate::pickles::{Reduced, reduced, unpickled};
 use crate::solid::Solid;
 
 /// A bounded convex body: planes, and the corners and triangles of its boundary.
@@ -106,16 +106,14 @@ impl Cell {
         Ok(Solid::of(Node::of_tree(brush, Material::named(&self.material))))
     }
 
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
-        let bytes = rmp_serde::to_vec(slf.get()).map_err(Failure::of)?;
-        Ok((slf.get_type().getattr("_unpickle")?, (PyBytes::new(slf.py(), &bytes),)))
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        reduced(slf, rmp_serde::to_vec(slf.get()))
     }
 
     /// A cell that was pickled.
     #[staticmethod]
     fn _unpickle(data: &[u8]) -> PyResult<Self> {
-        let cell: Self =
-            rmp_serde::from_slice(data).map_err(|error| refuse(format!("found what is no pickled cell: {error}")))?;
+        let cell: Self = unpickled(data, "is no pickled cell")?;
         let count = cell.vertices.len() as u32;
         let is_sound = cell.triangles.iter().flatten().all(|corner| *corner < count);
         if is_sound { Ok(cell) } else { Err(refuse("found what is no pickled cell: a number of no corner")) }

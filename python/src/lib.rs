@@ -15,6 +15,7 @@ mod job;
 mod live;
 mod membership;
 mod mesh;
+mod pickles;
 mod picture;
 mod polytope;
 mod shapes;

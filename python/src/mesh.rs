@@ -10,10 +10,11 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 
 use crate::arrays::{numbers, points, small_rows, triangles, view, view_points, view_rows};
-use crate::errors::{Failure, refuse};
+use crate::errors::refuse;
 use crate::expression::Evaluated;
 use crate::files::{save_mesh, text_of};
 use crate::job::Job;
+use crate::pickles::{Reduced, reduced, unpickled};
 use crate::picture::{Look, is_picture, pixels, save_picture};
 use crate::shapes::material_of;
 use crate::solid::transform_of;
@@ -361,22 +362,23 @@ impl Mesh {
         slf
     }
 
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
-        let py = slf.py();
-        let bytes = rmp_serde::to_vec_named(slf.get().core()).map_err(Failure::of)?;
-        Ok((py.get_type::<Self>().getattr("_unpickle")?, (PyBytes::new(py, &bytes),)))
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        reduced(slf, rmp_serde::to_vec_named(slf.get().core()))
     }
 
     /// A mesh that was pickled.
     #[staticmethod]
     fn _unpickle(data: &[u8]) -> PyResult<Self> {
-        let refused = |what: &str| refuse(format!("found what is no pickled mesh: {what}"));
-        let mesh: CoreMesh = rmp_serde::from_slice(data).map_err(|error| refused(&error.to_string()))?;
+        let mesh: CoreMesh = unpickled(data, "is no pickled mesh")?;
         let (vertices, faces) = (mesh.positions.len() as u32, mesh.faces.len() as u32);
         let is_sound = mesh.triangles.iter().flatten().all(|vertex| *vertex < vertices)
             && mesh.triangle_faces.len() == mesh.triangles.len()
             && mesh.triangle_faces.iter().all(|face| *face < faces)
             && mesh.faces.iter().all(|face| (face.material.0 as usize) < mesh.materials.len());
-        if is_sound { Ok(Self::of_core(mesh)) } else { Err(refused("a number that stands for nothing")) }
+        if is_sound {
+            Ok(Self::of_core(mesh))
+        } else {
+            Err(refuse("found what is no pickled mesh: a number that stands for nothing"))
+        }
     }
 }

@@ -5,10 +5,10 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use numpy::{PyArray1, PyArray2};
 use planecut::kernel::{HalfSpace, IncrementalPolytope, PlaneIdx};
 use pyo3::prelude::*;
-use pyo3::types::PyBytes;
 
 use crate::arrays::{row, small, small_rows, table};
 use crate::errors::{Failure, refuse};
+use crate::pickles::{Reduced, reduced, unpickled};
 
 /// The intersection of half-spaces `n · x <= d`, with corners and faces kept up to date as planes are added, moved and removed, each in about a microsecond. It may be unbounded or
 /// empty. Every decision is exact: it is the same as a new one of the same planes.
@@ -182,15 +182,13 @@ impl Polytope {
         format!("<planecut.Polytope of {} planes>", self.body().planes().count())
     }
 
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
-        let bytes = rmp_serde::to_vec_named(&*slf.get().body()).map_err(Failure::of)?;
-        Ok((slf.get_type().getattr("_unpickle")?, (PyBytes::new(slf.py(), &bytes),)))
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        reduced(slf, rmp_serde::to_vec_named(&*slf.get().body()))
     }
 
     /// A polytope that was pickled.
     #[staticmethod]
     fn _unpickle(data: &[u8]) -> PyResult<Self> {
-        let body = rmp_serde::from_slice(data);
-        Ok(Self::of(body.map_err(|error| refuse(format!("found what is no pickled polytope: {error}")))?))
+        unpickled(data, "is no pickled polytope").map(Self::of)
     }
 }

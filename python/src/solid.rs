@@ -19,6 +19,7 @@ use crate::files::{one_body, save_solid, text_of};
 use crate::job::Job;
 use crate::membership;
 use crate::mesh::Mesh;
+use crate::pickles::{Reduced, reduced, unpickled};
 use crate::picture::{Look, is_picture, pixels, save_picture};
 use crate::shapes::material_of;
 
@@ -413,20 +414,19 @@ impl Solid {
         slf
     }
 
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
-        let py = slf.py();
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
         let node = Arc::clone(&slf.get().node);
-        let bytes = py.detach(move || rmp_serde::to_vec_named(&node.model()?).map_err(Failure::of))?;
-        Ok((py.get_type::<Self>().getattr("_unpickle")?, (PyBytes::new(py, &bytes),)))
+        let bytes = slf.py().detach(move || node.model().map(|model| rmp_serde::to_vec_named(&model)))?;
+        reduced(slf, bytes)
     }
 
     /// A solid that was pickled.
     #[staticmethod]
     fn _unpickle(data: &[u8]) -> PyResult<Self> {
-        let refused = |what: String| refuse(format!("found what is no pickled solid: {what}"));
-        let model: Model = rmp_serde::from_slice(data).map_err(|error| refused(error.to_string()))?;
+        let model: Model = unpickled(data, "is no pickled solid")?;
         let used = model.tree.brushes().iter().flat_map(Brush::materials);
-        check_materials(used, model.materials.len()).map_err(|error| refused(error.to_string()))?;
+        let refused = |error| refuse(format!("found what is no pickled solid: {error}"));
+        check_materials(used, model.materials.len()).map_err(refused)?;
         Ok(Self::of(Node::of_model(model)))
     }
 }

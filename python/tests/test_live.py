@@ -358,9 +358,9 @@ def test_measures_follow_each_edit(case):
         corners = soup.reshape(-1, 3, 3)
         weights = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6
         np.testing.assert_allclose(live.centroid, weights @ corners.sum(axis=1) / 4 / weights.sum(), rtol=1e-9, atol=1e-9)
-        anew = pc.Live(live.to_solid())
-        assert (live.volume, live.area, live.areas) == (anew.volume, anew.area, anew.areas)
-        assert (live.centroid.tobytes(), live.bounds.tobytes()) == (anew.centroid.tobytes(), anew.bounds.tobytes())
+        new = pc.Live(live.to_solid())
+        assert (live.volume, live.area, live.areas) == (new.volume, new.area, new.areas)
+        assert (live.centroid.tobytes(), live.bounds.tobytes()) == (new.centroid.tobytes(), new.bounds.tobytes())
 
 
 def test_an_empty_model_has_measures():

@@ -17,6 +17,7 @@ use crate::errors::{Failure, refuse};
 use crate::expression::Node;
 use crate::files::{settings, text_of};
 use crate::job::Job;
+use crate::pickles::{Reduced, reduced, unpickled};
 use crate::picture::{Look, is_picture, pixels};
 use crate::solid::Solid;
 
@@ -221,16 +222,14 @@ impl Coarsened {
         self.cells(py)?.into_any().try_iter()
     }
 
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
-        let bytes = rmp_serde::to_vec_named(&*slf.get().data).map_err(Failure::of)?;
-        Ok((slf.get_type().getattr("_unpickle")?, (PyBytes::new(slf.py(), &bytes),)))
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        reduced(slf, rmp_serde::to_vec_named(&*slf.get().data))
     }
 
     /// Cells that were pickled.
     #[staticmethod]
     fn _unpickle(py: Python<'_>, data: &[u8]) -> PyResult<Self> {
-        let data = rmp_serde::from_slice(data);
-        Self::of(py, data.map_err(|error| refuse(format!("found what are no pickled cells: {error}")))?)
+        Self::of(py, unpickled(data, "are no pickled cells")?)
     }
 
     fn __repr__(&self) -> String {

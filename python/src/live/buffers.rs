@@ -4,12 +4,11 @@ use glam::DVec3;
 use numpy::{PyArray1, PyArray2};
 use planecut::csg::ModelBuffers;
 use pyo3::prelude::*;
-use pyo3::types::PyBytes;
 use serde::{Deserialize, Serialize};
 
 use super::face::{Face, face_number};
 use crate::arrays::{small, small_rows, vector, view, view_rows};
-use crate::errors::{Failure, refuse};
+use crate::pickles::{Reduced, reduced, unpickled};
 
 /// Faces in single precision, in one list of vertices and one of triangles. Faces share no vertices, as each has a normal of its own.
 #[pyclass(frozen, module = "planecut")]
@@ -86,15 +85,14 @@ impl Buffers {
         view(slf.as_any(), &slf.get().index_starts)
     }
 
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
-        let bytes = rmp_serde::to_vec(slf.get()).map_err(Failure::of)?;
-        Ok((slf.get_type().getattr("_unpickle")?, (PyBytes::new(slf.py(), &bytes),)))
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        reduced(slf, rmp_serde::to_vec(slf.get()))
     }
 
     /// Buffers that were pickled.
     #[staticmethod]
     fn _unpickle(data: &[u8]) -> PyResult<Self> {
-        rmp_serde::from_slice(data).map_err(|error| refuse(format!("found what are no pickled buffers: {error}")))
+        unpickled(data, "are no pickled buffers")
     }
 
     fn __repr__(&self) -> String {

@@ -4,11 +4,10 @@ use glam::DVec3;
 use numpy::{PyArray1, PyArray2};
 use planecut::csg::{BrushId, Change as CoreChange, FaceId};
 use pyo3::prelude::*;
-use pyo3::types::PyBytes;
 use serde::{Deserialize, Serialize};
 
 use crate::arrays::{small, view_points, view_rows};
-use crate::errors::{Failure, refuse};
+use crate::pickles::{Reduced, reduced, unpickled};
 
 /// What an edit has changed.
 #[pyclass(frozen, module = "planecut")]
@@ -104,15 +103,14 @@ impl Face {
         view_rows(slf.as_any(), &slf.get().triangles)
     }
 
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
-        let bytes = rmp_serde::to_vec(slf.get()).map_err(Failure::of)?;
-        Ok((slf.get_type().getattr("_unpickle")?, (PyBytes::new(slf.py(), &bytes),)))
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        reduced(slf, rmp_serde::to_vec(slf.get()))
     }
 
     /// A face that was pickled.
     #[staticmethod]
     fn _unpickle(data: &[u8]) -> PyResult<Self> {
-        rmp_serde::from_slice(data).map_err(|error| refuse(format!("found what is no pickled face: {error}")))
+        unpickled(data, "is no pickled face")
     }
 
     fn __repr__(&self) -> String {

@@ -10,8 +10,8 @@ use std::sync::{Arc, Mutex};
 use glam::DVec3;
 use numpy::{PyArray1, PyArray2};
 use planecut::csg::{
-    BrushId, Change as CoreChange, Edit as CoreEdit, FaceId, LiveModel, Material, MaterialId, Model, Role,
-    SolidMeasures, Tree,
+    BrushId, Change as CoreChange, Edit as CoreEdit, FaceId, LiveModel, Material, MaterialId, Model, SolidMeasures,
+    Tree,
 };
 use planecut::kernel::PlaneIdx;
 use pyo3::prelude::*;
@@ -180,7 +180,7 @@ impl Live {
 
     /// The role of a brush: "add", "subtract" or "intersect".
     fn role(&self, py: Python<'_>, brush: u64) -> PyResult<&'static str> {
-        self.with(py, |state| Ok(role_name(state.model.brush(BrushId(brush))?.1)))
+        self.with(py, |state| Ok(state.model.brush(BrushId(brush))?.1.name()))
     }
 
     /// The planes of a brush.
@@ -216,15 +216,7 @@ impl Live {
             let unknown = || Failure::of(format!("id: found {id}, expected the number of a face that is there"));
             let number = FaceId::from(u32::try_from(id).map_err(|_| unknown())?);
             let face = state.model.face(number).ok_or_else(unknown)?;
-            let mut places: BTreeMap<u32, u32> = BTreeMap::new();
-            let mut vertices = Vec::new();
-            let mut corner = |(number, position): (u32, DVec3)| {
-                *places.entry(number).or_insert_with(|| {
-                    vertices.push(position);
-                    vertices.len() as u32 - 1
-                })
-            };
-            let triangles: Vec<[u32; 3]> = face.triangles().map(|corners| corners.map(&mut corner)).collect();
+            let (vertices, triangles) = face.indexed();
             let source = state.model.source_of_face(number);
             let material = state.model.materials()[face.material().0 as usize].name.clone();
             let normal = face.normal().to_array();
@@ -340,13 +332,5 @@ impl Live {
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Solid,))> {
         let solid = slf.get().to_solid(slf.py())?;
         Ok((slf.get_type().into_any(), (solid,)))
-    }
-}
-
-fn role_name(role: Role) -> &'static str {
-    match role {
-        Role::Add => "add",
-        Role::Subtract => "subtract",
-        Role::Intersect => "intersect",
     }
 }
