@@ -11,7 +11,7 @@ use planecut::import::edits::{EditsImport, read_edits};
 use super::args::EditArgs;
 use super::error::{CliError, Done};
 use super::input::{Input, InputKind};
-use super::output::{MeshTarget, Target, check_targets};
+use super::output::{MeshTarget, Output, Target, check_targets};
 use super::pieces::{bounded_tree_of, brushes, of_cells};
 use super::product::{Contents, Product, encode, first_written, produce};
 use super::progress::Progress;
@@ -146,14 +146,13 @@ impl<'a> Plan<'a> {
         let Edited { model, mesh, unbounded, warnings, mut report } = edited;
         let begin = Instant::now();
         progress.stage("encoding");
-        let options = self.args.output.assets.options(self.args.output.scale);
-        let parts = [Part::new("solid", &mesh)];
-        let brushes = || brushes(&self.input.path, &bounded_tree_of(self.kind, &model, &unbounded));
-        let contents = Contents { parts: &parts, materials: &model.materials, brushes: &brushes };
-        let outputs = encode(&contents, &self.meshes, &options)?;
+        let outputs = encode_model(self.args, (&self.input, self.kind), (&model, &unbounded), &mesh, &self.meshes)?;
         let encoding = begin.elapsed();
         let first = self.meshes.first().filter(|_| self.report.is_some());
-        if let (Some(written), Some(report)) = (first_written(first, &parts, &options)?, &mut report) {
+        let options = self.args.output.assets.options(self.args.output.scale);
+        if let (Some(written), Some(report)) =
+            (first_written(first, &[Part::new("solid", &mesh)], &options)?, &mut report)
+        {
             report.set_written(&written);
         }
         Ok(Product { warnings, report, outputs, encoding })
@@ -193,6 +192,23 @@ fn live_model(input: &Input, kind: InputKind, model: Model, progress: &Progress)
         EditError::Evaluate(source) => CliError::of_evaluation(&input.path, source),
         source => CliError::Edit { path: input.path.clone(), line: 0, source },
     })
+}
+
+/// The files of an edited model and its mesh; `unbounded` are the numbers of the brushes that are not bounded.
+///
+/// # Errors
+/// [`CliError`] of encoding, and of beginning to write.
+pub(crate) fn encode_model(
+    args: &EditArgs,
+    (input, kind): (&Input, InputKind),
+    (model, unbounded): (&Model, &[usize]),
+    mesh: &Mesh,
+    targets: &[MeshTarget],
+) -> Result<Vec<Output>, CliError> {
+    let parts = [Part::new("solid", mesh)];
+    let brushes = || brushes(&input.path, &bounded_tree_of(kind, model, unbounded));
+    let contents = Contents { parts: &parts, materials: &model.materials, brushes: &brushes };
+    encode(&contents, targets, &args.output.assets.options(args.output.scale))
 }
 
 /// Edits that were applied, and how long each took.

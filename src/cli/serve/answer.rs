@@ -1,6 +1,6 @@
 //! What a line gets: one JSON object.
 
-use planecut::csg::{ConvexPiece, Edited, FaceId, LiveModel, Operation, PlaneRemoval, Preview, Role, TreeOperand};
+use planecut::csg::{ConvexPiece, Edited, FaceId, LiveModel, Operation, PlaneRemoval, Preview, TreeOperand};
 use planecut::kernel::DVec3;
 use serde_json::{Map, Value, json};
 
@@ -116,14 +116,6 @@ pub(super) fn operand(operand: TreeOperand) -> Value {
     match operand {
         TreeOperand::Brush(id) => json!({"brush": id.0}),
         TreeOperand::Node(id) => json!({"node": id.0}),
-    }
-}
-
-pub(super) fn role_name(role: Role) -> &'static str {
-    match role {
-        Role::Add => "add",
-        Role::Subtract => "subtract",
-        Role::Intersect => "intersect",
     }
 }
 

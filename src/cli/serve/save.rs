@@ -3,15 +3,13 @@
 use std::path::Path;
 
 use planecut::csg::{LiveModel, summarize};
-use planecut::export::Part;
 use planecut::import::Warning;
 
 use crate::cli::args::EditArgs;
+use crate::cli::edit::encode_model;
 use crate::cli::error::CliError;
 use crate::cli::input::{Input, InputKind};
 use crate::cli::output::{MeshTarget, Output, OutputFormat, Target, check_targets};
-use crate::cli::pieces::{bounded_tree_of, brushes};
-use crate::cli::product::{Contents, encode};
 use crate::cli::solve::solid_warnings;
 
 /// Writes the model to a file, which gets its name when it is complete; gives what there is to warn of.
@@ -39,9 +37,6 @@ pub(super) fn save(
     let model = live.to_model();
     let summary = summarize(&model);
     let warnings = solid_warnings(kind, &model, &summary, &mesh);
-    let parts = [Part::new("solid", &mesh)];
-    let brushes = || brushes(&input.path, &bounded_tree_of(kind, &model, &summary.unbounded));
-    let contents = Contents { parts: &parts, materials: &model.materials, brushes: &brushes };
-    Output::commit_all(encode(&contents, &targets, &args.output.assets.options(args.output.scale))?)?;
+    Output::commit_all(encode_model(args, (input, kind), (&model, &summary.unbounded), &mesh, &targets)?)?;
     Ok(warnings)
 }

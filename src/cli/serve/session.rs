@@ -7,7 +7,7 @@ use planecut::import::edits::edit_of_keys;
 use planecut::kernel::{DVec3, HalfSpace, PlaneIdx};
 use serde_json::{Map, Value, json};
 
-use super::answer::{self, keys, operand, operation_name, refusal, role_name, success};
+use super::answer::{self, keys, operand, operation_name, refusal, success};
 use super::measures::measures;
 use super::request::{Asked, Query, Request};
 use super::save::save;
@@ -124,7 +124,7 @@ impl<'a> Session<'a> {
         Ok(keys(json!({
             "brush": id.0,
             "name": brush.name,
-            "role": role_name(role),
+            "role": role.name(),
             "parent": self.live.parent(id)?.map(|node| node.0),
             "planes": planes.collect::<Vec<Value>>(),
         })))
@@ -140,7 +140,7 @@ impl<'a> Session<'a> {
                 TreeOperand::Node(id) => live.node(id)?.role,
             };
             let mut part = operand(part);
-            part["role"] = role_name(role).into();
+            part["role"] = role.name().into();
             parts.push(part);
         }
         let mut nodes = Vec::new();
