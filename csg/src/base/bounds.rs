@@ -44,6 +44,13 @@ impl Bounds {
         self.min.cmple(other.max).all() && other.min.cmple(self.max).all()
     }
 
+    /// Whether another box lies in the closed box.
+    #[inline]
+    #[must_use]
+    pub fn holds(&self, other: &Self) -> bool {
+        self.min.cmple(other.min).all() && other.max.cmple(self.max).all()
+    }
+
     /// Whether what lies in both boxes may have an area: boxes that touch in an edge or a corner alone have none in common.
     #[inline]
     #[must_use]

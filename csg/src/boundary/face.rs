@@ -7,11 +7,14 @@ use super::role::{Pair, Role};
 use super::section::{Clip, Cover, Line, Piece, Polygon};
 use super::sweep::{Context, Sweep};
 use super::{BoundaryEdge, Scene};
-use crate::base::Bounds;
+use crate::base::{Bounds, Boxes};
 use crate::body::BodyFace;
 use crate::expression::{OneLevel, Restriction};
-use crate::ids::{BodyFaceId, BodyId, Id, KeptLeafId, LeafId, NearId, holds};
+use crate::ids::{BodyFaceId, BodyId, Id, KeptLeafId, LeafId, NearId, holds, number32};
 use crate::plane_table::PlaneTable;
+
+/// Number of sections from which those near one are looked up: few are compared one by one.
+const MANY_SECTIONS: usize = 32;
 
 /// A body that reaches the plane of the face.
 #[derive(Debug, Clone, Copy)]
@@ -53,6 +56,8 @@ pub(crate) struct FaceWorker<'a> {
     live: usize,
     clipper: Clipper,
     pieces: Vec<Piece>,
+    /// The sections near one of them.
+    beside: Vec<u32>,
     ownership: Ownership,
     sweep: Sweep,
 }
@@ -75,6 +80,7 @@ impl<'a> FaceWorker<'a> {
             live: 0,
             clipper: Clipper::default(),
             pieces: Vec::new(),
+            beside: Vec::new(),
             ownership: Ownership::default(),
             sweep: Sweep::default(),
         }
@@ -329,7 +335,14 @@ impl<'a> FaceWorker<'a> {
     /// The pieces of section edges outside of which nothing is covered: there the boundary ends, too.
     fn emit_section_edges(&mut self, face: &BodyFace, facing: Facing, out: &mut Vec<BoundaryEdge>) {
         let sections = &self.sections[..self.live];
+        let boxes = || Boxes::new(sections.iter().map(|section| section.bounds).collect());
+        let boxes = (sections.len() > MANY_SECTIONS).then(boxes);
+        self.beside.clear();
+        self.beside.extend(0..number32(sections.len()));
         for (k, section) in sections.iter().enumerate() {
+            if let Some(boxes) = &boxes {
+                boxes.touching(&section.bounds, &mut self.beside);
+            }
             for (i, &edge) in section.polygon.edges.iter().enumerate() {
                 if holds(&self.region.edges, edge) {
                     continue;
@@ -337,7 +350,7 @@ impl<'a> FaceWorker<'a> {
                 let line = Line { plane: face.plane, edge };
                 self.pieces.clear();
                 self.pieces.push(Piece::of_edge(&section.polygon, i));
-                subtract_others(self.scene.table, line, sections, [k, i], &mut self.pieces);
+                subtract_others(self.scene.table, line, sections, &self.beside, [k, i], &mut self.pieces);
                 let right = |piece: &Piece| BoundaryEdge::right(face, facing, edge, piece.start, piece.end);
                 out.extend(self.pieces.iter().map(right));
             }
@@ -345,19 +358,20 @@ impl<'a> FaceWorker<'a> {
     }
 }
 
-/// Takes out of `pieces`, which lie on edge `edge` of section `own`, what other sections cover on the outer side.
+/// Takes out of `pieces`, which lie on edge `edge` of section `own`, what others cover on the outer side of those `beside`.
 ///
 /// Along a shared edge line a section on the outer side covers; of two on the same side the first keeps the edge.
 fn subtract_others(
     table: &PlaneTable,
     line: Line,
     sections: &[Section],
+    beside: &[u32],
     [own, edge]: [usize; 2],
     pieces: &mut Vec<Piece>,
 ) {
     let Some(whole) = pieces.first().copied() else { return };
     let bounds = sections[own].polygon.edge_bounds(edge);
-    for (k, other) in sections.iter().enumerate() {
+    for (k, other) in beside.iter().map(|k| (*k as usize, &sections[*k as usize])) {
         if k == own || pieces.is_empty() || !other.bounds.touches(&bounds) {
             continue;
         }

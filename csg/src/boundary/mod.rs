@@ -5,7 +5,8 @@
 //! ends: pieces of the face's own edges, and pieces of the section edges, each clipped in one dimension. Mostly each body
 //! alone decides what is inside or outside of its polygon, and intervals are subtracted; where several decide together,
 //! [`sweep`] evaluates the tree along each edge. Only the part of the tree that reaches a face is ever looked at. Of coplanar
-//! faces one owner emits ([`ownership`]); what most bodies do to a face is told without the others ([`role`]).
+//! faces one owner emits ([`ownership`]); what most bodies do to a face is told without the others ([`role`]). Where bodies change near a part of a face,
+//! the edges there are put among those known ([`splice`]).
 
 mod clip;
 mod contact;
@@ -13,6 +14,7 @@ mod face;
 mod ownership;
 mod role;
 mod section;
+mod splice;
 mod sweep;
 
 use std::borrow::Cow;
@@ -29,6 +31,7 @@ use contact::Facing;
 pub(crate) use contact::misses;
 pub(crate) use face::FaceWorker;
 use ownership::{Turn, material_of};
+pub(crate) use splice::{EdgeChange, KnownEdge};
 
 /// A piece of the boundary of the kept region of a plane: on the line of `face` and `edge`, directed along
 /// `n_face × n_edge`, so that the region lies to the left.

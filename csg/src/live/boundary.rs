@@ -2,13 +2,15 @@
 
 use std::ops::Range;
 
+use planecut_kernel::DVec3;
+
 use super::LiveModel;
 use super::tree::Member;
 use crate::base::{Bounds, map_chunks};
 use crate::body::{Body, kinds};
-use crate::boundary::{BoundaryEdge, FaceWorker, Scene};
+use crate::boundary::{EdgeChange, FaceWorker, KnownEdge, Scene};
 use crate::expression::Expression;
-use crate::ids::{BodyId, EdgeId, Id, LeafId, OperandFace, OperandId};
+use crate::ids::{BodyId, Id, LeafId, OperandFace, OperandId};
 use crate::plane_table::PlaneTable;
 use crate::weld::LiveWeld;
 
@@ -18,12 +20,41 @@ const FACES_FOR_THREADS: usize = 64;
 /// Number of faces of a body that a thread works out in a row then.
 const FACES_OF_GROUP: usize = 20;
 
-/// What was found on some faces: the edges, and where those of each face end.
-type Found = (Vec<BoundaryEdge>, Vec<usize>);
+/// What was found on some faces.
+#[derive(Default)]
+pub(super) struct Found {
+    pub(super) changes: Vec<(OperandFace, EdgeChange)>,
+    /// The faces on which edges near the change did not fit to those known elsewhere.
+    pub(super) unfit: Vec<OperandFace>,
+}
+
+/// A part of space outside of which nothing changes.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Vicinity {
+    /// It lies well within this box.
+    bounds: Bounds,
+    /// A larger box: what reaches into it is near.
+    around: Bounds,
+}
+
+impl Vicinity {
+    /// That of what lies in a box; nothing where the box is not finite.
+    pub(super) fn of(bounds: &Bounds) -> Option<Self> {
+        const ROOM: f64 = 1e-9;
+        let size = bounds.min.abs().max(bounds.max.abs()).max_element();
+        let grown = |room: f64| Bounds { min: bounds.min - DVec3::splat(room), max: bounds.max + DVec3::splat(room) };
+        size.is_finite().then(|| Self { bounds: grown(ROOM * size), around: grown(2.0 * ROOM * size) })
+    }
+}
 
 impl LiveModel {
-    /// Works out the boundary on some faces, sorted.
-    pub(super) fn boundary_edges(&mut self, faces: &[OperandFace]) -> Vec<Found> {
+    /// Works out how the boundary changes on some faces, sorted; on those of brushes other than some, sorted, too, only in the vicinity of the change where that is given.
+    pub(super) fn boundary_changes(
+        &mut self,
+        faces: &[OperandFace],
+        changed: &[OperandId],
+        vicinity: Option<Vicinity>,
+    ) -> Vec<Found> {
         let mut place = std::mem::take(&mut self.buffers.place);
         // what is near the faces of each body
         let mut near: Vec<Member> = Vec::new();
@@ -32,11 +63,17 @@ impl LiveModel {
             let number = of_body[0].operand;
             let body = self.body_at(number);
             let boxes = of_body.iter().map(|entry| &body.faces[entry.face.index()].bounds);
-            let bounds = boxes.fold(Bounds::EMPTY, |all, bounds| all.union(bounds));
+            let mut bounds = boxes.fold(Bounds::EMPTY, |all, bounds| all.union(bounds));
+            let vicinity =
+                vicinity.filter(|near| !near.bounds.holds(&bounds) && changed.binary_search(&number).is_err());
+            if let Some(vicinity) = &vicinity {
+                bounds = bounds.intersection(&vicinity.around);
+            }
             let (start, first) = (near.len(), groups.last().map_or(0, |group| group.faces.end));
             near.extend(self.places.near(&bounds).map(|operand| Member { at: self.position(operand), operand }));
             near[start..].sort_unstable();
-            groups.push(FaceBatch { number, near: start..near.len(), faces: first..first + of_body.len() });
+            let within = vicinity.map(|vicinity| vicinity.bounds);
+            groups.push(FaceBatch { number, near: start..near.len(), faces: first..first + of_body.len(), within });
         }
         let mut members = near.clone();
         members.sort_unstable();
@@ -57,8 +94,8 @@ impl LiveModel {
         let scene = Scene::of_some(table, bodies, &leaves, &expression, &self.bodies_on_plane, &self.rank);
         let emit = |groups: &[FaceBatch]| {
             let mut worker = FaceWorker::new(&scene);
-            let (mut found, mut ends, mut near_here) = (Vec::new(), Vec::new(), Vec::new());
-            for FaceBatch { number, near: range, faces: of_group } in groups {
+            let (mut found, mut edges, mut near_here) = (Found::default(), Vec::new(), Vec::new());
+            for FaceBatch { number, near: range, faces: of_group, within } in groups {
                 let own = place[number.index()];
                 near_here.clear();
                 let places = near[range.clone()].iter().map(|member| place[member.operand.index()]);
@@ -66,16 +103,28 @@ impl LiveModel {
                 if own != BodyId::NONE {
                     worker.begin(own, near_here.len());
                 }
-                for OperandFace { face, .. } in &faces[of_group.clone()] {
+                for entry in &faces[of_group.clone()] {
+                    edges.clear();
                     if own != BodyId::NONE {
-                        let start = found.len();
-                        worker.emit(own, *face, &near_here, &mut found);
-                        found[start..].sort_unstable();
+                        worker.emit(own, entry.face, &near_here, &mut edges);
+                        edges.sort_unstable();
                     }
-                    ends.push(found.len());
+                    let known = &self.operand(*number).edges[entry.face.index()];
+                    let change = match within {
+                        Some(within) => {
+                            let ends = |edge| self.welded.ends(edge);
+                            EdgeChange::within(within, table, known, ends, &edges)
+                        }
+                        None => Some(EdgeChange::between(known, &edges)),
+                    };
+                    match change {
+                        Some(change) if change.is_empty() => {}
+                        Some(change) => found.changes.push((*entry, change)),
+                        None => found.unfit.push(*entry),
+                    }
                 }
             }
-            (found, ends)
+            found
         };
         let parts = if faces.len() < FACES_FOR_THREADS {
             vec![emit(&groups)]
@@ -90,17 +139,11 @@ impl LiveModel {
         parts
     }
 
-    /// Hands the weld what has changed on faces that were worked out again.
-    pub(super) fn exchange(&mut self, faces: &[OperandFace], found: Vec<Found>) {
-        let mut of_part = faces.iter();
-        for (found, ends) in found {
-            let mut start = 0;
-            for (end, OperandFace { operand, face }) in ends.into_iter().zip(&mut of_part) {
-                let operand = self.operands[operand.index()].as_mut().expect("the brush is there");
-                let known = &mut operand.edges[face.index()];
-                exchange(&mut self.welded, &self.planes.table, known, &found[start..end]);
-                start = end;
-            }
+    /// Hands the weld what has changed on faces.
+    pub(super) fn exchange(&mut self, found: Vec<Found>) {
+        for (OperandFace { operand, face }, change) in found.into_iter().flat_map(|found| found.changes) {
+            let operand = self.operands[operand.index()].as_mut().expect("the brush is there");
+            exchange(&mut self.welded, &self.planes.table, &mut operand.edges[face.index()], &change);
         }
     }
 }
@@ -110,37 +153,37 @@ struct FaceBatch {
     number: OperandId,
     near: Range<usize>,
     faces: Range<usize>,
+    /// The box outside of which nothing changes on them, if bodies beside it are left out.
+    within: Option<Bounds>,
 }
 
 impl FaceBatch {
     /// Groups of a few faces each.
     fn split(self) -> impl Iterator<Item = Self> {
-        let Self { number, near, faces } = self;
+        let Self { number, near, faces, within } = self;
         let end = faces.end;
         faces.step_by(FACES_OF_GROUP).map(move |start| Self {
             number,
             near: near.clone(),
             faces: start..end.min(start + FACES_OF_GROUP),
+            within,
         })
     }
 }
 
-/// Puts the edges that were found on a face in the place of those known, both sorted; what stays the same is not touched.
-fn exchange(
-    welded: &mut LiveWeld,
-    table: &PlaneTable,
-    known: &mut Vec<(BoundaryEdge, EdgeId)>,
-    found: &[BoundaryEdge],
-) {
-    if known.iter().map(|edge| &edge.0).eq(found.iter()) {
-        return;
+/// Changes the edges known on a face, which are sorted and stay so.
+fn exchange(welded: &mut LiveWeld, table: &PlaneTable, known: &mut Vec<KnownEdge>, change: &EdgeChange) {
+    for place in &change.removed {
+        welded.remove(known[*place as usize].1);
     }
-    let mut before = std::mem::take(known).into_iter().peekable();
-    for edge in found {
-        while let Some((_, gone)) = before.next_if(|other| other.0 < *edge) {
-            welded.remove(gone);
-        }
-        known.push(before.next_if(|other| other.0 == *edge).unwrap_or_else(|| (*edge, welded.insert(table, edge))));
-    }
-    before.for_each(|(_, gone)| welded.remove(gone));
+    let mut gone = change.removed.iter().peekable();
+    let mut place = 0;
+    known.retain(|_| {
+        let is_gone = gone.next_if_eq(&&place).is_some();
+        place += 1;
+        !is_gone
+    });
+    known.extend(change.added.iter().map(|edge| (*edge, welded.insert(table, edge))));
+    // two sorted runs are merged
+    known.sort_by_key(|known| known.0);
 }

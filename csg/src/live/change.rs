@@ -10,7 +10,7 @@ use super::tree::Extent;
 use super::{BrushId, Change, EditError, LiveModel};
 use crate::boundary::BoundaryEdge;
 use crate::evaluate::EvaluateError;
-use crate::ids::{Id, OperandId};
+use crate::ids::{Id, OperandFace, OperandId};
 use crate::model::Brush;
 use crate::plane_table::size_of;
 
@@ -34,12 +34,16 @@ impl LiveModel {
         let local = self.local(&changed, &before, extent);
         let bodies = self.build(&changed, &before);
         let old = self.place(bodies);
-        let faces = self.faces_to_redo(&changed, &old, reach, &local);
-        let found = self.boundary_edges(&faces);
+        let (faces, vicinity) = self.faces_to_redo(&changed, &old, reach, &local);
+        let mut found = self.boundary_changes(&faces, &changed, vicinity.filter(|_| !extent.is_nested));
+        let unfit: Vec<OperandFace> = found.iter_mut().flat_map(|found| found.unfit.drain(..)).collect();
+        if !unfit.is_empty() {
+            found.extend(self.boundary_changes(&unfit, &changed, None));
+        }
         let outer = &self.outer;
         let is_outside =
             |edge: &BoundaryEdge| [edge.face, edge.edge, edge.start, edge.end].iter().any(|plane| outer.holds(*plane));
-        if found.iter().flat_map(|(edges, _)| edges).any(is_outside) {
+        if found.iter().flat_map(|found| &found.changes).flat_map(|(_, change)| &change.added).any(is_outside) {
             self.place(old);
             let (_, numbers, unsettled) = self.set_states(before, &settled.retired);
             self.forget(&numbers);
@@ -50,7 +54,7 @@ impl LiveModel {
         for (_, edge) in old.into_iter().flat_map(|placed| placed.edges).flatten() {
             self.welded.remove(edge);
         }
-        self.exchange(&faces, found);
+        self.exchange(found);
         self.buffers.faces = faces;
         let ids = changed.iter().filter_map(|number| self.operands[number.index()].as_ref());
         let mut brushes: Vec<BrushId> = ids.map(|operand| operand.id).collect();

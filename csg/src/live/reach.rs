@@ -2,6 +2,7 @@
 
 use super::LiveModel;
 use super::bodies::{MANY, Placed};
+use super::boundary::Vicinity;
 use super::history::New;
 use super::operand::Operand;
 use super::tree::Extent;
@@ -55,7 +56,7 @@ impl LiveModel {
     }
 
     /// The faces, sorted, on which the boundary may differ: those of the bodies that have changed, and those of others that
-    /// reach into them or into what they were.
+    /// reach into them or into what they were; and, where that is known, where on the latter it may.
     ///
     /// Where a body alone is another, of brushes that do what they did, only the parts in which it differs matter: `local` are
     /// the brushes for which that may be so. It is not where one of several equal bodies changes, or one becomes equal to
@@ -66,9 +67,11 @@ impl LiveModel {
         old: &[Placed],
         reach: Reach,
         local: &[OperandId],
-    ) -> Vec<OperandFace> {
+    ) -> (Vec<OperandFace>, Option<Vicinity>) {
         let mut faces = std::mem::take(&mut self.buffers.faces);
         faces.clear();
+        let mut within = Bounds::EMPTY;
+        let mut is_local = true;
         let body_of = |number: OperandId| self.operands[number.index()].as_ref()?.body.as_ref();
         let all_of = |operand: OperandId| {
             let count = body_of(operand).map_or(0, |body| body.faces.len());
@@ -76,6 +79,7 @@ impl LiveModel {
         };
         if reach == Reach::Everywhere || (changed.len() >= self.by_id.len() && local.is_empty()) {
             faces.extend(OperandId::all(self.operands.len()).flat_map(all_of));
+            is_local = false;
         } else {
             for placed in old {
                 let number = placed.number;
@@ -86,11 +90,13 @@ impl LiveModel {
                 match difference {
                     Some(difference) if difference.bounds == Bounds::EMPTY => {}
                     Some(difference) => {
+                        within = within.union(&difference.bounds);
                         let others = bodies.into_iter().flatten();
                         others.for_each(|body| self.touch(body, number, &difference.bounds, false, &mut faces));
                         faces.extend(difference.faces.iter().map(|face| OperandFace { operand: number, face: *face }));
                     }
                     None => {
+                        within = bodies.iter().flatten().fold(within, |all, body| all.union(&body.bounds));
                         for (body, is_last) in bodies.into_iter().zip([reach == Reach::Appended, false]) {
                             body.into_iter()
                                 .for_each(|body| self.touch(body, number, &body.bounds, is_last, &mut faces));
@@ -102,7 +108,7 @@ impl LiveModel {
         }
         faces.sort_unstable();
         faces.dedup();
-        faces
+        (faces, if is_local { Vicinity::of(&within) } else { None })
     }
 
     /// Notes the faces of other bodies that may reach into a part of a body, in a box. A body that comes last and does not

@@ -19,6 +19,7 @@ mod vertices;
 mod welded_face;
 
 use crate::ids::number32;
+use planecut_kernel::DVec3;
 use rustc_hash::FxHashMap;
 
 use super::WeldError;
@@ -141,6 +142,12 @@ impl LiveWeld {
             self.numbers.release(&edge);
         }
         Ok(())
+    }
+
+    /// Where an edge begins and ends, correctly rounded.
+    pub(crate) fn ends(&self, number: EdgeId) -> [DVec3; 2] {
+        let run = &self.edges[number.index()].numbered.run;
+        [run.from, run.to].map(|point| self.numbers.position(point))
     }
 
     /// Whether a point or a line is known by the plane of an index: then it must stay that plane.
