@@ -91,6 +91,15 @@ impl Bounds {
         (a.min(b).element_sum() - offset - margin, a.max(b).element_sum() - offset + margin)
     }
 
+    /// A slightly larger box, so that points in it are not beside the larger one for rounding.
+    #[inline]
+    #[must_use]
+    pub fn with_room(self) -> Self {
+        const ROOM: f64 = 1e-9;
+        let room = DVec3::splat(ROOM * self.min.abs().max(self.max.abs()).max_element());
+        Self { min: self.min - room, max: self.max + room }
+    }
+
     /// The middle.
     #[inline]
     #[must_use]

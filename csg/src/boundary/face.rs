@@ -1,16 +1,19 @@
 //! One face of one body: which part of it is boundary, and where that part ends.
 
+use planecut_kernel::DVec3;
+
 use super::clip::{Clipper, Cutter};
 use super::contact::{Contact, Facing, misses};
+use super::covered::CoverWorker;
 use super::ownership::{EdgeSide, Ownership, Turn};
 use super::role::{Pair, Role};
 use super::section::{Clip, Cover, Line, Piece, Polygon};
 use super::sweep::{Context, Sweep};
-use super::{BoundaryEdge, Scene};
+use super::{BoundaryEdge, EdgeChange, KnownEdge, Scene};
 use crate::base::{Bounds, Boxes};
 use crate::body::BodyFace;
 use crate::expression::{OneLevel, Restriction};
-use crate::ids::{BodyFaceId, BodyId, Id, KeptLeafId, LeafId, NearId, holds, number32};
+use crate::ids::{BodyFaceId, BodyId, EdgeId, Id, KeptLeafId, LeafId, NearId, holds, number32};
 use crate::plane_table::PlaneTable;
 
 /// Number of sections from which those near one are looked up: few are compared one by one.
@@ -60,6 +63,7 @@ pub(crate) struct FaceWorker<'a> {
     beside: Vec<u32>,
     ownership: Ownership,
     sweep: Sweep,
+    cover: CoverWorker,
 }
 
 impl<'a> FaceWorker<'a> {
@@ -83,6 +87,7 @@ impl<'a> FaceWorker<'a> {
             beside: Vec::new(),
             ownership: Ownership::default(),
             sweep: Sweep::default(),
+            cover: CoverWorker::default(),
         }
     }
 
@@ -150,6 +155,21 @@ impl<'a> FaceWorker<'a> {
             self.emit_own_edges(this, facing, out);
             self.emit_section_edges(this, facing, out);
         }
+    }
+
+    /// How the edges known on a face of a body change where another body covers what lies in it; as [`CoverWorker::change`].
+    pub(crate) fn cover_known(
+        &mut self,
+        [body, by]: [BodyId; 2],
+        face: BodyFaceId,
+        known: &[KnownEdge],
+        rounded: impl Fn(EdgeId) -> [DVec3; 2],
+    ) -> Option<EdgeChange> {
+        let solid = self.scene.body(body);
+        let face = &solid.faces[face.index()];
+        self.region.set(solid.edges(face), solid.corners(face));
+        let cutter = Cutter { scene: self.scene, face, body: by, place: NearId::from_index(0) };
+        self.cover.change(&mut self.clipper, cutter, &self.region, known, rounded)
     }
 
     /// Finds what covering bodies leave of the region; false where that is nothing.

@@ -6,10 +6,11 @@
 //! alone decides what is inside or outside of its polygon, and intervals are subtracted; where several decide together,
 //! [`sweep`] evaluates the tree along each edge. Only the part of the tree that reaches a face is ever looked at. Of coplanar
 //! faces one owner emits ([`ownership`]); what most bodies do to a face is told without the others ([`role`]). Where bodies change near a part of a face,
-//! the edges there are put among those known ([`splice`]).
+//! the edges there are put among those known ([`splice`]); where one more body covers something, nothing but its own section is looked at ([`covered`]).
 
 mod clip;
 mod contact;
+mod covered;
 mod face;
 mod ownership;
 mod role;

@@ -2,6 +2,7 @@
 
 use planecut_kernel::sign::{Homogeneous, Sign};
 
+use super::BoundaryEdge;
 use crate::base::Bounds;
 use crate::body::{Corner, PlaneFilter};
 use crate::plane_table::{PlaneId, PlaneTable};
@@ -134,8 +135,8 @@ impl Inside {
 pub(super) struct Piece {
     pub(super) start: PlaneId,
     pub(super) end: PlaneId,
-    start_point: Homogeneous,
-    end_point: Homogeneous,
+    pub(super) start_point: Homogeneous,
+    pub(super) end_point: Homogeneous,
 }
 
 impl Piece {
@@ -151,20 +152,26 @@ impl Piece {
         }
     }
 
-    fn start_side(&self, table: &PlaneTable, line: Line, plane: PlaneId) -> Sign {
+    /// All of a boundary edge, whose ends may be named by either side of a plane.
+    pub(super) fn of_boundary(table: &PlaneTable, &BoundaryEdge { face, edge, start, end, .. }: &BoundaryEdge) -> Self {
+        let line = Line { plane: face, edge };
+        let start = if line.looks_ahead(table, start) { start.flipped() } else { start };
+        let end = if line.looks_ahead(table, end) { end } else { end.flipped() };
+        let (start_point, end_point) = (table.homogeneous(line.start(start)), table.homogeneous(line.end(end)));
+        Self { start, end, start_point, end_point }
+    }
+
+    pub(super) fn start_side(&self, table: &PlaneTable, line: Line, plane: PlaneId) -> Sign {
         table.side(line.start(self.start), &self.start_point, plane)
     }
 
-    fn end_side(&self, table: &PlaneTable, line: Line, plane: PlaneId) -> Sign {
+    pub(super) fn end_side(&self, table: &PlaneTable, line: Line, plane: PlaneId) -> Sign {
         table.side(line.end(self.end), &self.end_point, plane)
     }
 
-    pub(super) fn start_point(&self) -> Homogeneous {
-        self.start_point
-    }
-
-    pub(super) fn end_point(&self) -> Homogeneous {
-        self.end_point
+    /// The same seen along the line the other way.
+    pub(super) fn reversed(self) -> Self {
+        Self { start: self.end, end: self.start, start_point: self.end_point, end_point: self.start_point }
     }
 
     pub(super) fn bounds(&self) -> Bounds {
@@ -198,6 +205,11 @@ impl Line {
     /// The right-handed planes of a point at which a piece ends.
     pub(super) fn end(self, end: PlaneId) -> [PlaneId; 3] {
         [self.plane, self.edge, end]
+    }
+
+    /// Whether the normal of a plane that the line meets looks along it.
+    pub(super) fn looks_ahead(self, table: &PlaneTable, plane: PlaneId) -> bool {
+        table.orient3(self.plane, self.edge, plane) == Sign::Positive
     }
 
     /// The part of a piece, within a box, that lies in a convex polygon on the same plane.

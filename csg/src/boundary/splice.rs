@@ -12,6 +12,7 @@ use planecut_kernel::DVec3;
 use planecut_kernel::sign::Sign;
 
 use super::BoundaryEdge;
+use super::section::{Line, Piece};
 use crate::base::Bounds;
 use crate::ids::EdgeId;
 use crate::plane_table::{PlaneId, PlaneTable};
@@ -48,10 +49,7 @@ impl EdgeChange {
         let touches = |[a, b]: [DVec3; 2]| Bounds { min: a.min(b), max: a.max(b) }.touches(bounds);
         let old = (0..).zip(known).map(|(place, (edge, number))| (place, edge, ends(*number)));
         let old: Vec<(u32, &BoundaryEdge, [DVec3; 2])> = old.filter(|(_, _, ends)| touches(*ends)).collect();
-        let may_touch = |edge: &&BoundaryEdge| {
-            let points = [edge.start, edge.end].map(|end| table.homogeneous([edge.face, edge.edge, end]));
-            Bounds::EMPTY.with_point(&points[0]).with_point(&points[1]).touches(bounds)
-        };
+        let may_touch = |edge: &&BoundaryEdge| Piece::of_boundary(table, edge).bounds().touches(bounds);
         let position = |edge: &BoundaryEdge, end| table.position([edge.face, edge.edge, end]).expect("a corner");
         let new = found.iter().filter(may_touch);
         let new = new.map(|edge| (edge, [edge.start, edge.end].map(|end| position(edge, end))));
@@ -178,7 +176,7 @@ impl Splicer<'_> {
 /// The order along a line.
 struct OnLine<'a> {
     table: &'a PlaneTable,
-    planes: [PlaneId; 2],
+    line: Line,
     /// The signs of the components of its direction.
     direction: [Sign; 3],
 }
@@ -186,7 +184,7 @@ struct OnLine<'a> {
 impl<'a> OnLine<'a> {
     fn new(table: &'a PlaneTable, edge: &BoundaryEdge) -> Self {
         let direction = std::array::from_fn(|axis| table.cross_component(edge.face, edge.edge, axis));
-        Self { table, planes: [edge.face, edge.edge], direction }
+        Self { table, line: Line { plane: edge.face, edge: edge.edge }, direction }
     }
 
     /// The exact order of two ends. Coordinates are correctly rounded: where they differ, the ends are in that order.
@@ -200,13 +198,12 @@ impl<'a> OnLine<'a> {
                 return if (a.at[axis] < b.at[axis]) == is_forward { Ordering::Less } else { Ordering::Greater };
             }
         }
-        let [face, edge] = self.planes;
-        let planes = if a.begins { [face, a.plane, edge] } else { [face, edge, a.plane] };
-        // the plane at the start of an edge looks back, that at its end ahead
-        match (self.table.side(planes, &self.table.homogeneous(planes), b.plane), b.begins) {
+        let [a_ahead, b_ahead] = [a.plane, b.plane].map(|plane| self.line.looks_ahead(self.table, plane));
+        let planes = if a_ahead { self.line.end(a.plane) } else { self.line.start(a.plane) };
+        match (self.table.side(planes, &self.table.homogeneous(planes), b.plane), b_ahead) {
             (Sign::Zero, _) => Ordering::Equal,
-            (Sign::Positive, false) | (Sign::Negative, true) => Ordering::Greater,
-            (Sign::Negative, false) | (Sign::Positive, true) => Ordering::Less,
+            (Sign::Positive, true) | (Sign::Negative, false) => Ordering::Greater,
+            (Sign::Negative, true) | (Sign::Positive, false) => Ordering::Less,
         }
     }
 }

@@ -174,11 +174,11 @@ impl Sweep {
             if part.start == piece.start {
                 self.covering.push((section, sides));
             } else {
-                let point = part.start_point();
+                let point = part.start_point;
                 self.events.push(Event { section, sides, begins: true, plane: part.start, point });
             }
             if part.end != piece.end {
-                let point = part.end_point();
+                let point = part.end_point;
                 self.events.push(Event { section, sides, begins: false, plane: part.end, point });
             }
         }

@@ -2,9 +2,8 @@
 
 use std::ops::Range;
 
-use planecut_kernel::DVec3;
-
 use super::LiveModel;
+use super::reach::Reach;
 use super::tree::Member;
 use crate::base::{Bounds, map_chunks};
 use crate::body::{Body, kinds};
@@ -25,7 +24,7 @@ const FACES_OF_GROUP: usize = 20;
 pub(super) struct Found {
     pub(super) changes: Vec<(OperandFace, EdgeChange)>,
     /// The faces on which edges near the change did not fit to those known elsewhere.
-    pub(super) unfit: Vec<OperandFace>,
+    unfit: Vec<OperandFace>,
 }
 
 /// A part of space outside of which nothing changes.
@@ -40,21 +39,64 @@ pub(super) struct Vicinity {
 impl Vicinity {
     /// That of what lies in a box; nothing where the box is not finite.
     pub(super) fn of(bounds: &Bounds) -> Option<Self> {
-        const ROOM: f64 = 1e-9;
-        let size = bounds.min.abs().max(bounds.max.abs()).max_element();
-        let grown = |room: f64| Bounds { min: bounds.min - DVec3::splat(room), max: bounds.max + DVec3::splat(room) };
-        size.is_finite().then(|| Self { bounds: grown(ROOM * size), around: grown(2.0 * ROOM * size) })
+        let is_finite = bounds.min.is_finite() && bounds.max.is_finite();
+        is_finite.then(|| Self { bounds: bounds.with_room(), around: bounds.with_room().with_room() })
     }
 }
 
+/// What is known of a change on the faces of brushes that do not change themselves.
+#[derive(Debug, Clone, Copy)]
+enum Known {
+    /// Nothing.
+    Nothing,
+    /// Where it is.
+    Vicinity(Vicinity),
+    /// It is that a body comes that leaves nothing of them within.
+    Covered(OperandId),
+}
+
+/// How the boundary on the faces of a body is found.
+#[derive(Debug, Clone, Copy)]
+enum Way {
+    /// From what is near the faces.
+    Whole,
+    /// In a box, from what is near both.
+    Within(Bounds),
+    /// From the edges known, by a body that covers them.
+    Covered(OperandId),
+}
+
 impl LiveModel {
-    /// Works out how the boundary changes on some faces, sorted; on those of brushes other than some, sorted, too, only in the vicinity of the change where that is given.
-    pub(super) fn boundary_changes(
+    /// Works out how the boundary changes on some faces, sorted, as quickly as what is known of the change allows; `vicinity` is where it is, `changed` are the brushes, sorted, that change
+    /// themselves.
+    pub(super) fn find_boundary(
         &mut self,
         faces: &[OperandFace],
         changed: &[OperandId],
         vicinity: Option<Vicinity>,
+        reach: Reach,
     ) -> Vec<Found> {
+        let nearby = vicinity.map(Known::Vicinity);
+        let covered = match (reach, changed) {
+            (Reach::Appended, [only]) if vicinity.is_some() && self.operand(*only).body.is_some() => {
+                Some(Known::Covered(*only))
+            }
+            _ => None,
+        };
+        let mut found: Vec<Found> = Vec::new();
+        let mut left = faces.to_vec();
+        for known in covered.into_iter().chain(nearby).chain([Known::Nothing]) {
+            if !left.is_empty() {
+                let mut more = self.boundary_changes(&left, changed, known);
+                left = more.iter_mut().flat_map(|found| found.unfit.drain(..)).collect();
+                found.append(&mut more);
+            }
+        }
+        found
+    }
+
+    /// Works out how the boundary changes on some faces, sorted; `changed` are the brushes, sorted, too, that change themselves.
+    fn boundary_changes(&mut self, faces: &[OperandFace], changed: &[OperandId], of_others: Known) -> Vec<Found> {
         let mut place = std::mem::take(&mut self.buffers.place);
         // what is near the faces of each body
         let mut near: Vec<Member> = Vec::new();
@@ -64,16 +106,23 @@ impl LiveModel {
             let body = self.body_at(number);
             let boxes = of_body.iter().map(|entry| &body.faces[entry.face.index()].bounds);
             let mut bounds = boxes.fold(Bounds::EMPTY, |all, bounds| all.union(bounds));
-            let vicinity =
-                vicinity.filter(|near| !near.bounds.holds(&bounds) && changed.binary_search(&number).is_err());
-            if let Some(vicinity) = &vicinity {
-                bounds = bounds.intersection(&vicinity.around);
-            }
+            let way = match of_others {
+                _ if changed.binary_search(&number).is_ok() => Way::Whole,
+                Known::Covered(by) => Way::Covered(by),
+                Known::Vicinity(near) if !near.bounds.holds(&bounds) => {
+                    bounds = bounds.intersection(&near.around);
+                    Way::Within(near.bounds)
+                }
+                Known::Vicinity(_) | Known::Nothing => Way::Whole,
+            };
             let (start, first) = (near.len(), groups.last().map_or(0, |group| group.faces.end));
-            near.extend(self.places.near(&bounds).map(|operand| Member { at: self.position(operand), operand }));
+            let member = |operand| Member { at: self.position(operand), operand };
+            match way {
+                Way::Covered(by) => near.extend([number, by].map(member)),
+                Way::Whole | Way::Within(_) => near.extend(self.places.near(&bounds).map(member)),
+            }
             near[start..].sort_unstable();
-            let within = vicinity.map(|vicinity| vicinity.bounds);
-            groups.push(FaceBatch { number, near: start..near.len(), faces: first..first + of_body.len(), within });
+            groups.push(FaceBatch { number, near: start..near.len(), faces: first..first + of_body.len(), way });
         }
         let mut members = near.clone();
         members.sort_unstable();
@@ -95,7 +144,7 @@ impl LiveModel {
         let emit = |groups: &[FaceBatch]| {
             let mut worker = FaceWorker::new(&scene);
             let (mut found, mut edges, mut near_here) = (Found::default(), Vec::new(), Vec::new());
-            for FaceBatch { number, near: range, faces: of_group, within } in groups {
+            for FaceBatch { number, near: range, faces: of_group, way } in groups {
                 let own = place[number.index()];
                 near_here.clear();
                 let places = near[range.clone()].iter().map(|member| place[member.operand.index()]);
@@ -104,18 +153,20 @@ impl LiveModel {
                     worker.begin(own, near_here.len());
                 }
                 for entry in &faces[of_group.clone()] {
+                    let known = &self.operand(*number).edges[entry.face.index()];
+                    let ends = |edge| self.welded.ends(edge);
                     edges.clear();
-                    if own != BodyId::NONE {
+                    if own != BodyId::NONE && !matches!(way, Way::Covered(_)) {
                         worker.emit(own, entry.face, &near_here, &mut edges);
                         edges.sort_unstable();
                     }
-                    let known = &self.operand(*number).edges[entry.face.index()];
-                    let change = match within {
-                        Some(within) => {
-                            let ends = |edge| self.welded.ends(edge);
-                            EdgeChange::within(within, table, known, ends, &edges)
-                        }
-                        None => Some(EdgeChange::between(known, &edges)),
+                    let change = match way {
+                        Way::Whole => Some(EdgeChange::between(known, &edges)),
+                        Way::Within(bounds) => EdgeChange::within(bounds, table, known, ends, &edges),
+                        Way::Covered(by) => match [own, place[by.index()]] {
+                            both if both.contains(&BodyId::NONE) => None,
+                            both => worker.cover_known(both, entry.face, known, ends),
+                        },
                     };
                     match change {
                         Some(change) if change.is_empty() => {}
@@ -153,20 +204,19 @@ struct FaceBatch {
     number: OperandId,
     near: Range<usize>,
     faces: Range<usize>,
-    /// The box outside of which nothing changes on them, if bodies beside it are left out.
-    within: Option<Bounds>,
+    way: Way,
 }
 
 impl FaceBatch {
     /// Groups of a few faces each.
     fn split(self) -> impl Iterator<Item = Self> {
-        let Self { number, near, faces, within } = self;
+        let Self { number, near, faces, way } = self;
         let end = faces.end;
         faces.step_by(FACES_OF_GROUP).map(move |start| Self {
             number,
             near: near.clone(),
             faces: start..end.min(start + FACES_OF_GROUP),
-            within,
+            way,
         })
     }
 }

@@ -10,7 +10,7 @@ use super::tree::Extent;
 use super::{BrushId, Change, EditError, LiveModel};
 use crate::boundary::BoundaryEdge;
 use crate::evaluate::EvaluateError;
-use crate::ids::{Id, OperandFace, OperandId};
+use crate::ids::{Id, OperandId};
 use crate::model::Brush;
 use crate::plane_table::size_of;
 
@@ -35,11 +35,7 @@ impl LiveModel {
         let bodies = self.build(&changed, &before);
         let old = self.place(bodies);
         let (faces, vicinity) = self.faces_to_redo(&changed, &old, reach, &local);
-        let mut found = self.boundary_changes(&faces, &changed, vicinity.filter(|_| !extent.is_nested));
-        let unfit: Vec<OperandFace> = found.iter_mut().flat_map(|found| found.unfit.drain(..)).collect();
-        if !unfit.is_empty() {
-            found.extend(self.boundary_changes(&unfit, &changed, None));
-        }
+        let found = self.find_boundary(&faces, &changed, vicinity.filter(|_| !extent.is_nested), reach);
         let outer = &self.outer;
         let is_outside =
             |edge: &BoundaryEdge| [edge.face, edge.edge, edge.start, edge.end].iter().any(|plane| outer.holds(*plane));

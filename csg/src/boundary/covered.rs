@@ -1,0 +1,202 @@
+//! The edges of the boundary on a face, where one more body covers a part of it.
+//!
+//! A body that comes after all others and adds or takes away leaves no boundary on the faces of others inside of it, and all of it outside. So
+//! the edges known are cut off where they enter it, and its section ends the boundary where this lies on the outer side of the section's edges: on
+//! which parts of them, is told by the known edges that cross them. Edges are crossed at points just outside of the section, so that ends of known edges on the line count
+//! as inside, and one that runs along it is not crossed.
+
+use std::cmp::Ordering;
+
+use planecut_kernel::DVec3;
+use planecut_kernel::sign::{Homogeneous, Sign};
+
+use super::clip::{Clipper, Cutter};
+use super::contact::Facing;
+use super::section::{Clip, Cover, Line, Piece, Polygon};
+use super::{BoundaryEdge, EdgeChange, KnownEdge};
+use crate::base::Bounds;
+use crate::ids::{EdgeId, holds};
+use crate::plane_table::{PlaneId, PlaneTable};
+
+/// For faces of more edges it is not told from all of them which are crossed.
+const MOST_EDGES: usize = 96;
+
+/// Tells what one more body covers, reusing its buffers.
+#[derive(Debug, Default)]
+pub(super) struct CoverWorker {
+    section: Polygon,
+    pieces: Vec<Piece>,
+    /// The known edges.
+    known: Vec<Piece>,
+    /// Parts of known edges that run along edges of the section, with boundary on the outer side: the planes of the section's edges, those of the boundary, and the parts.
+    outside: Vec<(PlaneId, PlaneId, Piece)>,
+    crossings: Vec<Crossing>,
+    found: Vec<BoundaryEdge>,
+}
+
+/// Where the line of a section's edge enters or leaves the boundary on the face.
+#[derive(Debug, Clone, Copy)]
+struct Crossing {
+    enters: bool,
+    /// The plane of the known edge there.
+    plane: PlaneId,
+    point: Homogeneous,
+}
+
+impl CoverWorker {
+    /// How the edges known on a face, sorted, change where another body comes that covers the part of it within, all sides of it; `rounded` are the correctly rounded ends of an edge.
+    /// Nothing where the body has a face on the plane, or the face has very many edges.
+    pub(super) fn change(
+        &mut self,
+        clipper: &mut Clipper,
+        cutter: Cutter<'_>,
+        region: &Polygon,
+        known: &[KnownEdge],
+        rounded: impl Fn(EdgeId) -> [DVec3; 2],
+    ) -> Option<EdgeChange> {
+        let Cutter { scene, face, body, .. } = cutter;
+        let table = scene.table;
+        if known.len() > MOST_EDGES || scene.body(body).face_on(face.plane).is_some() {
+            return None;
+        }
+        let mut change = EdgeChange::default();
+        match clipper.clip(cutter, region, &mut self.section) {
+            Clip::Nothing => return Some(change),
+            Clip::Whole => {
+                change.removed.extend((0..).zip(known).map(|(place, _)| place));
+                return Some(change);
+            }
+            Clip::Part => {}
+        }
+        let bounds = self.section.bounds();
+        let near = bounds.with_room();
+        self.found.clear();
+        self.outside.clear();
+        for (place, (edge, number)) in (0..).zip(known) {
+            let [a, b] = rounded(*number);
+            if !(Bounds { min: a.min(b), max: a.max(b) }).touches(&near) {
+                continue;
+            }
+            let line = Line { plane: edge.face, edge: edge.edge };
+            let whole = Piece::of_boundary(table, edge);
+            let covered = match line.cover(table, &whole, &whole.bounds(), &self.section) {
+                Cover::Apart => continue,
+                Cover::Across(part) => part,
+                Cover::Along(part, other) if line.is_same_side(table, other) => part,
+                Cover::Along(part, other) => {
+                    // seen from the other side of the face it runs the other way
+                    let is_out = edge.face == face.plane;
+                    let part = if is_out { part.reversed() } else { part };
+                    self.outside.push((other, edge.face, part));
+                    continue;
+                }
+            };
+            self.pieces.clear();
+            self.pieces.push(whole);
+            line.subtract(table, &mut self.pieces, &covered);
+            change.removed.push(place);
+            self.found.extend(self.pieces.iter().map(|rest| BoundaryEdge {
+                start: rest.start,
+                end: rest.end,
+                ..*edge
+            }));
+        }
+        self.known.clear();
+        self.known.extend(known.iter().map(|(edge, _)| Piece::of_boundary(table, edge)));
+        for i in 0..self.section.edges.len() {
+            let edge = self.section.edges[i];
+            if holds(&region.edges, edge) {
+                continue;
+            }
+            let whole = Piece::of_edge(&self.section, i);
+            let line = Line { plane: face.plane, edge };
+            for facing in Facing::BOTH {
+                let side = if facing == Facing::Out { face.plane } else { face.plane.flipped() };
+                self.find_crossings(table, line, facing, side, known);
+                self.find_pieces(table, line, &whole)?;
+                for (.., known) in self.outside.iter().filter(|(other, of, _)| (*other, *of) == (edge, side)) {
+                    line.subtract(table, &mut self.pieces, known);
+                }
+                let right = |piece: &Piece| BoundaryEdge::right(face, facing, edge, piece.start, piece.end);
+                self.found.extend(self.pieces.iter().map(right));
+            }
+        }
+        self.found.sort_unstable();
+        change.added.clone_from(&self.found);
+        Some(change)
+    }
+
+    /// Finds where the line of an edge of the section, on its outer side, enters and leaves the boundary that faces one way.
+    fn find_crossings(&mut self, table: &PlaneTable, line: Line, facing: Facing, side: PlaneId, known: &[KnownEdge]) {
+        self.crossings.clear();
+        for ((edge, _), piece) in known.iter().zip(&self.known).filter(|((edge, _), _)| edge.face == side) {
+            let of_known = Line { plane: edge.face, edge: edge.edge };
+            let starts = piece.start_side(table, of_known, line.edge) == Sign::Positive;
+            let ends = piece.end_side(table, of_known, line.edge) == Sign::Positive;
+            if starts == ends {
+                continue;
+            }
+            // the boundary lies to the left of its edges, seen from where it faces
+            let enters = ends == (facing == Facing::Out);
+            let planes = if enters { line.start(edge.edge) } else { line.end(edge.edge) };
+            self.crossings.push(Crossing { enters, plane: edge.edge, point: table.homogeneous(planes) });
+        }
+    }
+
+    /// Leaves in `pieces` the parts of an edge of the section along which there is boundary on its outer side; nothing where the crossings make no sense.
+    fn find_pieces(&mut self, table: &PlaneTable, line: Line, whole: &Piece) -> Option<()> {
+        let step = |crossing: &Crossing| if crossing.enters { 1 } else { -1 };
+        // those before the edge tell what is at its beginning
+        let mut now = 0;
+        self.crossings.retain(|crossing| {
+            let is_within = |end: PlaneId| crossing.side(table, line, end) == Sign::Negative;
+            let is_after_start = is_within(whole.start);
+            if !is_after_start {
+                now += step(crossing);
+            }
+            is_after_start && is_within(whole.end)
+        });
+        self.crossings.sort_by(|a, b| a.compare(table, line, b));
+        self.pieces.clear();
+        // what is left from here on
+        let mut rest = *whole;
+        for here in self.crossings.chunk_by(|a, b| a.compare(table, line, b).is_eq()) {
+            let before = now;
+            now += here.iter().map(step).sum::<i32>();
+            if before.min(now) < 0 || before.max(now) > 1 {
+                return None;
+            }
+            if before != now {
+                let Crossing { plane, point, .. } = *here.iter().find(|crossing| crossing.enters == (now > before))?;
+                if now > before {
+                    (rest.start, rest.start_point) = (plane, point);
+                } else {
+                    self.pieces.push(Piece { end: plane, end_point: point, ..rest });
+                }
+            }
+        }
+        if !(0..=1).contains(&now) {
+            return None;
+        }
+        self.pieces.extend((now == 1).then_some(rest));
+        Some(())
+    }
+}
+
+impl Crossing {
+    /// On which side of a plane it lies.
+    fn side(&self, table: &PlaneTable, line: Line, plane: PlaneId) -> Sign {
+        let planes = if self.enters { line.start(self.plane) } else { line.end(self.plane) };
+        table.side(planes, &self.point, plane)
+    }
+
+    /// The exact order along the line.
+    fn compare(&self, table: &PlaneTable, line: Line, other: &Self) -> Ordering {
+        // the plane at which the boundary is entered looks back, that at which it is left ahead
+        match (self.side(table, line, other.plane), other.enters) {
+            (Sign::Zero, _) => Ordering::Equal,
+            (Sign::Positive, false) | (Sign::Negative, true) => Ordering::Greater,
+            (Sign::Negative, false) | (Sign::Positive, true) => Ordering::Less,
+        }
+    }
+}
