@@ -12,13 +12,13 @@ mod loops;
 mod moved;
 mod names;
 mod numbers;
+mod on_line;
 mod pieces;
 mod regions;
 mod triangulation;
 mod vertices;
 mod welded_face;
 
-use crate::ids::number32;
 use planecut_kernel::DVec3;
 use rustc_hash::FxHashMap;
 
@@ -33,6 +33,7 @@ use faces::Faces;
 use moved::Moving;
 use names::place;
 use numbers::{Context, NumberedEdge, Numbers};
+use on_line::{Along, OnLine, Parts};
 use pieces::Pieces;
 use regions::Regions;
 use vertices::Vertices;
@@ -45,7 +46,7 @@ pub(crate) struct LiveWeld {
     edges: Vec<Edge>,
     free_edges: Vec<EdgeId>,
     /// Taken out, but for their numbers.
-    removed: Vec<NumberedEdge>,
+    removed: Vec<EdgeId>,
     state: State,
     moving: Option<Moving>,
 }
@@ -53,8 +54,8 @@ pub(crate) struct LiveWeld {
 #[derive(Debug, Clone, Copy)]
 struct Edge {
     numbered: NumberedEdge,
-    /// Its place among the edges of its line.
-    place: u32,
+    /// Taken out since the last update.
+    is_gone: bool,
 }
 
 /// What is worked out from the edges.
@@ -67,20 +68,6 @@ struct State {
     faces: Faces,
     vertices: Vertices,
     crossings: Crossings,
-}
-
-/// What lies on a line.
-#[derive(Clone, Default)]
-struct OnLine {
-    edges: Vec<EdgeId>,
-    /// The pieces that are left of them, cut and paired.
-    pieces: Vec<HalfEdgeId>,
-    /// Where pinches cut them: the region of each pinch and the point.
-    cuts: Vec<PointOfRegion>,
-    is_dirty: bool,
-    /// Where edges end inside runs.
-    passed: Vec<PointOfRegion>,
-    has_slits: bool,
 }
 
 /// Where edges cross in points: there they are cut. What the weld makes of faces that cross in lines is not worked out here.
@@ -99,10 +86,9 @@ impl LiveWeld {
         let numbered = self.numbers.take(table, edge);
         let line = numbered.run.line;
         self.state.make_room(line);
-        let on_line = &mut self.state.lines[line.index()];
-        let at = number32(on_line.edges.len());
-        let number = place(&mut self.edges, &mut self.free_edges, Edge { numbered, place: at });
-        on_line.edges.push(number);
+        let ends = [numbered.run.from, numbered.run.to];
+        let number = place(&mut self.edges, &mut self.free_edges, Edge { numbered, is_gone: false });
+        self.state.lines[line.index()].add(number, ends);
         self.state.mark_line(line);
         number
     }
@@ -110,15 +96,11 @@ impl LiveWeld {
     /// Takes a boundary edge out.
     pub(crate) fn remove(&mut self, number: EdgeId) {
         self.moving = None;
-        let Edge { numbered, place } = self.edges[number.index()];
-        let on_line = &mut self.state.lines[numbered.run.line.index()];
-        on_line.edges.swap_remove(place as usize);
-        if let Some(moved) = on_line.edges.get(place as usize) {
-            self.edges[moved.index()].place = place;
-        }
-        self.state.mark_line(numbered.run.line);
-        self.free_edges.push(number);
-        self.removed.push(numbered);
+        let edge = &mut self.edges[number.index()];
+        edge.is_gone = true;
+        let run = &edge.numbered.run;
+        self.state.mark_change(run.line, [run.from, run.to]);
+        self.removed.push(number);
     }
 
     /// Welds what has changed; the numbers of the faces that are gone and of those that are new are in [`LiveWeld::changes`].
@@ -138,8 +120,9 @@ impl LiveWeld {
         faces.update(&context, regions, pieces)?;
         vertices.update(pieces);
         pieces.free.append(&mut pieces.gone);
-        for edge in self.removed.drain(..) {
-            self.numbers.release(&edge);
+        for number in self.removed.drain(..) {
+            self.numbers.release(&self.edges[number.index()].numbered);
+            self.free_edges.push(number);
         }
         Ok(())
     }
@@ -201,10 +184,12 @@ struct Cutter<'a> {
     context: Context<'a>,
     edges: &'a [Edge],
     worker: LineWorker<'a>,
+    members: Vec<EdgeId>,
     group: Vec<Run>,
     surviving: Surviving,
     further: Vec<PointId>,
     cut: Vec<HalfEdge>,
+    old_pieces: Vec<HalfEdgeId>,
     old: Vec<((RegionId, PointId, PointId), HalfEdgeId)>,
     numbers: Vec<HalfEdgeId>,
     passed: Vec<PointOfRegion>,
@@ -217,20 +202,22 @@ impl<'a> Cutter<'a> {
             context,
             edges,
             worker: LineWorker::new(table, &numbers.points, &numbers.lines, &numbers.planes),
+            members: Vec::new(),
             group: Vec::new(),
             surviving: Surviving::default(),
             further: Vec::new(),
             cut: Vec::new(),
+            old_pieces: Vec::new(),
             old: Vec::new(),
             numbers: Vec::new(),
             passed: Vec::new(),
         }
     }
 
-    /// Leaves in `surviving` what is left of the edges of a line.
-    fn cancel(&mut self, line: &OnLine) -> Result<(), WeldError> {
+    /// Leaves in `surviving` what is left of the edges of a line, `members` of it.
+    fn cancel(&mut self) -> Result<(), WeldError> {
         self.group.clear();
-        self.group.extend(line.edges.iter().map(|edge| self.edges[edge.index()].numbered.run));
+        self.group.extend(self.members.iter().map(|edge| self.edges[edge.index()].numbered.run));
         self.surviving.runs.clear();
         self.surviving.slits.clear();
         self.surviving.passed.clear();
@@ -260,6 +247,12 @@ impl State {
         }
     }
 
+    /// Notes that something has changed on a line between two points.
+    fn mark_change(&mut self, line: LineId, ends: [PointId; 2]) {
+        self.lines[line.index()].note_change(ends);
+        self.mark_line(line);
+    }
+
     /// Cuts all lines again on which something has changed, and those with pinches that may be none any more, where these are
     /// to be dropped.
     fn cut_dirty_lines(&mut self, cutter: &mut Cutter<'_>, drops_pinches: bool) -> Result<(), WeldError> {
@@ -273,7 +266,7 @@ impl State {
             }
             for (region, PointOnLine { line, point }) in self.regions.take_doubtful_pinches(&self.pieces.half_edges) {
                 self.lines[line.index()].cuts.retain(|cut| *cut != PointOfRegion { region, point });
-                self.mark_line(line);
+                self.mark_change(line, [point, point]);
             }
             if self.dirty_lines.is_empty() {
                 return Ok(());
@@ -282,15 +275,24 @@ impl State {
     }
 
     fn cut_line(&mut self, cutter: &mut Cutter<'_>, number: LineId) -> Result<(), WeldError> {
-        cutter.cancel(&self.lines[number.index()])?;
-        self.note_crossings(number, cutter);
+        let along = Along { context: cutter.context, line: number };
+        let half_edges = &self.pieces.half_edges;
+        let run = |number: HalfEdgeId| {
+            let piece = &half_edges[number.index()];
+            ([piece.from, piece.to], piece.forward)
+        };
+        let line = &mut self.lines[number.index()];
+        let Cutter { members, old_pieces, .. } = cutter;
+        let parts = line.take_changed(&along, cutter.edges, run, members, old_pieces);
+        cutter.cancel()?;
+        self.note_crossings(&along, &parts, cutter);
         let Self { lines, pieces, regions, .. } = self;
         let line = &mut lines[number.index()];
         cutter.cut()?;
-        let Cutter { context, cut, old, numbers, .. } = cutter;
+        let Cutter { context, cut, old_pieces, old, numbers, .. } = cutter;
         let key = |piece: &HalfEdge| (piece.region, piece.from, piece.to);
         old.clear();
-        old.extend(line.pieces.iter().map(|number| (key(&pieces.half_edges[number.index()]), *number)));
+        old.extend(old_pieces.iter().map(|number| (key(&pieces.half_edges[number.index()]), *number)));
         old.sort_unstable();
         numbers.clear();
         for piece in cut.iter() {
@@ -317,14 +319,14 @@ impl State {
             }
             *known = HalfEdge { twin, ..*piece };
         }
-        line.pieces.clear();
         line.pieces.extend_from_slice(numbers);
         Ok(())
     }
 
     /// Notes what crosses on a line that is cut again, and where it is to be cut; marks the lines for which that makes a
     /// difference.
-    fn note_crossings(&mut self, number: LineId, cutter: &mut Cutter<'_>) {
+    fn note_crossings(&mut self, along: &Along<'_>, parts: &Parts, cutter: &mut Cutter<'_>) {
+        let number = along.line;
         let line = &mut self.lines[number.index()];
         let crossings = &mut self.crossings;
         let has_slits = !cutter.surviving.slits.is_empty();
@@ -333,16 +335,19 @@ impl State {
         let passed = &mut cutter.passed;
         passed.clear();
         passed.extend(cutter.surviving.passed.iter().map(|passed| passed.at));
+        if !parts.are_all() {
+            passed.extend(line.passed.iter().filter(|at| !parts.hold(along, at.point)));
+        }
         passed.sort_unstable();
         passed.dedup();
         std::mem::swap(&mut line.passed, passed);
-        let mut others: Vec<LineId> = Vec::new();
+        let mut others: Vec<(LineId, PointId)> = Vec::new();
         for gone in passed.iter().filter(|at| line.passed.binary_search(at).is_err()) {
             let Some(passing) = crossings.passing.get_mut(gone) else { continue };
             passing.retain(|other| *other != number);
             match passing[..] {
                 [] => drop(crossings.passing.remove(gone)),
-                [alone] => others.push(alone),
+                [alone] => others.push((alone, gone.point)),
                 _ => {}
             }
         }
@@ -350,14 +355,15 @@ impl State {
             let passing = crossings.passing.entry(*new).or_default();
             passing.push(number);
             if let [other, _] = passing[..] {
-                others.push(other);
+                others.push((other, new.point));
             }
         }
         cutter.further.clear();
         cutter.further.extend(line.cuts.iter().map(|cut| cut.point));
         let is_crossed = |at: &&PointOfRegion| crossings.passing.get(at).is_some_and(|passing| passing.len() > 1);
         cutter.further.extend(line.passed.iter().filter(is_crossed).map(|at| at.point));
-        others.into_iter().for_each(|other| self.mark_line(other));
+        cutter.further.retain(|point| parts.hold(along, *point));
+        others.into_iter().for_each(|(other, point)| self.mark_change(other, [point, point]));
     }
 
     /// Finds the new pinches of regions that have changed and marks their lines; whether there are any.
@@ -370,7 +376,7 @@ impl State {
             for pinch in finder.found.drain(..) {
                 any = true;
                 self.lines[pinch.line.index()].cuts.push(PointOfRegion { region, point: pinch.point });
-                self.mark_line(pinch.line);
+                self.mark_change(pinch.line, [pinch.point, pinch.point]);
             }
         }
         any

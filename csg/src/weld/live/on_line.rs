@@ -1,0 +1,173 @@
+//! What lies on one line of a boundary that changes, and which part of it is to be looked at again.
+//!
+//! The edges on a line make up parts with gaps between them, and what becomes of the edges of one part does not depend on those of others. So
+//! only parts are cancelled and cut again in which something has changed.
+
+use std::cmp::Ordering;
+
+use super::Edge;
+use super::numbers::Context;
+use crate::ids::{EdgeId, HalfEdgeId, Id, LineId, PointId, PointOfRegion};
+
+/// Lines of fewer edges are looked at whole.
+const LEAST_EDGES: usize = 12;
+
+/// What lies on a line.
+#[derive(Clone, Default)]
+pub(super) struct OnLine {
+    /// Where they are many, by where they begin along the line, but for those that are new.
+    pub(super) edges: Vec<EdgeId>,
+    /// Where edges came or went, or cuts did.
+    changed: Vec<[PointId; 2]>,
+    /// The pieces that are left of the edges, cut and paired.
+    pub(super) pieces: Vec<HalfEdgeId>,
+    /// Where pinches cut them: the region of each pinch and the point.
+    pub(super) cuts: Vec<PointOfRegion>,
+    pub(super) is_dirty: bool,
+    /// Where edges end inside runs.
+    pub(super) passed: Vec<PointOfRegion>,
+    pub(super) has_slits: bool,
+}
+
+/// The order of points along a line.
+#[derive(Clone, Copy)]
+pub(super) struct Along<'a> {
+    pub(super) context: Context<'a>,
+    pub(super) line: LineId,
+}
+
+impl Along<'_> {
+    fn compare(&self, p: PointId, q: PointId) -> Ordering {
+        let Context { table, numbers } = self.context;
+        numbers.lines[self.line.index()].compare(table, &numbers.points, p, q)
+    }
+
+    fn max(&self, p: PointId, q: PointId) -> PointId {
+        if self.compare(p, q).is_lt() { q } else { p }
+    }
+
+    /// Where something begins and ends along the line that runs one way or the other.
+    fn low_and_high([from, to]: [PointId; 2], forward: bool) -> [PointId; 2] {
+        if forward { [from, to] } else { [to, from] }
+    }
+
+    fn of_edge(&self, edge: &Edge) -> [PointId; 2] {
+        let run = &edge.numbered.run;
+        Self::low_and_high([run.from, run.to], run.forward)
+    }
+}
+
+/// Parts of a line, in order, with gaps between them.
+#[derive(Debug, Default)]
+pub(super) struct Parts {
+    /// Without these, all of it.
+    intervals: Option<Vec<[PointId; 2]>>,
+}
+
+impl Parts {
+    /// Whether a point of the line lies in one, or at its end.
+    pub(super) fn hold(&self, along: &Along<'_>, point: PointId) -> bool {
+        let Some(intervals) = &self.intervals else { return true };
+        let before = intervals.partition_point(|[low, _]| along.compare(*low, point).is_le());
+        before > 0 && along.compare(point, intervals[before - 1][1]).is_le()
+    }
+
+    /// Whether something on the line that begins at a point lies in one.
+    fn hold_from(&self, along: &Along<'_>, low: PointId) -> bool {
+        let Some(intervals) = &self.intervals else { return true };
+        let before = intervals.partition_point(|[other, _]| along.compare(*other, low).is_le());
+        before > 0 && along.compare(low, intervals[before - 1][1]).is_lt()
+    }
+
+    /// Whether they are all of the line.
+    pub(super) fn are_all(&self) -> bool {
+        self.intervals.is_none()
+    }
+}
+
+impl OnLine {
+    pub(super) fn add(&mut self, number: EdgeId, ends: [PointId; 2]) {
+        self.edges.push(number);
+        self.changed.push(ends);
+    }
+
+    /// Notes that something has changed between two points.
+    pub(super) fn note_change(&mut self, ends: [PointId; 2]) {
+        self.changed.push(ends);
+    }
+
+    /// Puts the edges in order. Gives the parts in which something has changed, and the numbers of the edges and of the pieces there; the latter are taken out.
+    pub(super) fn take_changed(
+        &mut self,
+        along: &Along<'_>,
+        edges: &[Edge],
+        is_forward: impl Fn(HalfEdgeId) -> ([PointId; 2], bool),
+        group: &mut Vec<EdgeId>,
+        old: &mut Vec<HalfEdgeId>,
+    ) -> Parts {
+        let is_there = |number: &EdgeId| !edges[number.index()].is_gone;
+        self.edges.retain(is_there);
+        group.clear();
+        old.clear();
+        if self.edges.len() < LEAST_EDGES || self.has_slits {
+            group.extend_from_slice(&self.edges);
+            old.append(&mut self.pieces);
+            self.changed.clear();
+            return Parts::default();
+        }
+        let low = |number: &EdgeId| along.of_edge(&edges[number.index()])[0];
+        self.edges.sort_by(|a, b| along.compare(low(a), low(b)));
+        let mut intervals = std::mem::take(&mut self.changed);
+        for ends in &mut intervals {
+            let is_forward = along.compare(ends[0], ends[1]).is_le();
+            *ends = Along::low_and_high(*ends, is_forward);
+        }
+        let touches = |[low, high]: &[PointId; 2], [start, end]: &[PointId; 2]| {
+            along.compare(*low, *end).is_le() && along.compare(*start, *high).is_le()
+        };
+        let first_changes = intervals.len();
+        let mut rest = self.edges.as_slice();
+        while !rest.is_empty() {
+            let (part, count) = first_part(along, edges, rest);
+            if intervals[..first_changes].iter().any(|change| touches(change, &part)) {
+                group.extend_from_slice(&rest[..count]);
+                intervals.push(part);
+            }
+            rest = &rest[count..];
+        }
+        intervals.sort_by(|a, b| along.compare(a[0], b[0]));
+        let mut merged: Vec<[PointId; 2]> = Vec::new();
+        for [low, high] in intervals {
+            match merged.last_mut() {
+                Some(last) if along.compare(low, last[1]).is_le() => last[1] = along.max(last[1], high),
+                _ => merged.push([low, high]),
+            }
+        }
+        let parts = Parts { intervals: Some(merged) };
+        self.pieces.retain(|number| {
+            let (ends, forward) = is_forward(*number);
+            let is_old = parts.hold_from(along, Along::low_and_high(ends, forward)[0]);
+            if is_old {
+                old.push(*number);
+            }
+            !is_old
+        });
+        parts
+    }
+}
+
+/// Of some edges, in their order, those up to a gap; and where they begin and end.
+fn first_part(along: &Along<'_>, edges: &[Edge], numbers: &[EdgeId]) -> ([PointId; 2], usize) {
+    let ends = |number: &EdgeId| along.of_edge(&edges[number.index()]);
+    let [low, mut high] = ends(&numbers[0]);
+    let reaches = |number: &&EdgeId| {
+        let [start, end] = ends(number);
+        let is_before = along.compare(start, high).is_le();
+        if is_before {
+            high = along.max(high, end);
+        }
+        is_before
+    };
+    let count = 1 + numbers[1..].iter().take_while(reaches).count();
+    ([low, high], count)
+}
