@@ -10,7 +10,6 @@ use crate::body::{Body, kinds};
 use crate::boundary::{EdgeChange, FaceWorker, KnownEdge, Scene};
 use crate::expression::Expression;
 use crate::ids::{BodyId, Id, LeafId, OperandFace, OperandId};
-use crate::plane_table::PlaneTable;
 use crate::weld::LiveWeld;
 
 /// Number of faces from which several threads work on them: waking them takes as long as a few faces.
@@ -192,9 +191,22 @@ impl LiveModel {
 
     /// Hands the weld what has changed on faces.
     pub(super) fn exchange(&mut self, found: Vec<Found>) {
-        for (OperandFace { operand, face }, change) in found.into_iter().flat_map(|found| found.changes) {
+        let changes = || found.iter().flat_map(|found| &found.changes);
+        for (OperandFace { operand, face }, change) in changes() {
             let operand = self.operands[operand.index()].as_mut().expect("the brush is there");
-            exchange(&mut self.welded, &self.planes.table, &mut operand.edges[face.index()], &change);
+            take_out(&mut self.welded, &mut operand.edges[face.index()], &change.removed);
+        }
+        let count = changes().map(|(_, change)| change.added.len()).sum();
+        let mut added = Vec::with_capacity(count);
+        added.extend(changes().flat_map(|(_, change)| &change.added));
+        let mut numbers = self.welded.insert(&self.planes.table, &added).into_iter();
+        drop(added);
+        for (OperandFace { operand, face }, change) in changes().filter(|(_, change)| !change.added.is_empty()) {
+            let operand = self.operands[operand.index()].as_mut().expect("the brush is there");
+            let known = &mut operand.edges[face.index()];
+            known.extend(change.added.iter().copied().zip(&mut numbers));
+            // two sorted runs are merged
+            known.sort_by_key(|known| known.0);
         }
     }
 }
@@ -221,19 +233,18 @@ impl FaceBatch {
     }
 }
 
-/// Changes the edges known on a face, which are sorted and stay so.
-fn exchange(welded: &mut LiveWeld, table: &PlaneTable, known: &mut Vec<KnownEdge>, change: &EdgeChange) {
-    for place in &change.removed {
+/// Takes some edges known on a face out of them and out of the weld, by their places, ascending.
+fn take_out(welded: &mut LiveWeld, known: &mut Vec<KnownEdge>, removed: &[u32]) {
+    for place in removed {
         welded.remove(known[*place as usize].1);
     }
-    let mut gone = change.removed.iter().peekable();
-    let mut place = 0;
-    known.retain(|_| {
-        let is_gone = gone.next_if_eq(&&place).is_some();
-        place += 1;
-        !is_gone
-    });
-    known.extend(change.added.iter().map(|edge| (*edge, welded.insert(table, edge))));
-    // two sorted runs are merged
-    known.sort_by_key(|known| known.0);
+    if !removed.is_empty() {
+        let mut gone = removed.iter().peekable();
+        let mut place = 0;
+        known.retain(|_| {
+            let is_gone = gone.next_if_eq(&&place).is_some();
+            place += 1;
+            !is_gone
+        });
+    }
 }

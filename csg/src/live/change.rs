@@ -2,6 +2,9 @@
 
 use std::sync::Arc;
 
+use planecut_parallel::prelude::*;
+
+use super::boundary::Found;
 use super::history::New;
 use super::operand::{Operand, Role, State};
 use super::planes::{PlaneUse, Settled};
@@ -39,7 +42,8 @@ impl LiveModel {
         let outer = &self.outer;
         let is_outside =
             |edge: &BoundaryEdge| [edge.face, edge.edge, edge.start, edge.end].iter().any(|plane| outer.holds(*plane));
-        if found.iter().flat_map(|found| &found.changes).flat_map(|(_, change)| &change.added).any(is_outside) {
+        let are_outside = |found: &Found| found.changes.iter().flat_map(|(_, change)| &change.added).any(is_outside);
+        if found.par_iter().any(are_outside) {
             self.place(old);
             let (_, numbers, unsettled) = self.set_states(before, &settled.retired);
             self.forget(&numbers);

@@ -12,6 +12,7 @@ use std::collections::BTreeMap;
 
 use planecut_kernel::HalfSpace;
 use planecut_kernel::sign::Row;
+use planecut_parallel::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::base::sortable;
@@ -72,6 +73,9 @@ pub(super) struct Settled {
     /// Indices that no group uses any more.
     pub(super) retired: Vec<u32>,
 }
+
+/// Number of groups from which all threads look for what is near them.
+const MANY: usize = 1024;
 
 impl EqualRows {
     fn is_plane_of(&self, row: &Row) -> bool {
@@ -296,12 +300,18 @@ impl LivePlanes {
                 self.near.insert(unit, number);
             }
         }
-        for &number in moved {
-            let near = self.neighbours(number);
-            if !near.is_empty() {
-                self.crowded.extend(near);
-                self.crowded.insert(number);
-            }
+        let crowded = |number: &RowGroupId| {
+            let near = self.neighbours(*number);
+            (!near.is_empty()).then_some((*number, near))
+        };
+        let crowded: Vec<(RowGroupId, Vec<RowGroupId>)> = if moved.len() < MANY {
+            moved.iter().filter_map(crowded).collect()
+        } else {
+            moved.par_iter().with_min_len(MANY / 4).filter_map(crowded).collect()
+        };
+        for (number, near) in crowded {
+            self.crowded.extend(near);
+            self.crowded.insert(number);
         }
         if is_other_size {
             doubtful.extend(self.crowded.iter());

@@ -145,12 +145,12 @@ impl Faces {
         }
         let plane = context.plane(number);
         let mut new: Vec<LoopId> = Vec::new();
-        for piece in left.pieces.iter().map(|(piece, _)| *piece).chain(region.new.drain(..)) {
+        for piece in left.pieces.iter().map(|(piece, _)| *piece).chain(std::mem::take(&mut region.new)) {
             if !pieces.is_gone[piece.index()] && pieces.loop_of[piece.index()] == LoopId::NONE {
                 new.push(self.loops.walk(context, &plane, pieces, piece));
             }
         }
-        region.gone.clear();
+        region.gone = Vec::new();
         let (outers, holes): (Vec<LoopId>, Vec<LoopId>) =
             new.iter().partition(|number| self.loops.get(**number).is_outer);
         let mut owned: Vec<(LoopId, LoopId)> = Vec::with_capacity(holes.len());

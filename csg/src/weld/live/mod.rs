@@ -10,6 +10,8 @@ mod faces;
 mod grid;
 mod loops;
 mod moved;
+mod named_lines;
+mod named_points;
 mod names;
 mod numbers;
 mod on_line;
@@ -20,11 +22,11 @@ mod vertices;
 mod welded_face;
 
 use planecut_kernel::DVec3;
+use planecut_parallel::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::WeldError;
 use super::cancel::{Crossed, HalfEdge, LineWorker, Run, Surviving};
-use super::pinches::PinchFinder;
 use crate::boundary::BoundaryEdge;
 use crate::ids::{EdgeId, FaceId, HalfEdgeId, Id, LineId, PointId, PointOfRegion, PointOnLine, RegionId};
 use crate::model::MaterialId;
@@ -38,6 +40,16 @@ use pieces::Pieces;
 use regions::Regions;
 use vertices::Vertices;
 pub(crate) use welded_face::WeldedFace;
+
+/// Number of lines or regions from which all threads look at them, where they are a good part of all: one in [`SHARE`] or more.
+const MANY: usize = 512;
+const SHARE: usize = 4;
+
+/// Number of lines that a thread looks at in a row then.
+const LINES_OF_CHUNK: usize = 1024;
+
+/// Number of edges from which all threads number them.
+const EDGES_FOR_THREADS: usize = 2048;
 
 /// A boundary, welded.
 #[derive(Clone, Default)]
@@ -80,15 +92,27 @@ struct Crossings {
 }
 
 impl LiveWeld {
-    /// Adds a boundary edge.
-    pub(crate) fn insert(&mut self, table: &PlaneTable, edge: &BoundaryEdge) -> EdgeId {
+    /// Adds boundary edges; gives their numbers.
+    pub(crate) fn insert(&mut self, table: &PlaneTable, edges: &[BoundaryEdge]) -> Vec<EdgeId> {
         self.moving = None;
-        let numbered = self.numbers.take(table, edge);
-        let line = numbered.run.line;
-        self.state.make_room(line);
-        let ends = [numbered.run.from, numbered.run.to];
+        if edges.len() >= EDGES_FOR_THREADS {
+            let numbered = self.numbers.take_all(table, edges);
+            self.edges.reserve(numbered.len().saturating_sub(self.free_edges.len()));
+            return numbered.into_iter().map(|edge| self.put(edge)).collect();
+        }
+        let mut numbers = Vec::with_capacity(edges.len());
+        for edge in edges {
+            let numbered = self.numbers.take(table, edge);
+            numbers.push(self.put(numbered));
+        }
+        numbers
+    }
+
+    fn put(&mut self, numbered: NumberedEdge) -> EdgeId {
+        let Run { line, from, to, .. } = numbered.run;
         let number = place(&mut self.edges, &mut self.free_edges, Edge { numbered, is_gone: false });
-        self.state.lines[line.index()].add(number, ends);
+        self.state.make_room(line);
+        self.state.lines[line.index()].add(number, [from, to]);
         self.state.mark_line(line);
         number
     }
@@ -201,7 +225,7 @@ impl<'a> Cutter<'a> {
         Self {
             context,
             edges,
-            worker: LineWorker::new(table, &numbers.points, &numbers.lines, &numbers.planes),
+            worker: LineWorker::new(table, numbers.points(), numbers.lines(), &numbers.planes),
             members: Vec::new(),
             group: Vec::new(),
             surviving: Surviving::default(),
@@ -212,6 +236,16 @@ impl<'a> Cutter<'a> {
             numbers: Vec::new(),
             passed: Vec::new(),
         }
+    }
+
+    /// Leaves in `members` the edges of the parts of a line in which something has changed, and in `old_pieces` their pieces; gives the parts.
+    fn take_changed(&mut self, line: &mut OnLine, number: LineId, half_edges: &[HalfEdge]) -> Parts {
+        let along = Along { context: self.context, line: number };
+        let run = |number: HalfEdgeId| {
+            let piece = &half_edges[number.index()];
+            ([piece.from, piece.to], piece.forward)
+        };
+        line.take_changed(&along, self.edges, run, &mut self.members, &mut self.old_pieces)
     }
 
     /// Leaves in `surviving` what is left of the edges of a line, `members` of it.
@@ -256,6 +290,9 @@ impl State {
     /// Cuts all lines again on which something has changed, and those with pinches that may be none any more, where these are
     /// to be dropped.
     fn cut_dirty_lines(&mut self, cutter: &mut Cutter<'_>, drops_pinches: bool) -> Result<(), WeldError> {
+        if self.dirty_lines.len() >= MANY && self.dirty_lines.len() * SHARE >= self.lines.len() {
+            self.cut_many(cutter)?;
+        }
         loop {
             while let Some(line) = self.dirty_lines.pop() {
                 self.lines[line.index()].is_dirty = false;
@@ -265,7 +302,7 @@ impl State {
                 return Ok(());
             }
             for (region, PointOnLine { line, point }) in self.regions.take_doubtful_pinches(&self.pieces.half_edges) {
-                self.lines[line.index()].cuts.retain(|cut| *cut != PointOfRegion { region, point });
+                self.lines[line.index()].rare_mut().cuts.retain(|cut| *cut != PointOfRegion { region, point });
                 self.mark_change(line, [point, point]);
             }
             if self.dirty_lines.is_empty() {
@@ -274,21 +311,52 @@ impl State {
         }
     }
 
-    fn cut_line(&mut self, cutter: &mut Cutter<'_>, number: LineId) -> Result<(), WeldError> {
-        let along = Along { context: cutter.context, line: number };
-        let half_edges = &self.pieces.half_edges;
-        let run = |number: HalfEdgeId| {
-            let piece = &half_edges[number.index()];
-            ([piece.from, piece.to], piece.forward)
+    /// Cuts those of many lines that nothing crosses; what they come to is worked out by all threads.
+    fn cut_many(&mut self, cutter: &mut Cutter<'_>) -> Result<(), WeldError> {
+        let (context, edges, half_edges) = (cutter.context, cutter.edges, &self.pieces.half_edges);
+        let work = |(chunk, lines): (usize, &mut [OnLine])| {
+            let (mut cutter, mut done) = (Cutter::new(context, edges), Vec::new());
+            let numbers = LineId::from_index(chunk * LINES_OF_CHUNK);
+            for (k, line) in lines.iter_mut().enumerate().filter(|(_, line)| line.is_dirty) {
+                let number = numbers.plus(k);
+                cutter.take_changed(line, number, half_edges);
+                cutter.cancel()?;
+                if line.is_crossed() || !cutter.surviving.passed.is_empty() || !cutter.surviving.slits.is_empty() {
+                    line.put_back(&mut cutter.old_pieces);
+                    continue;
+                }
+                cutter.further.clear();
+                cutter.cut()?;
+                line.is_dirty = false;
+                done.push((number, cutter.cut.clone(), std::mem::take(&mut cutter.old_pieces)));
+            }
+            Ok::<_, WeldError>(done)
         };
-        let line = &mut self.lines[number.index()];
-        let Cutter { members, old_pieces, .. } = cutter;
-        let parts = line.take_changed(&along, cutter.edges, run, members, old_pieces);
+        let parts: Vec<_> = self.lines.par_chunks_mut(LINES_OF_CHUNK).enumerate().map(work).collect();
+        for part in parts {
+            for (number, cut, old) in part? {
+                (cutter.cut, cutter.old_pieces) = (cut, old);
+                self.exchange_pieces(cutter, number);
+            }
+        }
+        let lines = &self.lines;
+        self.dirty_lines.retain(|line| lines[line.index()].is_dirty);
+        Ok(())
+    }
+
+    fn cut_line(&mut self, cutter: &mut Cutter<'_>, number: LineId) -> Result<(), WeldError> {
+        let parts = cutter.take_changed(&mut self.lines[number.index()], number, &self.pieces.half_edges);
         cutter.cancel()?;
-        self.note_crossings(&along, &parts, cutter);
+        self.note_crossings(number, &parts, cutter);
+        cutter.cut()?;
+        self.exchange_pieces(cutter, number);
+        Ok(())
+    }
+
+    /// Puts the pieces to which a part of a line was cut in the place of the old ones; those that stay the same keep their numbers.
+    fn exchange_pieces(&mut self, cutter: &mut Cutter<'_>, number: LineId) {
         let Self { lines, pieces, regions, .. } = self;
         let line = &mut lines[number.index()];
-        cutter.cut()?;
         let Cutter { context, cut, old_pieces, old, numbers, .. } = cutter;
         let key = |piece: &HalfEdge| (piece.region, piece.from, piece.to);
         old.clear();
@@ -320,13 +388,12 @@ impl State {
             *known = HalfEdge { twin, ..*piece };
         }
         line.pieces.extend_from_slice(numbers);
-        Ok(())
     }
 
     /// Notes what crosses on a line that is cut again, and where it is to be cut; marks the lines for which that makes a
     /// difference.
-    fn note_crossings(&mut self, along: &Along<'_>, parts: &Parts, cutter: &mut Cutter<'_>) {
-        let number = along.line;
+    fn note_crossings(&mut self, number: LineId, parts: &Parts, cutter: &mut Cutter<'_>) {
+        let along = &Along { context: cutter.context, line: number };
         let line = &mut self.lines[number.index()];
         let crossings = &mut self.crossings;
         let has_slits = !cutter.surviving.slits.is_empty();
@@ -336,13 +403,15 @@ impl State {
         passed.clear();
         passed.extend(cutter.surviving.passed.iter().map(|passed| passed.at));
         if !parts.are_all() {
-            passed.extend(line.passed.iter().filter(|at| !parts.hold(along, at.point)));
+            passed.extend(line.passed().iter().filter(|at| !parts.hold(along, at.point)));
         }
         passed.sort_unstable();
         passed.dedup();
-        std::mem::swap(&mut line.passed, passed);
+        if !passed.is_empty() || !line.passed().is_empty() {
+            std::mem::swap(&mut line.rare_mut().passed, passed);
+        }
         let mut others: Vec<(LineId, PointId)> = Vec::new();
-        for gone in passed.iter().filter(|at| line.passed.binary_search(at).is_err()) {
+        for gone in passed.iter().filter(|at| line.passed().binary_search(at).is_err()) {
             let Some(passing) = crossings.passing.get_mut(gone) else { continue };
             passing.retain(|other| *other != number);
             match passing[..] {
@@ -351,7 +420,7 @@ impl State {
                 _ => {}
             }
         }
-        for new in line.passed.iter().filter(|at| passed.binary_search(at).is_err()) {
+        for new in line.passed().iter().filter(|at| passed.binary_search(at).is_err()) {
             let passing = crossings.passing.entry(*new).or_default();
             passing.push(number);
             if let [other, _] = passing[..] {
@@ -359,25 +428,20 @@ impl State {
             }
         }
         cutter.further.clear();
-        cutter.further.extend(line.cuts.iter().map(|cut| cut.point));
+        cutter.further.extend(line.cuts().iter().map(|cut| cut.point));
         let is_crossed = |at: &&PointOfRegion| crossings.passing.get(at).is_some_and(|passing| passing.len() > 1);
-        cutter.further.extend(line.passed.iter().filter(is_crossed).map(|at| at.point));
+        cutter.further.extend(line.passed().iter().filter(is_crossed).map(|at| at.point));
         cutter.further.retain(|point| parts.hold(along, *point));
         others.into_iter().for_each(|(other, point)| self.mark_change(other, [point, point]));
     }
 
     /// Finds the new pinches of regions that have changed and marks their lines; whether there are any.
     fn find_pinches(&mut self, context: &Context<'_>) -> bool {
-        let mut finder = PinchFinder::new(context.table, &context.numbers.points);
-        let mut any = false;
-        for k in 0..self.regions.changed().len() {
-            let region = self.regions.changed()[k];
-            self.regions.find_pinches(context, &self.pieces, region, &mut finder);
-            for pinch in finder.found.drain(..) {
-                any = true;
-                self.lines[pinch.line.index()].cuts.push(PointOfRegion { region, point: pinch.point });
-                self.mark_change(pinch.line, [pinch.point, pinch.point]);
-            }
+        let found = self.regions.find_pinches(context, &self.pieces);
+        let any = !found.is_empty();
+        for (region, PointOnLine { line, point }) in found {
+            self.lines[line.index()].rare_mut().cuts.push(PointOfRegion { region, point });
+            self.mark_change(line, [point, point]);
         }
         any
     }

@@ -40,13 +40,13 @@ impl LiveWeld {
             let run = self.edges[number.index()].numbered.run;
             let is_line = is_plane(edge.face) || is_plane(edge.edge);
             let known = &self.numbers;
-            if is_line != known.lines[run.line.index()].planes.into_iter().any(is_plane) {
+            if is_line != known.lines()[run.line.index()].planes.into_iter().any(is_plane) {
                 return false;
             }
             let mut is_moved = is_line;
             for (end, point) in [(edge.start, run.from), (edge.end, run.to)] {
                 let is_point = is_line || is_plane(end);
-                if is_point != known.points.planes[point.index()].into_iter().any(is_plane) {
+                if is_point != known.points().planes[point.index()].into_iter().any(is_plane) {
                     return false;
                 }
                 if is_point {

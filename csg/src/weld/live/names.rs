@@ -4,17 +4,18 @@ use std::hash::Hash;
 
 use rustc_hash::FxHashMap;
 
+use crate::base::map_chunks;
 use crate::ids::{Id, NameId};
 
 /// The numbers of things by name. Equal things have equal marks; different ones hardly ever do.
 #[derive(Debug, Clone)]
-pub(super) struct Names<N, M, T> {
+pub(super) struct Names<N, T> {
     by_name: FxHashMap<N, NameId>,
     names: Vec<Name<N, T>>,
     free_names: Vec<NameId>,
     /// The last thing of each mark.
-    by_mark: FxHashMap<M, T>,
-    things: Vec<Thing<M, T>>,
+    by_mark: FxHashMap<u64, T>,
+    things: Vec<Thing<T>>,
     free_things: Vec<T>,
 }
 
@@ -26,14 +27,14 @@ struct Name<N, T> {
 }
 
 #[derive(Debug, Clone, Copy)]
-struct Thing<M, T> {
-    mark: M,
+struct Thing<T> {
+    mark: u64,
     /// The one before of the same mark, [`Id::NONE`] where there is none.
     before: T,
     names: u32,
 }
 
-impl<N, M, T> Default for Names<N, M, T> {
+impl<N, T> Default for Names<N, T> {
     fn default() -> Self {
         Self {
             by_name: FxHashMap::default(),
@@ -46,16 +47,27 @@ impl<N, M, T> Default for Names<N, M, T> {
     }
 }
 
-impl<N: Copy + Eq + Hash, M: Copy + Eq + Hash, T: Id> Names<N, M, T> {
-    /// Uses a name, where it is known.
-    pub(super) fn find(&mut self, name: &N) -> Option<NameId> {
-        let number = *self.by_name.get(name)?;
-        self.names[number.index()].uses += 1;
-        Some(number)
+impl<N: Copy + Eq + Hash, T: Id> Names<N, T> {
+    /// The number of a name, where it is known.
+    pub(super) fn find(&self, name: &N) -> Option<NameId> {
+        self.by_name.get(name).copied()
     }
 
-    /// Uses a name that is not known, for the thing of a mark that `is_same`, or for a new one; whether it is new.
-    pub(super) fn add(&mut self, name: N, mark: M, is_same: impl Fn(T) -> bool) -> (NameId, bool) {
+    /// Uses names, each once for each time it is given.
+    pub(super) fn use_all(&mut self, numbers: &[NameId]) {
+        for number in numbers {
+            self.names[number.index()].uses += 1;
+        }
+    }
+
+    /// Makes room for many names that are not known.
+    pub(super) fn reserve(&mut self, count: usize) {
+        self.by_name.reserve(count);
+        self.by_mark.reserve(count);
+    }
+
+    /// Adds a name that is not known, for the thing of a mark that `is_same`, or for a new one; whether it is new. The name is to be used then.
+    pub(super) fn add(&mut self, name: N, mark: u64, is_same: impl Fn(T) -> bool) -> (NameId, bool) {
         let last = self.by_mark.get(&mark).copied().unwrap_or(T::NONE);
         let mut alike = last;
         while alike != T::NONE && !is_same(alike) {
@@ -67,7 +79,7 @@ impl<N: Copy + Eq + Hash, M: Copy + Eq + Hash, T: Id> Names<N, M, T> {
             self.by_mark.insert(mark, alike);
         }
         self.things[alike.index()].names += 1;
-        let number = place(&mut self.names, &mut self.free_names, Name { name, thing: alike, uses: 1 });
+        let number = place(&mut self.names, &mut self.free_names, Name { name, thing: alike, uses: 0 });
         self.by_name.insert(name, number);
         (number, is_new)
     }
@@ -104,7 +116,7 @@ impl<N: Copy + Eq + Hash, M: Copy + Eq + Hash, T: Id> Names<N, M, T> {
     }
 
     /// Gives a thing another mark, where it is in use.
-    pub(super) fn set_mark(&mut self, thing: T, mark: M) {
+    pub(super) fn set_mark(&mut self, thing: T, mark: u64) {
         let Thing { mark: old, before, names } = self.things[thing.index()];
         if names > 0 && old != mark {
             self.unlink(thing, old, before);
@@ -114,7 +126,7 @@ impl<N: Copy + Eq + Hash, M: Copy + Eq + Hash, T: Id> Names<N, M, T> {
     }
 
     /// Takes a thing out of the list of those of its mark.
-    fn unlink(&mut self, thing: T, mark: M, before: T) {
+    fn unlink(&mut self, thing: T, mark: u64, before: T) {
         let last = self.by_mark.get_mut(&mark).expect("the mark of a thing is known");
         if *last != thing {
             let mut later = *last;
@@ -128,6 +140,17 @@ impl<N: Copy + Eq + Hash, M: Copy + Eq + Hash, T: Id> Names<N, M, T> {
             self.by_mark.remove(&mark);
         }
     }
+}
+
+/// For each of different names its number, or where it is not known what it takes to add it; worked out by all threads.
+pub(super) fn find_all<N: Copy + Eq + Hash + Sync, T: Id, R: Send>(
+    names: &Names<N, T>,
+    different: &[N],
+    work: impl Fn(&N) -> R + Sync,
+) -> Vec<Result<NameId, R>> {
+    let find = |name: &N| names.find(name).ok_or_else(|| work(name));
+    let (parts, _) = map_chunks(different, 256, |names| names.iter().map(find).collect::<Vec<_>>());
+    parts.into_iter().flatten().collect()
 }
 
 /// Puts an entry into a free place, or at the end; gives the place.
@@ -152,11 +175,11 @@ mod tests {
 
     #[test]
     fn things_live_as_long_as_a_name_is_in_use() {
-        let mut names: Names<u32, u32, PointId> = Names::default();
+        let mut names: Names<u32, PointId> = Names::default();
         // names below 10 stand for 1, others for 2; all have one mark
         let meaning = |name: u32| if name < 10 { 1 } else { 2 };
         let mut meanings = [0; 4];
-        let mut take = |names: &mut Names<u32, u32, PointId>, name: u32| {
+        let mut take = |names: &mut Names<u32, PointId>, name: u32| {
             let (id, is_new) = match names.find(&name) {
                 Some(id) => (id, false),
                 None => names.add(name, 7, |thing| meanings[thing.index()] == meaning(name)),
@@ -164,6 +187,7 @@ mod tests {
             if is_new {
                 meanings[names.thing(id).index()] = meaning(name);
             }
+            names.use_all(&[id]);
             id
         };
         let [a, b, c, again] = [1, 11, 2, 1].map(|name| take(&mut names, name));

@@ -2,19 +2,20 @@
 
 use std::cmp::Ordering;
 
-use planecut_kernel::{DVec3, compare_exactly};
+use planecut_kernel::DVec3;
 use rustc_hash::FxHashMap;
 
-use super::names::{Names, place};
-use crate::base::{map_chunks, sortable};
+use super::named_lines::NamedLines;
+use super::named_points::NamedPoints;
+use super::names::place;
 use crate::boundary::BoundaryEdge;
 use crate::ids::{Id, LineId, NameId, PointId, RegionId};
 use crate::model::MaterialId;
-use crate::plane_table::{PlaneId, PlaneTable, curve_number};
+use crate::plane_table::{PlaneId, PlaneTable};
 use crate::weld::cancel::Run;
-use crate::weld::lines::{self, AxisPlanes, Line};
+use crate::weld::lines::Line;
 use crate::weld::nest::RegionPlane;
-use crate::weld::points::{self, Named, Points};
+use crate::weld::points::Points;
 
 /// An edge, and the names under which its points and its line are known.
 #[derive(Debug, Clone, Copy)]
@@ -27,12 +28,8 @@ pub(super) struct NumberedEdge {
 /// All numbers in use. Those of entries that are free stay until they are used again.
 #[derive(Clone, Default)]
 pub(super) struct Numbers {
-    point_names: Names<points::Triple, [u64; 3], PointId>,
-    line_names: Names<u64, lines::Key, LineId>,
-    pub(super) points: Points,
-    /// For each point its place on the curve by which points are ordered.
-    places: Vec<u64>,
-    pub(super) lines: Vec<Line>,
+    points: NamedPoints,
+    lines: NamedLines,
     region_numbers: FxHashMap<(PlaneId, MaterialId), RegionId>,
     /// The planes, the materials of regions, and by how many edges each is used.
     pub(super) planes: Vec<PlaneId>,
@@ -42,7 +39,6 @@ pub(super) struct Numbers {
     /// By how many points and lines each plane is known, and those by which none is known any more.
     known_by: Vec<u32>,
     unnamed: Vec<u32>,
-    axes: AxisPlanes,
     /// Points and lines that have moved since they were marked.
     unmarked: (Vec<PointId>, Vec<LineId>),
 }
@@ -57,45 +53,60 @@ pub(super) struct Context<'a> {
 impl<'a> Context<'a> {
     /// The plane of a region.
     pub(super) fn plane(&self, region: RegionId) -> RegionPlane<'a> {
-        RegionPlane::new(self.table, &self.numbers.points, self.numbers.planes[region.index()])
+        RegionPlane::new(self.table, self.numbers.points(), self.numbers.planes[region.index()])
     }
-}
-
-/// Number of points from which several threads work out where they are.
-const POINTS_FOR_THREADS: usize = 256;
-
-/// What equal points share.
-fn mark_of(position: DVec3) -> [u64; 3] {
-    position.to_array().map(sortable)
 }
 
 impl Numbers {
     /// Numbers an edge.
     pub(super) fn take(&mut self, table: &PlaneTable, edge: &BoundaryEdge) -> NumberedEdge {
         self.mark_moved(table);
-        let [from, to] = [edge.start, edge.end].map(|end| self.take_point(table, [edge.face, edge.edge, end]));
-        let line = self.take_line(table, edge);
-        let line_number = self.line_names.thing(line);
+        let mut gained = Vec::new();
+        let ends = self.points.take(table, edge, &mut gained);
+        let line = self.lines.take(table, edge, &mut gained);
+        self.gain(&gained);
+        self.numbered(table, edge, ends, line)
+    }
+
+    /// Numbers many edges, with all threads.
+    pub(super) fn take_all(&mut self, table: &PlaneTable, edges: &[BoundaryEdge]) -> Vec<NumberedEdge> {
+        self.mark_moved(table);
+        let Self { points, lines, .. } = self;
+        let (mut by_points, mut by_lines) = (Vec::new(), Vec::new());
+        let (ends, lines) = planecut_parallel::join(
+            || points.take_all(table, edges, &mut by_points),
+            || lines.take_all(table, edges, &mut by_lines),
+        );
+        self.gain(&by_points);
+        self.gain(&by_lines);
+        let named = edges.iter().zip(ends).zip(lines);
+        named.map(|((edge, ends), line)| self.numbered(table, edge, ends, line)).collect()
+    }
+
+    /// An edge whose ends and line are numbered.
+    fn numbered(&mut self, table: &PlaneTable, edge: &BoundaryEdge, ends: [NameId; 2], line: NameId) -> NumberedEdge {
+        let number = self.lines.names.thing(line);
+        let [from, to] = ends.map(|end| self.points.names.thing(end));
         let run = Run {
-            line: line_number,
+            line: number,
             region: self.take_region(edge.face, edge.material),
             edge: edge.edge,
-            from: self.point_names.thing(from),
-            to: self.point_names.thing(to),
-            forward: self.lines[line_number.index()].is_along(table, edge.face, edge.edge),
+            from,
+            to,
+            forward: self.lines.lines[number.index()].is_along(table, edge.face, edge.edge),
         };
-        NumberedEdge { run, ends: [from, to], line }
+        NumberedEdge { run, ends, line }
     }
 
     /// Takes an edge out.
     pub(super) fn release(&mut self, edge: &NumberedEdge) {
         for end in edge.ends {
-            if let Some(gone) = self.point_names.release(end) {
-                self.points.planes[gone.index()].into_iter().for_each(|plane| self.lose(plane));
+            if let Some(gone) = self.points.names.release(end) {
+                self.points().planes[gone.index()].into_iter().for_each(|plane| self.lose(plane));
             }
         }
-        if let Some(gone) = self.line_names.release(edge.line) {
-            self.lines[gone.index()].planes.into_iter().for_each(|plane| self.lose(plane));
+        if let Some(gone) = self.lines.names.release(edge.line) {
+            self.lines()[gone.index()].planes.into_iter().for_each(|plane| self.lose(plane));
         }
         let (number, region) = (edge.run.region, edge.run.region.index());
         self.region_uses[region] -= 1;
@@ -105,13 +116,15 @@ impl Numbers {
         }
     }
 
-    /// Notes that a point or a line is known by a plane.
-    fn gain(&mut self, plane: PlaneId) {
-        let at = plane.index() as usize;
-        if at >= self.known_by.len() {
-            self.known_by.resize(at + 1, 0);
+    /// Notes that points or lines are known by planes.
+    fn gain(&mut self, planes: &[PlaneId]) {
+        for plane in planes {
+            let at = plane.index() as usize;
+            if at >= self.known_by.len() {
+                self.known_by.resize(at + 1, 0);
+            }
+            self.known_by[at] += 1;
         }
-        self.known_by[at] += 1;
     }
 
     /// Notes that a point or a line that was known by a plane is no more.
@@ -133,18 +146,17 @@ impl Numbers {
         std::mem::take(&mut self.unnamed)
     }
 
+    pub(super) fn points(&self) -> &Points {
+        &self.points.points
+    }
+
+    pub(super) fn lines(&self) -> &[Line] {
+        &self.lines.lines
+    }
+
     /// The order of points in space, whatever their numbers.
     pub(super) fn compare(&self, table: &PlaneTable, p: PointId, q: PointId) -> Ordering {
-        if p == q {
-            return Ordering::Equal;
-        }
-        let by_curve = self.places[p.index()].cmp(&self.places[q.index()]);
-        if by_curve.is_ne() {
-            return by_curve;
-        }
-        let coordinates = |point: PointId| self.points.positions[point.index()].to_array().map(sortable);
-        let rows = |point: PointId| self.points.planes[point.index()].map(|plane| table.row(plane));
-        coordinates(p).cmp(&coordinates(q)).then_with(|| compare_exactly(rows(p), rows(q), &[0, 1, 2]))
+        self.points.compare(table, p, q)
     }
 
     /// The region of a plane and a material, where there is one.
@@ -156,49 +168,6 @@ impl Numbers {
         self.materials[region.index()]
     }
 
-    fn take_point(&mut self, table: &PlaneTable, triple: [PlaneId; 3]) -> NameId {
-        let name = points::key(triple);
-        if let Some(known) = self.point_names.find(&name) {
-            return known;
-        }
-        let named = Named::of(table, points::planes(name));
-        let mark = mark_of(named.position);
-        let is_same = |point: PointId| points::is_at(table, self.points.planes[point.index()], named.planes);
-        let (id, is_new) = self.point_names.add(name, mark, is_same);
-        if is_new {
-            let number = self.point_names.thing(id);
-            if number.index() == self.places.len() {
-                self.points.push(&named);
-                self.places.push(0);
-            } else {
-                self.points.put(number, &named);
-            }
-            self.places[number.index()] = curve_number(named.position);
-            named.planes.into_iter().for_each(|plane| self.gain(plane));
-        }
-        id
-    }
-
-    fn take_line(&mut self, table: &PlaneTable, edge: &BoundaryEdge) -> NameId {
-        let name = lines::pair(edge);
-        if let Some(known) = self.line_names.find(&name) {
-            return known;
-        }
-        let line = Line::of(table, name);
-        let is_same = |other: LineId| self.axes.is_same(table, &self.lines[other.index()], &line);
-        let (id, is_new) = self.line_names.add(name, lines::key(table, &line), is_same);
-        if is_new {
-            let number = self.line_names.thing(id).index();
-            if number == self.lines.len() {
-                self.lines.push(line);
-            } else {
-                self.lines[number] = line;
-            }
-            line.planes.into_iter().for_each(|plane| self.gain(plane));
-        }
-        id
-    }
-
     /// How many points and lines are known by the plane of an index.
     pub(super) fn known_by(&self, index: u32) -> usize {
         self.known_by.get(index as usize).map_or(0, |count| *count as usize)
@@ -207,17 +176,7 @@ impl Numbers {
     /// Points and lines that a plane has moved, by which they are known, and which stay the same otherwise: puts the points where they are now. Lines do not
     /// change as long as the direction of the plane does not.
     pub(super) fn follow_plane(&mut self, table: &PlaneTable, moved: &[PointId], lines: &[LineId]) {
-        let follow =
-            |points: &[PointId]| points.iter().map(|point| self.points.moved(table, *point)).collect::<Vec<_>>();
-        let places: Vec<(DVec3, u8)> = if moved.len() < 2 * POINTS_FOR_THREADS {
-            follow(moved)
-        } else {
-            map_chunks(moved, POINTS_FOR_THREADS, follow).0.concat()
-        };
-        for (point, place) in moved.iter().zip(places) {
-            self.points.put_at(*point, place);
-            self.places[point.index()] = curve_number(place.0);
-        }
+        self.points.follow(table, moved);
         if self.unmarked.0 != moved {
             self.mark_moved(table);
             self.unmarked = (moved.to_vec(), lines.to_vec());
@@ -230,14 +189,8 @@ impl Numbers {
             return;
         }
         let (points, lines) = std::mem::take(&mut self.unmarked);
-        for point in points {
-            self.point_names.set_mark(point, mark_of(self.points.positions[point.index()]));
-        }
-        for line in lines {
-            if self.line_names.is_in_use(line) {
-                self.line_names.set_mark(line, lines::key(table, &self.lines[line.index()]));
-            }
-        }
+        self.points.mark(&points);
+        self.lines.mark(table, &lines);
     }
 
     fn take_region(&mut self, plane: PlaneId, material: MaterialId) -> RegionId {
@@ -255,6 +208,6 @@ impl Numbers {
     }
 
     pub(super) fn position(&self, point: PointId) -> DVec3 {
-        self.points.positions[point.index()]
+        self.points().positions[point.index()]
     }
 }

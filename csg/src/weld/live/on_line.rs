@@ -5,6 +5,8 @@
 
 use std::cmp::Ordering;
 
+use smallvec::SmallVec;
+
 use super::Edge;
 use super::numbers::Context;
 use crate::ids::{EdgeId, HalfEdgeId, Id, LineId, PointId, PointOfRegion};
@@ -12,21 +14,29 @@ use crate::ids::{EdgeId, HalfEdgeId, Id, LineId, PointId, PointOfRegion};
 /// Lines of fewer edges are looked at whole.
 const LEAST_EDGES: usize = 12;
 
-/// What lies on a line.
+/// What lies on a line. There are very many, and little on most of them.
 #[derive(Clone, Default)]
 pub(super) struct OnLine {
     /// Where they are many, by where they begin along the line, but for those that are new.
-    pub(super) edges: Vec<EdgeId>,
+    edges: SmallVec<[EdgeId; 4]>,
+    /// The pieces that are left of the edges, cut and paired.
+    pub(super) pieces: SmallVec<[HalfEdgeId; 4]>,
+    pub(super) is_dirty: bool,
+    /// Whether all of it is to be looked at again.
+    is_changed: bool,
+    pub(super) has_slits: bool,
+    rare: Option<Box<Rare>>,
+}
+
+/// What lies on few lines.
+#[derive(Clone, Default)]
+pub(super) struct Rare {
     /// Where edges came or went, or cuts did.
     changed: Vec<[PointId; 2]>,
-    /// The pieces that are left of the edges, cut and paired.
-    pub(super) pieces: Vec<HalfEdgeId>,
-    /// Where pinches cut them: the region of each pinch and the point.
+    /// Where pinches cut pieces: the region of each pinch and the point.
     pub(super) cuts: Vec<PointOfRegion>,
-    pub(super) is_dirty: bool,
     /// Where edges end inside runs.
     pub(super) passed: Vec<PointOfRegion>,
-    pub(super) has_slits: bool,
 }
 
 /// The order of points along a line.
@@ -39,7 +49,7 @@ pub(super) struct Along<'a> {
 impl Along<'_> {
     fn compare(&self, p: PointId, q: PointId) -> Ordering {
         let Context { table, numbers } = self.context;
-        numbers.lines[self.line.index()].compare(table, &numbers.points, p, q)
+        numbers.lines()[self.line.index()].compare(table, numbers.points(), p, q)
     }
 
     fn max(&self, p: PointId, q: PointId) -> PointId {
@@ -88,12 +98,39 @@ impl Parts {
 impl OnLine {
     pub(super) fn add(&mut self, number: EdgeId, ends: [PointId; 2]) {
         self.edges.push(number);
-        self.changed.push(ends);
+        self.note_change(ends);
     }
 
     /// Notes that something has changed between two points.
     pub(super) fn note_change(&mut self, ends: [PointId; 2]) {
-        self.changed.push(ends);
+        if self.edges.len() < LEAST_EDGES {
+            self.is_changed = true;
+        } else {
+            self.rare_mut().changed.push(ends);
+        }
+    }
+
+    /// Whether edges may be cut elsewhere than where others end.
+    pub(super) fn is_crossed(&self) -> bool {
+        self.has_slits || !self.passed().is_empty() || !self.cuts().is_empty()
+    }
+
+    pub(super) fn cuts(&self) -> &[PointOfRegion] {
+        self.rare.as_ref().map_or(&[], |rare| &rare.cuts)
+    }
+
+    pub(super) fn passed(&self) -> &[PointOfRegion] {
+        self.rare.as_ref().map_or(&[], |rare| &rare.passed)
+    }
+
+    pub(super) fn rare_mut(&mut self) -> &mut Rare {
+        self.rare.get_or_insert_default()
+    }
+
+    /// Puts pieces that were taken out back: all of the line is to be looked at again.
+    pub(super) fn put_back(&mut self, pieces: &mut Vec<HalfEdgeId>) {
+        self.pieces.extend(pieces.drain(..));
+        self.is_changed = true;
     }
 
     /// Puts the edges in order. Gives the parts in which something has changed, and the numbers of the edges and of the pieces there; the latter are taken out.
@@ -106,18 +143,19 @@ impl OnLine {
         old: &mut Vec<HalfEdgeId>,
     ) -> Parts {
         let is_there = |number: &EdgeId| !edges[number.index()].is_gone;
-        self.edges.retain(is_there);
+        self.edges.retain(|number| is_there(number));
         group.clear();
         old.clear();
-        if self.edges.len() < LEAST_EDGES || self.has_slits {
+        let is_whole = std::mem::take(&mut self.is_changed);
+        if is_whole || self.edges.len() < LEAST_EDGES || self.has_slits {
             group.extend_from_slice(&self.edges);
-            old.append(&mut self.pieces);
-            self.changed.clear();
+            old.extend(self.pieces.drain(..));
+            self.rare.iter_mut().for_each(|rare| rare.changed.clear());
             return Parts::default();
         }
         let low = |number: &EdgeId| along.of_edge(&edges[number.index()])[0];
         self.edges.sort_by(|a, b| along.compare(low(a), low(b)));
-        let mut intervals = std::mem::take(&mut self.changed);
+        let mut intervals = std::mem::take(&mut self.rare_mut().changed);
         for ends in &mut intervals {
             let is_forward = along.compare(ends[0], ends[1]).is_le();
             *ends = Along::low_and_high(*ends, is_forward);

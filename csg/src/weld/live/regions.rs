@@ -1,10 +1,12 @@
 //! The half-edges of each region: which begin and end in a point, which are near a place.
 
+use planecut_parallel::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::grid::{BoxGrid, Rectangle};
 use super::numbers::Context;
 use super::pieces::Pieces;
+use super::{MANY, SHARE};
 use crate::ids::{FaceId, HalfEdgeId, Id, PointId, PointOnLine, RegionId, number32};
 use crate::weld::cancel::HalfEdge;
 use crate::weld::nest::RegionPlane;
@@ -15,6 +17,9 @@ const INDEXED: [usize; 2] = [64, 32];
 
 /// Where more than one in this number of the half-edges of a region move, its index is made again when it is next needed.
 const MOVED_SHARE: usize = 4;
+
+/// Number of regions that a thread looks at in a row, where it looks at many.
+const REGIONS_OF_CHUNK: usize = 1024;
 
 /// The regions, by number.
 #[derive(Clone, Default)]
@@ -112,10 +117,6 @@ impl Regions {
         self.regions.get(region.index()).map_or(&[], |region| &region.faces)
     }
 
-    pub(super) fn changed(&self) -> &[RegionId] {
-        &self.changed
-    }
-
     pub(super) fn take_changed(&mut self) -> Vec<RegionId> {
         std::mem::take(&mut self.changed)
     }
@@ -126,7 +127,7 @@ impl Regions {
             self.regions.resize_with(number.index() + 1, Region::default);
         }
         let region = &mut self.regions[number.index()];
-        if region.new.is_empty() && region.gone.is_empty() {
+        if !region.is_changed() {
             self.changed.push(number);
         }
         region
@@ -216,16 +217,40 @@ impl Regions {
         doubtful
     }
 
-    /// Leaves in the finder the pinches of a changed region that new half-edges make; they are noted, too.
-    pub(super) fn find_pinches(
-        &mut self,
-        context: &Context<'_>,
-        pieces: &Pieces,
-        number: RegionId,
-        finder: &mut PinchFinder<'_>,
-    ) {
+    /// Finds the pinches that new half-edges make in regions that have changed; they are noted, too.
+    pub(super) fn find_pinches(&mut self, context: &Context<'_>, pieces: &Pieces) -> Vec<(RegionId, PointOnLine)> {
+        let finder = || PinchFinder::new(context.table, context.numbers.points());
+        let Self { regions, changed } = self;
+        if changed.len() < MANY || changed.len() * SHARE < regions.len() {
+            let (mut finder, mut found) = (finder(), Vec::new());
+            for number in changed {
+                regions[number.index()].find_pinches(context, pieces, *number, &mut finder);
+                found.extend(finder.found.drain(..).map(|pinch| (*number, pinch)));
+            }
+            return found;
+        }
+        let work = |(chunk, regions): (usize, &mut [Region])| {
+            let (mut finder, mut found) = (finder(), Vec::new());
+            let numbers = RegionId::all((chunk + 1) * REGIONS_OF_CHUNK).skip(chunk * REGIONS_OF_CHUNK);
+            for (number, region) in numbers.zip(regions).filter(|(_, region)| region.is_changed()) {
+                region.find_pinches(context, pieces, number, &mut finder);
+                found.extend(finder.found.drain(..).map(|pinch| (number, pinch)));
+            }
+            found
+        };
+        regions.par_chunks_mut(REGIONS_OF_CHUNK).enumerate().flat_map_iter(work).collect()
+    }
+}
+
+impl Region {
+    fn is_changed(&self) -> bool {
+        !self.new.is_empty() || !self.gone.is_empty()
+    }
+
+    /// Leaves in the finder the pinches that new half-edges make; they are noted, too.
+    fn find_pinches(&mut self, context: &Context<'_>, pieces: &Pieces, number: RegionId, finder: &mut PinchFinder<'_>) {
         finder.found.clear();
-        let region = &mut self.regions[number.index()];
+        let region = self;
         let plane = context.plane(number);
         region.settle_index(pieces, &plane);
         let half_edge = |number: &HalfEdgeId| pieces.half_edges[number.index()];
@@ -264,9 +289,7 @@ impl Regions {
         finder.found.dedup();
         region.pinches.extend(finder.found.iter());
     }
-}
 
-impl Region {
     /// Makes an index where there are many half-edges, or drops it where there are few.
     fn settle_index(&mut self, pieces: &Pieces, plane: &RegionPlane<'_>) {
         if self.index.is_some() && self.pieces.len() < INDEXED[1] {

@@ -135,7 +135,7 @@ impl<'a> FaceTriangulator<'a> {
     /// The triangles of faces that are triangulated as a whole, loops in the order of the half-edges with which they begin.
     fn whole(self, jobs: &[Job<'_>]) -> Vec<(FaceId, Triangulation)> {
         let Context { table, numbers } = self.context;
-        let exact = WeldPoints { table, points: &numbers.points };
+        let exact = WeldPoints { table, points: numbers.points() };
         let mut triangulator = Triangulator::new(&exact);
         let mut found = Triangles::default();
         let half_edge = |piece: HalfEdgeId| &self.pieces.half_edges[piece.index()];
@@ -156,7 +156,7 @@ impl<'a> FaceTriangulator<'a> {
             let mut holes: Vec<&Loop> = job.holes.iter().map(|hole| self.loops.get(*hole)).collect();
             holes.sort_by(|p, q| self.pieces.compare(&self.context, p.pieces[0], q.pieces[0]));
             for members in std::iter::once(job.outer).chain(holes) {
-                let corner = |piece: &HalfEdgeId| numbers.points.corner(*piece, half_edge(*piece));
+                let corner = |piece: &HalfEdgeId| numbers.points().corner(*piece, half_edge(*piece));
                 triangulator.add_loop(members.pieces.iter().map(corner));
             }
             found.corners.clear();
