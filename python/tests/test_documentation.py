@@ -229,6 +229,7 @@ with live.edit() as edit:
     edit.move_plane(live.brushes[0], 0, 2.0)
     number = edit.add_brush(a, role="subtract")
     edit.transform_brush(number, np.eye(4))
+    assert_type(edit.copy_brushes([number], np.eye(4)), list[int])
 assert_type(live.change.removed, list[int])
 assert_type(live.pick([0, 0, 0], [1, 0, 0]), tuple[int, float] | None)
 try:

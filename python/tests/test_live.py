@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import pickle
 
 import numpy as np
@@ -33,6 +34,10 @@ def faces_of(live: pc.Live) -> dict[int, tuple]:
         face = live.face(number)
         faces[number] = (face.vertices.tobytes(), face.triangles.tobytes(), face.material, face.brush, face.plane)
     return faces
+
+
+def translation(by: list[float]) -> np.ndarray:
+    return np.hstack([np.eye(3), np.reshape(by, (3, 1))])
 
 
 def assert_is_fresh(live: pc.Live) -> None:
@@ -437,3 +442,41 @@ def test_rays_through_corners_and_along_faces_meet_what_is_there():
     assert live.pick([0.5, 0.5, 4], [0, 0, 1])[1] == 0
     number, distance = live.pick([1.5, 1.5, 9], [0, 0, -1e-200])
     assert distance == 8 and live.face(number).normal.tolist() == [0, 0, 1]
+
+
+def test_planes_turn_materials_and_names_change_and_brushes_are_copied():
+    live = pc.Live(pc.box([0, 0, 0], [1, 1, 1], material="stone"))
+    with live.edit() as e:
+        # the plane x = 1 becomes one through the edges at (0, y, 1) and (1, y, 0)
+        top = next(plane for plane, (x, *_) in live.planes(0).items() if x > 0)
+        e.turn_plane(0, top, [1, 0, 1, 1])
+        e.set_material(0, "steel", top)
+        e.rename_brush(0, "wedge")
+    assert live.volume == 0.5
+    assert set(live.areas) == {"stone", "steel"}
+    assert math.isclose(live.areas["steel"], math.sqrt(2), rel_tol=1e-15)
+    with live.edit() as e:
+        (copy,) = e.copy_brushes([0], translation([2, 0, 0]))
+        (mirrored,) = e.mirror_brushes([0], [1, 0, 0, -1])
+        row = e.array_brushes([copy, mirrored], translation([0, 3, 0]), 2)
+    assert len({0, copy, mirrored, *row}) == len(live.brushes) == 7
+    assert math.isclose(live.volume, 7 * 0.5, rel_tol=1e-15)
+    assert live.bounds.tolist() == [[-3, 0, 0], [3, 7, 1]]
+    live.undo()
+    assert live.volume == 0.5
+
+
+def test_a_plane_snaps_to_planes_corners_and_a_grid():
+    live = pc.Live(pc.box([0, 0, 0], [1, 1, 1]) | pc.box([2.2, 0, 0], [3, 1, 1]))
+    right = next(plane for plane, (x, *_) in live.planes(0).items() if x > 0)
+    plane, target, distance = live.snap(0, right, [1, 0, 0, 2.1], planes=0.25)
+    assert (plane.tolist(), target) == ([1, 0, 0, 2.2], "plane")
+    assert math.isclose(distance, 0.1, rel_tol=1e-12)
+    assert live.snap(0, right, [1, 0, 0, 1.7], planes=0.25) is None
+    plane, target, _ = live.snap(0, right, [1, 0, 0, 1.7], planes=0.25, grid=0.5)
+    assert (plane.tolist(), target) == ([1, 0, 0, 1.5], "grid")
+    with live.edit() as e:
+        e.turn_plane(0, right, plane)
+    assert math.isclose(live.volume, 2.3, rel_tol=1e-15)
+    with pytest.raises(pc.PlanecutError):
+        live.snap(0, 99, [1, 0, 0, 1])

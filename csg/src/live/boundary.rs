@@ -190,7 +190,7 @@ impl LiveModel {
     }
 
     /// Hands the weld what has changed on faces.
-    pub(super) fn exchange(&mut self, found: Vec<Found>) {
+    pub(super) fn exchange(&mut self, found: &[Found]) {
         let changes = || found.iter().flat_map(|found| &found.changes);
         for (OperandFace { operand, face }, change) in changes() {
             let operand = self.operands[operand.index()].as_mut().expect("the brush is there");

@@ -54,7 +54,8 @@ impl LiveModel {
         for (_, edge) in old.into_iter().flat_map(|placed| placed.edges).flatten() {
             self.welded.remove(edge);
         }
-        self.exchange(found);
+        self.exchange(&found);
+        drop(found);
         self.buffers.faces = faces;
         let ids = changed.iter().filter_map(|number| self.operands[number.index()].as_ref());
         let mut brushes: Vec<BrushId> = ids.map(|operand| operand.id).collect();

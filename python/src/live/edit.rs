@@ -6,7 +6,7 @@ use planecut::csg::{BrushId, Change as CoreChange, Edit as CoreEdit, Role};
 use planecut::kernel::{HalfSpace, PlaneIdx};
 use pyo3::prelude::*;
 
-use super::Live;
+use super::{Applied, Live};
 use crate::arrays::row;
 use crate::errors::{Failure, refuse};
 use crate::solid::{Solid, transform_of};
@@ -18,8 +18,12 @@ pub(crate) struct Edit {
 }
 
 impl Edit {
-    fn apply(&self, py: Python<'_>, edit: CoreEdit) -> PyResult<(Option<BrushId>, Option<PlaneIdx>)> {
+    fn apply(&self, py: Python<'_>, edit: CoreEdit) -> PyResult<Applied> {
         self.live.get().with(py, |state| state.apply(edit))
+    }
+
+    fn copies(&self, py: Python<'_>, edit: CoreEdit) -> PyResult<Vec<u64>> {
+        Ok(self.apply(py, edit)?.copies.into_iter().map(|copy| copy.0).collect())
     }
 }
 
@@ -61,6 +65,55 @@ impl Edit {
         self.apply(py, CoreEdit::MovePlane { brush, plane, offset }).map(|_| ())
     }
 
+    /// Puts another half-space of shape (4,), outward normal and offset, in the place of a plane of a brush; the plane keeps its number.
+    fn turn_plane(&self, py: Python<'_>, brush: u64, plane: usize, to: &Bound<'_, PyAny>) -> PyResult<()> {
+        let half_space = half_space_of(to, "to")?;
+        let (brush, plane) = (BrushId(brush), PlaneIdx(plane));
+        self.apply(py, CoreEdit::TurnPlane { brush, plane, half_space }).map(|_| ())
+    }
+
+    /// Gives a brush another material, by its name; all of it, or one of its planes.
+    #[pyo3(signature = (brush, material, plane=None))]
+    fn set_material(&self, py: Python<'_>, brush: u64, material: String, plane: Option<usize>) -> PyResult<()> {
+        let (brush, plane) = (BrushId(brush), plane.map(PlaneIdx));
+        self.live.get().with(py, |state| {
+            let material = state.material_named(material);
+            state.apply(CoreEdit::SetMaterial { brush, plane, material }).map(|_| ())
+        })
+    }
+
+    /// Gives a brush another name; None takes its name away.
+    #[pyo3(signature = (brush, name))]
+    fn rename_brush(&self, py: Python<'_>, brush: u64, name: Option<String>) -> PyResult<()> {
+        self.apply(py, CoreEdit::RenameBrush { brush: BrushId(brush), name }).map(|_| ())
+    }
+
+    /// Copies brushes to where an affine map takes them, a matrix of shape (3, 4) or (4, 4); each copy comes directly behind its
+    /// original. Returns the numbers of the copies.
+    fn copy_brushes(&self, py: Python<'_>, brushes: Vec<u64>, matrix: &Bound<'_, PyAny>) -> PyResult<Vec<u64>> {
+        let transform = transform_of(matrix)?;
+        self.copies(py, CoreEdit::CopyBrushes { brushes: brush_ids(brushes), transform })
+    }
+
+    /// The same by the mirror image in a plane of shape (4,), normal and offset.
+    fn mirror_brushes(&self, py: Python<'_>, brushes: Vec<u64>, plane: &Bound<'_, PyAny>) -> PyResult<Vec<u64>> {
+        let plane = half_space_of(plane, "plane")?;
+        self.copies(py, CoreEdit::MirrorBrushes { brushes: brush_ids(brushes), plane })
+    }
+
+    /// Copies brushes several times, each copy moved on by an affine map, a matrix of shape (3, 4) or (4, 4), from the one before it.
+    /// Returns the numbers of the first copies of all, then of the second ones, and so on.
+    fn array_brushes(
+        &self,
+        py: Python<'_>,
+        brushes: Vec<u64>,
+        matrix: &Bound<'_, PyAny>,
+        count: usize,
+    ) -> PyResult<Vec<u64>> {
+        let transform = transform_of(matrix)?;
+        self.copies(py, CoreEdit::ArrayBrushes { brushes: brush_ids(brushes), transform, count })
+    }
+
     /// Cuts a brush down to a half-space of shape (4,): outward normal and offset. Returns the number of the plane in the brush.
     #[pyo3(signature = (brush, plane, material=None))]
     fn add_plane(
@@ -70,9 +123,9 @@ impl Edit {
         plane: &Bound<'_, PyAny>,
         material: Option<String>,
     ) -> PyResult<usize> {
-        let half_space = HalfSpace::from_array(row::<4>(plane, "plane")?).map_err(Failure::of)?;
+        let half_space = half_space_of(plane, "plane")?;
         let brush = BrushId(brush);
-        let (_, plane) = self.live.get().with(py, |state| {
+        let Applied { plane, .. } = self.live.get().with(py, |state| {
             let material = material.map(|name| state.material_named(name));
             state.apply(CoreEdit::AddPlane { brush, half_space, material })
         })?;
@@ -92,7 +145,7 @@ impl Edit {
     #[pyo3(signature = (solid, role="add"))]
     fn add_brush(&self, py: Python<'_>, solid: &Bound<'_, Solid>, role: &str) -> PyResult<u64> {
         let (role, node) = (role_of(role)?, Arc::clone(solid.get().node()));
-        let (brush, _) = self.live.get().with(py, |state| {
+        let Applied { brush, .. } = self.live.get().with(py, |state| {
             let brush = state.brush_of(&node)?;
             state.apply(CoreEdit::AddBrush { brush, role })
         })?;
@@ -124,6 +177,15 @@ impl Edit {
         let role = role_of(role)?;
         self.apply(py, CoreEdit::SetRole { operand: BrushId(brush).into(), role }).map(|_| ())
     }
+}
+
+fn brush_ids(numbers: Vec<u64>) -> Vec<BrushId> {
+    numbers.into_iter().map(BrushId).collect()
+}
+
+/// A half-space of shape (4,).
+pub(super) fn half_space_of(value: &Bound<'_, PyAny>, name: &str) -> PyResult<HalfSpace> {
+    Ok(HalfSpace::from_array(row::<4>(value, name)?).map_err(Failure::of)?)
 }
 
 fn role_of(name: &str) -> PyResult<Role> {

@@ -10,8 +10,8 @@ use std::sync::{Arc, Mutex};
 use glam::DVec3;
 use numpy::{PyArray1, PyArray2};
 use planecut::csg::{
-    BrushId, Change as CoreChange, Edit as CoreEdit, FaceId, LiveModel, Material, MaterialId, Model, SolidMeasures,
-    Tree,
+    BrushId, Change as CoreChange, Edit as CoreEdit, Edited, FaceId, LiveModel, Material, MaterialId, Model, Snap,
+    SnapOptions, SnapTarget, SolidMeasures, Tree,
 };
 use planecut::kernel::PlaneIdx;
 use pyo3::prelude::*;
@@ -59,6 +59,16 @@ struct State {
     open: Option<CoreChange>,
 }
 
+/// What a plane snaps to: a half-space of shape (4,), what is there, and how far away it is.
+type Snapped<'py> = (Bound<'py, PyArray1<f64>>, &'static str, f64);
+
+/// The numbers of what a call of an edit has made.
+struct Applied {
+    brush: Option<BrushId>,
+    plane: Option<PlaneIdx>,
+    copies: Vec<BrushId>,
+}
+
 impl Live {
     /// Does something with the model, without the interpreter's lock. After a panic the model cannot be trusted, and nothing is done with it any more.
     fn with<T: Send>(&self, py: Python<'_>, work: impl FnOnce(&mut State) -> Outcome<T> + Send) -> PyResult<T> {
@@ -87,13 +97,14 @@ impl State {
     }
 
     /// Does a call of the edit that is open.
-    fn apply(&mut self, edit: CoreEdit) -> Outcome<(Option<BrushId>, Option<PlaneIdx>)> {
+    fn apply(&mut self, edit: CoreEdit) -> Outcome<Applied> {
         let Some(change) = &mut self.open else {
             return Err(Failure::of("found an edit that is over, expected calls within `with live.edit() as e`"));
         };
         let edited = self.model.apply(edit)?;
-        *change = std::mem::take(change).then(edited.change);
-        Ok((edited.brush, edited.plane))
+        let Edited { brush, plane, copies, change: next, .. } = edited;
+        *change = std::mem::take(change).then(next);
+        Ok(Applied { brush, plane, copies })
     }
 
     /// The number of a material, which is added where it is new.
@@ -248,6 +259,43 @@ impl Live {
         }
         let direction = direction / direction.abs().max_element();
         self.with(py, |state| Ok(state.model.pick(origin, direction).map(|(id, distance)| (face_number(id), distance))))
+    }
+
+    /// What a plane of a brush that is about to move snaps to: the half-space for Edit.turn_plane, what is there ("plane", "vertex" or
+    /// "grid") and how far away it is; None where nothing is near enough.
+    ///
+    /// Args:
+    ///     brush: The brush.
+    ///     plane: The plane, by its number in the brush.
+    ///     to: Where it is about to go, shape (4,): outward normal and offset.
+    ///     grid: The step of a grid. It has an effect where nothing else is near.
+    ///     planes: Maximum distance from parallel planes of faces of other brushes.
+    ///     vertices: Maximum distance from corners of the solid.
+    #[pyo3(signature = (brush, plane, to, *, grid=None, planes=None, vertices=None))]
+    #[expect(clippy::too_many_arguments, reason = "named arguments in Python")]
+    fn snap<'py>(
+        &self,
+        py: Python<'py>,
+        brush: u64,
+        plane: usize,
+        to: &Bound<'_, PyAny>,
+        grid: Option<f64>,
+        planes: Option<f64>,
+        vertices: Option<f64>,
+    ) -> PyResult<Option<Snapped<'py>>> {
+        let to = edit::half_space_of(to, "to")?;
+        let options = SnapOptions { grid, planes, vertices };
+        let snap =
+            self.with(py, |state| Ok(state.model.snap_plane(BrushId(brush), PlaneIdx(plane), &to, &options)?))?;
+        Ok(snap.map(|Snap { half_space, to, distance }| {
+            let [x, y, z] = half_space.normal().to_array();
+            let target = match to {
+                SnapTarget::Plane { .. } => "plane",
+                SnapTarget::Vertex(_) => "vertex",
+                SnapTarget::Grid => "grid",
+            };
+            (small(py, &[x, y, z, half_space.offset()]), target, distance)
+        }))
     }
 
     /// The mesh of the solid, the same as that of a new model.

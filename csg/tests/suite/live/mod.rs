@@ -8,6 +8,7 @@
 //! - [`meshes`]: models some of whose brushes are closed meshes.
 //! - [`picks`]: which face a ray meets, [`measures`]: volume and area, [`buffers`]: faces for renderers.
 
+mod bars;
 mod buffers;
 mod cases;
 mod drags;
