@@ -43,7 +43,10 @@ impl LiveModel {
         let is_outside =
             |edge: &BoundaryEdge| [edge.face, edge.edge, edge.start, edge.end].iter().any(|plane| outer.holds(*plane));
         let are_outside = |found: &Found| found.changes.iter().flat_map(|(_, change)| &change.added).any(is_outside);
-        if found.par_iter().any(are_outside) {
+        // what one thread has found it looks at itself: waking others takes longer than most edits
+        let any_outside =
+            if found.len() > 1 { found.par_iter().any(are_outside) } else { found.iter().any(are_outside) };
+        if any_outside {
             self.place(old);
             let (_, numbers, unsettled) = self.set_states(before, &settled.retired);
             self.forget(&numbers);
