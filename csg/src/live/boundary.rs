@@ -50,8 +50,8 @@ enum Known {
     Nothing,
     /// Where it is.
     Vicinity(Vicinity),
-    /// It is that a body comes that leaves nothing of them within.
-    Covered(OperandId),
+    /// Where it is, and that it is a body that comes and leaves nothing of them within.
+    Covered(Vicinity, OperandId),
 }
 
 /// How the boundary on the faces of a body is found.
@@ -76,9 +76,9 @@ impl LiveModel {
         reach: Reach,
     ) -> Vec<Found> {
         let nearby = vicinity.map(Known::Vicinity);
-        let covered = match (reach, changed) {
-            (Reach::Appended, [only]) if vicinity.is_some() && self.operand(*only).body.is_some() => {
-                Some(Known::Covered(*only))
+        let covered = match (reach, changed, vicinity) {
+            (Reach::Appended, [only], Some(near)) if self.operand(*only).body.is_some() => {
+                Some(Known::Covered(near, *only))
             }
             _ => None,
         };
@@ -105,14 +105,17 @@ impl LiveModel {
             let body = self.body_at(number);
             let boxes = of_body.iter().map(|entry| &body.faces[entry.face.index()].bounds);
             let mut bounds = boxes.fold(Bounds::EMPTY, |all, bounds| all.union(bounds));
+            let planes = || of_body.iter().map(|entry| body.faces[entry.face.index()].plane);
+            let shares_plane = |by: OperandId| planes().any(|plane| self.body_at(by).face_on(plane).is_some());
             let way = match of_others {
                 _ if changed.binary_search(&number).is_ok() => Way::Whole,
-                Known::Covered(by) => Way::Covered(by),
-                Known::Vicinity(near) if !near.bounds.holds(&bounds) => {
+                // it depends on more than the two who owns the boundary on a plane of both
+                Known::Covered(_, by) if !shares_plane(by) => Way::Covered(by),
+                Known::Covered(near, _) | Known::Vicinity(near) if !near.bounds.holds(&bounds) => {
                     bounds = bounds.intersection(&near.around);
                     Way::Within(near.bounds)
                 }
-                Known::Vicinity(_) | Known::Nothing => Way::Whole,
+                Known::Covered(..) | Known::Vicinity(_) | Known::Nothing => Way::Whole,
             };
             let (start, first) = (near.len(), groups.last().map_or(0, |group| group.faces.end));
             let member = |operand| Member { at: self.position(operand), operand };
