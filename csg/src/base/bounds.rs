@@ -23,6 +23,13 @@ impl Bounds {
     /// A box of nothing.
     pub const EMPTY: Self = Self { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY };
 
+    /// The least box around two points.
+    #[inline]
+    #[must_use]
+    pub fn around(a: DVec3, b: DVec3) -> Self {
+        Self { min: a.min(b), max: a.max(b) }
+    }
+
     /// The least box around both.
     #[inline]
     #[must_use]

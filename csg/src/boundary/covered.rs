@@ -5,21 +5,26 @@
 //! which parts of them, is told by the known edges that cross them. Edges are crossed at points just outside of the section, so that ends of known edges on the line count
 //! as inside, and one that runs along it is not crossed.
 
-use std::cmp::Ordering;
-
 use planecut_kernel::DVec3;
-use planecut_kernel::sign::{Homogeneous, Sign};
+use planecut_kernel::sign::Sign;
 
 use super::clip::{Clipper, Cutter};
 use super::contact::Facing;
-use super::section::{Clip, Cover, Line, Piece, Polygon};
+use super::section::{Clip, Cover, Line, Meeting, Piece, Polygon};
 use super::{BoundaryEdge, EdgeChange, KnownEdge};
 use crate::base::Bounds;
+use crate::body::{Body, BodyFace};
 use crate::ids::{EdgeId, holds};
 use crate::plane_table::{PlaneId, PlaneTable};
 
-/// For faces of more edges it is not told from all of them which are crossed.
+/// On faces of more edges not all of them are held against each edge of a section.
 const MOST_EDGES: usize = 96;
+
+/// Whether it is told by a body and the edges known on a face alone what it leaves of them: the body has no face on the plane, where it depends on others who
+/// owns the boundary, and the edges are not very many.
+pub(crate) fn can_cover(body: &Body, face: &BodyFace, known: &[KnownEdge]) -> bool {
+    known.len() <= MOST_EDGES && body.face_on(face.plane).is_none()
+}
 
 /// Tells what one more body covers, reusing its buffers.
 #[derive(Debug, Default)]
@@ -30,22 +35,13 @@ pub(super) struct CoverWorker {
     known: Vec<Piece>,
     /// Parts of known edges that run along edges of the section, with boundary on the outer side: the planes of the section's edges, those of the boundary, and the parts.
     outside: Vec<(PlaneId, PlaneId, Piece)>,
-    crossings: Vec<Crossing>,
-    found: Vec<BoundaryEdge>,
-}
-
-/// Where the line of a section's edge enters or leaves the boundary on the face.
-#[derive(Debug, Clone, Copy)]
-struct Crossing {
-    enters: bool,
-    /// The plane of the known edge there.
-    plane: PlaneId,
-    point: Homogeneous,
+    /// Where the line of an edge of the section enters the boundary on the face, at planes that look back, or leaves it.
+    crossings: Vec<Meeting>,
 }
 
 impl CoverWorker {
     /// How the edges known on a face, sorted, change where another body comes that covers the part of it within, all sides of it; `rounded` are the correctly rounded ends of an edge.
-    /// Nothing where the body has a face on the plane, or the face has very many edges.
+    /// [`can_cover`] says where it may be asked. Nothing where the crossings make no sense.
     pub(super) fn change(
         &mut self,
         clipper: &mut Clipper,
@@ -54,11 +50,8 @@ impl CoverWorker {
         known: &[KnownEdge],
         rounded: impl Fn(EdgeId) -> [DVec3; 2],
     ) -> Option<EdgeChange> {
-        let Cutter { scene, face, body, .. } = cutter;
+        let Cutter { scene, face, .. } = cutter;
         let table = scene.table;
-        if known.len() > MOST_EDGES || scene.body(body).face_on(face.plane).is_some() {
-            return None;
-        }
         let mut change = EdgeChange::default();
         match clipper.clip(cutter, region, &mut self.section) {
             Clip::Nothing => return Some(change),
@@ -70,16 +63,16 @@ impl CoverWorker {
         }
         let bounds = self.section.bounds();
         let near = bounds.with_room();
-        self.found.clear();
+        self.known.clear();
+        self.known.extend(known.iter().map(|(edge, _)| Piece::of_boundary(table, edge)));
         self.outside.clear();
-        for (place, (edge, number)) in (0..).zip(known) {
+        for ((place, (edge, number)), whole) in (0..).zip(known).zip(&self.known) {
             let [a, b] = rounded(*number);
-            if !(Bounds { min: a.min(b), max: a.max(b) }).touches(&near) {
+            if !Bounds::around(a, b).touches(&near) {
                 continue;
             }
             let line = Line { plane: edge.face, edge: edge.edge };
-            let whole = Piece::of_boundary(table, edge);
-            let covered = match line.cover(table, &whole, &whole.bounds(), &self.section) {
+            let covered = match line.cover(table, whole, &whole.bounds(), &self.section) {
                 Cover::Apart => continue,
                 Cover::Across(part) => part,
                 Cover::Along(part, other) if line.is_same_side(table, other) => part,
@@ -92,17 +85,12 @@ impl CoverWorker {
                 }
             };
             self.pieces.clear();
-            self.pieces.push(whole);
+            self.pieces.push(*whole);
             line.subtract(table, &mut self.pieces, &covered);
             change.removed.push(place);
-            self.found.extend(self.pieces.iter().map(|rest| BoundaryEdge {
-                start: rest.start,
-                end: rest.end,
-                ..*edge
-            }));
+            let rest = |rest: &Piece| BoundaryEdge { start: rest.start, end: rest.end, ..*edge };
+            change.added.extend(self.pieces.iter().map(rest));
         }
-        self.known.clear();
-        self.known.extend(known.iter().map(|(edge, _)| Piece::of_boundary(table, edge)));
         for i in 0..self.section.edges.len() {
             let edge = self.section.edges[i];
             if holds(&region.edges, edge) {
@@ -118,11 +106,10 @@ impl CoverWorker {
                     line.subtract(table, &mut self.pieces, known);
                 }
                 let right = |piece: &Piece| BoundaryEdge::right(face, facing, edge, piece.start, piece.end);
-                self.found.extend(self.pieces.iter().map(right));
+                change.added.extend(self.pieces.iter().map(right));
             }
         }
-        self.found.sort_unstable();
-        change.added.clone_from(&self.found);
+        change.added.sort_unstable();
         Some(change)
     }
 
@@ -138,36 +125,36 @@ impl CoverWorker {
             }
             // the boundary lies to the left of its edges, seen from where it faces
             let enters = ends == (facing == Facing::Out);
-            let planes = if enters { line.start(edge.edge) } else { line.end(edge.edge) };
-            self.crossings.push(Crossing { enters, plane: edge.edge, point: table.homogeneous(planes) });
+            self.crossings.push(line.meeting(table, edge.edge, enters));
         }
     }
 
     /// Leaves in `pieces` the parts of an edge of the section along which there is boundary on its outer side; nothing where the crossings make no sense.
     fn find_pieces(&mut self, table: &PlaneTable, line: Line, whole: &Piece) -> Option<()> {
-        let step = |crossing: &Crossing| if crossing.enters { 1 } else { -1 };
+        let step = |crossing: &Meeting| if crossing.looks_back { 1 } else { -1 };
         // those before the edge tell what is at its beginning
         let mut now = 0;
         self.crossings.retain(|crossing| {
-            let is_within = |end: PlaneId| crossing.side(table, line, end) == Sign::Negative;
+            let is_within = |end: PlaneId| line.side(table, crossing, end) == Sign::Negative;
             let is_after_start = is_within(whole.start);
             if !is_after_start {
                 now += step(crossing);
             }
             is_after_start && is_within(whole.end)
         });
-        self.crossings.sort_by(|a, b| a.compare(table, line, b));
+        self.crossings.sort_by(|a, b| line.compare(table, a, b));
         self.pieces.clear();
         // what is left from here on
         let mut rest = *whole;
-        for here in self.crossings.chunk_by(|a, b| a.compare(table, line, b).is_eq()) {
+        for here in self.crossings.chunk_by(|a, b| line.compare(table, a, b).is_eq()) {
             let before = now;
             now += here.iter().map(step).sum::<i32>();
             if before.min(now) < 0 || before.max(now) > 1 {
                 return None;
             }
             if before != now {
-                let Crossing { plane, point, .. } = *here.iter().find(|crossing| crossing.enters == (now > before))?;
+                let Meeting { plane, point, .. } =
+                    *here.iter().find(|crossing| crossing.looks_back == (now > before))?;
                 if now > before {
                     (rest.start, rest.start_point) = (plane, point);
                 } else {
@@ -180,23 +167,5 @@ impl CoverWorker {
         }
         self.pieces.extend((now == 1).then_some(rest));
         Some(())
-    }
-}
-
-impl Crossing {
-    /// On which side of a plane it lies.
-    fn side(&self, table: &PlaneTable, line: Line, plane: PlaneId) -> Sign {
-        let planes = if self.enters { line.start(self.plane) } else { line.end(self.plane) };
-        table.side(planes, &self.point, plane)
-    }
-
-    /// The exact order along the line.
-    fn compare(&self, table: &PlaneTable, line: Line, other: &Self) -> Ordering {
-        // the plane at which the boundary is entered looks back, that at which it is left ahead
-        match (self.side(table, line, other.plane), other.enters) {
-            (Sign::Zero, _) => Ordering::Equal,
-            (Sign::Positive, false) | (Sign::Negative, true) => Ordering::Greater,
-            (Sign::Negative, false) | (Sign::Positive, true) => Ordering::Less,
-        }
     }
 }

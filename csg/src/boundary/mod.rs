@@ -30,6 +30,7 @@ use crate::model::MaterialId;
 use crate::plane_table::{PlaneId, PlaneTable};
 use contact::Facing;
 pub(crate) use contact::misses;
+pub(crate) use covered::can_cover;
 pub(crate) use face::FaceWorker;
 use ownership::{Turn, material_of};
 pub(crate) use splice::{EdgeChange, KnownEdge};

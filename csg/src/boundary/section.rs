@@ -1,5 +1,7 @@
 //! A convex polygon on a plane, bounded by the lines of other planes.
 
+use std::cmp::Ordering;
+
 use planecut_kernel::sign::{Homogeneous, Sign};
 
 use super::BoundaryEdge;
@@ -186,6 +188,15 @@ pub(super) struct Line {
     pub(super) edge: PlaneId,
 }
 
+/// Where a plane meets a line.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Meeting {
+    pub(super) plane: PlaneId,
+    /// Whether the normal of the plane looks back along the line, as that of the plane at which a piece starts.
+    pub(super) looks_back: bool,
+    pub(super) point: Homogeneous,
+}
+
 /// How a convex polygon covers a piece of a line.
 pub(super) enum Cover {
     /// Nowhere along it.
@@ -205,6 +216,33 @@ impl Line {
     /// The right-handed planes of a point at which a piece ends.
     pub(super) fn end(self, end: PlaneId) -> [PlaneId; 3] {
         [self.plane, self.edge, end]
+    }
+
+    /// The planes of the point where one meets the line.
+    fn planes_at(self, plane: PlaneId, looks_back: bool) -> [PlaneId; 3] {
+        if looks_back { self.start(plane) } else { self.end(plane) }
+    }
+
+    /// Where a plane meets the line, of which it is known how it looks.
+    pub(super) fn meeting(self, table: &PlaneTable, plane: PlaneId, looks_back: bool) -> Meeting {
+        Meeting { plane, looks_back, point: table.homogeneous(self.planes_at(plane, looks_back)) }
+    }
+
+    /// On which side of a plane a point of the line lies.
+    pub(super) fn side(self, table: &PlaneTable, at: &Meeting, plane: PlaneId) -> Sign {
+        table.side(self.planes_at(at.plane, at.looks_back), &at.point, plane)
+    }
+
+    /// The exact order of two points along the line.
+    pub(super) fn compare(self, table: &PlaneTable, a: &Meeting, b: &Meeting) -> Ordering {
+        if a.plane.index() == b.plane.index() {
+            return Ordering::Equal;
+        }
+        match (self.side(table, a, b.plane), b.looks_back) {
+            (Sign::Zero, _) => Ordering::Equal,
+            (Sign::Positive, false) | (Sign::Negative, true) => Ordering::Greater,
+            (Sign::Negative, false) | (Sign::Positive, true) => Ordering::Less,
+        }
     }
 
     /// Whether the normal of a plane that the line meets looks along it.

@@ -46,7 +46,7 @@ impl EdgeChange {
         ends: impl Fn(EdgeId) -> [DVec3; 2],
         found: &[BoundaryEdge],
     ) -> Option<Self> {
-        let touches = |[a, b]: [DVec3; 2]| Bounds { min: a.min(b), max: a.max(b) }.touches(bounds);
+        let touches = |[a, b]: [DVec3; 2]| Bounds::around(a, b).touches(bounds);
         let old = (0..).zip(known).map(|(place, (edge, number))| (place, edge, ends(*number)));
         let old: Vec<(u32, &BoundaryEdge, [DVec3; 2])> = old.filter(|(_, _, ends)| touches(*ends)).collect();
         let may_touch = |edge: &&BoundaryEdge| Piece::of_boundary(table, edge).bounds().touches(bounds);
@@ -136,7 +136,7 @@ impl Splicer<'_> {
     /// Leaves the edges on the line of one in `spliced`, sorted; nothing where known and found ones do not fit together.
     fn splice(&mut self, edge: &BoundaryEdge) -> Option<()> {
         let (table, bounds) = (self.table, self.bounds);
-        let order = OnLine::new(table, edge);
+        let order = Order::new(table, edge);
         self.events.sort_by(|a, b| order.compare(a, b));
         // how many known and found edges cover the place, and where the edge began that is put together
         let (mut known, mut found) = (0, 0);
@@ -151,7 +151,7 @@ impl Splicer<'_> {
                 return None;
             }
             let at = here[0].at;
-            let is_inside = at.cmpge(bounds.min).all() && at.cmple(bounds.max).all();
+            let is_inside = bounds.holds(&Bounds::around(at, at));
             let source = if is_inside { Source::Found } else { Source::Known };
             let place = usize::from(is_inside);
             let of_source = |begins: bool| here.iter().find(|event| event.source == source && event.begins == begins);
@@ -174,14 +174,14 @@ impl Splicer<'_> {
 }
 
 /// The order along a line.
-struct OnLine<'a> {
+struct Order<'a> {
     table: &'a PlaneTable,
     line: Line,
     /// The signs of the components of its direction.
     direction: [Sign; 3],
 }
 
-impl<'a> OnLine<'a> {
+impl<'a> Order<'a> {
     fn new(table: &'a PlaneTable, edge: &BoundaryEdge) -> Self {
         let direction = std::array::from_fn(|axis| table.cross_component(edge.face, edge.edge, axis));
         Self { table, line: Line { plane: edge.face, edge: edge.edge }, direction }
@@ -198,12 +198,10 @@ impl<'a> OnLine<'a> {
                 return if (a.at[axis] < b.at[axis]) == is_forward { Ordering::Less } else { Ordering::Greater };
             }
         }
-        let [a_ahead, b_ahead] = [a.plane, b.plane].map(|plane| self.line.looks_ahead(self.table, plane));
-        let planes = if a_ahead { self.line.end(a.plane) } else { self.line.start(a.plane) };
-        match (self.table.side(planes, &self.table.homogeneous(planes), b.plane), b_ahead) {
-            (Sign::Zero, _) => Ordering::Equal,
-            (Sign::Positive, true) | (Sign::Negative, false) => Ordering::Greater,
-            (Sign::Negative, true) | (Sign::Positive, false) => Ordering::Less,
-        }
+        let [a, b] = [a.plane, b.plane].map(|plane| {
+            let looks_back = !self.line.looks_ahead(self.table, plane);
+            self.line.meeting(self.table, plane, looks_back)
+        });
+        self.line.compare(self.table, &a, &b)
     }
 }

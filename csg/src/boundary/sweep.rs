@@ -4,29 +4,23 @@
 //! is boundary. So each edge of the region and of every section is cut at the edges of the other sections; between two cuts
 //! all bodies are known on both sides, and where the two sides differ, the edge is one of the boundary.
 
-use std::cmp::Ordering;
-
-use planecut_kernel::sign::{Homogeneous, Sign};
-
 use super::contact::Facing;
 use super::face::Section;
 use super::ownership::{EdgeSide, Ownership};
-use super::section::{Cover, Line, Piece, Polygon};
+use super::section::{Cover, Line, Meeting, Piece, Polygon};
 use super::{BoundaryEdge, Scene};
 use crate::body::BodyFace;
 use crate::expression::{Expression, Restriction};
 use crate::ids::{Id, SectionId, holds};
-use crate::plane_table::{PlaneId, PlaneTable};
+use crate::plane_table::PlaneId;
 
 /// Where along a line a section begins or ends to cover one or both sides.
 #[derive(Debug, Clone, Copy)]
 struct Event {
     section: SectionId,
     sides: [bool; 2],
-    begins: bool,
-    /// The plane of the section's edge that is met.
-    plane: PlaneId,
-    point: Homogeneous,
+    /// Where an edge of the section is met: it begins where the plane looks back along the line.
+    at: Meeting,
 }
 
 /// Buffers of the sweep along edges.
@@ -119,7 +113,7 @@ impl Sweep {
             self.covering.clear();
             self.covering.extend(own.map(|own| (own, [true, false])));
             self.find_events(context, line, &piece);
-            self.events.sort_by(|a, b| a.compare(b, context.scene.table, line));
+            self.events.sort_by(|a, b| line.compare(context.scene.table, &a.at, &b.at));
             let expression = context.scene.expression;
             let mut walk =
                 Walk { context, restriction, ownership, edge, outer: own.is_none(), start: piece.start, now: None };
@@ -131,13 +125,13 @@ impl Sweep {
             while at < self.events.len() {
                 let (place, first) = (self.events[at], at);
                 while let Some(event) =
-                    self.events.get(at).filter(|e| e.compare(&place, context.scene.table, line).is_eq())
+                    self.events.get(at).filter(|e| line.compare(context.scene.table, &e.at, &place.at).is_eq())
                 {
-                    walk.change(expression, event.section, event.sides, event.begins);
+                    walk.change(expression, event.section, event.sides, event.at.looks_back);
                     self.note(*event);
                     at += 1;
                 }
-                walk.pass(place.plane, at - first > 1, out);
+                walk.pass(place.at.plane, at - first > 1, out);
             }
             walk.end(piece.end, out);
             for (section, sides) in &self.covering {
@@ -148,7 +142,7 @@ impl Sweep {
 
     /// Keeps the list of what covers.
     fn note(&mut self, event: Event) {
-        if event.begins {
+        if event.at.looks_back {
             self.covering.push((event.section, event.sides));
         } else if let Some(k) = self.covering.iter().position(|(section, _)| *section == event.section) {
             self.covering.swap_remove(k);
@@ -174,31 +168,14 @@ impl Sweep {
             if part.start == piece.start {
                 self.covering.push((section, sides));
             } else {
-                let point = part.start_point;
-                self.events.push(Event { section, sides, begins: true, plane: part.start, point });
+                let at = Meeting { plane: part.start, looks_back: true, point: part.start_point };
+                self.events.push(Event { section, sides, at });
             }
             if part.end != piece.end {
-                let point = part.end_point;
-                self.events.push(Event { section, sides, begins: false, plane: part.end, point });
+                let at = Meeting { plane: part.end, looks_back: false, point: part.end_point };
+                self.events.push(Event { section, sides, at });
             }
         }
-    }
-}
-
-impl Event {
-    /// The exact order along the line.
-    fn compare(&self, other: &Self, table: &PlaneTable, line: Line) -> Ordering {
-        if self.plane.index() == other.plane.index() {
-            return Ordering::Equal;
-        }
-        let planes = if self.begins { line.start(self.plane) } else { line.end(self.plane) };
-        // where a section begins its plane looks back along the line, where it ends ahead
-        let ahead = match table.side(planes, &self.point, other.plane) {
-            Sign::Zero => return Ordering::Equal,
-            Sign::Positive => !other.begins,
-            Sign::Negative => other.begins,
-        };
-        if ahead { Ordering::Greater } else { Ordering::Less }
     }
 }
 

@@ -7,7 +7,7 @@ use super::reach::Reach;
 use super::tree::Member;
 use crate::base::{Bounds, map_chunks};
 use crate::body::{Body, kinds};
-use crate::boundary::{EdgeChange, FaceWorker, KnownEdge, Scene};
+use crate::boundary::{EdgeChange, FaceWorker, KnownEdge, Scene, can_cover};
 use crate::expression::Expression;
 use crate::ids::{BodyId, Id, LeafId, OperandFace, OperandId};
 use crate::weld::LiveWeld;
@@ -105,12 +105,14 @@ impl LiveModel {
             let body = self.body_at(number);
             let boxes = of_body.iter().map(|entry| &body.faces[entry.face.index()].bounds);
             let mut bounds = boxes.fold(Bounds::EMPTY, |all, bounds| all.union(bounds));
-            let planes = || of_body.iter().map(|entry| body.faces[entry.face.index()].plane);
-            let shares_plane = |by: OperandId| planes().any(|plane| self.body_at(by).face_on(plane).is_some());
+            let edges = &self.operand(number).edges;
+            let is_covered = |by: OperandId| {
+                let mut faces = of_body.iter().map(|entry| entry.face.index());
+                faces.all(|face| can_cover(self.body_at(by), &body.faces[face], &edges[face]))
+            };
             let way = match of_others {
                 _ if changed.binary_search(&number).is_ok() => Way::Whole,
-                // it depends on more than the two who owns the boundary on a plane of both
-                Known::Covered(_, by) if !shares_plane(by) => Way::Covered(by),
+                Known::Covered(_, by) if is_covered(by) => Way::Covered(by),
                 Known::Covered(near, _) | Known::Vicinity(near) if !near.bounds.holds(&bounds) => {
                     bounds = bounds.intersection(&near.around);
                     Way::Within(near.bounds)

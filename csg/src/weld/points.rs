@@ -127,8 +127,7 @@ impl Points {
 
     /// The box of the rounded ends of a half-edge. Rounding is monotone, so it holds the rounded points on it.
     pub(super) fn extent(&self, piece: &HalfEdge) -> Bounds {
-        let (from, to) = (self.positions[piece.from.index()], self.positions[piece.to.index()]);
-        Bounds { min: from.min(to), max: from.max(to) }
+        Bounds::around(self.positions[piece.from.index()], self.positions[piece.to.index()])
     }
 
     /// The corner of a face at which a half-edge begins.
