@@ -2,10 +2,11 @@
 //!
 //! What the weld finds depends on little: what survives on a line on the edges of that line, the loops and faces of a region
 //! on the pieces of that region, its triangles on the face. So all of it is kept, and after edges went and came, their lines
-//! are cancelled and cut again, the regions whose pieces changed are chained and nested again, and the
+//! are cancelled and cut again ([`cutting`]), the regions whose pieces changed are chained and nested again, and the
 //! faces that are new are triangulated ([`faces`]). Points, lines and regions are numbered as long as an edge names them
 //! ([`numbers`]); nothing depends on these numbers but the numbers of others.
 
+mod cutting;
 mod faces;
 mod grid;
 mod loops;
@@ -22,20 +23,20 @@ mod vertices;
 mod welded_face;
 
 use planecut_kernel::DVec3;
-use planecut_parallel::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::WeldError;
-use super::cancel::{Crossed, HalfEdge, LineWorker, Run, Surviving};
+use super::cancel::Run;
 use crate::boundary::BoundaryEdge;
-use crate::ids::{EdgeId, FaceId, HalfEdgeId, Id, LineId, PointId, PointOfRegion, PointOnLine, RegionId};
+use crate::ids::{EdgeId, FaceId, Id, LineId, PointId, PointOfRegion};
 use crate::model::MaterialId;
 use crate::plane_table::{PlaneId, PlaneTable};
+use cutting::Cutter;
 use faces::Faces;
 use moved::Moving;
 use names::place;
 use numbers::{Context, NumberedEdge, Numbers};
-use on_line::{Along, OnLine, Parts};
+use on_line::OnLine;
 use pieces::Pieces;
 use regions::Regions;
 use vertices::Vertices;
@@ -44,9 +45,6 @@ pub(crate) use welded_face::WeldedFace;
 /// Number of lines or regions from which all threads look at them, where they are a good part of all: one in [`SHARE`] or more.
 const MANY: usize = 512;
 const SHARE: usize = 4;
-
-/// Number of lines that a thread looks at in a row then.
-const LINES_OF_CHUNK: usize = 1024;
 
 /// Number of edges from which all threads number them.
 const EDGES_FOR_THREADS: usize = 2048;
@@ -203,69 +201,6 @@ impl LiveWeld {
     }
 }
 
-/// What it takes to cancel and cut lines, and buffers.
-struct Cutter<'a> {
-    context: Context<'a>,
-    edges: &'a [Edge],
-    worker: LineWorker<'a>,
-    members: Vec<EdgeId>,
-    group: Vec<Run>,
-    surviving: Surviving,
-    further: Vec<PointId>,
-    cut: Vec<HalfEdge>,
-    old_pieces: Vec<HalfEdgeId>,
-    old: Vec<((RegionId, PointId, PointId), HalfEdgeId)>,
-    numbers: Vec<HalfEdgeId>,
-    passed: Vec<PointOfRegion>,
-}
-
-impl<'a> Cutter<'a> {
-    fn new(context: Context<'a>, edges: &'a [Edge]) -> Self {
-        let Context { table, numbers } = context;
-        Self {
-            context,
-            edges,
-            worker: LineWorker::new(table, numbers.points(), numbers.lines(), &numbers.planes),
-            members: Vec::new(),
-            group: Vec::new(),
-            surviving: Surviving::default(),
-            further: Vec::new(),
-            cut: Vec::new(),
-            old_pieces: Vec::new(),
-            old: Vec::new(),
-            numbers: Vec::new(),
-            passed: Vec::new(),
-        }
-    }
-
-    /// Leaves in `members` the edges of the parts of a line in which something has changed, and in `old_pieces` their pieces; gives the parts.
-    fn take_changed(&mut self, line: &mut OnLine, number: LineId, half_edges: &[HalfEdge]) -> Parts {
-        let along = Along { context: self.context, line: number };
-        let run = |number: HalfEdgeId| {
-            let piece = &half_edges[number.index()];
-            ([piece.from, piece.to], piece.forward)
-        };
-        line.take_changed(&along, self.edges, run, &mut self.members, &mut self.old_pieces)
-    }
-
-    /// Leaves in `surviving` what is left of the edges of a line, `members` of it.
-    fn cancel(&mut self) -> Result<(), WeldError> {
-        self.group.clear();
-        self.group.extend(self.members.iter().map(|edge| self.edges[edge.index()].numbered.run));
-        self.surviving.runs.clear();
-        self.surviving.slits.clear();
-        self.surviving.passed.clear();
-        self.worker.cancel(&mut self.group, &mut self.surviving)
-    }
-
-    /// Leaves in `cut` the paired pieces of that, cut at `further` points as well.
-    fn cut(&mut self) -> Result<(), WeldError> {
-        self.cut.clear();
-        let crossed = if self.surviving.slits.is_empty() { Crossed::No } else { Crossed::Unslit };
-        self.worker.cut(&self.surviving.runs, &self.further, &mut self.cut, crossed)
-    }
-}
-
 impl State {
     fn make_room(&mut self, line: LineId) {
         if line.index() >= self.lines.len() {
@@ -285,164 +220,5 @@ impl State {
     fn mark_change(&mut self, line: LineId, ends: [PointId; 2]) {
         self.lines[line.index()].note_change(ends);
         self.mark_line(line);
-    }
-
-    /// Cuts all lines again on which something has changed, and those with pinches that may be none any more, where these are
-    /// to be dropped.
-    fn cut_dirty_lines(&mut self, cutter: &mut Cutter<'_>, drops_pinches: bool) -> Result<(), WeldError> {
-        if self.dirty_lines.len() >= MANY && self.dirty_lines.len() * SHARE >= self.lines.len() {
-            self.cut_many(cutter)?;
-        }
-        loop {
-            while let Some(line) = self.dirty_lines.pop() {
-                self.lines[line.index()].is_dirty = false;
-                self.cut_line(cutter, line)?;
-            }
-            if !drops_pinches {
-                return Ok(());
-            }
-            for (region, PointOnLine { line, point }) in self.regions.take_doubtful_pinches(&self.pieces.half_edges) {
-                self.lines[line.index()].rare_mut().cuts.retain(|cut| *cut != PointOfRegion { region, point });
-                self.mark_change(line, [point, point]);
-            }
-            if self.dirty_lines.is_empty() {
-                return Ok(());
-            }
-        }
-    }
-
-    /// Cuts those of many lines that nothing crosses; what they come to is worked out by all threads.
-    fn cut_many(&mut self, cutter: &mut Cutter<'_>) -> Result<(), WeldError> {
-        let (context, edges, half_edges) = (cutter.context, cutter.edges, &self.pieces.half_edges);
-        let work = |(chunk, lines): (usize, &mut [OnLine])| {
-            let (mut cutter, mut done) = (Cutter::new(context, edges), Vec::new());
-            let numbers = LineId::from_index(chunk * LINES_OF_CHUNK);
-            for (k, line) in lines.iter_mut().enumerate().filter(|(_, line)| line.is_dirty) {
-                let number = numbers.plus(k);
-                cutter.take_changed(line, number, half_edges);
-                cutter.cancel()?;
-                if line.is_crossed() || !cutter.surviving.passed.is_empty() || !cutter.surviving.slits.is_empty() {
-                    line.put_back(&mut cutter.old_pieces);
-                    continue;
-                }
-                cutter.further.clear();
-                cutter.cut()?;
-                line.is_dirty = false;
-                done.push((number, cutter.cut.clone(), std::mem::take(&mut cutter.old_pieces)));
-            }
-            Ok::<_, WeldError>(done)
-        };
-        let parts: Vec<_> = self.lines.par_chunks_mut(LINES_OF_CHUNK).enumerate().map(work).collect();
-        for part in parts {
-            for (number, cut, old) in part? {
-                (cutter.cut, cutter.old_pieces) = (cut, old);
-                self.exchange_pieces(cutter, number);
-            }
-        }
-        let lines = &self.lines;
-        self.dirty_lines.retain(|line| lines[line.index()].is_dirty);
-        Ok(())
-    }
-
-    fn cut_line(&mut self, cutter: &mut Cutter<'_>, number: LineId) -> Result<(), WeldError> {
-        let parts = cutter.take_changed(&mut self.lines[number.index()], number, &self.pieces.half_edges);
-        cutter.cancel()?;
-        self.note_crossings(number, &parts, cutter);
-        cutter.cut()?;
-        self.exchange_pieces(cutter, number);
-        Ok(())
-    }
-
-    /// Puts the pieces to which a part of a line was cut in the place of the old ones; those that stay the same keep their numbers.
-    fn exchange_pieces(&mut self, cutter: &mut Cutter<'_>, number: LineId) {
-        let Self { lines, pieces, regions, .. } = self;
-        let line = &mut lines[number.index()];
-        let Cutter { context, cut, old_pieces, old, numbers, .. } = cutter;
-        let key = |piece: &HalfEdge| (piece.region, piece.from, piece.to);
-        old.clear();
-        old.extend(old_pieces.iter().map(|number| (key(&pieces.half_edges[number.index()]), *number)));
-        old.sort_unstable();
-        numbers.clear();
-        for piece in cut.iter() {
-            let known = old.binary_search_by_key(&key(piece), |entry| entry.0);
-            numbers.push(match known {
-                Ok(at) => std::mem::replace(&mut old[at].1, HalfEdgeId::NONE),
-                Err(_) => {
-                    let number = pieces.add(*piece);
-                    regions.add_piece(context, &mut pieces.places, piece, number);
-                    number
-                }
-            });
-        }
-        for (_, gone) in old.iter().filter(|(_, number)| *number != HalfEdgeId::NONE) {
-            let piece = &pieces.half_edges[gone.index()];
-            regions.remove_piece(context, &mut pieces.places, piece, *gone);
-            pieces.remove(*gone);
-        }
-        for (piece, number) in cut.iter().zip(numbers.iter()) {
-            let known = &mut pieces.half_edges[number.index()];
-            let twin = numbers[piece.twin.index()];
-            if known.twin != twin {
-                pieces.turned.push(*number);
-            }
-            *known = HalfEdge { twin, ..*piece };
-        }
-        line.pieces.extend_from_slice(numbers);
-    }
-
-    /// Notes what crosses on a line that is cut again, and where it is to be cut; marks the lines for which that makes a
-    /// difference.
-    fn note_crossings(&mut self, number: LineId, parts: &Parts, cutter: &mut Cutter<'_>) {
-        let along = &Along { context: cutter.context, line: number };
-        let line = &mut self.lines[number.index()];
-        let crossings = &mut self.crossings;
-        let has_slits = !cutter.surviving.slits.is_empty();
-        crossings.lines += usize::from(has_slits);
-        crossings.lines -= usize::from(std::mem::replace(&mut line.has_slits, has_slits));
-        let passed = &mut cutter.passed;
-        passed.clear();
-        passed.extend(cutter.surviving.passed.iter().map(|passed| passed.at));
-        if !parts.are_all() {
-            passed.extend(line.passed().iter().filter(|at| !parts.hold(along, at.point)));
-        }
-        passed.sort_unstable();
-        passed.dedup();
-        if !passed.is_empty() || !line.passed().is_empty() {
-            std::mem::swap(&mut line.rare_mut().passed, passed);
-        }
-        let mut others: Vec<(LineId, PointId)> = Vec::new();
-        for gone in passed.iter().filter(|at| line.passed().binary_search(at).is_err()) {
-            let Some(passing) = crossings.passing.get_mut(gone) else { continue };
-            passing.retain(|other| *other != number);
-            match passing[..] {
-                [] => drop(crossings.passing.remove(gone)),
-                [alone] => others.push((alone, gone.point)),
-                _ => {}
-            }
-        }
-        for new in line.passed().iter().filter(|at| passed.binary_search(at).is_err()) {
-            let passing = crossings.passing.entry(*new).or_default();
-            passing.push(number);
-            if let [other, _] = passing[..] {
-                others.push((other, new.point));
-            }
-        }
-        cutter.further.clear();
-        cutter.further.extend(line.cuts().iter().map(|cut| cut.point));
-        let is_crossed = |at: &&PointOfRegion| crossings.passing.get(at).is_some_and(|passing| passing.len() > 1);
-        cutter.further.extend(line.passed().iter().filter(is_crossed).map(|at| at.point));
-        cutter.further.retain(|point| parts.hold(along, *point));
-        others.into_iter().for_each(|(other, point)| self.mark_change(other, [point, point]));
-    }
-
-    /// Finds the new pinches of regions that have changed and marks their lines; whether there are any.
-    fn find_pinches(&mut self, context: &Context<'_>) -> bool {
-        let found = self.regions.find_pinches(context, &self.pieces);
-        let any = !found.is_empty();
-        for (region, PointOnLine { line, point }) in found {
-            self.lines[line.index()].rare_mut().cuts.push(PointOfRegion { region, point });
-            self.mark_change(line, [point, point]);
-        }
-        any
     }
 }

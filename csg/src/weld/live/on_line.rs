@@ -10,6 +10,7 @@ use smallvec::SmallVec;
 use super::Edge;
 use super::numbers::Context;
 use crate::ids::{EdgeId, HalfEdgeId, Id, LineId, PointId, PointOfRegion};
+use crate::weld::cancel::HalfEdge;
 
 /// Lines of fewer edges are looked at whole.
 const LEAST_EDGES: usize = 12;
@@ -56,15 +57,15 @@ impl Along<'_> {
         if self.compare(p, q).is_lt() { q } else { p }
     }
 
-    /// Where something begins and ends along the line that runs one way or the other.
-    fn low_and_high([from, to]: [PointId; 2], forward: bool) -> [PointId; 2] {
-        if forward { [from, to] } else { [to, from] }
-    }
-
     fn of_edge(&self, edge: &Edge) -> [PointId; 2] {
         let run = &edge.numbered.run;
-        Self::low_and_high([run.from, run.to], run.forward)
+        low_and_high([run.from, run.to], run.forward)
     }
+}
+
+/// Where something begins and ends along the line that runs one way or the other.
+fn low_and_high([from, to]: [PointId; 2], forward: bool) -> [PointId; 2] {
+    if forward { [from, to] } else { [to, from] }
 }
 
 /// Parts of a line, in order, with gaps between them.
@@ -75,11 +76,29 @@ pub(super) struct Parts {
 }
 
 impl Parts {
+    /// Those that some intervals make up, of which each begins before it ends.
+    fn of(along: &Along<'_>, mut intervals: Vec<[PointId; 2]>) -> Self {
+        intervals.sort_by(|a, b| along.compare(a[0], b[0]));
+        let mut merged: Vec<[PointId; 2]> = Vec::new();
+        for [low, high] in intervals {
+            match merged.last_mut() {
+                Some(last) if along.compare(low, last[1]).is_le() => last[1] = along.max(last[1], high),
+                _ => merged.push([low, high]),
+            }
+        }
+        Self { intervals: Some(merged) }
+    }
+
+    /// Whether an interval has a point in common with one.
+    fn touch(&self, along: &Along<'_>, [low, high]: [PointId; 2]) -> bool {
+        let Some(intervals) = &self.intervals else { return true };
+        let before = intervals.partition_point(|[other, _]| along.compare(*other, high).is_le());
+        before > 0 && along.compare(low, intervals[before - 1][1]).is_le()
+    }
+
     /// Whether a point of the line lies in one, or at its end.
     pub(super) fn hold(&self, along: &Along<'_>, point: PointId) -> bool {
-        let Some(intervals) = &self.intervals else { return true };
-        let before = intervals.partition_point(|[low, _]| along.compare(*low, point).is_le());
-        before > 0 && along.compare(point, intervals[before - 1][1]).is_le()
+        self.touch(along, [point, point])
     }
 
     /// Whether something on the line that begins at a point lies in one.
@@ -138,7 +157,7 @@ impl OnLine {
         &mut self,
         along: &Along<'_>,
         edges: &[Edge],
-        is_forward: impl Fn(HalfEdgeId) -> ([PointId; 2], bool),
+        half_edges: &[HalfEdge],
         group: &mut Vec<EdgeId>,
         old: &mut Vec<HalfEdgeId>,
     ) -> Parts {
@@ -155,36 +174,27 @@ impl OnLine {
         }
         let low = |number: &EdgeId| along.of_edge(&edges[number.index()])[0];
         self.edges.sort_by(|a, b| along.compare(low(a), low(b)));
-        let mut intervals = std::mem::take(&mut self.rare_mut().changed);
-        for ends in &mut intervals {
+        let mut changed = std::mem::take(&mut self.rare_mut().changed);
+        for ends in &mut changed {
             let is_forward = along.compare(ends[0], ends[1]).is_le();
-            *ends = Along::low_and_high(*ends, is_forward);
+            *ends = low_and_high(*ends, is_forward);
         }
-        let touches = |[low, high]: &[PointId; 2], [start, end]: &[PointId; 2]| {
-            along.compare(*low, *end).is_le() && along.compare(*start, *high).is_le()
-        };
-        let first_changes = intervals.len();
+        let changed = Parts::of(along, changed);
+        let mut intervals = changed.intervals.clone().unwrap_or_default();
         let mut rest = self.edges.as_slice();
         while !rest.is_empty() {
             let (part, count) = first_part(along, edges, rest);
-            if intervals[..first_changes].iter().any(|change| touches(change, &part)) {
+            if changed.touch(along, part) {
                 group.extend_from_slice(&rest[..count]);
                 intervals.push(part);
             }
             rest = &rest[count..];
         }
-        intervals.sort_by(|a, b| along.compare(a[0], b[0]));
-        let mut merged: Vec<[PointId; 2]> = Vec::new();
-        for [low, high] in intervals {
-            match merged.last_mut() {
-                Some(last) if along.compare(low, last[1]).is_le() => last[1] = along.max(last[1], high),
-                _ => merged.push([low, high]),
-            }
-        }
-        let parts = Parts { intervals: Some(merged) };
+        let parts = Parts::of(along, intervals);
         self.pieces.retain(|number| {
-            let (ends, forward) = is_forward(*number);
-            let is_old = parts.hold_from(along, Along::low_and_high(ends, forward)[0]);
+            let piece = &half_edges[number.index()];
+            let [low, _] = low_and_high([piece.from, piece.to], piece.forward);
+            let is_old = parts.hold_from(along, low);
             if is_old {
                 old.push(*number);
             }

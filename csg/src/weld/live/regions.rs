@@ -231,8 +231,9 @@ impl Regions {
         }
         let work = |(chunk, regions): (usize, &mut [Region])| {
             let (mut finder, mut found) = (finder(), Vec::new());
-            let numbers = RegionId::all((chunk + 1) * REGIONS_OF_CHUNK).skip(chunk * REGIONS_OF_CHUNK);
-            for (number, region) in numbers.zip(regions).filter(|(_, region)| region.is_changed()) {
+            let first = RegionId::from_index(chunk * REGIONS_OF_CHUNK);
+            for (k, region) in regions.iter_mut().enumerate().filter(|(_, region)| region.is_changed()) {
+                let number = first.plus(k);
                 region.find_pinches(context, pieces, number, &mut finder);
                 found.extend(finder.found.drain(..).map(|pinch| (number, pinch)));
             }
@@ -250,15 +251,14 @@ impl Region {
     /// Leaves in the finder the pinches that new half-edges make; they are noted, too.
     fn find_pinches(&mut self, context: &Context<'_>, pieces: &Pieces, number: RegionId, finder: &mut PinchFinder<'_>) {
         finder.found.clear();
-        let region = self;
         let plane = context.plane(number);
-        region.settle_index(pieces, &plane);
+        self.settle_index(pieces, &plane);
         let half_edge = |number: &HalfEdgeId| pieces.half_edges[number.index()];
         let alive = |number: &&HalfEdgeId| !pieces.is_gone[number.index()];
         let (mut near, mut corners): (Vec<HalfEdgeId>, Vec<PointId>) = (Vec::new(), Vec::new());
-        match &region.index {
+        match &self.index {
             Some(index) => {
-                for number in region.new.iter().filter(alive) {
+                for number in self.new.iter().filter(alive) {
                     let piece = half_edge(number);
                     index.grid.find(&rectangle(&piece, &plane), &mut near);
                     corners.clear();
@@ -270,24 +270,24 @@ impl Region {
                 }
             }
             None => {
-                let reach = region.new.iter().filter(alive).map(|new| rectangle(&half_edge(new), &plane));
+                let reach = self.new.iter().filter(alive).map(|new| rectangle(&half_edge(new), &plane));
                 let reach = reach.reduce(|a, b| Rectangle { min: a.min.min(b.min), max: a.max.max(b.max) });
                 let Some(reach) = reach else { return };
                 let touches = |number: &&HalfEdgeId| {
                     let other = rectangle(&half_edge(number), &plane);
                     other.min.cmple(reach.max).all() && other.max.cmpge(reach.min).all()
                 };
-                near.extend(region.pieces.iter().filter(touches));
-                corners.extend(region.new.iter().filter(alive).map(|number| half_edge(number).from));
+                near.extend(self.pieces.iter().filter(touches));
+                corners.extend(self.new.iter().filter(alive).map(|number| half_edge(number).from));
                 near.iter().for_each(|old| finder.touching(&half_edge(old), &corners));
                 corners.clear();
                 corners.extend(near.iter().map(|number| half_edge(number).from));
-                region.new.iter().filter(alive).for_each(|new| finder.touching(&half_edge(new), &corners));
+                self.new.iter().filter(alive).for_each(|new| finder.touching(&half_edge(new), &corners));
             }
         }
         finder.found.sort_unstable();
         finder.found.dedup();
-        region.pinches.extend(finder.found.iter());
+        self.pinches.extend(finder.found.iter());
     }
 
     /// Makes an index where there are many half-edges, or drops it where there are few.

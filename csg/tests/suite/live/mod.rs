@@ -6,6 +6,7 @@
 //! - [`drags`]: planes that move by little, and faces of many corners.
 //! - [`growth`]: what an edit costs as the model grows.
 //! - [`meshes`]: models some of whose brushes are closed meshes.
+//! - [`bars`]: faces that very many brushes reach.
 //! - [`picks`]: which face a ray meets, [`measures`]: volume and area, [`buffers`]: faces for renderers.
 
 mod bars;
