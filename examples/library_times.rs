@@ -1,6 +1,6 @@
 //! Times of the library that the Python package is held against: `library_times [LEVEL.map]` prints microseconds as JSON.
 //!
-//! - `small_8`, `small_32`: the volume of a box less a sphere of 8 and 32 segments, made anew each time, the median.
+//! - `small_8`, `small_32`: the volume of a box less a sphere of 8 and 32 segments, made again each time, the median.
 //! - `edit`: moving a plane of a brush of the level back and forth, the median over the brushes.
 
 use std::env;

@@ -207,7 +207,7 @@ class TestLiveEdit:
         live, log, (before, dragged, after), moved, _ = module.main(tmp_path, reach=12.0, steps=40)
         assert len(log) == 40 and before == after
         assert any(removed and added for removed, added, _ in log)
-        # made anew, and by another program: what is dragged is the volume of the mesh
+        # made again, and by another program: what is dragged is the volume of the mesh
         again = moved.mesh()
         assert manifold_of(again).volume() == pytest.approx(dragged, rel=1e-12)
         first, undone = module.level().mesh(), live.mesh()

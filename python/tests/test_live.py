@@ -41,7 +41,7 @@ def translation(by: list[float]) -> np.ndarray:
 
 
 def assert_is_fresh(live: pc.Live) -> None:
-    """The model is what evaluating the same solid anew gives, byte for byte."""
+    """The model is what a fresh evaluation of the same solid gives, byte for byte."""
     found, expected = live.mesh(), live.to_solid().mesh()
     for name in ("vertices", "triangles", "face_ids", "face_normals"):
         assert getattr(found, name).tobytes() == getattr(expected, name).tobytes(), name

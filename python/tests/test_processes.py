@@ -58,7 +58,7 @@ def test_solids_meshes_polytopes_and_live_models_pickle(protocol):
     number = body.add_plane([1, 1, 0, 1])
     other = again(body)
     np.testing.assert_array_equal(other.plane_ids, body.plane_ids)
-    # it is made anew of the same planes, so that corners may come in another order
+    # it is rebuilt from the same planes, so that corners may come in another order
     assert sorted(other.vertices.tolist()) == sorted(body.vertices.tolist())
     other.remove_plane(number)
     assert other.volume == 8.0 > body.volume

@@ -110,7 +110,7 @@ impl Pieces {
         self.measured_at(1.0)
     }
 
-    /// The same, with lengths of which each is so many times that of the meshes.
+    /// The same, with each length that of the meshes times a factor.
     pub(crate) fn measured_at(&self, scale: f64) -> MeshPart {
         let (mut positions, mut triangles, mut faces) = (Vec::new(), Vec::new(), 0);
         for mesh in &self.meshes {

@@ -55,7 +55,7 @@ def _of_size(folder: Path, pattern: str, full: bool) -> list[Path]:
 
 
 def _spread(files: list[Path], number: float) -> list[Path]:
-    """So many of them at even distances, the last one among them."""
+    """A number of them at even distances, the last one among them."""
     if len(files) <= number:
         return files
     return [files[((i + 1) * len(files) - 1) // int(number)] for i in range(int(number))]

@@ -130,7 +130,7 @@ impl Pairs {
         others
     }
 
-    /// Sets anew what pairs cost whose hulls cover fresh probes and reach into a box: what is asked for says how many of these are left, and the cost.
+    /// Updates what pairs cost whose hulls cover fresh probes and reach into a box: what is asked for says how many of these are left, and the cost.
     pub(super) fn update(&mut self, bounds: &Bounds, cost: impl Fn(&Pair) -> (u32, f64) + Sync) {
         let touching = self.reach.touching(bounds);
         let slots = &self.slots;

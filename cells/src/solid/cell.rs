@@ -11,7 +11,7 @@ const EVERYWHERE: Bounds = Bounds { min: DVec3::NEG_INFINITY, max: DVec3::INFINI
 /// Widens coordinates that were rounded once.
 const COORDINATE_BOUND: f64 = 4.0 * f64::EPSILON;
 
-/// From this number of planes on a polytope is built anew where it has this many times as many places for planes as planes.
+/// From this number of planes on a polytope is rebuilt where it has this many times as many places for planes as planes.
 const MANY_PLANES: usize = 64;
 const COMPACTED: usize = 4;
 
@@ -155,7 +155,7 @@ impl Cell {
         self.compact(table);
     }
 
-    /// Builds the polytope anew where most of its memory is that of planes which are no longer there: a piece cut off a body of thousands of planes may have ten.
+    /// Rebuilds the polytope where most of its memory is that of planes which are no longer there: a piece cut off a body of thousands of planes may have ten.
     fn compact(&mut self, table: &PlaneTable) {
         let count = self.planes().count();
         if self.planes.len() < MANY_PLANES || self.planes.len() < COMPACTED * count {

@@ -109,7 +109,7 @@ impl SheetLayout {
 /// suits pictures of 4:3 best.
 ///
 /// # Errors
-/// [`PictureError::ImageSize`], or [`PictureError::SheetSize`] where there is no tile at all or no room for so many.
+/// [`PictureError::ImageSize`], or [`PictureError::SheetSize`] where there is no tile at all or no room for all.
 pub fn sheet_layout(count: usize, size: [u32; 2], columns: Option<u32>) -> Result<SheetLayout, PictureError> {
     let [width, height] = size;
     check_size(size)?;

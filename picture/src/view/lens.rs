@@ -50,7 +50,7 @@ impl Lens {
         Self { kind, half_size, pixel }
     }
 
-    /// The same lens for a picture of cells, each so many pixels wide and high.
+    /// The same lens for a picture of cells, by the number of pixels that each is wide and high.
     pub(crate) fn with_cells_of(self, pixels: usize) -> Self {
         let pixels = pixels as f64;
         Self { half_size: self.half_size.map(|half| half / pixels), pixel: self.pixel * pixels, ..self }

@@ -288,13 +288,12 @@ impl Live {
         let snap =
             self.with(py, |state| Ok(state.model.snap_plane(BrushId(brush), PlaneIdx(plane), &to, &options)?))?;
         Ok(snap.map(|Snap { half_space, to, distance }| {
-            let [x, y, z] = half_space.normal().to_array();
             let target = match to {
                 SnapTarget::Plane { .. } => "plane",
                 SnapTarget::Vertex(_) => "vertex",
                 SnapTarget::Grid => "grid",
             };
-            (small(py, &[x, y, z, half_space.offset()]), target, distance)
+            (small(py, &half_space.to_array()), target, distance)
         }))
     }
 

@@ -21,7 +21,7 @@ pub(crate) struct Stand {
     pub(crate) triangles: usize,
 }
 
-/// So many edits of a block with 216 holes.
+/// A number of edits of a block with 216 holes.
 pub(crate) fn measure(edits: usize) -> Result<Vec<Stand>, String> {
     const SIDE: u32 = 6;
     let holes = (0..SIDE.pow(3)).map(|k| {

@@ -273,9 +273,9 @@ pub(crate) fn run(edits: &[Edit], faces: Faces) -> Result<Tally, String> {
             return Err(fault("as a tree the model has another mesh"));
         }
         if step % 8 == 4 {
-            let mut anew = LiveModel::from_model(model.to_model()).map_err(|error| fault(&error.to_string()))?;
-            if model.measures() != anew.measures() || model.areas_of_materials() != anew.areas_of_materials() {
-                return Err(fault("the measures are not those of a model made anew"));
+            let mut other = LiveModel::from_model(model.to_model()).map_err(|error| fault(&error.to_string()))?;
+            if model.measures() != other.measures() || model.areas_of_materials() != other.areas_of_materials() {
+                return Err(fault("the measures are not those of a new model"));
             }
         }
         if !model.has_faces() {

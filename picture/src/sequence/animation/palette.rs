@@ -20,9 +20,9 @@ const WEIGHTS: [f32; 3] = [2.0, 4.0, 1.5];
 const GRAIN: f32 = 0.12;
 /// Rounds of moving the colours to the middle of what they stand for.
 const ROUNDS: usize = 4;
-/// A pixel is off if its pattern is farther from its colour than so many steps of all channels.
+/// A pixel is off if its pattern is farther from its colour than this number of steps of all channels.
 const TOLERANCE: f32 = 14.0;
-/// A palette suits a picture if at most one pixel in so many is off.
+/// A palette suits a picture if at most one pixel in this number is off.
 const OFF_SHARE: usize = 400;
 /// Colours whose pattern is remembered at once.
 const REMEMBERED: usize = 1 << 20;
