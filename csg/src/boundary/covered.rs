@@ -31,8 +31,8 @@ pub(crate) fn can_cover(body: &Body, face: &BodyFace, known: &[KnownEdge]) -> bo
 pub(super) struct CoverWorker {
     section: Polygon,
     pieces: Vec<Piece>,
-    /// The known edges.
-    known: Vec<Piece>,
+    /// The boxes of the known edges, and these as pieces, where it has been asked.
+    known: Vec<(Bounds, Option<Piece>)>,
     /// Parts of known edges that run along edges of the section, with boundary on the outer side: the planes of the section's edges, those of the boundary, and the parts.
     outside: Vec<(PlaneId, PlaneId, Piece)>,
     /// Where the line of an edge of the section enters the boundary on the face, at planes that look back, or leaves it.
@@ -64,15 +64,18 @@ impl CoverWorker {
         let bounds = self.section.bounds();
         let near = bounds.with_room();
         self.known.clear();
-        self.known.extend(known.iter().map(|(edge, _)| Piece::of_boundary(table, edge)));
         self.outside.clear();
-        for ((place, (edge, number)), whole) in (0..).zip(known).zip(&self.known) {
+        for (place, (edge, number)) in (0..).zip(known) {
             let [a, b] = rounded(*number);
-            if !Bounds::around(a, b).touches(&near) {
+            let bounds = Bounds::around(a, b);
+            if !bounds.touches(&near) {
+                self.known.push((bounds, None));
                 continue;
             }
+            let whole = Piece::of_boundary(table, edge);
+            self.known.push((bounds, Some(whole)));
             let line = Line { plane: edge.face, edge: edge.edge };
-            let covered = match line.cover(table, whole, &whole.bounds(), &self.section) {
+            let covered = match line.cover(table, &whole, &whole.bounds(), &self.section) {
                 Cover::Apart => continue,
                 Cover::Across(part) => part,
                 Cover::Along(part, other) if line.is_same_side(table, other) => part,
@@ -85,7 +88,7 @@ impl CoverWorker {
                 }
             };
             self.pieces.clear();
-            self.pieces.push(*whole);
+            self.pieces.push(whole);
             line.subtract(table, &mut self.pieces, &covered);
             change.removed.push(place);
             let rest = |rest: &Piece| BoundaryEdge { start: rest.start, end: rest.end, ..*edge };
@@ -116,7 +119,15 @@ impl CoverWorker {
     /// Finds where the line of an edge of the section, on its outer side, enters and leaves the boundary that faces one way.
     fn find_crossings(&mut self, table: &PlaneTable, line: Line, facing: Facing, side: PlaneId, known: &[KnownEdge]) {
         self.crossings.clear();
-        for ((edge, _), piece) in known.iter().zip(&self.known).filter(|((edge, _), _)| edge.face == side) {
+        let half_space = table.half_space(line.edge);
+        let of_side = known.iter().zip(&mut self.known).filter(|((edge, _), _)| edge.face == side);
+        for ((edge, _), (bounds, piece)) in of_side {
+            // most lie on one side, and that the ends are rounded is less than the room that this leaves
+            let (low, high) = bounds.extent_along(half_space.normal(), half_space.offset());
+            if low > 0.0 || high < 0.0 {
+                continue;
+            }
+            let piece = piece.get_or_insert_with(|| Piece::of_boundary(table, edge));
             let of_known = Line { plane: edge.face, edge: edge.edge };
             let starts = piece.start_side(table, of_known, line.edge) == Sign::Positive;
             let ends = piece.end_side(table, of_known, line.edge) == Sign::Positive;

@@ -49,11 +49,22 @@ impl EdgeChange {
         let touches = |[a, b]: [DVec3; 2]| Bounds::around(a, b).touches(bounds);
         let old = (0..).zip(known).map(|(place, (edge, number))| (place, edge, ends(*number)));
         let old: Vec<(u32, &BoundaryEdge, [DVec3; 2])> = old.filter(|(_, _, ends)| touches(*ends)).collect();
-        let may_touch = |edge: &&BoundaryEdge| Piece::of_boundary(table, edge).bounds().touches(bounds);
+        let may_touch = |edge: &BoundaryEdge| Piece::of_boundary(table, edge).bounds().touches(bounds);
         let position = |edge: &BoundaryEdge, end| table.position([edge.face, edge.edge, end]).expect("a corner");
-        let new = found.iter().filter(may_touch);
-        let new = new.map(|edge| (edge, [edge.start, edge.end].map(|end| position(edge, end))));
-        let new: Vec<(&BoundaryEdge, [DVec3; 2])> = new.filter(|(_, ends)| touches(*ends)).collect();
+        let mut new: Vec<(&BoundaryEdge, [DVec3; 2])> = Vec::with_capacity(old.len());
+        // where the ends of most of them are is known
+        let mut alike = old.iter().peekable();
+        for edge in found {
+            while alike.next_if(|(_, other, _)| *other < edge).is_some() {}
+            if let Some((_, _, ends)) = alike.next_if(|(_, other, _)| *other == edge) {
+                new.push((edge, *ends));
+            } else if may_touch(edge) {
+                let ends = [edge.start, edge.end].map(|end| position(edge, end));
+                if touches(ends) {
+                    new.push((edge, ends));
+                }
+            }
+        }
         let mut change = Self::default();
         let (mut old, mut new) = (old.as_slice(), new.as_slice());
         let mut splicer = Splicer { bounds, table, events: Vec::new(), spliced: Vec::new() };
@@ -63,6 +74,9 @@ impl EdgeChange {
             let (old_here, old_rest) = old.split_at(old.partition_point(|old| line_of(old.1) <= line));
             let (new_here, new_rest) = new.split_at(new.partition_point(|new| line_of(new.0) <= line));
             (old, new) = (old_rest, new_rest);
+            if old_here.iter().map(|old| old.1).eq(new_here.iter().map(|new| new.0)) {
+                continue;
+            }
             splicer.begin();
             old_here.iter().for_each(|(_, edge, ends)| splicer.add(edge, *ends, Source::Known));
             new_here.iter().for_each(|(edge, ends)| splicer.add(edge, *ends, Source::Found));

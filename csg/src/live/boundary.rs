@@ -15,6 +15,9 @@ use crate::weld::LiveWeld;
 /// Number of faces from which several threads work on them: waking them takes as long as a few faces.
 const FACES_FOR_THREADS: usize = 64;
 
+/// Number of bodies near a change up to which they are looked at one by one.
+const FEW_NEAR: usize = 64;
+
 /// Number of faces of a body that a thread works out in a row then.
 const FACES_OF_GROUP: usize = 20;
 
@@ -97,22 +100,38 @@ impl LiveModel {
     /// Works out how the boundary changes on some faces, sorted; `changed` are the brushes, sorted, too, that change themselves.
     fn boundary_changes(&mut self, faces: &[OperandFace], changed: &[OperandId], of_others: Known) -> Vec<Found> {
         let mut place = std::mem::take(&mut self.buffers.place);
+        let member = |operand| Member { at: self.position(operand), operand };
+        // all that is near the change, where these are few: a search for each body among them takes longer than to look at each
+        let all_near = match of_others {
+            Known::Covered(near, _) | Known::Vicinity(near) => Some(near.around),
+            Known::Nothing => None,
+        };
+        let all_near = all_near.and_then(|around| {
+            let mut found = self.places.near(&around);
+            let mut some: Vec<(Member, Bounds)> = Vec::new();
+            some.extend(found.by_ref().take(FEW_NEAR).map(|(operand, bounds)| (member(operand), bounds)));
+            some.sort_unstable_by_key(|(member, _)| *member);
+            found.next().is_none().then_some((around, some))
+        });
         // what is near the faces of each body
         let mut near: Vec<Member> = Vec::new();
         let mut groups: Vec<FaceBatch> = Vec::new();
-        for of_body in faces.chunk_by(|a, b| a.operand == b.operand) {
-            let number = of_body[0].operand;
+        // of one body, and of those that a new body may cover or those that it may not
+        let is_covered = |entry: &OperandFace| {
+            let Known::Covered(_, by) = of_others else { return false };
+            let (body, face) = (self.body_at(entry.operand), entry.face.index());
+            by != entry.operand
+                && can_cover(self.body_at(by), &body.faces[face], &self.operand(entry.operand).edges[face])
+        };
+        let faces: Vec<(OperandFace, bool)> = faces.iter().map(|entry| (*entry, is_covered(entry))).collect();
+        for group in faces.chunk_by(|a, b| (a.0.operand, a.1) == (b.0.operand, b.1)) {
+            let (OperandFace { operand: number, .. }, is_covered) = group[0];
             let body = self.body_at(number);
-            let boxes = of_body.iter().map(|entry| &body.faces[entry.face.index()].bounds);
+            let boxes = group.iter().map(|(entry, _)| &body.faces[entry.face.index()].bounds);
             let mut bounds = boxes.fold(Bounds::EMPTY, |all, bounds| all.union(bounds));
-            let edges = &self.operand(number).edges;
-            let is_covered = |by: OperandId| {
-                let mut faces = of_body.iter().map(|entry| entry.face.index());
-                faces.all(|face| can_cover(self.body_at(by), &body.faces[face], &edges[face]))
-            };
             let way = match of_others {
                 _ if changed.binary_search(&number).is_ok() => Way::Whole,
-                Known::Covered(_, by) if is_covered(by) => Way::Covered(by),
+                Known::Covered(_, by) if is_covered => Way::Covered(by),
                 Known::Covered(near, _) | Known::Vicinity(near) if !near.bounds.holds(&bounds) => {
                     bounds = bounds.intersection(&near.around);
                     Way::Within(near.bounds)
@@ -120,13 +139,18 @@ impl LiveModel {
                 Known::Covered(..) | Known::Vicinity(_) | Known::Nothing => Way::Whole,
             };
             let (start, first) = (near.len(), groups.last().map_or(0, |group| group.faces.end));
-            let member = |operand| Member { at: self.position(operand), operand };
-            match way {
-                Way::Covered(by) => near.extend([number, by].map(member)),
-                Way::Whole | Way::Within(_) => near.extend(self.places.near(&bounds).map(member)),
+            match (way, &all_near) {
+                (Way::Covered(by), _) => near.extend([number, by].map(member)),
+                (Way::Whole | Way::Within(_), Some((around, some))) if around.holds(&bounds) => {
+                    let here = some.iter().filter(|(_, other)| other.may_share_area(&bounds));
+                    near.extend(here.map(|(member, _)| *member));
+                }
+                (Way::Whole | Way::Within(_), _) => {
+                    near.extend(self.places.near(&bounds).map(|(operand, _)| member(operand)));
+                }
             }
             near[start..].sort_unstable();
-            groups.push(FaceBatch { number, near: start..near.len(), faces: first..first + of_body.len(), way });
+            groups.push(FaceBatch { number, near: start..near.len(), faces: first..first + group.len(), way });
         }
         let mut members = near.clone();
         members.sort_unstable();
@@ -156,7 +180,7 @@ impl LiveModel {
                 if own != BodyId::NONE {
                     worker.begin(own, near_here.len());
                 }
-                for entry in &faces[of_group.clone()] {
+                for (entry, _) in &faces[of_group.clone()] {
                     let known = &self.operand(*number).edges[entry.face.index()];
                     let ends = |edge| self.welded.ends(edge);
                     edges.clear();

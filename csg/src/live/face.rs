@@ -139,7 +139,7 @@ impl LiveModel {
             let size = (bounds.max - bounds.min).length() + middle.length();
             Some((is_turned, outside > ON_FACE * size, operand.id, operand.state.planes[place]))
         };
-        let near = self.places.near(&bounds).map(|number| self.operand(number));
+        let near = self.places.near(&bounds).map(|(number, _)| self.operand(number));
         near.filter_map(source).min().map(|(_, _, brush, plane)| (brush, plane))
     }
 }

@@ -140,17 +140,17 @@ impl Places {
         self.infinite.is_empty().then_some(all)
     }
 
-    /// The bodies whose boxes may share an area with a box.
-    pub(super) fn near(&self, bounds: &Bounds) -> impl Iterator<Item = OperandId> {
+    /// The bodies whose boxes may share an area with a box, and their boxes.
+    pub(super) fn near(&self, bounds: &Bounds) -> impl Iterator<Item = (OperandId, Bounds)> {
         let envelope = AABB::from_corners(bounds.min.to_array(), bounds.max.to_array());
-        let shares = |entry: &&Entry| {
+        let with_box = |entry: &Entry| {
             let box_of = entry.geom();
             let other = Bounds { min: DVec3::from(box_of.lower()), max: DVec3::from(box_of.upper()) };
-            other.may_share_area(bounds)
+            (entry.data, other)
         };
-        let finite = self.tree.locate_in_envelope_intersecting(envelope).filter(shares).map(|entry| entry.data);
-        let infinite = self.infinite.iter().filter(|(other, _)| other.may_share_area(bounds));
-        finite.chain(infinite.map(|(_, number)| *number))
+        let finite = self.tree.locate_in_envelope_intersecting(envelope).map(with_box);
+        let infinite = self.infinite.iter().map(|(other, number)| (*number, *other));
+        finite.chain(infinite).filter(|(_, other)| other.may_share_area(bounds))
     }
 
     /// The bodies whose boxes a ray may meet.

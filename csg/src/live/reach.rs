@@ -115,7 +115,7 @@ impl LiveModel {
     /// intersect can only take away from the boundary on them, but where it has a face on their plane.
     fn touch(&self, by: &Body, own: OperandId, within: &Bounds, is_last: bool, faces: &mut Vec<OperandFace>) {
         let table = &self.planes.table;
-        for other in self.places.near(within).filter(|other| *other != own) {
+        for (other, _) in self.places.near(within).filter(|(other, _)| *other != own) {
             let (body, edges) = (self.body_at(other), &self.operand(other).edges);
             let reaches = |(number, face): &(BodyFaceId, &BodyFace)| {
                 let half_space = table.half_space(face.plane);

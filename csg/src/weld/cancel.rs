@@ -4,7 +4,6 @@
 //! end points: coplanar pieces merge, however they were cut. The maximal runs that survive are then cut at the ends of
 //! all runs on the line, so that faces meet without T-junctions.
 
-use crate::ids::number32;
 use planecut_kernel::sign::Counts;
 
 use super::WeldError;
@@ -14,6 +13,7 @@ use super::large_face::FaceEdge;
 use super::lines::Line;
 use super::points::Points;
 use super::slits::SlitFinder;
+use super::stops::{Stops, sort_along};
 use crate::base::map_chunks;
 use crate::ids::{EdgeId, HalfEdgeId, Id, LineId, PointId, PointOfRegion, PointOnLine, RegionId};
 use crate::plane_table::{PlaneId, PlaneTable};
@@ -70,7 +70,7 @@ pub(super) struct LineWorker<'a> {
     planes: &'a [PlaneId],
     sweep: Sweep,
     slits: SlitFinder,
-    stops: Vec<PointId>,
+    stops: Stops,
     at_interval: Vec<(u32, HalfEdgeId)>,
     around: Vec<HalfEdgeId>,
 }
@@ -116,7 +116,7 @@ pub(super) fn pieces(
 
 impl<'a> LineWorker<'a> {
     pub(super) fn new(table: &'a PlaneTable, points: &'a Points, lines: &'a [Line], planes: &'a [PlaneId]) -> Self {
-        let (stops, at_interval, around) = (Vec::new(), Vec::new(), Vec::new());
+        let (stops, at_interval, around) = (Stops::default(), Vec::new(), Vec::new());
         let (sweep, slits) = (Sweep::default(), SlitFinder::default());
         Self { table, points, lines, planes, sweep, slits, stops, at_interval, around }
     }
@@ -126,7 +126,7 @@ impl<'a> LineWorker<'a> {
         let Some(first) = edges.first() else { return Ok(()) };
         let line = &self.lines[first.line.index()];
         let known = out.runs.len();
-        edges.sort_unstable_by_key(|edge| (edge.region, edge.from, edge.to));
+        edges.sort_unstable_by_key(|edge| edge.region);
         self.sweep.cancelled.clear();
         for group in edges.chunk_by(|a, b| a.region == b.region) {
             if let [edge] = group {
@@ -162,13 +162,11 @@ impl<'a> LineWorker<'a> {
             return Ok(());
         }
         let line = &self.lines[first.line.index()];
-        self.stops.clear();
-        self.stops.extend(runs.iter().flat_map(|run| [run.from, run.to]).chain(further.iter().copied()));
-        sort_along(self.table, self.points, line, &mut self.stops);
+        let ends = runs.iter().flat_map(|run| [run.from, run.to]).chain(further.iter().copied());
+        self.stops.set(self.table, self.points, line, ends);
         self.at_interval.clear();
-        for run in runs {
-            let ends = [run.from, run.to].map(|point| place(self.table, self.points, line, &self.stops, point));
-            cut_run(run, ends, &self.stops, out, &mut self.at_interval);
+        for (run, ends) in runs.iter().zip(self.stops.places()) {
+            cut_run(run, *ends, self.stops.points(), out, &mut self.at_interval);
         }
         self.at_interval.sort_unstable();
         for interval in self.at_interval.chunk_by(|a, b| a.0 == b.0) {
@@ -188,7 +186,7 @@ impl<'a> LineWorker<'a> {
 /// Buffers of the sweep along one line.
 #[derive(Default)]
 struct Sweep {
-    stops: Vec<PointId>,
+    stops: Stops,
     /// For each stop what changes there: the sum of directed edges, and how many there are.
     change: Vec<(i32, i32)>,
     /// Where edges of a region cancelled, so that it lies on both sides of the line; all forward.
@@ -204,23 +202,21 @@ impl Sweep {
         group: &[Run],
         out: &mut Surviving,
     ) -> Result<(), WeldError> {
-        self.stops.clear();
-        self.stops.extend(group.iter().flat_map(|edge| [edge.from, edge.to]));
-        sort_along(table, points, line, &mut self.stops);
+        self.stops.set(table, points, line, group.iter().flat_map(|edge| [edge.from, edge.to]));
+        let stops = self.stops.points();
         self.change.clear();
-        self.change.resize(self.stops.len(), (0, 0));
-        for edge in group {
+        self.change.resize(stops.len(), (0, 0));
+        for (edge, ends) in group.iter().zip(self.stops.places()) {
             let step = if edge.forward { 1 } else { -1 };
-            let (low, high) = if edge.forward { (edge.from, edge.to) } else { (edge.to, edge.from) };
-            for (point, sign) in [(low, 1), (high, -1)] {
-                let change = &mut self.change[place(table, points, line, &self.stops, point)];
-                *change = (change.0 + sign * step, change.1 + sign);
+            for (place, sign) in std::iter::zip(*ends, [1, -1]) {
+                let change = &mut self.change[place as usize];
+                *change = (change.0 + sign, change.1 + sign * step);
             }
         }
         // the sum so far, and whether there is any edge
         let mut now = (0, false);
         let (mut count, mut began) = (0, 0);
-        for at in 0..self.stops.len() {
+        for (at, stop) in stops.iter().enumerate() {
             let before = now;
             count += self.change[at].1;
             now = (now.0 + self.change[at].0, count > 0);
@@ -229,12 +225,12 @@ impl Sweep {
             }
             if now == before {
                 if now.0 != 0 {
-                    let at = PointOfRegion { region: group[0].region, point: self.stops[at] };
+                    let at = PointOfRegion { region: group[0].region, point: *stop };
                     out.passed.push(Passed { at, line: group[0].line });
                 }
                 continue;
             }
-            let (low, high) = (self.stops[began], self.stops[at]);
+            let (low, high) = (stops[began], *stop);
             let run = |forward: bool| {
                 let (from, to) = if forward { (low, high) } else { (high, low) };
                 let edge = group.iter().find(|edge| edge.forward == forward);
@@ -250,17 +246,6 @@ impl Sweep {
         }
         Ok(())
     }
-}
-
-/// Sorts points along a line and drops repeated ones.
-pub(super) fn sort_along(table: &PlaneTable, points: &Points, line: &Line, stops: &mut Vec<PointId>) {
-    stops.sort_unstable_by(|p, q| line.compare(table, points, *p, *q));
-    stops.dedup();
-}
-
-/// Where a point stands among sorted stops, of which it is one.
-pub(super) fn place(table: &PlaneTable, points: &Points, line: &Line, stops: &[PointId], point: PointId) -> usize {
-    stops.binary_search_by(|stop| line.compare(table, points, *stop, point)).expect("the point is one of the stops")
 }
 
 /// An elementary piece of a run, and later its neighbours.
@@ -331,15 +316,15 @@ pub(super) fn cut_further(
 /// Cuts one run at the stops within it; notes the interval of each piece.
 fn cut_run(
     run: &Run,
-    [a, b]: [usize; 2],
+    [a, b]: [u32; 2],
     stops: &[PointId],
     out: &mut Vec<HalfEdge>,
     at_interval: &mut Vec<(u32, HalfEdgeId)>,
 ) {
     for interval in a.min(b)..a.max(b) {
-        let (low, high) = (stops[interval], stops[interval + 1]);
+        let (low, high) = (stops[interval as usize], stops[interval as usize + 1]);
         let (from, to) = if run.forward { (low, high) } else { (high, low) };
-        at_interval.push((number32(interval), HalfEdgeId::from_index(out.len())));
+        at_interval.push((interval, HalfEdgeId::from_index(out.len())));
         out.push(HalfEdge { from, to, ..HalfEdge::of(run, HalfEdgeId::NONE) });
     }
 }

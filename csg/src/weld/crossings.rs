@@ -6,9 +6,10 @@ use planecut_kernel::sign::Sign;
 use rustc_hash::FxHashMap;
 
 use super::WeldError;
-use super::cancel::{Crossed, HalfEdge, LineWorker, Run, Surviving, sort_along};
+use super::cancel::{Crossed, HalfEdge, LineWorker, Run, Surviving};
 use super::lines::Line;
 use super::points::Points;
+use super::stops::sort_along;
 use crate::ids::{EdgeId, Id, LineId, PointId, PointOfRegion};
 use crate::plane_table::{PlaneId, PlaneTable};
 

@@ -164,6 +164,11 @@ impl Line {
         table.cross_component(a, b, self.axis) == Sign::Positive
     }
 
+    /// The coordinate of a point of the line along which the line rises, correctly rounded: points for which it differs are in that order.
+    pub(super) fn height(&self, points: &Points, point: PointId) -> f64 {
+        points.positions[point.index()][self.axis]
+    }
+
     /// The exact order of two points of the line along its direction.
     ///
     /// Coordinates are correctly rounded: where they differ, the points are in that order.

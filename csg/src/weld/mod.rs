@@ -28,6 +28,7 @@ mod nest;
 mod pinches;
 mod points;
 mod slits;
+mod stops;
 pub(crate) mod triangulate;
 
 use crate::ids::number32;

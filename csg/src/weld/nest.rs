@@ -167,20 +167,36 @@ impl<'a> RegionPlane<'a> {
     /// Whether a hole lies inside an outer loop: by the parity of crossings to the right of one of its corners that is not
     /// a corner of the outer loop.
     pub(super) fn contains(&self, outer: LoopOf<'_>, hole: LoopOf<'_>) -> bool {
-        let is_shared = |point: PointId| outer.half_edges().any(|piece| piece.from == point);
-        let corner = hole.half_edges().map(|piece| piece.from).find(|point| !is_shared(*point));
-        let Some(corner) = corner else { return self.contains_middle(outer, hole) };
+        let told = hole.half_edges().find_map(|piece| self.is_around(outer, piece.from));
+        told.unwrap_or_else(|| self.contains_middle(outer, hole))
+    }
+
+    /// Whether a point lies inside a loop; nothing where it is one of its corners.
+    fn is_around(&self, outer: LoopOf<'_>, corner: PointId) -> Option<bool> {
+        let at = self.position(corner).y;
+        // rounded correctly: where heights differ, the points are in that order
+        let is_above = |point: PointId| match self.position(point).y.partial_cmp(&at) {
+            Some(Ordering::Equal) | None => self.compare_height(point, corner) == Ordering::Greater,
+            Some(order) => order == Ordering::Greater,
+        };
         let mut inside = false;
+        let last = outer.half_edges().last()?;
+        let mut from = is_above(last.from);
+        let mut before = last;
         for piece in outer.half_edges() {
-            let above = |point: PointId| self.compare_height(point, corner) == Ordering::Greater;
-            let (from, to) = (above(piece.from), above(piece.to));
+            if piece.from == corner {
+                return None;
+            }
+            // each edge ends where the next one begins
+            let to = is_above(piece.from);
             if from != to {
                 // inside is left of the edge: an upward edge is crossed where the corner lies to its left
-                let left = self.points.side(self.table, corner, piece.edge) == Sign::Negative;
+                let left = self.points.side(self.table, corner, before.edge) == Sign::Negative;
                 inside ^= left == to;
             }
+            (from, before) = (to, piece);
         }
-        inside
+        Some(inside)
     }
 
     /// The exact order of two points by height, then from left to right: by rounded heights, points would seem to lie on edges

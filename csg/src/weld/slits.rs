@@ -5,14 +5,15 @@
 //! planes always cross, so where two are known, or one is known and another one must be there, the known ones are slit.
 
 use super::around::{AroundLine, Sheet};
-use super::cancel::{Run, place, sort_along};
+use super::cancel::Run;
 use super::points::Points;
-use crate::ids::{Id, PointId};
+use super::stops::Stops;
+use crate::ids::Id;
 
 /// Finds slits; holds buffers.
 #[derive(Default)]
 pub(super) struct SlitFinder {
-    stops: Vec<PointId>,
+    stops: Stops,
     /// What cancelled on an interval.
     passing: Vec<Run>,
     sheets: Vec<Sheet>,
@@ -34,22 +35,21 @@ impl SlitFinder {
         if surviving.is_empty() && cancelled.iter().all(|run| plane(run) == first) {
             return;
         }
-        self.stops.clear();
-        self.stops.extend(cancelled.iter().chain(surviving).flat_map(|run| [run.from, run.to]));
-        sort_along(around.table, points, around.line, &mut self.stops);
-        let interval = |run: &Run, k: usize| {
-            let [a, b] = [run.from, run.to].map(|end| place(around.table, points, around.line, &self.stops, end));
-            a.min(b) < k && k <= a.max(b)
-        };
-        for k in 1..self.stops.len() {
+        let ends = cancelled.iter().chain(surviving).flat_map(|run| [run.from, run.to]);
+        self.stops.set(around.table, points, around.line, ends);
+        let (of_cancelled, of_surviving) = self.stops.places().split_at(cancelled.len());
+        for (k, ends) in (1..).zip(self.stops.points().windows(2)) {
+            let spans = |[a, b]: [u32; 2]| a.min(b) < k && k <= a.max(b);
             self.passing.clear();
-            self.passing.extend(cancelled.iter().filter(|run| interval(run, k)));
+            self.passing
+                .extend(cancelled.iter().zip(of_cancelled).filter(|(_, ends)| spans(**ends)).map(|(run, _)| *run));
             let Some(first) = self.passing.first() else { continue };
             let several = self.passing.iter().any(|run| plane(run) != plane(first));
             self.sheets.clear();
-            self.sheets.extend(surviving.iter().filter(|run| interval(run, k)).map(Sheet::from));
+            let is_there = surviving.iter().zip(of_surviving).filter(|(_, ends)| spans(**ends));
+            self.sheets.extend(is_there.map(|(run, _)| Sheet::from(run)));
             if several || is_crossed(around, &self.passing, &mut self.sheets) {
-                let (from, to) = (self.stops[k - 1], self.stops[k]);
+                let &[from, to] = ends else { continue };
                 slits.extend(self.passing.iter().map(|run| Run { from, to, ..*run }));
             }
         }

@@ -59,6 +59,9 @@ fn in_circle(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> f64 {
     if value.abs() > ROUNDED_ERROR * permanent {
         return value;
     }
+    if is_rectangle(a, b, c, d) {
+        return 0.0;
+    }
     // points of a polygon around a circle, as nearly as they can be: common, and too close for the above
     let value = in_circle_doubled(a, b, c, d);
     if value.abs() > DOUBLED_ERROR * permanent {
@@ -66,6 +69,15 @@ fn in_circle(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> f64 {
     }
     let coord = |p: DVec2| robust::Coord { x: p.x, y: p.y };
     robust::incircle(coord(a), coord(b), coord(c), coord(d))
+}
+
+/// Whether four points are the corners of a rectangle along the axes, in any order: those lie on one circle. They are common, and that
+/// their determinant is zero takes long to find out.
+fn is_rectangle(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> bool {
+    // each has one other on its vertical line and one on its horizontal line
+    let opposite = |p: DVec2, q: DVec2, r: DVec2, s: DVec2| p.x == q.x && r.x == s.x && p.y == s.y && q.y == r.y;
+    let is_around = |p, q, r, s| opposite(p, q, r, s) || opposite(q, r, s, p);
+    is_around(a, b, c, d) || is_around(a, c, b, d) || is_around(a, b, d, c)
 }
 
 /// The error of the determinant in rounded arithmetic, as a share of the sum of the sizes of its terms (Shewchuk, "Adaptive precision

@@ -21,6 +21,9 @@ impl Rectangle {
 /// The smallest cells are of this power of two; what is smaller lies in these.
 const LEAST_POWER: i32 = -200;
 
+/// Cells farther from the origin than this number of them are one.
+const MOST_CELLS: f64 = 1e18;
+
 type Cell = [i64; 2];
 
 /// Half-edges by the cell of the lower corner of their box: cells of one level are of one size, and no box is larger than the cells of
@@ -33,17 +36,25 @@ pub(super) struct BoxGrid {
 #[derive(Debug, Clone)]
 struct Level {
     power: i32,
+    /// How many cells go on a unit of length.
+    cells_of_unit: f64,
     cells: FxHashMap<Cell, Vec<HalfEdgeId>>,
     count: usize,
 }
 
 impl Level {
+    fn new(power: i32) -> Self {
+        Self { power, cells_of_unit: 2.0_f64.powi(-power), cells: FxHashMap::default(), count: 0 }
+    }
+
     /// The cell of a place.
     #[expect(clippy::cast_possible_truncation, reason = "`as` saturates, and what lies so far away shares a cell")]
     fn cell(&self, at: DVec2) -> Cell {
-        let cell = (at / 2.0_f64.powi(self.power)).floor();
+        // `as` rounds towards zero
+        let floor = |value: f64| value as i64 - i64::from((value as i64) as f64 > value);
+        let cell = at * self.cells_of_unit;
         // room for the cells beside
-        [cell.x as i64, cell.y as i64].map(|place| place.clamp(i64::MIN / 4, i64::MAX / 4))
+        [cell.x, cell.y].map(|value| floor(value.clamp(-MOST_CELLS, MOST_CELLS)))
     }
 }
 
@@ -58,7 +69,7 @@ impl BoxGrid {
     pub(super) fn insert(&mut self, bounds: &Rectangle, piece: HalfEdgeId) {
         let power = power_of(bounds);
         let place = self.levels.iter().position(|level| level.power == power).unwrap_or_else(|| {
-            self.levels.push(Level { power, cells: FxHashMap::default(), count: 0 });
+            self.levels.push(Level::new(power));
             self.levels.len() - 1
         });
         let level = &mut self.levels[place];

@@ -264,8 +264,7 @@ impl Region {
                     corners.clear();
                     corners.extend(near.iter().map(|other| half_edge(other).from));
                     finder.touching(&piece, &corners);
-                    let at = plane.position(piece.from);
-                    index.grid.find(&Rectangle { min: at, max: at }, &mut near);
+                    // what its corner touches is among these
                     near.iter().for_each(|other| finder.touching(&half_edge(other), &[piece.from]));
                 }
             }
