@@ -4,7 +4,9 @@ use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
 use std::process::{Child, ChildStdin, ChildStdout, Stdio};
 
+use planecut_testkit::data::data;
 use planecut_testkit::random::Rng;
+use planecut_testkit::tests_on_data;
 use serde_json::{Value, json};
 
 use crate::support::{command, everything_in, finish, folder, run_with};
@@ -22,10 +24,17 @@ struct Served {
 
 impl Served {
     fn start(folder: &Path) -> Self {
-        std::fs::write(folder.join("plate.json"), PLATE).expect("a folder that can be written");
+        let plate = folder.join("plate.json");
+        std::fs::write(&plate, PLATE).expect("a folder that can be written");
+        Self::of(folder, &plate)
+    }
+
+    fn of(folder: &Path, input: &Path) -> Self {
         let mut child = command()
             .current_dir(folder)
-            .args(["edit", "plate.json", "--serve"])
+            .arg("edit")
+            .arg(input)
+            .arg("--serve")
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
@@ -308,4 +317,30 @@ fn arguments_that_do_not_fit_are_refused() {
     assert_eq!(everything_in(folder.path()), ["plate.json"]);
     let run = run_with(folder.path(), "edit plate.json --serve", b"");
     assert_eq!((run.status, run.stdout.as_slice(), run.stderr.as_str()), (0, &b""[..], ""));
+}
+
+tests_on_data!(a_live_map_takes_little_memory);
+
+/// `e2m7` has 1,536 brushes and 17,036 triangles; asked are 60 MB for the program with all of it.
+fn a_live_map_takes_little_memory() {
+    const MOST_MEGABYTES: f64 = 60.0;
+    let folder = folder();
+    let mut served = Served::of(folder.path(), &data("map/romero/e2m7.map"));
+    let before = served.done(&json!({"query": "measures"}));
+    let turned = json!([[0, -1, 0, 16], [1, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]);
+    for _ in 0..50 {
+        served.done(&json!({"op": "transform_brush", "brush": 7, "matrix": turned}));
+        served.done(&json!({"op": "undo"}));
+    }
+    assert_eq!(served.done(&json!({"query": "measures"})), before);
+    // where the system tells it
+    if let Ok(status) = std::fs::read_to_string(format!("/proc/{}/status", served.child.id())) {
+        let peak =
+            status.lines().find_map(|line| line.strip_prefix("VmHWM:")?.trim().strip_suffix(" kB")).expect("the peak");
+        let megabytes = peak.parse::<f64>().expect("a number") * 1024.0 / 1e6;
+        assert!(megabytes < MOST_MEGABYTES, "{megabytes:.1} MB");
+    }
+    let Served { mut child, input, .. } = served;
+    drop(input);
+    assert!(child.wait().expect("it ends").success());
 }

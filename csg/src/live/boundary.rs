@@ -226,6 +226,7 @@ impl LiveModel {
             take_out(&mut self.welded, &mut operand.edges[face.index()], &change.removed);
         }
         let count = changes().map(|(_, change)| change.added.len()).sum();
+        self.welded.reserve(count);
         let mut added = Vec::with_capacity(count);
         added.extend(changes().flat_map(|(_, change)| &change.added));
         let mut numbers = self.welded.insert(&self.planes.table, &added).into_iter();
@@ -233,9 +234,13 @@ impl LiveModel {
         for (OperandFace { operand, face }, change) in changes().filter(|(_, change)| !change.added.is_empty()) {
             let operand = self.operands[operand.index()].as_mut().expect("the brush is there");
             let known = &mut operand.edges[face.index()];
+            let is_new = known.is_empty();
+            known.reserve(change.added.len());
             known.extend(change.added.iter().copied().zip(&mut numbers));
-            // two sorted runs are merged
-            known.sort_by_key(|known| known.0);
+            if !is_new {
+                // two sorted runs are merged
+                known.sort_by_key(|known| known.0);
+            }
         }
     }
 }

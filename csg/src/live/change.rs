@@ -74,6 +74,9 @@ impl LiveModel {
     /// brushes, and what became of planes; `kept` are indices of planes that stay those of these planes.
     fn set_states(&mut self, new: Vec<New>, kept: &[u32]) -> (Vec<New>, Vec<OperandId>, Settled) {
         let (mut before, mut numbers) = (Vec::with_capacity(new.len()), Vec::with_capacity(new.len()));
+        if new.len() > self.by_id.len() {
+            self.planes.reserve(new.iter().flat_map(|(_, state)| state).map(|state| state.brush.faces.len()).sum());
+        }
         for (id, state) in new {
             let known = self.by_id.get(&id).copied();
             assert!(known.is_some() || state.is_some(), "a brush that is to go is there");

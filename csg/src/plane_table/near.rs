@@ -5,10 +5,13 @@
 //! of the size of the smallest body. So neither a body far away nor a tool without end takes two planes of another body for one.
 
 use crate::ids::number32;
+use std::hash::BuildHasher;
+
 use planecut_kernel::sign::Row;
 use planecut_kernel::{DVec3, HalfSpace};
 use planecut_parallel::prelude::*;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxBuildHasher, FxHashMap};
+use smallvec::SmallVec;
 
 use super::PlaneId;
 use crate::base::{WEIGHTS, sortable};
@@ -117,10 +120,11 @@ pub(super) fn may_be_near(units: &[[f64; 4]], size: f64) -> Vec<bool> {
     may_be_near
 }
 
-/// Groups of planes by where they are, to be put in and taken out.
+/// Groups of planes by where they are, to be put in and taken out. Where each is, is known elsewhere: there are very many.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct NearCells {
-    cells: FxHashMap<[i64; 4], Vec<([f64; 4], RowGroupId)>>,
+    /// By the hash of their cell.
+    cells: FxHashMap<u64, SmallVec<[RowGroupId; 4]>>,
     /// At least the size of the smallest body.
     size: f64,
 }
@@ -134,31 +138,48 @@ impl NearCells {
         self.size
     }
 
+    /// Makes room for many groups.
+    pub(crate) fn reserve(&mut self, count: usize) {
+        self.cells.reserve(count);
+    }
+
     pub(crate) fn insert(&mut self, unit: &[f64; 4], number: RowGroupId) {
-        self.cells.entry(cell(unit, self.size)).or_default().push((*unit, number));
+        self.cells.entry(hash_of(&cell(unit, self.size))).or_default().push(number);
     }
 
     pub(crate) fn remove(&mut self, unit: &[f64; 4], number: RowGroupId) {
-        let key = cell(unit, self.size);
+        let key = hash_of(&cell(unit, self.size));
         let Some(members) = self.cells.get_mut(&key) else { return };
-        members.retain(|member| member.1 != number);
+        members.retain(|member| *member != number);
         if members.is_empty() {
             self.cells.remove(&key);
         }
     }
 
-    /// Adds the numbers of those that are near a plane, on either side: itself, if it is there.
-    pub(crate) fn find(&self, unit: &[f64; 4], found: &mut Vec<RowGroupId>) {
+    /// Adds the numbers of those that are near a plane, on either side: itself, if it is there. `place` tells where each is.
+    pub(crate) fn find(
+        &self,
+        unit: &[f64; 4],
+        place: impl Fn(RowGroupId) -> Option<[f64; 4]>,
+        found: &mut Vec<RowGroupId>,
+    ) {
         let mut find = |unit: &[f64; 4]| {
-            let members = cells_around(unit, self.size).filter_map(|key| self.cells.get(&key)).flatten();
-            let near = members.filter(|(other, _)| is_within(unit, other, self.size));
-            found.extend(near.map(|(_, number)| *number));
+            let members = cells_around(unit, self.size).filter_map(|cell| self.cells.get(&hash_of(&cell))).flatten();
+            found.extend(
+                members
+                    .copied()
+                    .filter(|number| place(*number).is_some_and(|other| is_within(unit, &other, self.size))),
+            );
         };
         find(unit);
         if unit[0] <= SNAP_TOLERANCE {
             find(&unit.map(|v| -v));
         }
     }
+}
+
+fn hash_of(cell: &[i64; 4]) -> u64 {
+    FxBuildHasher.hash_one(cell)
 }
 
 /// Whether two planes are within the tolerance of each other, or one of the other side of the other; `size` is that of the smallest

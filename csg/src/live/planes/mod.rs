@@ -14,6 +14,7 @@ use planecut_kernel::HalfSpace;
 use planecut_kernel::sign::Row;
 use planecut_parallel::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
+use smallvec::{SmallVec, smallvec};
 
 use crate::base::sortable;
 use crate::ids::{Id, OperandId, RowGroupId, holds};
@@ -34,7 +35,7 @@ pub(super) struct LivePlanes {
     pub(super) table: PlaneTable,
     groups: Vec<EqualRows>,
     free_groups: Vec<RowGroupId>,
-    by_key: FxHashMap<Key, Vec<RowGroupId>>,
+    by_key: FxHashMap<Key, SmallVec<[RowGroupId; 1]>>,
     /// The sizes of the bodies, each with the number of bodies that have it.
     sizes: BTreeMap<u64, u32>,
     /// The smallest of them, when planes were last settled.
@@ -47,15 +48,15 @@ pub(super) struct LivePlanes {
     free_indices: Vec<u32>,
 }
 
-/// Rows of exactly one plane, on its side with a positive first coefficient.
+/// Rows of exactly one plane, on its side with a positive first coefficient. Most planes are those of one face of one body.
 #[derive(Clone, Default)]
 struct EqualRows {
     /// One of them, in use or not.
     plane: Option<Row>,
     /// Each with how often it is used; the least stands for the plane.
-    rows: Vec<(Row, u32)>,
+    rows: SmallVec<[(Row, u32); 1]>,
     /// The numbers of those who use it, as often as they do.
-    users: Vec<OperandId>,
+    users: SmallVec<[OperandId; 2]>,
     /// The unit normal and distance under which it is hashed, and whether it is exact; nothing before that.
     hashed: Option<([f64; 4], bool)>,
     /// The plane that it is taken for.
@@ -92,6 +93,13 @@ impl LivePlanes {
     /// None, beside those of a table that stay as they are.
     pub(super) fn new(table: PlaneTable) -> Self {
         Self { table, ..Self::default() }
+    }
+
+    /// Makes room for many planes.
+    pub(super) fn reserve(&mut self, count: usize) {
+        self.by_key.reserve(count);
+        self.groups.reserve(count);
+        self.near.reserve(count);
     }
 
     /// Uses the plane of a half-space; its id is known once it is settled.
@@ -144,11 +152,11 @@ impl LivePlanes {
             && group.id == Some(PlaneId::of_index(own))
             && is_reversed == used.is_reversed
             && !self.crowded.contains(&used.group);
-        let alike = self.by_key.get(&key(&row)).map_or(&[][..], |alike| alike);
+        let alike = self.by_key.get(&key(&row)).map_or(&[][..], SmallVec::as_slice);
         let is_there = |other: &RowGroupId| *other != used.group && self.groups[other.index()].is_plane_of(&row);
         let after = unit(&row);
         let mut near = Vec::new();
-        self.near.find(&after, &mut near);
+        self.near.find(&after, |group| self.place_of(group), &mut near);
         near.retain(|other| *other != used.group);
         if !is_alone || alike.iter().any(is_there) || !near.is_empty() || !self.keeps_tolerance(sizes) {
             return false;
@@ -164,7 +172,7 @@ impl LivePlanes {
         self.by_key.entry(key(&row)).or_default().push(used.group);
         let group = &mut self.groups[used.group.index()];
         group.plane = Some(row);
-        group.rows = vec![(row, 1)];
+        group.rows = smallvec![(row, 1)];
         group.hashed = Some((after, is_exact(&row)));
         self.table.put(own, &row);
         true
@@ -240,6 +248,12 @@ impl LivePlanes {
             if self.groups[number.index()].hashed.is_none() || seen.contains(&number) {
                 continue;
             }
+            if !self.crowded.contains(&number) {
+                // as most of them
+                let own = self.own_index(number, kept);
+                self.take_for(number, PlaneId::of_index(own), &mut settled);
+                continue;
+            }
             let cluster = self.cluster(number);
             seen.extend(cluster.iter().copied());
             self.settle_cluster(&cluster, kept, &mut settled);
@@ -270,7 +284,7 @@ impl LivePlanes {
             return;
         }
         let mut near = Vec::new();
-        self.near.find(old, &mut near);
+        self.near.find(old, |group| self.place_of(group), &mut near);
         near.retain(|other| *other != number);
         doubtful.extend_from_slice(&near);
         for other in near {
@@ -291,6 +305,7 @@ impl LivePlanes {
             moved
         } else {
             self.near = NearCells::new(size);
+            self.near.reserve(self.groups.len());
             doubtful.extend(self.crowded.drain());
             all = RowGroupId::all(self.groups.len()).collect();
             &all
@@ -320,11 +335,16 @@ impl LivePlanes {
         doubtful.sort_unstable();
     }
 
+    /// The unit normal and distance under which a group is hashed.
+    fn place_of(&self, number: RowGroupId) -> Option<[f64; 4]> {
+        self.groups[number.index()].hashed.map(|(unit, _)| unit)
+    }
+
     /// The other groups that are near a group, or would be if the tolerance were a little larger.
     fn neighbours(&self, number: RowGroupId) -> Vec<RowGroupId> {
         let mut near = Vec::new();
         if let Some((unit, _)) = &self.groups[number.index()].hashed {
-            self.near.find(unit, &mut near);
+            self.near.find(unit, |group| self.place_of(group), &mut near);
         }
         near.retain(|other| *other != number);
         near
@@ -332,9 +352,6 @@ impl LivePlanes {
 
     /// What hangs together with a group.
     fn cluster(&self, number: RowGroupId) -> Vec<RowGroupId> {
-        if !self.crowded.contains(&number) {
-            return vec![number];
-        }
         let mut cluster = vec![number];
         let mut next = 0;
         while next < cluster.len() {
@@ -377,10 +394,15 @@ impl LivePlanes {
                     PlaneId::of_index(self.own_index(number, kept))
                 }
             };
-            let group = &mut self.groups[number.index()];
-            if group.id.replace(id) != Some(id) {
-                settled.users.extend_from_slice(&group.users);
-            }
+            self.take_for(number, id, settled);
+        }
+    }
+
+    /// Takes the planes of a group for one.
+    fn take_for(&mut self, number: RowGroupId, id: PlaneId, settled: &mut Settled) {
+        let group = &mut self.groups[number.index()];
+        if group.id.replace(id) != Some(id) {
+            settled.users.extend_from_slice(&group.users);
         }
     }
 

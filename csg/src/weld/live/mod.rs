@@ -90,12 +90,21 @@ struct Crossings {
 }
 
 impl LiveWeld {
+    /// Makes room for boundary edges that are to be added, where they are many.
+    pub(crate) fn reserve(&mut self, count: usize) {
+        if count < EDGES_FOR_THREADS {
+            return;
+        }
+        self.edges.reserve(count.saturating_sub(self.free_edges.len()));
+        self.numbers.reserve(count);
+        self.state.reserve(count);
+    }
+
     /// Adds boundary edges; gives their numbers.
     pub(crate) fn insert(&mut self, table: &PlaneTable, edges: &[BoundaryEdge]) -> Vec<EdgeId> {
         self.moving = None;
         if edges.len() >= EDGES_FOR_THREADS {
             let numbered = self.numbers.take_all(table, edges);
-            self.edges.reserve(numbered.len().saturating_sub(self.free_edges.len()));
             return numbered.into_iter().map(|edge| self.put(edge)).collect();
         }
         let mut numbers = Vec::with_capacity(edges.len());
@@ -202,6 +211,12 @@ impl LiveWeld {
 }
 
 impl State {
+    /// Makes room for what many edges come to: mostly there are two on a line.
+    fn reserve(&mut self, edges: usize) {
+        self.lines.reserve(edges / 2 + edges / 16);
+        self.pieces.reserve(edges);
+    }
+
     fn make_room(&mut self, line: LineId) {
         if line.index() >= self.lines.len() {
             self.lines.resize_with(line.index() + 1, OnLine::default);

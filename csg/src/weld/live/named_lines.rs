@@ -51,7 +51,6 @@ impl NamedLines {
             (line, mark_of(table, &line))
         };
         let found = find_all(&self.names, &different, marked);
-        self.names.reserve(different.len());
         let new = different.iter().zip(found);
         let numbers: Vec<NameId> = new
             .map(|(name, found)| found.unwrap_or_else(|(line, mark)| self.add(table, *name, line, mark, gained)))

@@ -58,7 +58,6 @@ impl NamedPoints {
         let near = |name: &points::Triple| (name.0 >> 32) as usize;
         let (different, of_end) = intern(names.as_flattened(), table.len(), near, |number| number);
         let found = find_all(&self.names, &different, |name| Named::of(table, points::planes(*name)));
-        self.names.reserve(different.len());
         let new = different.iter().zip(found);
         let numbers: Vec<NameId> =
             new.map(|(name, found)| found.unwrap_or_else(|named| self.add(table, *name, &named, gained))).collect();

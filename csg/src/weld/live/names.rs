@@ -1,20 +1,21 @@
 //! Things that several names stand for, numbered as long as one of the names is in use.
 
-use std::hash::Hash;
+use std::hash::{BuildHasher, Hash};
 
-use rustc_hash::FxHashMap;
+use hashbrown::HashTable;
+use rustc_hash::FxBuildHasher;
 
 use crate::base::map_chunks;
 use crate::ids::{Id, NameId};
 
-/// The numbers of things by name. Equal things have equal marks; different ones hardly ever do.
+/// The numbers of things by name. Equal things have equal marks; different ones hardly ever do. Tables hold numbers alone: there are very many.
 #[derive(Debug, Clone)]
 pub(super) struct Names<N, T> {
-    by_name: FxHashMap<N, NameId>,
+    by_name: HashTable<NameId>,
     names: Vec<Name<N, T>>,
     free_names: Vec<NameId>,
     /// The last thing of each mark.
-    by_mark: FxHashMap<u64, T>,
+    by_mark: HashTable<T>,
     things: Vec<Thing<T>>,
     free_things: Vec<T>,
 }
@@ -37,10 +38,10 @@ struct Thing<T> {
 impl<N, T> Default for Names<N, T> {
     fn default() -> Self {
         Self {
-            by_name: FxHashMap::default(),
+            by_name: HashTable::new(),
             names: Vec::new(),
             free_names: Vec::new(),
-            by_mark: FxHashMap::default(),
+            by_mark: HashTable::new(),
             things: Vec::new(),
             free_things: Vec::new(),
         }
@@ -50,7 +51,8 @@ impl<N, T> Default for Names<N, T> {
 impl<N: Copy + Eq + Hash, T: Id> Names<N, T> {
     /// The number of a name, where it is known.
     pub(super) fn find(&self, name: &N) -> Option<NameId> {
-        self.by_name.get(name).copied()
+        let is_same = |number: &NameId| self.names[number.index()].name == *name;
+        self.by_name.find(hash_of(name), is_same).copied()
     }
 
     /// Uses names, each once for each time it is given.
@@ -62,25 +64,35 @@ impl<N: Copy + Eq + Hash, T: Id> Names<N, T> {
 
     /// Makes room for many names that are not known.
     pub(super) fn reserve(&mut self, count: usize) {
-        self.by_name.reserve(count);
-        self.by_mark.reserve(count);
+        let Self { by_name, names, by_mark, things, .. } = self;
+        by_name.reserve(count, |number| hash_of(&names[number.index()].name));
+        by_mark.reserve(count, |thing| hash_of(&things[thing.index()].mark));
+        names.reserve(count);
+        things.reserve(count);
     }
 
     /// Adds a name that is not known, for the thing of a mark that `is_same`, or for a new one; whether it is new. The name is to be used then.
     pub(super) fn add(&mut self, name: N, mark: u64, is_same: impl Fn(T) -> bool) -> (NameId, bool) {
-        let last = self.by_mark.get(&mark).copied().unwrap_or(T::NONE);
+        let Self { by_name, names, free_names, by_mark, things, free_things } = self;
+        let marked = by_mark.find_mut(hash_of(&mark), |thing| things[thing.index()].mark == mark);
+        let last = marked.as_deref().copied().unwrap_or(T::NONE);
         let mut alike = last;
         while alike != T::NONE && !is_same(alike) {
-            alike = self.things[alike.index()].before;
+            alike = things[alike.index()].before;
         }
         let is_new = alike == T::NONE;
         if is_new {
-            alike = place(&mut self.things, &mut self.free_things, Thing { mark, before: last, names: 0 });
-            self.by_mark.insert(mark, alike);
+            alike = place(things, free_things, Thing { mark, before: last, names: 0 });
+            match marked {
+                Some(marked) => *marked = alike,
+                None => {
+                    by_mark.insert_unique(hash_of(&mark), alike, |thing| hash_of(&things[thing.index()].mark));
+                }
+            }
         }
-        self.things[alike.index()].names += 1;
-        let number = place(&mut self.names, &mut self.free_names, Name { name, thing: alike, uses: 0 });
-        self.by_name.insert(name, number);
+        things[alike.index()].names += 1;
+        let number = place(names, free_names, Name { name, thing: alike, uses: 0 });
+        by_name.insert_unique(hash_of(&name), number, |number| hash_of(&names[number.index()].name));
         (number, is_new)
     }
 
@@ -97,7 +109,9 @@ impl<N: Copy + Eq + Hash, T: Id> Names<N, T> {
             return None;
         }
         let thing = name.thing;
-        self.by_name.remove(&name.name);
+        if let Ok(entry) = self.by_name.find_entry(hash_of(&name.name), |other| *other == number) {
+            entry.remove();
+        }
         self.free_names.push(number);
         let Thing { mark, before, names } = &mut self.things[thing.index()];
         *names -= 1;
@@ -120,26 +134,40 @@ impl<N: Copy + Eq + Hash, T: Id> Names<N, T> {
         let Thing { mark: old, before, names } = self.things[thing.index()];
         if names > 0 && old != mark {
             self.unlink(thing, old, before);
-            let last = self.by_mark.insert(mark, thing).unwrap_or(T::NONE);
-            self.things[thing.index()] = Thing { mark, before: last, names };
+            let Self { by_mark, things, .. } = self;
+            let is_same = |other: &T| things[other.index()].mark == mark;
+            let last = match by_mark.find_mut(hash_of(&mark), is_same) {
+                Some(marked) => std::mem::replace(marked, thing),
+                None => T::NONE,
+            };
+            things[thing.index()] = Thing { mark, before: last, names };
+            if last == T::NONE {
+                by_mark.insert_unique(hash_of(&mark), thing, |thing| hash_of(&things[thing.index()].mark));
+            }
         }
     }
 
     /// Takes a thing out of the list of those of its mark.
     fn unlink(&mut self, thing: T, mark: u64, before: T) {
-        let last = self.by_mark.get_mut(&mark).expect("the mark of a thing is known");
-        if *last != thing {
-            let mut later = *last;
-            while self.things[later.index()].before != thing {
-                later = self.things[later.index()].before;
+        let Self { by_mark, things, .. } = self;
+        let is_same = |other: &T| things[other.index()].mark == mark;
+        let mut last = by_mark.find_entry(hash_of(&mark), is_same).expect("the mark of a thing is known");
+        if *last.get() != thing {
+            let mut later = *last.get();
+            while things[later.index()].before != thing {
+                later = things[later.index()].before;
             }
-            self.things[later.index()].before = before;
+            things[later.index()].before = before;
         } else if before != T::NONE {
-            *last = before;
+            *last.get_mut() = before;
         } else {
-            self.by_mark.remove(&mark);
+            last.remove();
         }
     }
+}
+
+fn hash_of(value: &impl Hash) -> u64 {
+    FxBuildHasher.hash_one(value)
 }
 
 /// For each of different names its number, or where it is not known what it takes to add it; worked out by all threads.

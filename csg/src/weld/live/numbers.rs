@@ -3,13 +3,14 @@
 use std::cmp::Ordering;
 
 use planecut_kernel::DVec3;
+use planecut_parallel::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::named_lines::NamedLines;
 use super::named_points::NamedPoints;
 use super::names::place;
 use crate::boundary::BoundaryEdge;
-use crate::ids::{Id, LineId, NameId, PointId, RegionId};
+use crate::ids::{Id, LineId, NameId, PointId, RegionId, number32};
 use crate::model::MaterialId;
 use crate::plane_table::{PlaneId, PlaneTable};
 use crate::weld::cancel::Run;
@@ -58,6 +59,12 @@ impl<'a> Context<'a> {
 }
 
 impl Numbers {
+    /// Makes room for the names of many edges: mostly two share a line, and more a point.
+    pub(super) fn reserve(&mut self, edges: usize) {
+        self.points.names.reserve(edges / 2 + edges / 16);
+        self.lines.names.reserve(edges / 2 + edges / 16);
+    }
+
     /// Numbers an edge.
     pub(super) fn take(&mut self, table: &PlaneTable, edge: &BoundaryEdge) -> NumberedEdge {
         self.mark_moved(table);
@@ -65,7 +72,8 @@ impl Numbers {
         let ends = self.points.take(table, edge, &mut gained);
         let line = self.lines.take(table, edge, &mut gained);
         self.gain(&gained);
-        self.numbered(table, edge, ends, line)
+        let region = self.take_region(edge.face, edge.material, 1);
+        self.numbered(table, edge, region, ends, line)
     }
 
     /// Numbers many edges, with all threads.
@@ -79,17 +87,35 @@ impl Numbers {
         );
         self.gain(&by_points);
         self.gain(&by_lines);
-        let named = edges.iter().zip(ends).zip(lines);
-        named.map(|((edge, ends), line)| self.numbered(table, edge, ends, line)).collect()
+        let regions = self.take_regions(edges);
+        let named = edges.par_iter().with_min_len(1024).zip(regions).zip(ends).zip(lines);
+        named.map(|(((edge, region), ends), line)| self.numbered(table, edge, region, ends, line)).collect()
     }
 
-    /// An edge whose ends and line are numbered.
-    fn numbered(&mut self, table: &PlaneTable, edge: &BoundaryEdge, ends: [NameId; 2], line: NameId) -> NumberedEdge {
+    /// Numbers the regions of many edges, those of one face in a row.
+    fn take_regions(&mut self, edges: &[BoundaryEdge]) -> Vec<RegionId> {
+        let mut regions = Vec::with_capacity(edges.len());
+        for group in edges.chunk_by(|a, b| (a.face, a.material) == (b.face, b.material)) {
+            let region = self.take_region(group[0].face, group[0].material, number32(group.len()));
+            regions.resize(regions.len() + group.len(), region);
+        }
+        regions
+    }
+
+    /// An edge whose region, ends and line are numbered.
+    fn numbered(
+        &self,
+        table: &PlaneTable,
+        edge: &BoundaryEdge,
+        region: RegionId,
+        ends: [NameId; 2],
+        line: NameId,
+    ) -> NumberedEdge {
         let number = self.lines.names.thing(line);
         let [from, to] = ends.map(|end| self.points.names.thing(end));
         let run = Run {
             line: number,
-            region: self.take_region(edge.face, edge.material),
+            region,
             edge: edge.edge,
             from,
             to,
@@ -193,7 +219,8 @@ impl Numbers {
         self.lines.mark(table, &lines);
     }
 
-    fn take_region(&mut self, plane: PlaneId, material: MaterialId) -> RegionId {
+    /// Numbers a region of which a number of edges come.
+    fn take_region(&mut self, plane: PlaneId, material: MaterialId, edges: u32) -> RegionId {
         let number = *self.region_numbers.entry((plane, material)).or_insert_with(|| {
             let number: RegionId = place(&mut self.planes, &mut self.free_regions, plane);
             if number.index() == self.materials.len() {
@@ -203,7 +230,7 @@ impl Numbers {
             self.materials[number.index()] = material;
             number
         });
-        self.region_uses[number.index()] += 1;
+        self.region_uses[number.index()] += edges;
         number
     }
 

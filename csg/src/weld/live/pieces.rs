@@ -27,6 +27,15 @@ pub(super) struct Pieces {
 }
 
 impl Pieces {
+    /// Makes room for many half-edges: where nothing is cut, there is one for each edge.
+    pub(super) fn reserve(&mut self, count: usize) {
+        self.half_edges.reserve(count);
+        self.following.reserve(count);
+        self.loop_of.reserve(count);
+        self.places.reserve(count);
+        self.is_gone.reserve(count);
+    }
+
     pub(super) fn add(&mut self, piece: HalfEdge) -> HalfEdgeId {
         let piece = HalfEdge { twin: HalfEdgeId::NONE, ..piece };
         let number: HalfEdgeId = place(&mut self.half_edges, &mut self.free, piece);
