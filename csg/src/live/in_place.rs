@@ -120,7 +120,7 @@ impl LiveModel {
         });
         // borrowed apart from the weld
         let edges: Vec<_> = edges.copied().collect();
-        self.welded.find_what_moves(plane, edges.iter())
+        self.welded.find_what_moves(&self.planes.table, plane, edges.iter())
     }
 
     /// The bodies that pass through the part of space between the face where it was and where it is, of those that touch a box; nothing where

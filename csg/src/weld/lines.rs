@@ -37,7 +37,12 @@ pub(super) fn identify(table: &PlaneTable, edges: &[BoundaryEdge]) -> (Vec<Line>
 
 /// What names the line of an edge: the indices of its two planes.
 pub(super) fn pair(edge: &BoundaryEdge) -> u64 {
-    let (a, b) = (u64::from(edge.face.index()), u64::from(edge.edge.index()));
+    pair_of([edge.face, edge.edge])
+}
+
+/// What names the line in which two planes meet.
+pub(super) fn pair_of(planes: [PlaneId; 2]) -> u64 {
+    let [a, b] = planes.map(|plane| u64::from(plane.index()));
     a.min(b) << 32 | a.max(b)
 }
 

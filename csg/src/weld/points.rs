@@ -168,13 +168,13 @@ impl Points {
 impl Named {
     pub(super) fn of(table: &PlaneTable, [a, b, c]: [PlaneId; 3]) -> Self {
         let position = table.position([a, b, c]).expect("the planes of a corner are independent");
-        let right_handed = table.orient3(a, b, c) == Sign::Positive;
-        Self {
-            planes: if right_handed { [a, b, c] } else { [a, c, b] },
-            position,
-            exact: exact_coordinates(table, [a, b, c], position),
-        }
+        Self { planes: right_handed(table, [a, b, c]), position, exact: exact_coordinates(table, [a, b, c], position) }
     }
+}
+
+/// Three planes that meet in a point, in an order in which their normals are right-handed.
+pub(super) fn right_handed(table: &PlaneTable, [a, b, c]: [PlaneId; 3]) -> [PlaneId; 3] {
+    if table.orient3(a, b, c) == Sign::Positive { [a, b, c] } else { [a, c, b] }
 }
 
 /// Which coordinates of the meeting point of three planes are not rounded, a bit for each; not where that is not easily told.

@@ -6,6 +6,8 @@ use super::pieces::Pieces;
 use crate::boundary::BoundaryEdge;
 use crate::ids::{EdgeId, FaceId, HalfEdgeId, Id, LineId, LoopId, PointId, RegionId};
 use crate::plane_table::{PlaneId, PlaneTable};
+use crate::weld::lines;
+use crate::weld::points::{self, Triple};
 
 /// All that moves with a plane; true until an edge comes or goes.
 #[derive(Clone)]
@@ -28,14 +30,20 @@ impl LiveWeld {
 
     /// Finds what moves with the plane of an index, of which some edges, each with its number, name all points and lines; false where
     /// a point or a line is known by the plane under one name and not under another: there more planes meet, and it does not stay one.
+    ///
+    /// A point may be known by planes that no longer meet in it once this one has moved, as no edge has them any more: it is known by those of an edge then.
     pub(crate) fn find_what_moves<'a>(
         &mut self,
+        table: &PlaneTable,
         plane: u32,
         edges: impl Iterator<Item = &'a (BoundaryEdge, EdgeId)>,
     ) -> bool {
         self.moving = None;
         let is_plane = |id: PlaneId| id.index() == plane;
-        let (mut points, mut lines, mut along): (Vec<PointId>, Vec<LineId>, Vec<LineId>) = Default::default();
+        let mut along: Vec<LineId> = Vec::new();
+        // each with a name that it has
+        let (mut names_of_points, mut names_of_lines): (Vec<(PointId, Triple)>, Vec<(LineId, u64)>) =
+            Default::default();
         for (edge, number) in edges {
             let run = self.edges[number.index()].numbered.run;
             let is_line = is_plane(edge.face) || is_plane(edge.edge);
@@ -50,25 +58,31 @@ impl LiveWeld {
                     return false;
                 }
                 if is_point {
-                    points.push(point);
+                    names_of_points.push((point, points::key([edge.face, edge.edge, end])));
                     is_moved = true;
                 }
             }
             if is_line {
-                lines.push(run.line);
+                names_of_lines.push((run.line, lines::pair(edge)));
             }
             if is_moved {
                 along.push(run.line);
             }
         }
-        for list in [&mut lines, &mut along] {
-            list.sort_unstable();
-            list.dedup();
-        }
-        points.sort_unstable();
-        points.dedup();
+        along.sort_unstable();
+        along.dedup();
+        names_of_points.sort_unstable();
+        names_of_lines.sort_unstable();
+        let points: Vec<PointId> = names_of_points.chunk_by(|a, b| a.0 == b.0).map(|names| names[0].0).collect();
+        let lines: Vec<LineId> = names_of_lines.chunk_by(|a, b| a.0 == b.0).map(|names| names[0].0).collect();
         if points.len() + lines.len() != self.numbers.known_by(plane) {
             return false;
+        }
+        for names in names_of_points.chunk_by(|a, b| a.0 == b.0) {
+            self.numbers.know_point(table, names[0].0, names.iter().map(|name| name.1));
+        }
+        for names in names_of_lines.chunk_by(|a, b| a.0 == b.0) {
+            self.numbers.know_line(table, names[0].0, names.iter().map(|name| name.1));
         }
         let Pieces { half_edges, loop_of, .. } = &self.state.pieces;
         let is_moved = |point: PointId| points.binary_search(&point).is_ok();

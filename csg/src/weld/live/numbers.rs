@@ -14,9 +14,9 @@ use crate::ids::{Id, LineId, NameId, PointId, RegionId, number32};
 use crate::model::MaterialId;
 use crate::plane_table::{PlaneId, PlaneTable};
 use crate::weld::cancel::Run;
-use crate::weld::lines::Line;
+use crate::weld::lines::{self, Line};
 use crate::weld::nest::RegionPlane;
-use crate::weld::points::Points;
+use crate::weld::points::{self, Points, right_handed};
 
 /// An edge, and the names under which its points and its line are known.
 #[derive(Debug, Clone, Copy)]
@@ -170,6 +170,39 @@ impl Numbers {
     /// The indices of planes by which no point and no line is known any more, perhaps.
     pub(super) fn take_unnamed(&mut self) -> Vec<u32> {
         std::mem::take(&mut self.unnamed)
+    }
+
+    /// Makes a point known by the planes of one of some names that it has.
+    pub(super) fn know_point(
+        &mut self,
+        table: &PlaneTable,
+        point: PointId,
+        mut names: impl Iterator<Item = points::Triple>,
+    ) {
+        let known = self.points().planes[point.index()];
+        let Some(first) = names.next() else { return };
+        if first == points::key(known) || names.any(|name| name == points::key(known)) {
+            return;
+        }
+        // where it is stays: what is sorted by place is to find it there
+        let planes = right_handed(table, points::planes(first));
+        self.gain(&planes);
+        self.points.points.planes[point.index()] = planes;
+        known.into_iter().for_each(|plane| self.lose(plane));
+    }
+
+    /// The same for a line.
+    pub(super) fn know_line(&mut self, table: &PlaneTable, line: LineId, mut names: impl Iterator<Item = u64>) {
+        let known = self.lines()[line.index()].planes;
+        let pair = lines::pair_of(known);
+        let Some(first) = names.next() else { return };
+        if first == pair || names.any(|name| name == pair) {
+            return;
+        }
+        let named = Line::of(table, first);
+        self.gain(&named.planes);
+        self.lines.lines[line.index()] = named;
+        known.into_iter().for_each(|plane| self.lose(plane));
     }
 
     pub(super) fn points(&self) -> &Points {

@@ -1,10 +1,13 @@
 //! Random edits: after each the model equals a freshly built one, and a copy that follows the changes has its faces.
 
+use std::f64::consts::{PI, TAU};
+
 use planecut_csg::Role;
-use planecut_kernel::DVec3;
+use planecut_kernel::{DVec2, DVec3};
 
 use super::edits::{Edit, Faces, Plane, Planes, Tally, check};
 use planecut_testkit::random::Rng;
+use planecut_testkit::scene::scaled;
 
 /// Boxes and cut boxes on a small grid: everything touches.
 fn on_grid(random: &mut Rng) -> Planes {
@@ -69,6 +72,47 @@ fn noisy(random: &mut Rng) -> Planes {
     planes.into_iter().map(turned).collect()
 }
 
+/// The turned bodies, some 300,000 units from the origin.
+fn far(random: &mut Rng) -> Planes {
+    const AT: DVec3 = DVec3::new(262_147.0, -131_071.5, 65_537.25);
+    turned(random).into_iter().map(|(normal, offset)| (normal, offset + AT.dot(DVec3::from_array(normal)))).collect()
+}
+
+/// Slabs on top of each other, and prisms through them: faces of many corners, and holes in them.
+fn plates(random: &mut Rng) -> Planes {
+    const SIDE: f64 = 8.0;
+    let mut planes: Planes = Vec::new();
+    if random.chance(0.3) {
+        let low = random.whole(0, 3);
+        planes.extend([([0.0, 0.0, 1.0], low + random.whole(1, 2)), ([0.0, 0.0, -1.0], -low)]);
+        planes.extend([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(|normal| (normal, SIDE)));
+        planes.extend([[-1.0, 0.0, 0.0], [0.0, -1.0, 0.0]].map(|normal| (normal, 0.0)));
+        return planes;
+    }
+    let low = random.whole(-1, 3);
+    planes.extend([([0.0, 0.0, 1.0], low + random.whole(1, 5)), ([0.0, 0.0, -1.0], -low)]);
+    let sides = 5 + random.below(20);
+    let (at, radius) = (0.5 * DVec2::new(random.whole(1, 15), random.whole(1, 15)), random.float(0.3, 1.2));
+    planes.extend((0..sides).map(|k| {
+        let normal = DVec2::from_angle(k as f64 / sides as f64 * TAU);
+        ([normal.x, normal.y, 0.0], normal.dot(at) + radius)
+    }));
+    planes
+}
+
+/// Balls of hundreds of planes.
+fn balls(random: &mut Rng) -> Planes {
+    let count = 200 + random.below(300);
+    let at = DVec3::new(random.float(0.0, 2.0), random.float(0.0, 2.0), random.float(0.0, 2.0));
+    let plane = |k: usize| {
+        let z = 1.0 - (2.0 * k as f64 + 1.0) / count as f64;
+        let along = DVec2::from_angle(k as f64 * PI * (3.0 - 5.0_f64.sqrt())) * (1.0 - z * z).sqrt();
+        let normal = along.extend(z);
+        (normal.to_array(), normal.dot(at) + 1.0)
+    };
+    (0..count).map(plane).collect()
+}
+
 pub(crate) fn any_plane(random: &mut Rng, shape: fn(&mut Rng) -> Planes) -> Plane {
     let planes = shape(random);
     planes[random.below(planes.len())]
@@ -102,7 +146,7 @@ fn sequence(random: &mut Rng, length: usize, shape: fn(&mut Rng) -> Planes) -> V
 }
 
 fn sweep(seeds: u64, length: usize, shape: fn(&mut Rng) -> Planes, faces: Faces) -> Tally {
-    (0..seeds).map(|seed| check(seed, &sequence(&mut Rng::spread(seed), length, shape), faces)).sum()
+    (0..scaled(seeds)).map(|seed| check(seed, &sequence(&mut Rng::spread(seed), length, shape), faces)).sum()
 }
 
 #[test]
@@ -127,4 +171,22 @@ fn random_edits_in_general_position() {
 fn random_edits_among_planes_that_are_nearly_the_same() {
     let tally = sweep(60, 60, noisy, Faces::Noisy);
     assert!(tally.compared > 1500 && tally.triangles > 20 * tally.compared && tally.refused > 20, "{tally:?}");
+}
+
+#[test]
+fn random_edits_far_from_the_origin() {
+    let tally = sweep(15, 40, far, Faces::Same);
+    assert!(tally.equal * 10 > tally.compared * 9 && tally.triangles > 30 * tally.compared, "{tally:?}");
+}
+
+#[test]
+fn random_edits_of_plates_and_holes() {
+    let tally = sweep(25, 60, plates, Faces::Same);
+    assert!(tally.equal * 10 > tally.compared * 9 && tally.triangles > 100 * tally.compared, "{tally:?}");
+}
+
+#[test]
+fn random_edits_of_faces_by_the_thousand() {
+    let tally = sweep(2, 30, balls, Faces::Same);
+    assert!(tally.compared > 30 && tally.triangles > 1000 * tally.compared, "{tally:?}");
 }

@@ -8,8 +8,10 @@ use planecut_csg::{
 };
 use planecut_kernel::{DVec3, HalfSpace};
 use planecut_testkit::random::Rng;
+use planecut_testkit::scene::scaled;
 
-use super::edits::{Viewer, triangles_of};
+use super::edits::{Plane, Viewer, triangles_of};
+use super::random::turned;
 
 const OPERATIONS: [Operation; 5] =
     [Operation::Union, Operation::Intersection, Operation::Difference, Operation::Xor, Operation::Complement];
@@ -115,17 +117,27 @@ fn random_cuboid(rng: &mut Rng) -> Brush {
     Brush::cuboid(DVec3::from_array(low), DVec3::from_array(low.map(|v| v + rng.whole(1, 3))), material)
 }
 
+/// A body of up to 26 planes in general position.
+fn turned_body(rng: &mut Rng) -> Brush {
+    let plane = |(normal, offset): &Plane| HalfSpace::new(DVec3::from_array(*normal), *offset).expect("a valid plane");
+    let material = MaterialId(rng.below(2) as u32);
+    Brush::from_half_spaces(turned(rng).iter().map(plane), material)
+}
+
+/// How a random brush is made.
+type Shape = fn(&mut Rng) -> Brush;
+
 /// A random edit of what is known and of the model.
-fn edit(known: &mut Known, live: &mut LiveModel, rng: &mut Rng) -> Result<Change, EditError> {
+fn edit(known: &mut Known, live: &mut LiveModel, rng: &mut Rng, shape: Shape) -> Result<Change, EditError> {
     let next_node = NodeId(live.nodes().map(|node| node.0 + 1).max().unwrap_or(0).max(known.nodes.len() as u64));
     let all: Vec<TreeOperand> = known.roles.keys().copied().collect();
     let nodes: Vec<NodeId> = known.nodes.keys().copied().collect();
     if all.len() < 3 {
-        return add(known, live, rng);
+        return add(known, live, rng, shape);
     }
     let operand = rng.pick(&all);
     match rng.below(12) {
-        0 => add(known, live, rng),
+        0 => add(known, live, rng, shape),
         1 => {
             let (id, operation) = match operand {
                 TreeOperand::Node(id) => (id, rng.pick(&OPERATIONS)),
@@ -177,8 +189,8 @@ fn edit(known: &mut Known, live: &mut LiveModel, rng: &mut Rng) -> Result<Change
             change
         }
         10 => {
-            let TreeOperand::Brush(id) = operand else { return add(known, live, rng) };
-            let brush = random_cuboid(rng);
+            let TreeOperand::Brush(id) = operand else { return add(known, live, rng, shape) };
+            let brush = shape(rng);
             known.brushes.insert(id, brush.clone());
             live.replace_brush(id, brush)
         }
@@ -186,8 +198,8 @@ fn edit(known: &mut Known, live: &mut LiveModel, rng: &mut Rng) -> Result<Change
     }
 }
 
-fn add(known: &mut Known, live: &mut LiveModel, rng: &mut Rng) -> Result<Change, EditError> {
-    let (brush, role) = (random_cuboid(rng), rng.pick(&[Role::Add, Role::Add, Role::Add, Role::Subtract]));
+fn add(known: &mut Known, live: &mut LiveModel, rng: &mut Rng, shape: Shape) -> Result<Change, EditError> {
+    let (brush, role) = (shape(rng), rng.pick(&[Role::Add, Role::Add, Role::Add, Role::Subtract]));
     let (id, change) = live.add_brush(brush.clone(), role)?;
     known.brushes.insert(id, brush);
     known.roles.insert(id.into(), role);
@@ -301,14 +313,14 @@ fn compare(live: &LiveModel, viewer: &Viewer, known: &Known, case: &str) {
     }
 }
 
-#[test]
-fn random_edits_of_the_tree() {
+/// Random edits of trees of brushes; gives how many were done, how many were refused, and the triangles after each, all in all.
+fn sweep(seeds: u64, length: usize, shape: Shape) -> [usize; 3] {
     let (mut done, mut refused, mut triangles) = (0, 0, 0);
-    for seed in 0..60 {
+    for seed in 0..scaled(seeds) {
         let rng = &mut Rng::spread(seed);
         let (mut live, mut known, mut viewer) = (LiveModel::new(materials()), Known::default(), Viewer::default());
         let (mut before, mut after): (Vec<Known>, Vec<Known>) = (Vec::new(), Vec::new());
-        for step in 0..40 {
+        for step in 0..length {
             let case = format!("seed {seed}, edit {step}");
             if rng.chance(0.2) {
                 let undoes = rng.chance(0.6);
@@ -319,7 +331,7 @@ fn random_edits_of_the_tree() {
                 viewer.follow(&live, &change).unwrap_or_else(|text| panic!("{case}: {text}"));
             } else {
                 let mut new = known.clone();
-                match edit(&mut new, &mut live, rng) {
+                match edit(&mut new, &mut live, rng, shape) {
                     Ok(change) => {
                         viewer.follow(&live, &change).unwrap_or_else(|text| panic!("{case}: {text}"));
                         before.push(std::mem::replace(&mut known, new));
@@ -343,7 +355,19 @@ fn random_edits_of_the_tree() {
         }
         compare(&live, &viewer, &known, &format!("seed {seed}: undone"));
     }
+    [done, refused, triangles]
+}
+
+#[test]
+fn random_edits_of_the_tree() {
+    let [done, refused, triangles] = sweep(60, 40, random_cuboid);
     assert!(done > 1200 && refused > 20 && triangles > 10 * done, "{done} done, {refused} refused, {triangles}");
+}
+
+#[test]
+fn random_edits_of_the_tree_in_general_position() {
+    let [done, refused, triangles] = sweep(15, 40, turned_body);
+    assert!(done > 300 && refused > 5 && triangles > 60 * done, "{done} done, {refused} refused, {triangles}");
 }
 
 #[test]
