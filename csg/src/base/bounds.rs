@@ -71,7 +71,8 @@ impl Bounds {
     pub fn within(mut self, half_space: &HalfSpace) -> Self {
         let normal = half_space.normal();
         let axis = normal.abs().max_position();
-        if normal.abs().element_sum() > normal[axis].abs() {
+        // a sum would be rounded
+        if normal.cmpne(DVec3::ZERO).bitmask().count_ones() > 1 {
             return self;
         }
         let at = half_space.offset() / normal[axis];

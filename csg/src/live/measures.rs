@@ -3,16 +3,19 @@
 //! What each face gives to the sums is kept, so that a face that is gone is taken out again. The sums are exact, so that neither how many edits there were nor in which order
 //! they came makes a difference: after any edits the measures are, bit for bit, those of a new live model of the same brushes.
 //!
-//! Materials are those of faces. What a place inside the solid is made of is not said by the model: bodies may have faces of several materials, bodies of
-//! several materials may overlap, and what is taken away leaves faces of the tool's. So there is an area for each material, but a volume for all of them alone.
+//! Areas are those of faces of each material. What a place inside the solid is made of is another question, which [`Model::part_of_material`] answers; volumes of materials are those of these parts, each
+//! evaluated when it is asked for.
 
 use planecut_kernel::{DVec3, DoubleDouble};
 
 use super::{LiveFace, LiveModel};
 use crate::base::{Bounds, ExactSum, map_chunks};
+use crate::evaluate::{EvaluateError, evaluate_with};
 use crate::ids::{FaceId, Id};
 use crate::mesh::SolidMeasures;
-use crate::model::MaterialId;
+#[cfg(doc)]
+use crate::model::Model;
+use crate::model::{Brush, MaterialId};
 
 /// Number of faces that a thread measures in a row.
 const FACES_OF_CHUNK: usize = 256;
@@ -161,11 +164,35 @@ impl LiveModel {
         self.measure().solid()
     }
 
-    /// The area of the boundary of each material, as these are listed. A mass of paint or plating, say; a volume of each material there is not, as a place inside the solid has none.
+    /// The area of the boundary of each material, as these are listed: what there is of paint or plating, say.
     pub fn areas_of_materials(&mut self) -> Vec<f64> {
         let count = self.materials.len();
         let areas = &self.measure().areas;
         (0..count).map(|material| areas.get(material).map_or(0.0, ExactSum::value)).collect()
+    }
+
+    /// The volume of what is made of each material, as these are listed: times its density a mass. [`Model::part_of_material`] says what is made of which; together they are the
+    /// volume of the solid, but for rounding. Where brushes are of one material alone, the volume is kept up as all measures are; otherwise a part for each is evaluated.
+    ///
+    /// # Errors
+    /// [`EvaluateError::Weld`]: a bug in this crate.
+    pub fn volumes_of_materials(&mut self) -> Result<Vec<f64>, EvaluateError> {
+        let model = self.to_model();
+        let mut volumes = vec![0.0; self.materials.len()];
+        let mut used: Vec<MaterialId> = model.tree.brushes().iter().flat_map(Brush::materials).collect();
+        used.sort_unstable();
+        used.dedup();
+        if let [only] = used[..] {
+            volumes[only.0 as usize] = self.measures().volume;
+            return Ok(volumes);
+        }
+        for material in used {
+            let part = model.part_of_material(material);
+            if !part.tree.brushes().is_empty() {
+                volumes[material.0 as usize] = evaluate_with(&part, self.unbounded)?.solid.volume;
+            }
+        }
+        Ok(volumes)
     }
 
     /// Measures what has changed.

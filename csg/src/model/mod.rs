@@ -5,6 +5,7 @@ mod cutaway;
 mod leaves;
 mod material;
 mod mesh_body;
+mod of_material;
 mod parts;
 #[cfg(feature = "serde")]
 mod saved;

@@ -239,7 +239,7 @@ fn axis_given_exactly(table: &PlaneTable, plane: PlaneId, position: DVec3) -> u8
     let normal = DVec3::new(x, y, z);
     let axis = normal.abs().max_position();
     let (along, at) = (normal[axis], position[axis]);
-    let is_perpendicular = normal.abs().element_sum() == along.abs();
+    let is_perpendicular = normal.cmpne(DVec3::ZERO).bitmask().count_ones() == 1;
     // the error of a product of such numbers is one itself, and the sum of both is rounded once
     let is_product = d == 0.0 && at == 0.0 || d.abs() > 1e-200 && at.mul_add(along, -d) == 0.0;
     if is_perpendicular && is_product { 1 << axis } else { 0 }

@@ -42,8 +42,8 @@ impl LiveWeld {
         let is_plane = |id: PlaneId| id.index() == plane;
         let mut along: Vec<LineId> = Vec::new();
         // each with a name that it has
-        let (mut names_of_points, mut names_of_lines): (Vec<(PointId, Triple)>, Vec<(LineId, u64)>) =
-            Default::default();
+        let mut names_of_points: Vec<(PointId, Triple)> = Vec::new();
+        let mut names_of_lines: Vec<(LineId, u64)> = Vec::new();
         for (edge, number) in edges {
             let run = self.edges[number.index()].numbered.run;
             let is_line = is_plane(edge.face) || is_plane(edge.edge);

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use planecut_csg::Role;
 use planecut_kernel::{DVec2, DVec3};
 
-use super::edits::{Edit, Faces, Plane, Planes, Tally, check};
+use super::edits::{Edit, Faces, Plane, Planes, Tally, check, run};
 use planecut_testkit::random::Rng;
 use planecut_testkit::scene::scaled;
 
@@ -189,4 +189,63 @@ fn random_edits_of_plates_and_holes() {
 fn random_edits_of_faces_by_the_thousand() {
     let tally = sweep(2, 30, balls, Faces::Same);
     assert!(tally.compared > 30 && tally.triangles > 1000 * tally.compared, "{tally:?}");
+}
+
+/// Seed 205 of the test on a grid: a side that leans by a rounding error had a box as if it did not, and the body none.
+#[test]
+fn sides_that_lean_by_a_rounding_error_meet_far_away() {
+    let tally = run(
+        &[
+            Edit::Add(
+                vec![
+                    ([1.0, 0.0, 0.0], 2.0),
+                    ([-1.0, 0.0, 0.0], -0.0),
+                    ([0.0, 1.0, 0.0], 3.0),
+                    ([0.0, -1.0, 0.0], -0.0),
+                    ([0.0, 0.0, 1.0], 7.0),
+                    ([0.0, 0.0, -1.0], -4.0),
+                ],
+                0,
+                Role::Subtract,
+            ),
+            Edit::RemovePlane(532, 362),
+            Edit::Add(
+                vec![
+                    ([1.0, 0.0, 0.0], 3.0),
+                    ([-1.0, 0.0, 0.0], -1.0),
+                    ([0.0, 1.0, 0.0], 1.0),
+                    ([0.0, -1.0, 0.0], -0.0),
+                    ([0.0, 0.0, 1.0], 7.0),
+                    ([0.0, 0.0, -1.0], -4.0),
+                    ([-1.0, 1.0, -1.0], -6.5),
+                ],
+                1,
+                Role::Subtract,
+            ),
+            Edit::Move(311, [0.0, 0.0, 1.0], 90.0, [-2.0, 1.0, -1.0]),
+            Edit::Add(
+                vec![
+                    ([1.0, 0.0, 0.0], 3.0),
+                    ([-1.0, 0.0, 0.0], -2.0),
+                    ([0.0, 1.0, 0.0], 7.0),
+                    ([0.0, -1.0, 0.0], -4.0),
+                    ([0.0, 0.0, 1.0], 5.0),
+                    ([0.0, 0.0, -1.0], -4.0),
+                ],
+                1,
+                Role::Add,
+            ),
+            Edit::RemovePlane(103, 161),
+            Edit::MovePlane(181, 397, -3.0),
+        ],
+        Faces::Same,
+    );
+    assert!(tally.as_ref().is_ok_and(|tally| tally.triangles > 0), "{tally:?}");
+}
+
+/// Which of equal slabs counted was told from what was near a hole alone, and the hole came to be in none of them.
+#[test]
+fn which_of_equal_bodies_counts_depends_on_what_is_far_away() {
+    let tally = check(385, &sequence(&mut Rng::spread(385), 60, plates), Faces::Same);
+    assert!(tally.compared > 50, "{tally:?}");
 }
