@@ -372,7 +372,7 @@ def test_an_empty_model_has_measures():
     live = start()
     with live.edit() as e:
         e.remove_brush(0)
-    assert (live.volume, live.area, live.areas) == (0, 0, {})
+    assert (live.volume, live.area, live.areas, live.volumes) == (0, 0, {}, {})
     assert np.isnan(live.centroid).all() and live.centroid.shape == (3,)
     assert np.isnan(live.bounds).all() and live.bounds.shape == (2, 3)
 
@@ -454,6 +454,8 @@ def test_planes_turn_materials_and_names_change_and_brushes_are_copied():
         e.rename_brush(0, "wedge")
     assert live.volume == 0.5
     assert set(live.areas) == {"stone", "steel"}
+    # all but one of its faces are of stone
+    assert live.volumes == {"stone": 0.5}
     assert math.isclose(live.areas["steel"], math.sqrt(2), rel_tol=1e-15)
     with live.edit() as e:
         (copy,) = e.copy_brushes([0], translation([2, 0, 0]))

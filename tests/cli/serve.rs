@@ -87,6 +87,9 @@ fn edits_and_queries_are_answered_one_by_one() {
     assert!(all.iter().all(|face| face["material"] == "steel" && face["positions"].as_array().unwrap().len() >= 4));
     let measures = served.done(&json!({"query": "measures"}));
     assert_eq!((&measures["volume"], &measures["area"]), (&json!(192.0), &json!(288.0)));
+    assert_eq!(measures["materials"], json!([{"name": "steel", "area": 288.0}]));
+    let measures = served.done(&json!({"query": "measures", "volumes": true}));
+    assert_eq!(measures["materials"], json!([{"name": "steel", "area": 288.0, "volume": 192.0}]));
     assert_eq!((&measures["min"], &measures["max"]), (&json!([0.0, 0.0, 0.0]), &json!([10.0, 10.0, 2.0])));
 
     let hit = served.done(&json!({"query": "pick", "origin": [1, 1, 9], "direction": [0, 0, -2]}))["hit"].clone();

@@ -8,7 +8,8 @@ struct Entry {
     part: Part,
     /// The material of the first brush.
     first: Option<MaterialId>,
-    is_complement: bool,
+    /// Whether what is far away lies in the solid, as in a complement.
+    holds_outside: bool,
 }
 
 /// The part of a solid that is made of the material.
@@ -33,7 +34,7 @@ impl Model {
     ///
     /// A brush is made of the material of most of its faces, the first of these where several have as many. Where brushes of several materials overlap,
     /// what was added last is there: of a union and of an exclusive or the last operand that holds the place counts. What others are taken from, or intersected with, stays what it is made of: of
-    /// a difference the first operand counts, of an intersection the first that is no complement. A complement is made of what its first brush is. So each place of the solid is of one material, and the parts of all
+    /// a difference the first operand counts, of an intersection the first that does not reach infinity as a complement does. A complement is made of what its first brush is. So each place of the solid is of one material, and the parts of all
     /// materials make up the solid. Faces count for their brush alone: the wall of a hole may have another material than what the hole is in.
     ///
     /// The tree of the part has up to twice as many brushes for each level of nested operations of several materials.
@@ -47,7 +48,7 @@ impl Model {
                     let brush = brushes.next().expect("a leaf is a brush");
                     let first = made_of(brush);
                     let part = if first == Some(material) { Part::All } else { Part::Nothing };
-                    Entry { solid: brush.clone().into(), part, first, is_complement: false }
+                    Entry { solid: brush.clone().into(), part, first, holds_outside: false }
                 }
                 TreeNode::Operation { operation, operands } => {
                     let operands = entries.split_off(entries.len() - operands as usize);
@@ -75,7 +76,8 @@ fn made_of(brush: &Brush) -> Option<MaterialId> {
 }
 
 fn combined(operation: Operation, mut operands: Vec<Entry>, material: MaterialId) -> Entry {
-    let is_complement = operation == Operation::Complement;
+    let outside: Vec<bool> = operands.iter().map(|operand| operand.holds_outside).collect();
+    let holds_outside = operation.value(&outside);
     let first = operands.iter().find_map(|operand| operand.first);
     let are_all = |is: fn(&Part) -> bool| operands.iter().all(|operand| is(&operand.part));
     let part = match operation {
@@ -92,12 +94,12 @@ fn combined(operation: Operation, mut operands: Vec<Entry>, material: MaterialId
         }
         Operation::Difference => what_is_left(operation, &mut operands, 0),
         Operation::Intersection => {
-            let counts = operands.iter().position(|operand| !operand.is_complement).unwrap_or(0);
+            let counts = operands.iter().position(|operand| !operand.holds_outside).unwrap_or(0);
             what_is_left(operation, &mut operands, counts)
         }
     };
     let solid = Tree::combine(operation, operands.into_iter().map(|operand| operand.solid));
-    Entry { solid, part, first, is_complement }
+    Entry { solid, part, first, holds_outside }
 }
 
 /// Where the last of some operands that holds a place is made of the material.

@@ -365,6 +365,22 @@ impl Live {
         Ok(dict)
     }
 
+    /// The volume of what is made of each material: a dict from names to volumes, of the materials of which there is something; times its density a mass.
+    ///
+    /// A brush is made of the material of most of its faces. Where brushes overlap, what was added last is there; what others are taken from, or intersected with, stays what it is made of. Together they
+    /// are the volume of the solid. Where brushes are of several materials, this takes an evaluation for each.
+    #[getter]
+    fn volumes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let volumes = self.with(py, |state| {
+            let volumes = state.model.volumes_of_materials()?;
+            let named = state.model.materials().iter().map(|material| material.name.clone()).zip(volumes);
+            Ok(named.filter(|(_, volume)| *volume > 0.0).collect::<Vec<_>>())
+        })?;
+        let dict = PyDict::new(py);
+        volumes.into_iter().try_for_each(|(name, volume)| dict.set_item(name, volume))?;
+        Ok(dict)
+    }
+
     /// The model as it is now, as a Solid.
     fn to_solid(&self, py: Python<'_>) -> PyResult<Solid> {
         Ok(Solid::of(Node::of_model(self.with(py, |state| Ok(state.model.to_model()))?)))

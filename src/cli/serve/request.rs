@@ -36,8 +36,11 @@ pub(super) enum Query {
     Face { face: u32 },
     /// The first face that a ray meets.
     Pick { origin: [f64; 3], direction: [f64; 3] },
-    /// Volume, area, box and counts.
-    Measures {},
+    /// Volume, area, box and counts, and the volume of each material where it is asked for.
+    Measures {
+        #[serde(default)]
+        volumes: bool,
+    },
     /// A brush with its planes.
     Brush { brush: u64 },
     /// How brushes are combined.

@@ -68,7 +68,7 @@ impl<'a> Session<'a> {
             Query::Face { face } => answer::face(&self.live, FaceId::from(face))
                 .ok_or_else(|| format!("found face {face}, expected one that is part of the boundary")),
             Query::Pick { origin, direction } => Ok(keys(json!({"hit": self.pick(origin.into(), direction.into())}))),
-            Query::Measures {} => Ok(measures(&mut self.live)),
+            Query::Measures { volumes } => measures(&mut self.live, volumes).map_err(|error| error.to_string()),
             Query::Brush { brush } => self.brush(BrushId(brush)).map_err(|error| error.to_string()),
             Query::Tree {} => self.tree().map_err(|error| error.to_string()),
             Query::Materials {} => {

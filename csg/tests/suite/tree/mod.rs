@@ -12,6 +12,7 @@
 mod algebra;
 mod cutaway;
 mod edge_cases;
+mod materials;
 mod mesh_leaves;
 mod ownership;
 pub(crate) mod random;
