@@ -78,6 +78,12 @@ impl LiveModel {
         vicinity: Option<Vicinity>,
         reach: Reach,
     ) -> Vec<Found> {
+        // which of equal bodies speaks for all of them depends on what is between them in the order, near or far: it is to be told once, from all that is near their faces
+        let has_equal = |number: OperandId| !self.has_no_equal(self.operand(number));
+        let vicinity = vicinity.filter(|near| {
+            let all = faces.iter().map(|face| face.operand);
+            !all.chain(self.places.near(&near.around).map(|(number, _)| number)).any(has_equal)
+        });
         let nearby = vicinity.map(Known::Vicinity);
         let covered = match (reach, changed, vicinity) {
             (Reach::Appended, [only], Some(near)) if self.operand(*only).body.is_some() => {
@@ -128,35 +134,26 @@ impl LiveModel {
             let (OperandFace { operand: number, .. }, is_covered) = group[0];
             let body = self.body_at(number);
             let boxes = group.iter().map(|(entry, _)| &body.faces[entry.face.index()].bounds);
-            let bounds = boxes.fold(Bounds::EMPTY, |all, bounds| all.union(bounds));
-            let mut way = match of_others {
+            let mut bounds = boxes.fold(Bounds::EMPTY, |all, bounds| all.union(bounds));
+            let way = match of_others {
                 _ if changed.binary_search(&number).is_ok() => Way::Whole,
                 Known::Covered(_, by) if is_covered => Way::Covered(by),
                 Known::Covered(near, _) | Known::Vicinity(near) if !near.bounds.holds(&bounds) => {
+                    bounds = bounds.intersection(&near.around);
                     Way::Within(near.bounds)
                 }
                 Known::Covered(..) | Known::Vicinity(_) | Known::Nothing => Way::Whole,
             };
             let (start, first) = (near.len(), groups.last().map_or(0, |group| group.faces.end));
-            let find = |bounds: &Bounds, near: &mut Vec<Member>| match &all_near {
-                Some((around, some)) if around.holds(bounds) => {
-                    let here = some.iter().filter(|(_, other)| other.may_share_area(bounds));
+            match (way, &all_near) {
+                (Way::Covered(by), _) => near.extend([number, by].map(member)),
+                (Way::Whole | Way::Within(_), Some((around, some))) if around.holds(&bounds) => {
+                    let here = some.iter().filter(|(_, other)| other.may_share_area(&bounds));
                     near.extend(here.map(|(member, _)| *member));
                 }
-                _ => near.extend(self.places.near(bounds).map(|(operand, _)| member(operand))),
-            };
-            if let (Way::Within(_), Known::Covered(vicinity, _) | Known::Vicinity(vicinity)) = (way, of_others) {
-                find(&bounds.intersection(&vicinity.around), &mut near);
-                // which of equal bodies speaks for all of them depends on what is between them in the order, near or far
-                if near[start..].iter().any(|member| !self.has_no_equal(self.operand(member.operand))) {
-                    near.truncate(start);
-                    way = Way::Whole;
+                (Way::Whole | Way::Within(_), _) => {
+                    near.extend(self.places.near(&bounds).map(|(operand, _)| member(operand)));
                 }
-            }
-            match way {
-                Way::Covered(by) => near.extend([number, by].map(member)),
-                Way::Whole => find(&bounds, &mut near),
-                Way::Within(_) => {}
             }
             near[start..].sort_unstable();
             groups.push(FaceBatch { number, near: start..near.len(), faces: first..first + group.len(), way });
