@@ -1,11 +1,11 @@
 //! Numbers for keys: equal keys get one number, and keys sort as integers.
 
 use crate::ids::number32;
-use std::hash::Hash;
+use std::hash::{BuildHasher, Hash};
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use planecut_parallel::prelude::*;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxBuildHasher, FxHashMap};
 
 /// Number of keys, about, that are numbered in a row: their map stays in the cache.
 const BUCKET: usize = 1 << 13;
@@ -108,6 +108,11 @@ pub(crate) fn by_group<M: Copy>(
         next[group] += 1;
     }
     (starts, sorted)
+}
+
+/// A hash that is the same in each run.
+pub(crate) fn hash_of(value: &impl Hash) -> u64 {
+    FxBuildHasher.hash_one(value)
 }
 
 /// A number in the order of [`f64::total_cmp`].

@@ -14,7 +14,7 @@ pub use bounds::Bounds;
 pub use box_tree::Boxes;
 pub(crate) use clock::Clock;
 pub(crate) use exact_sum::ExactSum;
-pub(crate) use interning::{WEIGHTS, by_group, intern, sortable};
+pub(crate) use interning::{WEIGHTS, by_group, hash_of, intern, sortable};
 pub(crate) use parallel::{map_chunks, map_weighed_chunks};
 pub(crate) use rays::IN_BOX;
 pub use rays::{Ray, RayCaster};

@@ -1,9 +1,8 @@
 //! Bodies that are equal.
 
-use std::hash::BuildHasher;
+use rustc_hash::FxHashMap;
 
-use rustc_hash::{FxBuildHasher, FxHashMap};
-
+use crate::base::hash_of;
 use crate::ids::{Id, LeafId};
 use crate::model::MaterialId;
 use crate::plane_table::PlaneId;
@@ -40,7 +39,7 @@ pub(crate) fn kinds<I: Iterator<Item = (PlaneId, MaterialId)>>(
 pub(crate) fn mark_of(faces: impl Iterator<Item = (PlaneId, MaterialId)>) -> u64 {
     // the hash is linear in what it is of, so that sums of it would be the same wherever sums of plane numbers are
     let mixed = |face| {
-        let hash = FxBuildHasher.hash_one(face);
+        let hash = hash_of(&face);
         let folded = (hash ^ hash >> 32).wrapping_mul(0xD6E8_FEB8_6659_FD93);
         folded ^ folded >> 32
     };

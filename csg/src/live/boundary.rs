@@ -46,6 +46,12 @@ impl Vicinity {
     }
 }
 
+/// The bodies around a change, with their boxes: those that may share an area with a box.
+struct Surroundings {
+    around: Bounds,
+    bodies: Vec<(Member, Bounds)>,
+}
+
 /// What is known of a change on the faces of brushes that do not change themselves.
 #[derive(Debug, Clone, Copy)]
 enum Known {
@@ -78,12 +84,12 @@ impl LiveModel {
         vicinity: Option<Vicinity>,
         reach: Reach,
     ) -> Vec<Found> {
+        let surroundings = vicinity.map(|vicinity| self.surroundings(vicinity));
         // which of equal bodies speaks for all of them depends on what is between them in the order, near or far: it is to be told once, from all that is near their faces
         let has_equal = |number: OperandId| !self.has_no_equal(self.operand(number));
-        let vicinity = vicinity.filter(|near| {
-            let all = faces.iter().map(|face| face.operand);
-            !all.chain(self.places.near(&near.around).map(|(number, _)| number)).any(has_equal)
-        });
+        let bodies = surroundings.iter().flat_map(|near| &near.bodies).map(|(member, _)| member.operand);
+        let vicinity = vicinity.filter(|_| !faces.iter().map(|face| face.operand).chain(bodies).any(has_equal));
+        let surroundings = surroundings.filter(|near| near.bodies.len() <= FEW_NEAR);
         let nearby = vicinity.map(Known::Vicinity);
         let covered = match (reach, changed, vicinity) {
             (Reach::Appended, [only], Some(near)) if self.operand(*only).body.is_some() => {
@@ -95,7 +101,7 @@ impl LiveModel {
         let mut left = faces.to_vec();
         for known in covered.into_iter().chain(nearby).chain([Known::Nothing]) {
             if !left.is_empty() {
-                let mut more = self.boundary_changes(&left, changed, known);
+                let mut more = self.boundary_changes(&left, changed, known, surroundings.as_ref());
                 left = more.iter_mut().flat_map(|found| found.unfit.drain(..)).collect();
                 found.append(&mut more);
             }
@@ -103,22 +109,27 @@ impl LiveModel {
         found
     }
 
-    /// Works out how the boundary changes on some faces, sorted; `changed` are the brushes, sorted, too, that change themselves.
-    fn boundary_changes(&mut self, faces: &[OperandFace], changed: &[OperandId], of_others: Known) -> Vec<Found> {
+    /// The bodies that reach into a vicinity, or a little further.
+    fn surroundings(&self, vicinity: Vicinity) -> Surroundings {
+        let near = self.places.near(&vicinity.around);
+        let bodies = near.map(|(operand, bounds)| (self.member(operand), bounds)).collect();
+        Surroundings { around: vicinity.around, bodies }
+    }
+
+    fn member(&self, operand: OperandId) -> Member {
+        Member { at: self.position(operand), operand }
+    }
+
+    /// Works out how the boundary changes on some faces, sorted; `changed` are the brushes, sorted, too, that change themselves. Where the bodies around the change are few, they are given: a search
+    /// for each body among them takes longer than to look at each.
+    fn boundary_changes(
+        &mut self,
+        faces: &[OperandFace],
+        changed: &[OperandId],
+        of_others: Known,
+        surroundings: Option<&Surroundings>,
+    ) -> Vec<Found> {
         let mut place = std::mem::take(&mut self.buffers.place);
-        let member = |operand| Member { at: self.position(operand), operand };
-        // all that is near the change, where these are few: a search for each body among them takes longer than to look at each
-        let all_near = match of_others {
-            Known::Covered(near, _) | Known::Vicinity(near) => Some(near.around),
-            Known::Nothing => None,
-        };
-        let all_near = all_near.and_then(|around| {
-            let mut found = self.places.near(&around);
-            let mut some: Vec<(Member, Bounds)> = Vec::new();
-            some.extend(found.by_ref().take(FEW_NEAR).map(|(operand, bounds)| (member(operand), bounds)));
-            some.sort_unstable_by_key(|(member, _)| *member);
-            found.next().is_none().then_some((around, some))
-        });
         // what is near the faces of each body
         let mut near: Vec<Member> = Vec::new();
         let mut groups: Vec<FaceBatch> = Vec::new();
@@ -145,14 +156,14 @@ impl LiveModel {
                 Known::Covered(..) | Known::Vicinity(_) | Known::Nothing => Way::Whole,
             };
             let (start, first) = (near.len(), groups.last().map_or(0, |group| group.faces.end));
-            match (way, &all_near) {
-                (Way::Covered(by), _) => near.extend([number, by].map(member)),
-                (Way::Whole | Way::Within(_), Some((around, some))) if around.holds(&bounds) => {
-                    let here = some.iter().filter(|(_, other)| other.may_share_area(&bounds));
+            match (way, surroundings) {
+                (Way::Covered(by), _) => near.extend([number, by].map(|operand| self.member(operand))),
+                (Way::Whole | Way::Within(_), Some(Surroundings { around, bodies })) if around.holds(&bounds) => {
+                    let here = bodies.iter().filter(|(_, other)| other.may_share_area(&bounds));
                     near.extend(here.map(|(member, _)| *member));
                 }
                 (Way::Whole | Way::Within(_), _) => {
-                    near.extend(self.places.near(&bounds).map(|(operand, _)| member(operand)));
+                    near.extend(self.places.near(&bounds).map(|(operand, _)| self.member(operand)));
                 }
             }
             near[start..].sort_unstable();

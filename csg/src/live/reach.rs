@@ -119,7 +119,7 @@ impl LiveModel {
         for (other, _) in self.places.near(within).filter(|(other, _)| *other != own) {
             let (body, edges) = (self.body_at(other), &self.operand(other).edges);
             // another of these may speak for all of them now
-            let has_equal = !self.has_no_equal(self.operand(other));
+            let has_equal = is_last && !self.has_no_equal(self.operand(other));
             let reaches = |(number, face): &(BodyFaceId, &BodyFace)| {
                 let half_space = table.half_space(face.plane);
                 let may_matter =

@@ -5,16 +5,14 @@
 //! of the size of the smallest body. So neither a body far away nor a tool without end takes two planes of another body for one.
 
 use crate::ids::number32;
-use std::hash::BuildHasher;
-
 use planecut_kernel::sign::Row;
 use planecut_kernel::{DVec3, HalfSpace};
 use planecut_parallel::prelude::*;
-use rustc_hash::{FxBuildHasher, FxHashMap};
+use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
 use super::PlaneId;
-use crate::base::{WEIGHTS, sortable};
+use crate::base::{WEIGHTS, hash_of, sortable};
 use crate::ids::RowGroupId;
 use crate::tolerances::SNAP_TOLERANCE;
 
@@ -176,10 +174,6 @@ impl NearCells {
             find(&unit.map(|v| -v));
         }
     }
-}
-
-fn hash_of(cell: &[i64; 4]) -> u64 {
-    FxBuildHasher.hash_one(cell)
 }
 
 /// Whether two planes are within the tolerance of each other, or one of the other side of the other; `size` is that of the smallest

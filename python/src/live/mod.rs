@@ -15,7 +15,7 @@ use planecut::csg::{
 };
 use planecut::kernel::PlaneIdx;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{IntoPyDict, PyDict};
 
 use crate::arrays::{small, small_rows, vector};
 use crate::errors::{Failure, Outcome, refuse};
@@ -111,6 +111,15 @@ impl State {
     fn material(&mut self, material: &Material) -> MaterialId {
         let known = self.model.materials().iter().position(|known| known == material);
         known.map_or_else(|| self.model.add_material(material.clone()), |number| MaterialId(number as u32))
+    }
+
+    /// The sums of values of materials, as these are listed, by their names: those that are more than 0.
+    fn by_material(&self, values: Vec<f64>) -> BTreeMap<String, f64> {
+        let mut sums = BTreeMap::new();
+        for (material, value) in self.model.materials().iter().zip(values).filter(|(_, value)| *value > 0.0) {
+            *sums.entry(material.name.clone()).or_default() += value;
+        }
+        sums
     }
 
     /// A material by its name.
@@ -354,15 +363,9 @@ impl Live {
     fn areas<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let areas = self.with(py, |state| {
             let areas = state.model.areas_of_materials();
-            let mut by_name: BTreeMap<String, f64> = BTreeMap::new();
-            for (material, area) in state.model.materials().iter().zip(areas).filter(|(_, area)| *area > 0.0) {
-                *by_name.entry(material.name.clone()).or_default() += area;
-            }
-            Ok(by_name)
+            Ok(state.by_material(areas))
         })?;
-        let dict = PyDict::new(py);
-        areas.into_iter().try_for_each(|(name, area)| dict.set_item(name, area))?;
-        Ok(dict)
+        areas.into_py_dict(py)
     }
 
     /// The volume of what is made of each material: a dict from names to volumes, of the materials of which there is something; times its density a mass.
@@ -373,12 +376,9 @@ impl Live {
     fn volumes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let volumes = self.with(py, |state| {
             let volumes = state.model.volumes_of_materials()?;
-            let named = state.model.materials().iter().map(|material| material.name.clone()).zip(volumes);
-            Ok(named.filter(|(_, volume)| *volume > 0.0).collect::<Vec<_>>())
+            Ok(state.by_material(volumes))
         })?;
-        let dict = PyDict::new(py);
-        volumes.into_iter().try_for_each(|(name, volume)| dict.set_item(name, volume))?;
-        Ok(dict)
+        volumes.into_py_dict(py)
     }
 
     /// The model as it is now, as a Solid.

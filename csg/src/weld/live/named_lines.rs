@@ -1,12 +1,9 @@
 //! Lines by the planes that meet in them, numbered as long as an edge names them.
 
-use std::hash::BuildHasher;
-
 use planecut_parallel::prelude::*;
-use rustc_hash::FxBuildHasher;
 
 use super::names::{Names, find_all};
-use crate::base::intern;
+use crate::base::{hash_of, intern};
 use crate::boundary::BoundaryEdge;
 use crate::ids::{Id, LineId, NameId};
 use crate::plane_table::{PlaneId, PlaneTable};
@@ -22,7 +19,7 @@ pub(super) struct NamedLines {
 
 /// What equal lines share, in one number.
 fn mark_of(table: &PlaneTable, line: &Line) -> u64 {
-    FxBuildHasher.hash_one(lines::key(table, line))
+    hash_of(&lines::key(table, line))
 }
 
 impl NamedLines {

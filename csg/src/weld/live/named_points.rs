@@ -1,14 +1,12 @@
 //! Points by the planes that meet in them, numbered as long as an edge names them.
 
 use std::cmp::Ordering;
-use std::hash::BuildHasher;
 
 use planecut_kernel::{DVec3, compare_exactly};
 use planecut_parallel::prelude::*;
-use rustc_hash::FxBuildHasher;
 
 use super::names::{Names, find_all};
-use crate::base::{intern, map_chunks, sortable};
+use crate::base::{hash_of, intern, map_chunks, sortable};
 use crate::boundary::BoundaryEdge;
 use crate::ids::{Id, NameId, PointId};
 use crate::plane_table::{PlaneId, PlaneTable, curve_number};
@@ -28,7 +26,7 @@ pub(super) struct NamedPoints {
 
 /// What equal points share, in one number.
 fn mark_of(position: DVec3) -> u64 {
-    FxBuildHasher.hash_one(position.to_array().map(sortable))
+    hash_of(&position.to_array().map(sortable))
 }
 
 /// The names of the ends of an edge.

@@ -1,14 +1,13 @@
 //! Things that several names stand for, numbered as long as one of the names is in use.
 
-use std::hash::{BuildHasher, Hash};
+use std::hash::Hash;
 
 use hashbrown::HashTable;
-use rustc_hash::FxBuildHasher;
 
-use crate::base::map_chunks;
+use crate::base::{hash_of, map_chunks};
 use crate::ids::{Id, NameId};
 
-/// The numbers of things by name. Equal things have equal marks; different ones hardly ever do. Tables hold numbers alone: there are very many.
+/// The numbers of things by name. Equal things have equal marks, which are hashes; different ones hardly ever do. Tables hold numbers alone: there are very many.
 #[derive(Debug, Clone)]
 pub(super) struct Names<N, T> {
     by_name: HashTable<NameId>,
@@ -66,7 +65,7 @@ impl<N: Copy + Eq + Hash, T: Id> Names<N, T> {
     pub(super) fn reserve(&mut self, count: usize) {
         let Self { by_name, names, by_mark, things, .. } = self;
         by_name.reserve(count, |number| hash_of(&names[number.index()].name));
-        by_mark.reserve(count, |thing| hash_of(&things[thing.index()].mark));
+        by_mark.reserve(count, |thing| things[thing.index()].mark);
         names.reserve(count);
         things.reserve(count);
     }
@@ -74,7 +73,7 @@ impl<N: Copy + Eq + Hash, T: Id> Names<N, T> {
     /// Adds a name that is not known, for the thing of a mark that `is_same`, or for a new one; whether it is new. The name is to be used then.
     pub(super) fn add(&mut self, name: N, mark: u64, is_same: impl Fn(T) -> bool) -> (NameId, bool) {
         let Self { by_name, names, free_names, by_mark, things, free_things } = self;
-        let marked = by_mark.find_mut(hash_of(&mark), |thing| things[thing.index()].mark == mark);
+        let marked = by_mark.find_mut(mark, |thing| things[thing.index()].mark == mark);
         let last = marked.as_deref().copied().unwrap_or(T::NONE);
         let mut alike = last;
         while alike != T::NONE && !is_same(alike) {
@@ -86,7 +85,7 @@ impl<N: Copy + Eq + Hash, T: Id> Names<N, T> {
             match marked {
                 Some(marked) => *marked = alike,
                 None => {
-                    by_mark.insert_unique(hash_of(&mark), alike, |thing| hash_of(&things[thing.index()].mark));
+                    by_mark.insert_unique(mark, alike, |thing| things[thing.index()].mark);
                 }
             }
         }
@@ -136,13 +135,13 @@ impl<N: Copy + Eq + Hash, T: Id> Names<N, T> {
             self.unlink(thing, old, before);
             let Self { by_mark, things, .. } = self;
             let is_same = |other: &T| things[other.index()].mark == mark;
-            let last = match by_mark.find_mut(hash_of(&mark), is_same) {
+            let last = match by_mark.find_mut(mark, is_same) {
                 Some(marked) => std::mem::replace(marked, thing),
                 None => T::NONE,
             };
             things[thing.index()] = Thing { mark, before: last, names };
             if last == T::NONE {
-                by_mark.insert_unique(hash_of(&mark), thing, |thing| hash_of(&things[thing.index()].mark));
+                by_mark.insert_unique(mark, thing, |thing| things[thing.index()].mark);
             }
         }
     }
@@ -151,7 +150,7 @@ impl<N: Copy + Eq + Hash, T: Id> Names<N, T> {
     fn unlink(&mut self, thing: T, mark: u64, before: T) {
         let Self { by_mark, things, .. } = self;
         let is_same = |other: &T| things[other.index()].mark == mark;
-        let mut last = by_mark.find_entry(hash_of(&mark), is_same).expect("the mark of a thing is known");
+        let mut last = by_mark.find_entry(mark, is_same).expect("the mark of a thing is known");
         if *last.get() != thing {
             let mut later = *last.get();
             while things[later.index()].before != thing {
@@ -164,10 +163,6 @@ impl<N: Copy + Eq + Hash, T: Id> Names<N, T> {
             last.remove();
         }
     }
-}
-
-fn hash_of(value: &impl Hash) -> u64 {
-    FxBuildHasher.hash_one(value)
 }
 
 /// For each of different names its number, or where it is not known what it takes to add it; worked out by all threads.
