@@ -57,6 +57,8 @@ pub(crate) struct LiveWeld {
     free_edges: Vec<EdgeId>,
     /// Taken out, but for their numbers.
     removed: Vec<EdgeId>,
+    /// Lines that are the same as others, which have their edges now.
+    merged: Vec<LineId>,
     state: State,
     moving: Option<Moving>,
 }
@@ -103,6 +105,7 @@ impl LiveWeld {
     /// Adds boundary edges; gives their numbers.
     pub(crate) fn insert(&mut self, table: &PlaneTable, edges: &[BoundaryEdge]) -> Vec<EdgeId> {
         self.moving = None;
+        self.merge_lines(table);
         if edges.len() >= EDGES_FOR_THREADS {
             let numbered = self.numbers.take_all(table, edges);
             return numbered.into_iter().map(|edge| self.put(edge)).collect();
@@ -155,6 +158,7 @@ impl LiveWeld {
             self.numbers.release(&self.edges[number.index()].numbered);
             self.free_edges.push(number);
         }
+        self.merged.drain(..).for_each(|line| self.numbers.forget_line(line));
         Ok(())
     }
 

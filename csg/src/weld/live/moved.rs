@@ -1,8 +1,8 @@
 //! A plane that moves so little that nothing but places changes: the same edges, loops and faces, with their corners elsewhere.
 
-use super::LiveWeld;
 use super::numbers::Context;
 use super::pieces::Pieces;
+use super::{Edge, LiveWeld};
 use crate::boundary::BoundaryEdge;
 use crate::ids::{EdgeId, FaceId, HalfEdgeId, Id, LineId, LoopId, PointId, RegionId};
 use crate::plane_table::{PlaneId, PlaneTable};
@@ -29,7 +29,8 @@ impl LiveWeld {
     }
 
     /// Finds what moves with the plane of an index, of which some edges, each with its number, name all points and lines; false where
-    /// a point or a line is known by the plane under one name and not under another: there more planes meet, and it does not stay one.
+    /// a point or a line is known by the plane under one name and not under another: there more planes meet, and it does not stay one. It is also false where the plane that moved before has made
+    /// lines the same as others: these are to be cut again.
     ///
     /// A point may be known by planes that no longer meet in it once this one has moved, as no edge has them any more: it is known by those of an edge then.
     pub(crate) fn find_what_moves<'a>(
@@ -39,6 +40,9 @@ impl LiveWeld {
         edges: impl Iterator<Item = &'a (BoundaryEdge, EdgeId)>,
     ) -> bool {
         self.moving = None;
+        if self.merge_lines(table) {
+            return false;
+        }
         let is_plane = |id: PlaneId| id.index() == plane;
         let mut along: Vec<LineId> = Vec::new();
         // each with a name that it has
@@ -73,9 +77,15 @@ impl LiveWeld {
         along.dedup();
         names_of_points.sort_unstable();
         names_of_lines.sort_unstable();
+        names_of_lines.dedup();
         let points: Vec<PointId> = names_of_points.chunk_by(|a, b| a.0 == b.0).map(|names| names[0].0).collect();
         let lines: Vec<LineId> = names_of_lines.chunk_by(|a, b| a.0 == b.0).map(|names| names[0].0).collect();
         if points.len() + lines.len() != self.numbers.known_by(plane) {
+            return false;
+        }
+        // a line goes on to where other planes may meet in it
+        let mut by_line = names_of_lines.chunk_by(|a, b| a.0 == b.0);
+        if by_line.any(|names| names.len() != self.numbers.names_of_line(names[0].0)) {
             return false;
         }
         for names in names_of_points.chunk_by(|a, b| a.0 == b.0) {
@@ -99,6 +109,24 @@ impl LiveWeld {
         let faces = self.state.faces.of_loops(&loops);
         self.moving = Some(Moving { plane, points, lines, pieces, loops, faces });
         true
+    }
+
+    /// Puts the edges of lines that a plane has moved to where others are on these; whether there are any.
+    pub(super) fn merge_lines(&mut self, table: &PlaneTable) -> bool {
+        let merged = self.numbers.mark_moved(table);
+        for &[line, other] in &merged {
+            for number in self.state.lines[line.index()].take_edges() {
+                let Edge { numbered, is_gone } = &mut self.edges[number.index()];
+                self.numbers.renumber(table, numbered, other);
+                if !*is_gone {
+                    self.state.lines[other.index()].add(number, [numbered.run.from, numbered.run.to]);
+                }
+            }
+            self.state.mark_line(line);
+            self.state.mark_line(other);
+            self.merged.push(line);
+        }
+        !merged.is_empty()
     }
 
     /// Follows the plane that was asked for last, which has moved along its normal.

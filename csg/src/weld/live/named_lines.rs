@@ -73,12 +73,24 @@ impl NamedLines {
         id
     }
 
-    /// Marks lines again that have moved, before anything is looked up by marks.
-    pub(super) fn mark(&mut self, table: &PlaneTable, moved: &[LineId]) {
+    /// Marks lines again that have moved, before anything is looked up by marks. Those that are now the same as another are retired; they are given, each with the other.
+    pub(super) fn mark(&mut self, table: &PlaneTable, moved: &[LineId]) -> Vec<[LineId; 2]> {
+        let mut merged = Vec::new();
         for &line in moved {
-            if self.names.is_in_use(line) {
-                self.names.set_mark(line, mark_of(table, &self.lines[line.index()]));
+            if self.names.count_of(line) == 0 {
+                continue;
+            }
+            let mark = mark_of(table, &self.lines[line.index()]);
+            let is_same =
+                |other: LineId| self.axes.is_same(table, &self.lines[other.index()], &self.lines[line.index()]);
+            match self.names.another(line, mark, is_same) {
+                Some(other) => {
+                    self.names.retire(line);
+                    merged.push([line, other]);
+                }
+                None => self.names.set_mark(line, mark),
             }
         }
+        merged
     }
 }

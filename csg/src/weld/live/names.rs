@@ -123,9 +123,38 @@ impl<N: Copy + Eq + Hash, T: Id> Names<N, T> {
         Some(thing)
     }
 
-    /// Whether a thing has a name.
-    pub(super) fn is_in_use(&self, thing: T) -> bool {
-        self.things[thing.index()].names > 0
+    /// By how many names in use a thing is known.
+    pub(super) fn count_of(&self, thing: T) -> usize {
+        self.things[thing.index()].names as usize
+    }
+
+    /// Whether a thing other than one has a mark and `is_same`.
+    pub(super) fn another(&self, thing: T, mark: u64, is_same: impl Fn(T) -> bool) -> Option<T> {
+        let mut alike = self.by_mark.find(mark, |other| self.things[other.index()].mark == mark).copied()?;
+        while alike != T::NONE && (alike == thing || !is_same(alike)) {
+            alike = self.things[alike.index()].before;
+        }
+        (alike != T::NONE).then_some(alike)
+    }
+
+    /// Takes a thing out of the list of those of its mark, so that it is found no more; it gets no other names. Its number is in use until [`Names::free`].
+    pub(super) fn retire(&mut self, thing: T) {
+        let Thing { mark, before, .. } = self.things[thing.index()];
+        self.unlink(thing, mark, before);
+    }
+
+    /// Makes a name stand for another thing than one that has been retired.
+    pub(super) fn rename(&mut self, name: NameId, thing: T) {
+        let old = std::mem::replace(&mut self.names[name.index()].thing, thing);
+        if old != thing {
+            self.things[old.index()].names -= 1;
+            self.things[thing.index()].names += 1;
+        }
+    }
+
+    /// The number of a thing that has been retired and has no names is free for another.
+    pub(super) fn free(&mut self, thing: T) {
+        self.free_things.push(thing);
     }
 
     /// Gives a thing another mark, where it is in use.

@@ -67,7 +67,6 @@ impl Numbers {
 
     /// Numbers an edge.
     pub(super) fn take(&mut self, table: &PlaneTable, edge: &BoundaryEdge) -> NumberedEdge {
-        self.mark_moved(table);
         let mut gained = Vec::new();
         let ends = self.points.take(table, edge, &mut gained);
         let line = self.lines.take(table, edge, &mut gained);
@@ -78,7 +77,6 @@ impl Numbers {
 
     /// Numbers many edges, with all threads.
     pub(super) fn take_all(&mut self, table: &PlaneTable, edges: &[BoundaryEdge]) -> Vec<NumberedEdge> {
-        self.mark_moved(table);
         let Self { points, lines, .. } = self;
         let (mut by_points, mut by_lines) = (Vec::new(), Vec::new());
         let (ends, lines) = planecut_parallel::join(
@@ -233,23 +231,42 @@ impl Numbers {
     }
 
     /// Points and lines that a plane has moved, by which they are known, and which stay the same otherwise: puts the points where they are now. Lines do not
-    /// change as long as the direction of the plane does not.
+    /// change as long as the direction of the plane does not. What another plane has moved is [marked](Self::mark_moved).
     pub(super) fn follow_plane(&mut self, table: &PlaneTable, moved: &[PointId], lines: &[LineId]) {
         self.points.follow(table, moved);
-        if self.unmarked.0 != moved {
-            self.mark_moved(table);
+        if self.unmarked.0.is_empty() {
             self.unmarked = (moved.to_vec(), lines.to_vec());
         }
     }
 
-    /// Marks again what has moved, before anything is looked up by marks.
-    fn mark_moved(&mut self, table: &PlaneTable) {
+    /// Marks again what has moved, before anything is looked up by marks, or another plane moves. Bodies apart from each other may have got edges on one line: lines that are now the same as another are given, each with the
+    /// other; their edges are to be [renumbered](Self::renumber), and they are to be [forgotten](Self::forget_line).
+    pub(super) fn mark_moved(&mut self, table: &PlaneTable) -> Vec<[LineId; 2]> {
         if self.unmarked.0.is_empty() {
-            return;
+            return Vec::new();
         }
         let (points, lines) = std::mem::take(&mut self.unmarked);
         self.points.mark(&points);
-        self.lines.mark(table, &lines);
+        self.lines.mark(table, &lines)
+    }
+
+    /// Puts an edge on another line that is the same as its own.
+    pub(super) fn renumber(&mut self, table: &PlaneTable, edge: &mut NumberedEdge, line: LineId) {
+        self.lines.names.rename(edge.line, line);
+        edge.run.line = line;
+        let face = self.planes[edge.run.region.index()];
+        edge.run.forward = self.lines()[line.index()].is_along(table, face, edge.run.edge);
+    }
+
+    /// Forgets a line whose edges are all renumbered.
+    pub(super) fn forget_line(&mut self, line: LineId) {
+        self.lines.names.free(line);
+        self.lines()[line.index()].planes.into_iter().for_each(|plane| self.lose(plane));
+    }
+
+    /// By how many names a line is known.
+    pub(super) fn names_of_line(&self, line: LineId) -> usize {
+        self.lines.names.count_of(line)
     }
 
     /// Numbers a region of which a number of edges come.

@@ -120,6 +120,12 @@ impl OnLine {
         self.note_change(ends);
     }
 
+    /// Takes all edges out; the pieces of them that are left go when it is looked at again.
+    pub(super) fn take_edges(&mut self) -> SmallVec<[EdgeId; 4]> {
+        self.is_changed = true;
+        std::mem::take(&mut self.edges)
+    }
+
     /// Notes that something has changed between two points.
     pub(super) fn note_change(&mut self, ends: [PointId; 2]) {
         if self.edges.len() < LEAST_EDGES {

@@ -12,6 +12,7 @@
 mod bars;
 mod buffers;
 mod cases;
+mod common_lines;
 mod drags;
 mod edits;
 mod growth;
