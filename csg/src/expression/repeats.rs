@@ -33,7 +33,8 @@ impl Expression {
         let mut operands: Vec<Vec<u32>> = vec![Vec::new(); self.nodes.len()];
         let mut said: FxHashSet<(TreeNodeId, u32)> = FxHashSet::default();
         let mut is_again = vec![false; self.nodes.len()];
-        for k in (0..self.nodes.len()).filter(|k| is_operand(*k)) {
+        // of equal operands of one union the last counts, as it would if something were taken away, or intersected, between them: so it does not depend on what is between them
+        for k in (0..self.nodes.len()).rev().filter(|k| is_operand(*k)) {
             is_again[k] = !said.insert((unions[k], numbers[k]));
             if !is_again[k] {
                 operands[unions[k].index()].push(numbers[k]);
@@ -148,6 +149,6 @@ mod tests {
         let repeated =
             Expression::new(&entries).repeated_leaves(&[0, 1, 2, 0, 2, 1, 0, 1, 0, 1].map(LeafId::from_index));
         let places: Vec<usize> = (0..repeated.len()).filter(|k| repeated[*k]).collect();
-        assert_eq!(places, [3, 4, 5]);
+        assert_eq!(places, [0, 1, 2]);
     }
 }

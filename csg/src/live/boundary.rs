@@ -85,10 +85,6 @@ impl LiveModel {
         reach: Reach,
     ) -> Vec<Found> {
         let surroundings = vicinity.map(|vicinity| self.surroundings(vicinity));
-        // which of equal bodies speaks for all of them depends on what is between them in the order, near or far: it is to be told once, from all that is near their faces
-        let has_equal = |number: OperandId| !self.has_no_equal(self.operand(number));
-        let bodies = surroundings.iter().flat_map(|near| &near.bodies).map(|(member, _)| member.operand);
-        let vicinity = vicinity.filter(|_| !faces.iter().map(|face| face.operand).chain(bodies).any(has_equal));
         let surroundings = surroundings.filter(|near| near.bodies.len() <= FEW_NEAR);
         let nearby = vicinity.map(Known::Vicinity);
         let covered = match (reach, changed, vicinity) {
@@ -165,6 +161,10 @@ impl LiveModel {
                 (Way::Whole | Way::Within(_), _) => {
                     near.extend(self.places.near(&bounds).map(|(operand, _)| self.member(operand)));
                 }
+            }
+            // a face may be so small that its box has no area
+            if !near[start..].iter().any(|member| member.operand == number) {
+                near.push(self.member(number));
             }
             near[start..].sort_unstable();
             groups.push(FaceBatch { number, near: start..near.len(), faces: first..first + group.len(), way });

@@ -118,12 +118,9 @@ impl LiveModel {
         let table = &self.planes.table;
         for (other, _) in self.places.near(within).filter(|(other, _)| *other != own) {
             let (body, edges) = (self.body_at(other), &self.operand(other).edges);
-            // another of these may speak for all of them now
-            let has_equal = is_last && !self.has_no_equal(self.operand(other));
             let reaches = |(number, face): &(BodyFaceId, &BodyFace)| {
                 let half_space = table.half_space(face.plane);
-                let may_matter =
-                    || !is_last || !edges[number.index()].is_empty() || by.face_on(face.plane).is_some() || has_equal;
+                let may_matter = || !is_last || !edges[number.index()].is_empty() || by.face_on(face.plane).is_some();
                 face.bounds.may_share_area(within)
                     && may_matter()
                     && !misses(within, half_space.normal(), half_space.offset())

@@ -118,6 +118,14 @@ fn random_cuboid(rng: &mut Rng) -> Brush {
 }
 
 /// A body of up to 26 planes in general position.
+/// A box out of a few, so that many are equal.
+fn cuboid_of_few(rng: &mut Rng) -> Brush {
+    let lengths = [0; 3].map(|_| rng.pick(&[[0.0, 1.0], [0.0, 2.0], [1.0, 2.0]]));
+    let material = MaterialId(rng.below(2) as u32);
+    let [low, high] = [0, 1].map(|end| DVec3::from_array(lengths.map(|length| length[end])));
+    Brush::cuboid(low, high, material)
+}
+
 fn turned_body(rng: &mut Rng) -> Brush {
     let plane = |(normal, offset): &Plane| HalfSpace::new(DVec3::from_array(*normal), *offset).expect("a valid plane");
     let material = MaterialId(rng.below(2) as u32);
@@ -362,6 +370,12 @@ fn sweep(seeds: u64, length: usize, shape: Shape) -> [usize; 3] {
 fn random_edits_of_the_tree() {
     let [done, refused, triangles] = sweep(60, 40, random_cuboid);
     assert!(done > 1200 && refused > 20 && triangles > 10 * done, "{done} done, {refused} refused, {triangles}");
+}
+
+#[test]
+fn random_edits_of_the_tree_with_equal_bodies() {
+    let [done, refused, triangles] = sweep(60, 40, cuboid_of_few);
+    assert!(done > 1200 && refused > 20 && triangles > 5 * done, "{done} done, {refused} refused, {triangles}");
 }
 
 #[test]
