@@ -4,7 +4,7 @@ use glam::DVec3;
 use numpy::PyArray2;
 use planecut::cells::Solid as CellSolid;
 use planecut::csg::polyhedron::convex_tree;
-use planecut::csg::{Brush, Material, MaterialId, Model, Tree};
+use planecut::csg::{Brush, ConvexPiece, Material, MaterialId, Model, Tree};
 use planecut::kernel::{HalfSpace, IncrementalPolytope};
 use planecut_parallel::job::check;
 use pyo3::prelude::*;
@@ -46,6 +46,12 @@ impl Cell {
         let volume = body.measures().map_or(0.0, |measures| measures.volume);
         let triangles = polygons.iter().flat_map(fan).collect();
         Ok(Self { planes, vertices, triangles, volume, material: material.name.clone() })
+    }
+
+    /// A convex body whose boundary is known.
+    pub(crate) fn of_piece(piece: ConvexPiece, material: String) -> Self {
+        let ConvexPiece { half_spaces, positions: vertices, triangles, volume } = piece;
+        Self { planes: half_spaces.iter().map(HalfSpace::to_array).collect(), vertices, triangles, volume, material }
     }
 
     /// The same body with corners and triangles as they are written for others.

@@ -38,6 +38,9 @@ fn _planecut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<live::Buffers>()?;
     module.add_class::<live::Live>()?;
     module.add_class::<live::Edit>()?;
+    module.add_class::<live::Node>()?;
+    module.add_class::<live::Preview>()?;
+    module.add_class::<live::Previewer>()?;
     module.add_class::<live::Change>()?;
     module.add_class::<live::Face>()?;
     module.add_class::<mesh::Mesh>()?;

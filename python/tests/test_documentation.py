@@ -230,6 +230,22 @@ with live.edit() as edit:
     number = edit.add_brush(a, role="subtract")
     edit.transform_brush(number, np.eye(4))
     assert_type(edit.copy_brushes([number], np.eye(4)), list[int])
+    node = edit.wrap([0, number], "xor")
+    assert_type(node, pc.Node)
+    edit.set_role(node, "add")
+    edit.move_operand(live.brushes[0], to=node, before=number)
+for part in live.tree:
+    if "node" in part:
+        assert_type(part["node"], pc.Node)
+        edit.dissolve(part["node"])
+    else:
+        assert_type(part["brush"], int)
+preview = live.preview.wrap([0, node], "difference")
+assert_type(preview.volume_change, float)
+assert_type([face.material for face in preview.added], list[str])
+piece = live.preview_remove_plane(0, 0)
+if piece is not None and piece != "unbounded":
+    assert_type(piece, pc.Cell)
 assert_type(live.change.removed, list[int])
 assert_type(live.pick([0, 0, 0], [1, 0, 0]), tuple[int, float] | None)
 try:
@@ -237,7 +253,7 @@ try:
 except pc.PlanecutError as error:
     assert_type(error.line, int | None)
 '''
-MISUSE = ["a | 3", "s.mesh(2)", "s.volume()", "pc.coarsen(3)", "edit.add_brush(a, role='paint')", "s.render(style='pretty')", "hulls.excess = 1.0", "pc.Solid(1)"]
+MISUSE = ["a | 3", "s.mesh(2)", "s.volume()", "pc.coarsen(3)", "edit.add_brush(a, role='paint')", "edit.dissolve(0)", "edit.wrap([0], 'glue')", "edit.remove_brush(node)", "live.tree[0]['name']", "s.render(style='pretty')", "hulls.excess = 1.0", "pc.Solid(1)"]
 
 
 @needs_mypy

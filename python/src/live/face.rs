@@ -53,7 +53,7 @@ impl Change {
     }
 }
 
-/// A face of a live model as it was when it was asked for: planar, connected and of one material.
+/// A face of a live model as it was when it was asked for, or one that an edit would make (see Preview): planar, connected and of one material.
 #[pyclass(frozen, module = "planecut")]
 #[derive(Serialize, Deserialize)]
 pub(crate) struct Face {
@@ -67,7 +67,7 @@ pub(crate) struct Face {
 
 #[pymethods]
 impl Face {
-    /// The number of the brush that it lies on; of several the first that faces the same way. None while a brush of the model is a closed mesh.
+    /// The number of the brush that it lies on; of several the first that faces the same way. None while a brush of the model is a closed mesh, and for a face of a preview.
     #[getter]
     fn brush(&self) -> Option<u64> {
         self.brush

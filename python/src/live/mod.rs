@@ -1,8 +1,16 @@
-//! The live model: edits that cost what they touch. [`edit`] has the calls of an edit, [`face`] what users see of the boundary, [`buffers`] what renderers take of it.
+//! The live model: edits that cost what they touch.
+//!
+//! - [`edit`] has the calls of an edit, and [`preview`] the same ones as questions about what they would change; [`calls`] makes the edits of both, with their [`materials`].
+//! - [`tree`] shows the operations of a model, and names them.
+//! - [`face`] is what users see of the boundary, [`buffers`] what renderers take of it.
 
 mod buffers;
+mod calls;
 mod edit;
 mod face;
+mod materials;
+mod preview;
+mod tree;
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex};
@@ -10,8 +18,7 @@ use std::sync::{Arc, Mutex};
 use glam::DVec3;
 use numpy::{PyArray1, PyArray2};
 use planecut::csg::{
-    BrushId, Change as CoreChange, Edit as CoreEdit, Edited, FaceId, LiveModel, Material, MaterialId, Model, Snap,
-    SnapOptions, SnapTarget, SolidMeasures, Tree,
+    BrushId, Change as CoreChange, Edited, FaceId, LiveModel, Snap, SnapOptions, SnapTarget, SolidMeasures,
 };
 use planecut::kernel::PlaneIdx;
 use pyo3::prelude::*;
@@ -19,22 +26,25 @@ use pyo3::types::{IntoPyDict, PyDict};
 
 use crate::arrays::{small, small_rows, vector};
 use crate::errors::{Failure, Outcome, refuse};
-use crate::expression::Node;
+use crate::expression;
 use crate::job::{Job, on_threads_of_process};
 use crate::mesh::Mesh;
 use crate::solid::Solid;
 pub(crate) use buffers::Buffers;
 use buffers::center_of;
+use calls::Call;
 pub(crate) use edit::Edit;
 use face::face_number;
 pub(crate) use face::{Change, Face};
+pub(crate) use preview::{Preview, Previewer};
+pub(crate) use tree::Node;
 
 /// A model that is edited: each edit costs what it touches, and says which faces it changed.
 ///
 /// Its brushes are the convex bodies (and closed meshes) of a solid, numbered from 0 in their order; faces have numbers, too, which may be used again once a face is gone.
 ///
 /// Args:
-///     solid: A Solid to begin with. What combines its bodies one after another gives them roles; bodies within nested operations stay operands of these.
+///     solid: A Solid to begin with. What combines its bodies one after another gives them roles; bodies within nested operations stay operands of these (see `tree`).
 ///     threads: Number of threads; by default one for each core.
 ///     progress: A function that is called with done and total.
 ///
@@ -61,13 +71,6 @@ struct State {
 
 /// What a plane snaps to: a half-space of shape (4,), what is there, and how far away it is.
 type Snapped<'py> = (Bound<'py, PyArray1<f64>>, &'static str, f64);
-
-/// The numbers of what a call of an edit has made.
-struct Applied {
-    brush: Option<BrushId>,
-    plane: Option<PlaneIdx>,
-    copies: Vec<BrushId>,
-}
 
 impl Live {
     /// Does something with the model, without the interpreter's lock. After a panic the model cannot be trusted, and nothing is done with it any more.
@@ -96,21 +99,15 @@ impl State {
         }
     }
 
-    /// Does a call of the edit that is open.
-    fn apply(&mut self, edit: CoreEdit) -> Outcome<Applied> {
+    /// Does a call of the edit that is open, which collects what has changed.
+    fn apply(&mut self, call: Call) -> Outcome<Edited> {
         let Some(change) = &mut self.open else {
             return Err(Failure::of("found an edit that is over, expected calls within `with live.edit() as e`"));
         };
-        let edited = self.model.apply(edit)?;
-        let Edited { brush, plane, copies, change: next, .. } = edited;
-        *change = std::mem::take(change).then(next);
-        Ok(Applied { brush, plane, copies })
-    }
-
-    /// The number of a material, which is added where it is new.
-    fn material(&mut self, material: &Material) -> MaterialId {
-        let known = self.model.materials().iter().position(|known| known == material);
-        known.map_or_else(|| self.model.add_material(material.clone()), |number| MaterialId(number as u32))
+        let (edit, materials) = call.edit_of(self.model.materials())?;
+        let mut edited = self.model.apply_with(edit, materials)?;
+        *change = std::mem::take(change).then(std::mem::take(&mut edited.change));
+        Ok(edited)
     }
 
     /// The sums of values of materials, as these are listed, by their names: those that are more than 0.
@@ -120,27 +117,6 @@ impl State {
             *sums.entry(material.name.clone()).or_default() += value;
         }
         sums
-    }
-
-    /// A material by its name.
-    fn material_named(&mut self, name: String) -> MaterialId {
-        let known = self.model.materials().iter().position(|known| known.name == name);
-        known.map_or_else(|| self.model.add_material(Material::named(name)), |number| MaterialId(number as u32))
-    }
-
-    /// The only body of a solid, of materials of this model.
-    fn brush_of(&mut self, node: &Node) -> Outcome<planecut::csg::Brush> {
-        let Model { materials, tree } = node.model()?;
-        if tree.brushes().len() != 1 || !tree.is_union() {
-            let found = tree.brushes().len();
-            return Err(Failure::of(format!(
-                "solid: found one of {found} bodies, expected one convex body or closed mesh"
-            )));
-        }
-        let numbers: Vec<MaterialId> = materials.iter().map(|material| self.material(material)).collect();
-        let mut brush = Tree::into_brushes(tree).remove(0);
-        brush.materials_mut().for_each(|own| *own = numbers[own.0 as usize]);
-        Ok(brush)
     }
 }
 
@@ -292,7 +268,7 @@ impl Live {
         planes: Option<f64>,
         vertices: Option<f64>,
     ) -> PyResult<Option<Snapped<'py>>> {
-        let to = edit::half_space_of(to, "to")?;
+        let to = calls::half_space_of(to, "to")?;
         let options = SnapOptions { grid, planes, vertices };
         let snap =
             self.with(py, |state| Ok(state.model.snap_plane(BrushId(brush), PlaneIdx(plane), &to, &options)?))?;
@@ -383,7 +359,7 @@ impl Live {
 
     /// The model as it is now, as a Solid.
     fn to_solid(&self, py: Python<'_>) -> PyResult<Solid> {
-        Ok(Solid::of(Node::of_model(self.with(py, |state| Ok(state.model.to_model()))?)))
+        Ok(Solid::of(expression::Node::of_model(self.with(py, |state| Ok(state.model.to_model()))?)))
     }
 
     fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
