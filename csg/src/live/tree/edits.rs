@@ -63,7 +63,8 @@ impl LiveModel {
             }
             above = self.node_state(node)?.place.parent;
         }
-        if before == Some(operand) && old.parent == to {
+        // it stands there already
+        if old.parent == to && (before == Some(operand) || before == self.next_operand(old)) {
             let mut same = States::default();
             same.set_place(self, operand, old)?;
             return self.edit(same);

@@ -140,7 +140,7 @@ fn edit(known: &mut Known, live: &mut LiveModel, rng: &mut Rng, shape: Shape) ->
     let next_node = NodeId(live.nodes().map(|node| node.0 + 1).max().unwrap_or(0).max(known.nodes.len() as u64));
     let all: Vec<TreeOperand> = known.roles.keys().copied().collect();
     let nodes: Vec<NodeId> = known.nodes.keys().copied().collect();
-    if all.len() < 3 {
+    if all.len() < 3 || known.brushes.is_empty() {
         return add(known, live, rng, shape);
     }
     let operand = rng.pick(&all);
@@ -546,4 +546,24 @@ fn a_brush_that_moves_in_the_order_changes_what_is_near_it_alone() {
     assert_eq!((change.removed.len(), change.added.len()), (4, 10), "what was a hole is a post");
     let change = live.set_operation(node, Operation::Xor).unwrap();
     assert!(change.brushes.len() == 2 && change.added.len() <= 12, "{change:?}");
+}
+
+#[test]
+fn a_step_of_a_move_to_where_an_operand_stands_is_none() {
+    let mut live = LiveModel::new(materials());
+    let row = (0..4).map(|k| (cube(f64::from(k), f64::from(k) + 2.0), Role::Add));
+    let (ids, _) = live.add_brushes(row.collect::<Vec<_>>()).unwrap();
+    let known = live.history_len();
+    for (place, id) in ids.iter().enumerate() {
+        for before in [ids.get(place + 1).copied(), Some(*id)] {
+            live.begin_step().unwrap();
+            let change = live.move_brush_before(*id, before).unwrap();
+            live.commit_step().unwrap();
+            assert_eq!((change.removed.len(), change.added.len(), live.history_len()), (0, 0, known));
+        }
+    }
+    live.begin_step().unwrap();
+    live.move_brush_before(ids[0], None).unwrap();
+    live.commit_step().unwrap();
+    assert_eq!(live.history_len(), (known.0 + 1, 0));
 }
