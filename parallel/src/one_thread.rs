@@ -16,6 +16,11 @@ pub fn join<A, B>(first: impl FnOnce() -> A, second: impl FnOnce() -> B) -> (A, 
     (first, second())
 }
 
+/// The results of `work` for the parts `0..count`, in their order.
+pub fn map_parts<R>(count: usize, work: impl Fn(usize) -> R) -> Vec<R> {
+    (0..count).map(work).collect()
+}
+
 /// The traits that add the methods.
 pub mod prelude {
     pub use super::{IntoParallelIterator, ParallelIterator, ParallelSlice, ParallelSliceMut};

@@ -40,6 +40,26 @@ fn states_are_scratch_memory() {
 }
 
 #[test]
+fn parts_keep_their_order() {
+    for count in [0, 1, 2, 1000] {
+        let results = crate::map_parts(count, |part| {
+            // some take longer than others
+            (0..part % 7 * 100).fold(part, |sum, k| sum ^ k ^ k)
+        });
+        assert!(results.into_iter().eq(0..count));
+    }
+    // also within each other
+    let sums = crate::map_parts(40, |part| crate::map_parts(part, |k| k).into_iter().sum::<usize>());
+    assert!(sums.into_iter().enumerate().all(|(part, sum)| sum == part * part.saturating_sub(1) / 2));
+}
+
+#[test]
+fn a_part_that_panics_ends_the_work() {
+    let outcome = std::panic::catch_unwind(|| crate::map_parts(100, |part| assert!(part != 60, "this one")));
+    assert_eq!(outcome.unwrap_err().downcast_ref(), Some(&"this one"));
+}
+
+#[test]
 fn slices_are_sorted_and_split() {
     let mut numbers: Vec<u32> = (0..1000).map(|n| n * 7 % 1000).collect();
     numbers.par_sort_unstable();

@@ -4,7 +4,6 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use planecut_kernel::sign::Counts;
 use planecut_parallel::job;
-use planecut_parallel::prelude::*;
 
 /// Chunks for each thread, so that none waits long for the last one.
 const PER_THREAD: usize = 8;
@@ -17,8 +16,10 @@ pub(crate) fn map_chunks<T: Sync, R: Send>(
     work: impl Fn(&[T]) -> R + Sync,
 ) -> (Vec<R>, Counts) {
     let chunk = (items.len() / (PER_THREAD * planecut_parallel::current_num_threads())).max(least).max(1);
-    let stage = Stage::new(items.len().div_ceil(chunk));
-    in_order(items.par_chunks(chunk).map(|chunk| stage.counted(|| work(chunk))).collect())
+    let count = items.len().div_ceil(chunk);
+    let stage = Stage::new(count);
+    let chunk_of = |k: usize| &items[k * chunk..items.len().min((k + 1) * chunk)];
+    in_order(planecut_parallel::map_parts(count, |k| stage.counted(|| work(chunk_of(k)))))
 }
 
 /// The same for items of different sizes: each chunk but the last is at least of size `least`, the sizes of its items added.
@@ -44,7 +45,7 @@ pub(crate) fn map_weighed_chunks<T: Sync, R: Send>(
     }
     chunks.extend(Some(&items[start..]).filter(|rest| !rest.is_empty()));
     let stage = Stage::new(chunks.len());
-    in_order(chunks.into_par_iter().with_max_len(1).map(|chunk| stage.counted(|| work(chunk))).collect())
+    in_order(planecut_parallel::map_parts(chunks.len(), |k| stage.counted(|| work(chunks[k]))))
 }
 
 /// Chunks that are worked on, for whoever watches.

@@ -46,8 +46,9 @@ pub(crate) use welded_face::WeldedFace;
 const MANY: usize = 512;
 const SHARE: usize = 4;
 
-/// Number of edges from which all threads number them.
+/// Number of edges from which all threads number them, and from which two do.
 const EDGES_FOR_THREADS: usize = 2048;
+const EDGES_FOR_TWO: usize = 128;
 
 /// A boundary, welded.
 #[derive(Clone, Default)]
@@ -106,7 +107,7 @@ impl LiveWeld {
     pub(crate) fn insert(&mut self, table: &PlaneTable, edges: &[BoundaryEdge]) -> Vec<EdgeId> {
         self.moving = None;
         self.merge_lines(table);
-        if edges.len() >= EDGES_FOR_THREADS {
+        if edges.len() >= EDGES_FOR_TWO {
             let numbered = self.numbers.take_all(table, edges);
             return numbered.into_iter().map(|edge| self.put(edge)).collect();
         }

@@ -6,6 +6,7 @@ use planecut_kernel::DVec3;
 use planecut_parallel::prelude::*;
 use rustc_hash::FxHashMap;
 
+use super::EDGES_FOR_THREADS;
 use super::named_lines::NamedLines;
 use super::named_points::NamedPoints;
 use super::names::place;
@@ -75,14 +76,21 @@ impl Numbers {
         self.numbered(table, edge, region, ends, line)
     }
 
-    /// Numbers many edges, with all threads.
+    /// Numbers edges: their points on one thread and their lines on another, or where they are many with all threads.
     pub(super) fn take_all(&mut self, table: &PlaneTable, edges: &[BoundaryEdge]) -> Vec<NumberedEdge> {
         let Self { points, lines, .. } = self;
         let (mut by_points, mut by_lines) = (Vec::new(), Vec::new());
-        let (ends, lines) = planecut_parallel::join(
-            || points.take_all(table, edges, &mut by_points),
-            || lines.take_all(table, edges, &mut by_lines),
-        );
+        let (ends, lines) = if edges.len() < EDGES_FOR_THREADS {
+            planecut_parallel::join(
+                || edges.iter().map(|edge| points.take(table, edge, &mut by_points)).collect(),
+                || edges.iter().map(|edge| lines.take(table, edge, &mut by_lines)).collect(),
+            )
+        } else {
+            planecut_parallel::join(
+                || points.take_all(table, edges, &mut by_points),
+                || lines.take_all(table, edges, &mut by_lines),
+            )
+        };
         self.gain(&by_points);
         self.gain(&by_lines);
         let regions = self.take_regions(edges);

@@ -1,6 +1,6 @@
 //! The triangles of faces that have changed.
 
-use planecut_parallel::prelude::*;
+use std::sync::{Mutex, PoisonError};
 
 use super::loops::{Loop, Loops};
 use super::numbers::Context;
@@ -92,7 +92,9 @@ impl<'a> FaceTriangulator<'a> {
         let large: Vec<(Option<Box<LargeFace>>, Job<'a>)> = if large.len() < 2 {
             large.into_iter().map(of_large).collect()
         } else {
-            large.into_par_iter().with_max_len(1).map(of_large).collect()
+            let jobs: Vec<Mutex<Option<Job<'a>>>> = large.into_iter().map(|job| Mutex::new(Some(job))).collect();
+            let take = |k: usize| jobs[k].lock().unwrap_or_else(PoisonError::into_inner).take().expect("each once");
+            planecut_parallel::map_parts(jobs.len(), |k| of_large(take(k)))
         };
         let mut done = Vec::with_capacity(large.len() + whole.len());
         for (triangulation, job) in large {

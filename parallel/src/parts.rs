@@ -1,0 +1,55 @@
+//! Parts of work that the calling thread takes up at once, and others as soon as they are awake.
+//!
+//! A loop or join of rayon's that is begun by a thread outside of the pool is handed over to it: that thread waits until another one is awake, which takes longer than short work does. Here it works itself from the start, and the
+//! threads of the pool take what is left when they come: nothing is lost where that is nothing.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+/// The results of two functions, of which the calling thread does the first one.
+pub fn join<A, B: Send>(first: impl FnOnce() -> A, second: impl FnOnce() -> B + Send) -> (A, B) {
+    if rayon::current_num_threads() == 1 {
+        let first = first();
+        return (first, second());
+    }
+    let mut of_other = None;
+    let own = rayon::in_place_scope(|scope| {
+        let of_other = &mut of_other;
+        scope.spawn(move |_| *of_other = Some(second()));
+        first()
+    });
+    (own, of_other.expect("the scope waits for what it has begun"))
+}
+
+/// The results of `work` for the parts `0..count`, in their order.
+pub fn map_parts<R: Send>(count: usize, work: impl Fn(usize) -> R + Sync) -> Vec<R> {
+    let others = rayon::current_num_threads().min(count).saturating_sub(1);
+    if others == 0 {
+        return (0..count).map(work).collect();
+    }
+    let next = AtomicUsize::new(0);
+    let take = || {
+        let mut done = Vec::new();
+        loop {
+            let part = next.fetch_add(1, Ordering::Relaxed);
+            if part >= count {
+                return done;
+            }
+            done.push((part, work(part)));
+        }
+    };
+    let of_others = Mutex::new(Vec::new());
+    let own = rayon::in_place_scope(|scope| {
+        for _ in 0..others {
+            scope.spawn(|_| {
+                let done = take();
+                of_others.lock().unwrap_or_else(PoisonError::into_inner).extend(done);
+            });
+        }
+        take()
+    });
+    let mut all = of_others.into_inner().unwrap_or_else(PoisonError::into_inner);
+    all.extend(own);
+    all.sort_unstable_by_key(|(part, _)| *part);
+    all.into_iter().map(|(_, result)| result).collect()
+}
