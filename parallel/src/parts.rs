@@ -1,7 +1,7 @@
 //! Parts of work that the calling thread takes up at once, and others as soon as they are awake.
 //!
 //! A loop or join of rayon's that is begun by a thread outside of the pool is handed over to it: that thread waits until another one is awake, which takes longer than short work does. Here it works itself from the start, and the
-//! threads of the pool take what is left when they come: nothing is lost where that is nothing.
+//! threads of the pool take what is left when they come. It waits for them to come, though, also where nothing is left: some 50 µs.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};

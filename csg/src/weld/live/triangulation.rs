@@ -11,11 +11,14 @@ use crate::weld::large_face::{FaceEdge, LARGE, LargeFace};
 use crate::weld::nest::Projection;
 use crate::weld::triangulate::{Triangles, Triangulator, WeldPoints, convex_quadrilateral};
 
-/// Number of corners, of all faces together, from which several threads triangulate them.
+/// Number of corners, of all faces together, from which several threads triangulate them: to wake another one takes as long as a few hundred.
 const CORNERS_FOR_THREADS: usize = 400;
 
 /// A triangulation changes with its face where fewer than one in this number of its edges come or go; otherwise a new one is made, which takes less for each edge.
 const CHANGED_SHARE: usize = 3;
+
+/// Number of corners that are looked at, as a triangulation follows them, in the time that it takes to triangulate one.
+const FOLLOWED: usize = 256;
 
 /// The triangles of a face: three half-edges each, those that begin at its corners.
 #[derive(Clone)]
@@ -76,6 +79,19 @@ pub(super) struct Job<'a> {
     pub(super) changed: Changed,
 }
 
+impl Job<'_> {
+    /// How much work it is to change its triangulation or to make a new one: as many corners triangulated anew take as long.
+    fn work(&self) -> usize {
+        match (&self.large, &self.changed) {
+            (Some(_), Changed::Places) => self.corners / FOLLOWED,
+            (Some(_), Changed::Edges(EdgeChanges { gone, new })) => {
+                self.corners.min(CHANGED_SHARE * (gone.len() + new.len()))
+            }
+            (None, _) => self.corners,
+        }
+    }
+}
+
 /// What it takes to triangulate faces.
 #[derive(Clone, Copy)]
 pub(super) struct FaceTriangulator<'a> {
@@ -89,7 +105,9 @@ impl<'a> FaceTriangulator<'a> {
     pub(super) fn triangulate(self, jobs: Vec<Job<'a>>) -> Vec<(FaceId, Triangulation)> {
         let (large, mut whole): (Vec<Job<'a>>, Vec<Job<'a>>) = jobs.into_iter().partition(|job| job.corners >= LARGE);
         let of_large = |mut job: Job<'a>| (self.large(&mut job), job);
-        let large: Vec<(Option<Box<LargeFace>>, Job<'a>)> = if large.len() < 2 {
+        let in_parts =
+            |jobs: &[Job<'_>]| jobs.len() > 1 && jobs.iter().map(Job::work).sum::<usize>() >= CORNERS_FOR_THREADS;
+        let large: Vec<(Option<Box<LargeFace>>, Job<'a>)> = if !in_parts(&large) {
             large.into_iter().map(of_large).collect()
         } else {
             let jobs: Vec<Mutex<Option<Job<'a>>>> = large.into_iter().map(|job| Mutex::new(Some(job))).collect();
@@ -103,8 +121,7 @@ impl<'a> FaceTriangulator<'a> {
                 None => whole.push(job),
             }
         }
-        let in_parts = whole.len() > 1 && whole.iter().map(|job| job.corners).sum::<usize>() >= CORNERS_FOR_THREADS;
-        if in_parts {
+        if in_parts(&whole) {
             done.extend(map_chunks(&whole, 1, |jobs| self.whole(jobs)).0.into_iter().flatten());
         } else {
             done.extend(self.whole(&whole));
