@@ -201,7 +201,7 @@ fn random_edits_far_from_the_origin() {
 #[test]
 fn random_edits_of_plates_and_holes() {
     let tally = sweep(25, 60, plates, Faces::Same);
-    assert!(tally.equal * 10 > tally.compared * 9 && tally.triangles > 100 * tally.compared, "{tally:?}");
+    assert!(tally.equal * 10 > tally.compared * 9 && tally.triangles > 80 * tally.compared, "{tally:?}");
 }
 
 #[test]
