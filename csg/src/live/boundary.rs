@@ -84,8 +84,7 @@ impl LiveModel {
         vicinity: Option<Vicinity>,
         reach: Reach,
     ) -> Vec<Found> {
-        let surroundings = vicinity.map(|vicinity| self.surroundings(vicinity));
-        let surroundings = surroundings.filter(|near| near.bodies.len() <= FEW_NEAR);
+        let surroundings = vicinity.and_then(|vicinity| self.surroundings(vicinity));
         let nearby = vicinity.map(Known::Vicinity);
         let covered = match (reach, changed, vicinity) {
             (Reach::Appended, [only], Some(near)) if self.operand(*only).body.is_some() => {
@@ -105,11 +104,12 @@ impl LiveModel {
         found
     }
 
-    /// The bodies that reach into a vicinity, or a little further.
-    fn surroundings(&self, vicinity: Vicinity) -> Surroundings {
-        let near = self.places.near(&vicinity.around);
-        let bodies = near.map(|(operand, bounds)| (self.member(operand), bounds)).collect();
-        Surroundings { around: vicinity.around, bodies }
+    /// The bodies that reach into a vicinity, or a little further, where these are few.
+    fn surroundings(&self, vicinity: Vicinity) -> Option<Surroundings> {
+        let mut near = self.places.near(&vicinity.around);
+        let few = near.by_ref().take(FEW_NEAR);
+        let bodies = few.map(|(operand, bounds)| (self.member(operand), bounds)).collect();
+        near.next().is_none().then_some(Surroundings { around: vicinity.around, bodies })
     }
 
     fn member(&self, operand: OperandId) -> Member {

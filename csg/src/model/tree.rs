@@ -22,6 +22,18 @@ pub enum Operation {
 }
 
 impl Operation {
+    /// The name by which files and programs call it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Union => "union",
+            Self::Intersection => "intersection",
+            Self::Difference => "difference",
+            Self::Xor => "xor",
+            Self::Complement => "complement",
+        }
+    }
+
     /// The value for operands of some values.
     pub(crate) fn value(self, operands: &[bool]) -> bool {
         match self {

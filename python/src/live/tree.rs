@@ -76,21 +76,10 @@ pub(super) fn operand_of(value: &Bound<'_, PyAny>, name: &str) -> PyResult<TreeO
 const OPERATIONS: [Operation; 5] =
     [Operation::Union, Operation::Intersection, Operation::Difference, Operation::Xor, Operation::Complement];
 
-/// The name by which files and programs call an operation.
-fn name_of(operation: Operation) -> &'static str {
-    match operation {
-        Operation::Union => "union",
-        Operation::Intersection => "intersection",
-        Operation::Difference => "difference",
-        Operation::Xor => "xor",
-        Operation::Complement => "complement",
-    }
-}
-
 /// An operation by its name.
 pub(super) fn operation_of(name: &str) -> PyResult<Operation> {
-    OPERATIONS.into_iter().find(|operation| name_of(*operation) == name).ok_or_else(|| {
-        let names = OPERATIONS.map(|operation| format!("{:?}", name_of(operation)));
+    OPERATIONS.into_iter().find(|operation| operation.name() == name).ok_or_else(|| {
+        let names = OPERATIONS.map(|operation| format!("{:?}", operation.name()));
         refuse(format!("operation: found {name:?}, expected {} or {}", names[..4].join(", "), names[4]))
     })
 }
@@ -151,7 +140,7 @@ impl Live {
                 TreeOperand::Brush(id) => part.set_item("brush", id.0)?,
                 TreeOperand::Node(id) => part.set_item("node", Node::of(id))?,
             }
-            let own = operation.map(|operation| (name_of(operation), PyList::empty(py)));
+            let own = operation.map(|operation| (operation.name(), PyList::empty(py)));
             if let Some((name, own)) = &own {
                 part.set_item("operation", name)?;
                 part.set_item("operands", own)?;

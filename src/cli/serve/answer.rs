@@ -1,6 +1,6 @@
 //! What a line gets: one JSON object.
 
-use planecut::csg::{ConvexPiece, Edited, FaceId, LiveModel, Operation, PlaneRemoval, Preview, TreeOperand};
+use planecut::csg::{ConvexPiece, Edited, FaceId, LiveModel, PlaneRemoval, Preview, TreeOperand};
 use planecut::kernel::DVec3;
 use serde_json::{Map, Value, json};
 
@@ -116,15 +116,5 @@ pub(super) fn operand(operand: TreeOperand) -> Value {
     match operand {
         TreeOperand::Brush(id) => json!({"brush": id.0}),
         TreeOperand::Node(id) => json!({"node": id.0}),
-    }
-}
-
-pub(super) fn operation_name(operation: Operation) -> &'static str {
-    match operation {
-        Operation::Union => "union",
-        Operation::Intersection => "intersection",
-        Operation::Difference => "difference",
-        Operation::Xor => "xor",
-        Operation::Complement => "complement",
     }
 }

@@ -7,7 +7,7 @@ use planecut::import::edits::edit_of_keys;
 use planecut::kernel::{DVec3, HalfSpace, PlaneIdx};
 use serde_json::{Map, Value, json};
 
-use super::answer::{self, keys, operand, operation_name, refusal, success};
+use super::answer::{self, keys, operand, refusal, success};
 use super::measures::measures;
 use super::request::{Asked, Query, Request};
 use super::save::save;
@@ -148,7 +148,7 @@ impl<'a> Session<'a> {
             let node = live.node(id)?;
             nodes.push(json!({
                 "node": id.0,
-                "operation": operation_name(node.operation),
+                "operation": node.operation.name(),
                 "parent": node.parent.map(|node| node.0),
                 "operands": operands(Some(id))?,
             }));

@@ -75,10 +75,7 @@ impl<N: Copy + Eq + Hash, T: Id> Names<N, T> {
         let Self { by_name, names, free_names, by_mark, things, free_things } = self;
         let marked = by_mark.find_mut(mark, |thing| things[thing.index()].mark == mark);
         let last = marked.as_deref().copied().unwrap_or(T::NONE);
-        let mut alike = last;
-        while alike != T::NONE && !is_same(alike) {
-            alike = things[alike.index()].before;
-        }
+        let mut alike = first_of(things, last, is_same);
         let is_new = alike == T::NONE;
         if is_new {
             alike = place(things, free_things, Thing { mark, before: last, names: 0 });
@@ -128,12 +125,10 @@ impl<N: Copy + Eq + Hash, T: Id> Names<N, T> {
         self.things[thing.index()].names as usize
     }
 
-    /// Whether a thing other than one has a mark and `is_same`.
+    /// A thing other than one that has a mark and `is_same`.
     pub(super) fn another(&self, thing: T, mark: u64, is_same: impl Fn(T) -> bool) -> Option<T> {
-        let mut alike = self.by_mark.find(mark, |other| self.things[other.index()].mark == mark).copied()?;
-        while alike != T::NONE && (alike == thing || !is_same(alike)) {
-            alike = self.things[alike.index()].before;
-        }
+        let last = self.by_mark.find(mark, |other| self.things[other.index()].mark == mark).copied()?;
+        let alike = first_of(&self.things, last, |other| other != thing && is_same(other));
         (alike != T::NONE).then_some(alike)
     }
 
@@ -192,6 +187,15 @@ impl<N: Copy + Eq + Hash, T: Id> Names<N, T> {
             last.remove();
         }
     }
+}
+
+/// Of the things of one mark, the last of which is given, one that `is_same`; [`Id::NONE`] where there is none.
+fn first_of<T: Id>(things: &[Thing<T>], last: T, is_same: impl Fn(T) -> bool) -> T {
+    let mut alike = last;
+    while alike != T::NONE && !is_same(alike) {
+        alike = things[alike.index()].before;
+    }
+    alike
 }
 
 /// For each of different names its number, or where it is not known what it takes to add it; worked out by all threads.

@@ -80,17 +80,17 @@ impl Numbers {
     pub(super) fn take_all(&mut self, table: &PlaneTable, edges: &[BoundaryEdge]) -> Vec<NumberedEdge> {
         let Self { points, lines, .. } = self;
         let (mut by_points, mut by_lines) = (Vec::new(), Vec::new());
-        let (ends, lines) = if edges.len() < EDGES_FOR_THREADS {
-            planecut_parallel::join(
-                || edges.iter().map(|edge| points.take(table, edge, &mut by_points)).collect(),
-                || edges.iter().map(|edge| lines.take(table, edge, &mut by_lines)).collect(),
-            )
-        } else {
-            planecut_parallel::join(
-                || points.take_all(table, edges, &mut by_points),
-                || lines.take_all(table, edges, &mut by_lines),
-            )
-        };
+        let are_many = edges.len() >= EDGES_FOR_THREADS;
+        let (ends, lines) = planecut_parallel::join(
+            || match are_many {
+                true => points.take_all(table, edges, &mut by_points),
+                false => edges.iter().map(|edge| points.take(table, edge, &mut by_points)).collect(),
+            },
+            || match are_many {
+                true => lines.take_all(table, edges, &mut by_lines),
+                false => edges.iter().map(|edge| lines.take(table, edge, &mut by_lines)).collect(),
+            },
+        );
         self.gain(&by_points);
         self.gain(&by_lines);
         let regions = self.take_regions(edges);
