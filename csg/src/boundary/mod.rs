@@ -32,7 +32,7 @@ use contact::Facing;
 pub(crate) use contact::misses;
 pub(crate) use covered::can_cover;
 pub(crate) use face::FaceWorker;
-use ownership::{Turn, material_of};
+use ownership::{Round, Turn, material_of};
 pub(crate) use splice::{EdgeChange, KnownEdge};
 
 /// A piece of the boundary of the kept region of a plane: on the line of `face` and `edge`, directed along
@@ -75,6 +75,8 @@ pub(crate) struct Scene<'a> {
     /// The leaf of each body, ascending.
     pub(crate) leaf_of_body: &'a [LeafId],
     pub(crate) expression: &'a Expression,
+    /// For each leaf the polarity of all that equal it, those that are left out among them.
+    polarities: &'a [Polarity],
     /// Where the expression is of one level, what it does.
     one_level: Option<OneLevel>,
     /// How many bodies have a face on each plane; 255 stands for more as well.
@@ -89,7 +91,7 @@ impl<'a> Scene<'a> {
         table: &'a PlaneTable,
         bodies: &'a [Body],
         leaf_of_body: &'a [LeafId],
-        expression: &'a Expression,
+        (expression, polarities): (&'a Expression, &'a [Polarity]),
         rank: &'a [u32],
     ) -> Self {
         let mut bodies_on_plane = vec![0_u8; table.len()];
@@ -97,7 +99,7 @@ impl<'a> Scene<'a> {
             let count = &mut bodies_on_plane[face.plane.index() as usize];
             *count = count.saturating_add(1);
         }
-        Self::of_some(table, bodies.iter().collect(), leaf_of_body, expression, bodies_on_plane, rank)
+        Self::of_some(table, bodies.iter().collect(), leaf_of_body, (expression, polarities), bodies_on_plane, rank)
     }
 
     /// Some of many bodies; how many of all have a face on each plane is known.
@@ -105,12 +107,12 @@ impl<'a> Scene<'a> {
         table: &'a PlaneTable,
         bodies: Vec<&'a Body>,
         leaf_of_body: &'a [LeafId],
-        expression: &'a Expression,
+        (expression, polarities): (&'a Expression, &'a [Polarity]),
         bodies_on_plane: impl Into<Cow<'a, [u8]>>,
         rank: &'a [u32],
     ) -> Self {
         let (one_level, bodies_on_plane) = (expression.one_level(), bodies_on_plane.into());
-        Self { table, bodies, leaf_of_body, expression, one_level, bodies_on_plane, rank }
+        Self { table, bodies, leaf_of_body, expression, polarities, one_level, bodies_on_plane, rank }
     }
 
     fn body(&self, body: BodyId) -> &'a Body {
@@ -126,13 +128,15 @@ impl<'a> Scene<'a> {
         self.bodies_on_plane[face.plane.index() as usize] > 1
     }
 
+    /// Whether a body adds to the solid or takes from it.
     fn polarity(&self, body: BodyId) -> Polarity {
         self.expression.polarity(self.leaf_of_body[body.index()])
     }
 
     /// When a face of a body has its turn among those on its plane.
     fn turn(&self, body: BodyId, face: &BodyFace) -> Turn {
-        Turn { polarity: self.polarity(body), material_rank: self.rank[face.material.0 as usize], body }
+        let polarity = self.polarities[self.leaf_of_body[body.index()].index()];
+        Turn { round: Round { polarity, material_rank: self.rank[face.material.0 as usize] }, body }
     }
 }
 
@@ -168,5 +172,5 @@ pub(crate) fn boundary_of_union(table: &PlaneTable, bodies: &[Body], rank: &[u32
     let count = bodies.len();
     let leaves: Vec<LeafId> = LeafId::all(count).collect();
     let expression = Expression::union_of(count);
-    boundary_edges(&Scene::new(table, bodies, &leaves, &expression, rank))
+    boundary_edges(&Scene::new(table, bodies, &leaves, (&expression, &vec![Polarity::Adds; count]), rank))
 }

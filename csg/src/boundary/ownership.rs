@@ -32,17 +32,24 @@ impl EdgeSide {
     }
 }
 
-/// When a body's face on a plane has its turn among all faces on that plane: a total order, as numbers of bodies differ
-/// and no body has two faces on one plane.
+/// The faces on a plane that change together, as far as it can be seen.
 ///
 /// Bodies that take from the solid come before those that add to it, so that a tool that merely touches a body from outside
 /// does not give it its material. Then the name of the material decides, so that the outcome does not depend on the order of
-/// the bodies; the number of the body only separates faces of one material, where it changes nothing.
+/// the bodies. Equal bodies are in one round, so it does not depend on how often the tree names a body either.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Turn {
+pub(super) struct Round {
+    /// That of all bodies which equal the one of the face.
     pub(super) polarity: Polarity,
     /// The place of the face's material by name.
     pub(super) material_rank: u32,
+}
+
+/// When a body's face on a plane has its turn among all faces on that plane: a total order, as numbers of bodies differ
+/// and no body has two faces on one plane. All of a round are of one material, so which of them emits changes nothing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Turn {
+    pub(super) round: Round,
     pub(super) body: BodyId,
 }
 
@@ -93,8 +100,8 @@ impl Ownership {
 
     /// The leaf whose face emits the boundary on a side.
     ///
-    /// The coplanar bodies take their turns from the empty side to the solid one; the one at whose turn the tree becomes solid
-    /// for the first time emits.
+    /// The coplanar bodies take their turns from the empty side to the solid one. In the first round after which the tree is solid the one
+    /// emits at whose turn it became so for the last time.
     fn emitting_leaf(
         &self,
         expression: &Expression,
@@ -109,15 +116,25 @@ impl Ownership {
         // the channel of the empty side is where turns are taken, and undone afterwards
         let empty = facing.empty_of([side.inside(), side.outside()]);
         let mut taken = 0;
-        let emitting = coplanar.iter().find(|turn| {
-            taken += 1;
-            restriction.set(expression, turn.leaf, empty, facing.solid_of(turn.contact.sides()));
-            restriction.root(empty)
-        });
-        for turn in &coplanar[..taken] {
-            restriction.set(expression, turn.leaf, empty, facing.empty_of(turn.contact.sides()));
+        let mut is_solid = false;
+        let mut emitting = None;
+        for round in coplanar.chunk_by(|a, b| a.turn.round == b.turn.round) {
+            for body in round {
+                taken += 1;
+                restriction.set(expression, body.leaf, empty, facing.solid_of(body.contact.sides()));
+                let was_solid = std::mem::replace(&mut is_solid, restriction.root(empty));
+                if is_solid && !was_solid {
+                    emitting = Some(body.leaf);
+                }
+            }
+            if is_solid {
+                break;
+            }
         }
-        emitting.expect("after all turns every leaf is as on the solid side").leaf
+        for body in &coplanar[..taken] {
+            restriction.set(expression, body.leaf, empty, facing.empty_of(body.contact.sides()));
+        }
+        emitting.filter(|_| is_solid).expect("after all turns every leaf is as on the solid side")
     }
 
     /// Takes a body as covering both sides.

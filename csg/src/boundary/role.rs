@@ -87,7 +87,7 @@ impl<'a> Pair<'a> {
     /// The own turn makes the tree solid: where the body adds, it does so as it comes, so the boundary faces as the face does; where
     /// it takes, as it goes, so the boundary faces the other way.
     fn is_against_polarity(&self, facing: Facing) -> bool {
-        match self.own.turn.polarity {
+        match self.own.polarity {
             Polarity::Adds => facing == Facing::In,
             Polarity::Takes => facing == Facing::Out,
             Polarity::Both => false,

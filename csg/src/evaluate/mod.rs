@@ -18,7 +18,7 @@ use crate::body::{
     Body, BrushBodies, BrushBody, BuiltBodies, OuterBox, build_bodies, build_other_bodies, kinds, mark_of,
 };
 use crate::boundary::{BoundaryEdge, Scene, boundary_edges, boundary_of_union};
-use crate::expression::Expression;
+use crate::expression::{Expression, Polarity};
 use crate::ids::{Id, LeafId};
 use crate::mesh::{Mesh, Noise, SolidMeasures};
 use crate::model::{Brush, Material, MaterialId, Model, Operation, Tree, TreeNode};
@@ -181,33 +181,28 @@ pub(crate) fn evaluate_among(
     let summary = summary_of(&table, &bodies);
     let expression = Expression::new(model.tree.nodes());
     let keeps = unbounded == UnboundedBrushes::Keep && !summary.unbounded.is_empty();
-    let mut leaves = Leaves::default();
     let outer = (keeps || expression.base()).then(|| OuterBox::new(&mut table));
-    let faces = |leaf: LeafId| match &bodies[leaf.index()] {
-        BrushBody::Bounded(body, _) => body.faces.as_slice(),
-        BrushBody::Empty | BrushBody::Unbounded => &[],
-    };
-    let materials = |leaf: LeafId| faces(leaf).iter().map(|face| (face.plane, face.material));
-    let kinds = kinds(bodies.len(), materials, |leaf| mark_of(materials(leaf)));
-    let repeated = expression.repeated_leaves(&kinds);
-    let brushes = bodies.into_iter().zip(&planes).enumerate().zip(repeated);
-    for ((leaf, (body, planes)), _) in brushes.filter(|(_, is_repeated)| !is_repeated) {
-        match (body, outer) {
-            (BrushBody::Bounded(body, _), _) => leaves.push(leaf, body),
-            (BrushBody::Unbounded, Some(outer)) if keeps => {
-                let materials: Vec<MaterialId> =
-                    model.tree.brushes()[leaf].faces.iter().map(|face| face.material).collect();
-                if let BrushBody::Bounded(body, _) = outer.cut(&table, planes, &materials) {
-                    leaves.push(leaf, body);
-                }
-            }
-            _ => {}
+    let bounded = |(leaf, body): (usize, BrushBody)| match (body, outer) {
+        (BrushBody::Unbounded, Some(outer)) if keeps => {
+            let materials: Vec<MaterialId> =
+                model.tree.brushes()[leaf].faces.iter().map(|face| face.material).collect();
+            outer.cut(&table, &planes[leaf], &materials).bounded()
         }
+        (body, _) => body.bounded(),
+    };
+    let bodies: Vec<Option<Body>> = bodies.into_iter().enumerate().map(bounded).collect();
+    let faces = |leaf: LeafId| bodies[leaf.index()].iter().flat_map(Body::planes_and_materials);
+    let kinds = kinds(bodies.len(), faces, |leaf| mark_of(faces(leaf)));
+    let repeated = expression.repeated_leaves(&kinds);
+    let polarities = expression.common_polarities(&kinds);
+    let mut leaves = Leaves::default();
+    for (leaf, body) in bodies.into_iter().enumerate().filter(|(leaf, _)| !repeated[*leaf]) {
+        body.into_iter().for_each(|body| leaves.push(leaf, body));
     }
     let rank = ranks(model);
     let (edges, counted) = match outer {
-        None => leaves.boundary_edges(&table, &expression, &rank),
-        Some(outer) => leaves.boundary_within(&table, &outer, model.tree.nodes(), &rank)?,
+        None => leaves.boundary_edges(&table, (&expression, &polarities), &rank),
+        Some(outer) => leaves.boundary_within(&table, &outer, (model.tree.nodes(), polarities), &rank)?,
     };
     signs += counted;
     let (evaluated, welding) = (begin.elapsed(), Clock::start());
@@ -270,8 +265,14 @@ impl Leaves {
         self.leaf_of_body.push(LeafId::from_index(leaf));
     }
 
-    fn boundary_edges(&self, table: &PlaneTable, expression: &Expression, rank: &[u32]) -> (Vec<BoundaryEdge>, Counts) {
-        boundary_edges(&Scene::new(table, &self.bodies, &self.leaf_of_body, expression, rank))
+    /// Their boundary in a tree; for each leaf of that there is the polarity of all that equal it.
+    fn boundary_edges(
+        &self,
+        table: &PlaneTable,
+        tree: (&Expression, &[Polarity]),
+        rank: &[u32],
+    ) -> (Vec<BoundaryEdge>, Counts) {
+        boundary_edges(&Scene::new(table, &self.bodies, &self.leaf_of_body, tree, rank))
     }
 
     /// The boundary of the tree cut by the outer box, which it must not reach.
@@ -279,7 +280,7 @@ impl Leaves {
         mut self,
         table: &PlaneTable,
         outer: &OuterBox,
-        nodes: &[TreeNode],
+        (nodes, mut polarities): (&[TreeNode], Vec<Polarity>),
         rank: &[u32],
     ) -> Result<(Vec<BoundaryEdge>, Counts), EvaluateError> {
         // Where the tree holds what no leaf holds, the box is a body of its own, so that it ends somewhere.
@@ -290,7 +291,8 @@ impl Leaves {
         if let BrushBody::Bounded(body, _) = outer.cut(table, &[], &[]) {
             self.push(count, body);
         }
-        let (edges, counted) = self.boundary_edges(table, &Expression::new(&nodes), rank);
+        polarities.push(Polarity::Adds);
+        let (edges, counted) = self.boundary_edges(table, (&Expression::new(&nodes), &polarities), rank);
         let reaches =
             |edge: &BoundaryEdge| [edge.face, edge.edge, edge.start, edge.end].iter().any(|p| outer.holds(*p));
         if edges.iter().any(reaches) { Err(EvaluateError::Unbounded) } else { Ok((edges, counted)) }

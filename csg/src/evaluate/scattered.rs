@@ -49,7 +49,10 @@ pub(super) fn evaluate_scattered(
     if unbounded == UnboundedBrushes::Keep && !summary.unbounded.is_empty() {
         return Ok(None);
     }
-    let groups = Groups::of(&extents, &expression, &repeated(model, &planes, &extents, &expression));
+    let kinds = kinds_of(model, &planes, &extents);
+    let groups = Groups::of(&extents, &expression, &expression.repeated_leaves(&kinds));
+    let polarities = expression.common_polarities(&kinds);
+    drop(kinds);
     let scene = Scattered { model, built, table: &table, planes: &planes };
     let evaluated = begin.elapsed();
 
@@ -77,7 +80,8 @@ pub(super) fn evaluate_scattered(
         rest = after;
         let mut leaves = some.concat();
         leaves.sort_unstable();
-        let (edges, counted) = scene.leaves(&leaves, &mut signs).boundary_edges(&table, &expression, &rank);
+        let (edges, counted) =
+            scene.leaves(&leaves, &mut signs).boundary_edges(&table, (&expression, &polarities), &rank);
         signs += counted;
         let Welded { mesh, solid: measures, noise, signs: counted, triangulation } =
             weld(&table, &edges, &rank, &model.materials)?;
@@ -205,16 +209,15 @@ impl Groups {
     }
 }
 
-/// For each leaf whether the tree says the same without it.
-fn repeated(model: &Model, planes: &[Vec<PlaneId>], extents: &[BrushExtent], expression: &Expression) -> Vec<bool> {
+/// For each leaf a number that equal ones have in common.
+fn kinds_of(model: &Model, planes: &[Vec<PlaneId>], extents: &[BrushExtent]) -> Vec<LeafId> {
     let faces = |leaf: LeafId| {
         let number = leaf.index();
         let all = planes[number].iter().zip(&model.tree.brushes()[number].faces);
         let is_body = extents[number].bounds().is_some();
         all.filter(move |_| is_body).map(|(plane, face): (&PlaneId, &BrushFace)| (*plane, face.material))
     };
-    let kinds = kinds(extents.len(), faces, |leaf| mark_of(faces(leaf)));
-    expression.repeated_leaves(&kinds)
+    kinds(extents.len(), faces, |leaf| mark_of(faces(leaf)))
 }
 
 /// What is there of the solid so far.

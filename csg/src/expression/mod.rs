@@ -50,13 +50,37 @@ pub(crate) enum Polarity {
 }
 
 impl Polarity {
-    fn flipped(self) -> Self {
+    pub(crate) fn flipped(self) -> Self {
         match self {
             Self::Adds => Self::Takes,
             Self::Both => Self::Both,
             Self::Takes => Self::Adds,
         }
     }
+
+    /// That of an operand of a node of this polarity; of a difference the first operand is told from the others.
+    pub(crate) fn below(self, operation: Operation, is_first: bool) -> Self {
+        match operation {
+            Operation::Xor => Self::Both,
+            Operation::Complement => self.flipped(),
+            Operation::Difference if !is_first => self.flipped(),
+            Operation::Union | Operation::Intersection | Operation::Difference => self,
+        }
+    }
+
+    /// That of something that is found in two places.
+    fn with(self, other: Self) -> Self {
+        if self == other { self } else { Self::Both }
+    }
+}
+
+/// For each leaf the polarity of all leaves that equal it: both, where one adds and another takes. `kinds` gives one number to equal leaves: that of the first of them.
+pub(crate) fn common_polarities(kinds: &[LeafId], polarity: impl Fn(LeafId) -> Polarity) -> Vec<Polarity> {
+    let mut common: Vec<Polarity> = LeafId::all(kinds.len()).map(&polarity).collect();
+    for (k, kind) in kinds.iter().enumerate() {
+        common[kind.index()] = common[kind.index()].with(common[k]);
+    }
+    kinds.iter().map(|kind| common[kind.index()]).collect()
 }
 
 /// What a tree of one level does with its leaves.
@@ -140,6 +164,11 @@ impl Expression {
     /// Whether a leaf adds to the solid or takes from it.
     pub(crate) fn polarity(&self, leaf: LeafId) -> Polarity {
         self.nodes[self.leaves[leaf.index()].index()].polarity
+    }
+
+    /// For each leaf the polarity of all leaves that equal it; as [`common_polarities`].
+    pub(crate) fn common_polarities(&self, kinds: &[LeafId]) -> Vec<Polarity> {
+        common_polarities(kinds, |leaf| self.polarity(leaf))
     }
 
     /// Whether the tree, of which the value is 0 where all leaves are, is 1 where only this leaf is.
@@ -248,11 +277,8 @@ fn descend(nodes: &mut [Node], parents: &[TreeNodeId]) {
         node.depth = depth;
         node.is_negated = parent.is_negated ^ negates ^ is_odd;
         node.blocked_at = if parent.ignores(node) { depth + 1 } else { parent.blocked_at };
-        node.polarity = match parent.operation {
-            Some(Operation::Xor) => Polarity::Both,
-            _ if negates => parent.polarity.flipped(),
-            _ => parent.polarity,
-        };
+        let is_first = parent.is_in_first(node.first_leaf);
+        node.polarity = parent.operation.map_or(parent.polarity, |above| parent.polarity.below(above, is_first));
     }
 }
 

@@ -8,6 +8,8 @@
 //! All that is found can be left out at once. At a point where no operand of the unions around a union holds, what these have
 //! made 0 was 0 there; and of the operands that hold of the union itself, one of the fewest leaves has nothing within it that
 //! equals another one that holds. So it still holds.
+//!
+//! Which of coplanar faces gives the boundary its material does not depend on what is left out (`docs/weld.md`, "Coplanar faces: who owns the boundary").
 
 use crate::ids::number32;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -33,7 +35,7 @@ impl Expression {
         let mut operands: Vec<Vec<u32>> = vec![Vec::new(); self.nodes.len()];
         let mut said: FxHashSet<(TreeNodeId, u32)> = FxHashSet::default();
         let mut is_again = vec![false; self.nodes.len()];
-        // of equal operands of one union the last counts, as it would if something were taken away, or intersected, between them: so it does not depend on what is between them
+        // of equal operands of one union the last counts
         for k in (0..self.nodes.len()).rev().filter(|k| is_operand(*k)) {
             is_again[k] = !said.insert((unions[k], numbers[k]));
             if !is_again[k] {

@@ -8,7 +8,7 @@ use super::tree::Member;
 use crate::base::{Bounds, map_chunks};
 use crate::body::{Body, kinds};
 use crate::boundary::{EdgeChange, FaceWorker, KnownEdge, Scene, can_cover};
-use crate::expression::Expression;
+use crate::expression::{Expression, common_polarities};
 use crate::ids::{BodyId, Id, LeafId, OperandFace, OperandId};
 use crate::weld::LiveWeld;
 
@@ -172,12 +172,19 @@ impl LiveModel {
         let mut members = near.clone();
         members.sort_unstable();
         members.dedup();
-        let nodes = self.tree.near(&mut members, |member| self.operand(member.operand).state.role);
+        let role = |member: &Member| self.operand(member.operand).state.role;
         let member = |leaf: LeafId| self.operand(members[leaf.index()].operand);
+        let faces_of = |leaf: LeafId| self.body_at(members[leaf.index()].operand).planes_and_materials();
+        let all_kinds = kinds(members.len(), faces_of, |leaf| member(leaf).mark);
+        // equal bodies are near the same faces, so all are among these; what the tree is near does not tell for all of them what they do
+        let polarity = |leaf: LeafId| self.tree.polarity(members[leaf.index()].at, role(&members[leaf.index()]));
+        let all_polarities = common_polarities(&all_kinds, polarity);
+        let nodes = self.tree.near(&mut members, role);
+        let first = all_kinds.len() - members.len();
+        let (kinds, polarities) = (&all_kinds[first..], &all_polarities[first..]);
         let body = |leaf: LeafId| self.body_at(members[leaf.index()].operand);
         let expression = Expression::new(&nodes);
-        let kinds = kinds(members.len(), |leaf| body(leaf).planes_and_materials(), |leaf| member(leaf).mark);
-        let repeated = expression.repeated_leaves(&kinds);
+        let repeated = expression.repeated_leaves(kinds);
         let leaves: Vec<LeafId> = LeafId::all(members.len()).filter(|leaf| !repeated[leaf.index()]).collect();
         place.resize(self.operands.len(), BodyId::NONE);
         for (k, leaf) in BodyId::all(leaves.len()).zip(&leaves) {
@@ -185,7 +192,8 @@ impl LiveModel {
         }
         let bodies: Vec<&Body> = leaves.iter().map(|leaf| body(*leaf)).collect();
         let table = &self.planes.table;
-        let scene = Scene::of_some(table, bodies, &leaves, &expression, &self.bodies_on_plane, &self.rank);
+        let scene =
+            Scene::of_some(table, bodies, &leaves, (&expression, polarities), &self.bodies_on_plane, &self.rank);
         let emit = |groups: &[FaceBatch]| {
             let mut worker = FaceWorker::new(&scene);
             let (mut found, mut edges, mut near_here) = (Found::default(), Vec::new(), Vec::new());

@@ -1,6 +1,7 @@
 //! Operations written one after another, as the boundary needs them.
 
 use super::{LiveTree, Member, NodeId, OrderKey, Place, Position, TreeOperand};
+use crate::expression::Polarity;
 use crate::ids::number32;
 use crate::live::{BrushId, Role};
 use crate::model::{Operation, TreeNode};
@@ -11,11 +12,16 @@ pub(super) struct Subtree {
     /// In postfix order.
     entries: Vec<TreeNode>,
     pub(super) leaves: Vec<BrushId>,
+    /// Whether each leaf adds to what the operation makes.
+    polarities: Vec<Polarity>,
 }
 
 /// An operation whose operands are being written down.
 struct Open {
     node: NodeId,
+    operation: Operation,
+    /// Whether it adds to what the topmost operation makes.
+    polarity: Polarity,
     /// Those still to come, the last one first.
     rest: Vec<TreeOperand>,
     /// What those before are far from all brushes.
@@ -26,23 +32,24 @@ impl LiveTree {
     /// Writes down an operation in the list of the model again after something below it has changed.
     pub(super) fn flatten(&mut self, top: OrderKey, root: NodeId) {
         let mut subtree = Subtree::default();
-        let mut open = vec![self.begin(root)];
+        let mut open = vec![self.begin(root, Polarity::Adds)];
         while let Some(last) = open.last_mut() {
+            let polarity = last.polarity.below(last.operation, last.values.is_empty());
             match last.rest.pop() {
                 Some(TreeOperand::Brush(id)) => {
                     last.values.push(false);
+                    subtree.polarities.push(polarity);
                     self.positions.insert(id, Position { top, leaf: number32(subtree.leaves.len()) });
                     subtree.leaves.push(id);
                     subtree.entries.push(TreeNode::Leaf);
                 }
                 Some(TreeOperand::Node(id)) => {
-                    let next = self.begin(id);
+                    let next = self.begin(id, polarity);
                     open.push(next);
                 }
                 None => {
-                    let Some(Open { node, values, .. }) = open.pop() else { break };
+                    let Some(Open { node, operation, values, .. }) = open.pop() else { break };
                     let node = self.nodes.get_mut(&node).expect("an operation that is an operand is there");
-                    let operation = node.state.operation;
                     node.far = operation.value(&values);
                     subtree.entries.push(TreeNode::Operation { operation, operands: number32(values.len()) });
                     let far = node.far;
@@ -53,9 +60,9 @@ impl LiveTree {
         self.subtrees.insert(top, subtree);
     }
 
-    fn begin(&self, node: NodeId) -> Open {
+    fn begin(&self, node: NodeId, polarity: Polarity) -> Open {
         let rest = self.operands(Some(node)).rev().map(|(_, operand)| operand).collect();
-        Open { node, rest, values: Vec::new() }
+        Open { node, operation: self.nodes[&node].state.operation, polarity, rest, values: Vec::new() }
     }
 
     /// The brushes below an operation.
@@ -107,6 +114,17 @@ impl LiveTree {
         }
         // an operation none of whose brushes is near matters only as a barrier
         sequence.finish()
+    }
+
+    /// Whether a brush adds to the solid or takes from it; `role` is that of a brush in the list of the model.
+    pub(in crate::live) fn polarity(&self, at: Position, role: Role) -> Polarity {
+        let (role, polarity) = if at.leaf == Position::ALONE {
+            (role, Polarity::Adds)
+        } else {
+            let (role, subtree) = self.part(at.top);
+            (role, subtree.polarities[at.leaf as usize])
+        };
+        if role == Role::Subtract { polarity.flipped() } else { polarity }
     }
 
     fn part(&self, top: OrderKey) -> (Role, &Subtree) {
