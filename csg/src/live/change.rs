@@ -38,7 +38,7 @@ impl LiveModel {
         let bodies = self.build(&changed, &before);
         let old = self.place(bodies);
         let (faces, vicinity) = self.faces_to_redo(&changed, &old, reach, &local);
-        let found = self.find_boundary(&faces, &changed, vicinity.filter(|_| !extent.is_nested), reach);
+        let found = self.find_boundary(&faces, &changed, vicinity, reach);
         let outer = &self.outer;
         let is_outside =
             |edge: &BoundaryEdge| [edge.face, edge.edge, edge.start, edge.end].iter().any(|plane| outer.holds(*plane));

@@ -36,7 +36,7 @@ impl Reach {
 }
 
 impl LiveModel {
-    /// The brushes, ascending, among some that change, whose roles and places stay and whose bodies, still the old ones, have no equal.
+    /// The brushes, ascending, among some that change, whose roles and places stay, and those of the operations above them, and whose bodies, still the old ones, have no equal.
     /// `before` are those that were edited, as they were.
     pub(super) fn local(&self, changed: &[OperandId], before: &[New], extent: &Extent) -> Vec<OperandId> {
         let is_local = |number: &OperandId| {
@@ -44,10 +44,9 @@ impl LiveModel {
             let edited = before.iter().find(|(id, _)| *id == operand.id);
             let keeps_spot =
                 edited.is_none_or(|(_, old)| old.as_ref().is_some_and(|old| old.spot() == operand.state.spot()));
-            keeps_spot && self.has_no_equal(operand)
+            keeps_spot && !extent.brushes.contains(&operand.id) && self.has_no_equal(operand)
         };
-        // in nested operations it depends on what is near a face which of two bodies speaks for a plane of both
-        let few = if changed.len() < MANY && !extent.is_nested { changed } else { &[] };
+        let few = if changed.len() < MANY { changed } else { &[] };
         few.iter().copied().filter(is_local).collect()
     }
 
@@ -61,7 +60,7 @@ impl LiveModel {
     ///
     /// Where a body alone is another, of brushes that do what they did, only the parts in which it differs matter: `local` are
     /// the brushes for which that may be so. It is not where one of several equal bodies changes, or one becomes equal to
-    /// others: which of them stands for all of them may change, too.
+    /// others: whether they add or take counts for the materials of all of them.
     pub(super) fn faces_to_redo(
         &mut self,
         changed: &[OperandId],

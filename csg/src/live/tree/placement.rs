@@ -46,8 +46,6 @@ pub(in crate::live) struct Extent {
     pub(in crate::live) is_everywhere: bool,
     /// Whether nothing but brushes came, after all that was there, which do not intersect.
     pub(in crate::live) is_appended: bool,
-    /// Whether there are operations, or were.
-    pub(in crate::live) is_nested: bool,
     /// The brushes beside those that have changed themselves where the solid may be another.
     pub(in crate::live) brushes: BTreeSet<BrushId>,
 }
@@ -62,7 +60,6 @@ struct Reduced {
 impl LiveTree {
     /// Moves, adds and removes brushes and operations.
     pub(in crate::live) fn apply(&mut self, changes: &[Placed]) -> Extent {
-        let was_nested = self.is_nested();
         let last = self.last_key(None);
         let is_appended = !changes.is_empty()
             && changes.iter().all(|change| {
@@ -76,11 +73,11 @@ impl LiveTree {
             return self.apply_widely(changes);
         }
         self.put(changes);
-        Extent { is_appended, is_nested: was_nested, ..Extent::default() }
+        Extent { is_appended, ..Extent::default() }
     }
 
     fn apply_widely(&mut self, changes: &[Placed]) -> Extent {
-        let mut extent = Extent { is_nested: self.is_nested(), ..Extent::default() };
+        let mut extent = Extent::default();
         let changed: BTreeSet<TreeOperand> = changes.iter().map(|change| change.operand).collect();
         let spots = || changes.iter().flat_map(|change| [change.old, change.new]).flatten();
         let is_other = |node: &NodeId| !changed.contains(&TreeOperand::Node(*node));
@@ -121,7 +118,6 @@ impl LiveTree {
         }
         let tops = tops_before.into_iter().chain(tops).collect();
         extent.is_everywhere = barriers != self.barriers_at(&tops, changes);
-        extent.is_nested |= self.is_nested();
         extent
     }
 
@@ -158,7 +154,7 @@ impl LiveTree {
         }
         let nodes = tops.iter().filter_map(|(key, operand)| Some((node_of(*operand)?, *key))).collect();
         self.set_barriers(&BTreeMap::new(), &nodes, operands);
-        Extent { is_everywhere: true, is_nested: self.is_nested(), ..Extent::default() }
+        Extent { is_everywhere: true, ..Extent::default() }
     }
 
     /// The key in the list of the model of each of some operations, or of the one above it, where it is there.
