@@ -119,6 +119,8 @@ pub mod cli;
 pub mod enclosing;
 #[cfg(feature = "picture")]
 pub mod picture;
+#[cfg(feature = "session")]
+pub mod session;
 
 /// The command line names the crate as other programs do.
 #[cfg(feature = "cli")]

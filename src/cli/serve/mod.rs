@@ -1,16 +1,12 @@
 //! `planecut edit INPUT --serve`: a live model that an editor drives, edits and queries as JSON objects on standard input, a line each, each answered by a line on standard output.
 //!
-//! - [`lines`]: lines of bounded length; [`request`]: what a line asks for; [`answer`]: what it gets.
-//! - [`session`]: edits and queries of the model; [`measures`], [`save`]: the longer ones of them.
+//! [`lines`] are of bounded length, a [`Session`] answers them, and [`save`] writes the model to a file where one asks for it.
 
-mod answer;
 mod lines;
-mod measures;
-mod request;
 mod save;
-mod session;
 
 use std::io::{self, BufRead, ErrorKind, Write};
+use std::path::Path;
 
 use super::args::EditArgs;
 use super::edit::begin;
@@ -19,9 +15,10 @@ use super::input::Input;
 use super::pool::on_threads;
 use super::progress::Progress;
 use super::terminal;
-use answer::refusal;
 use lines::{Line, Lines};
-use session::Session;
+use planecut::csg::LiveModel;
+use planecut::session::{Answer, Session, refusal};
+use save::Saving;
 
 /// Runs the command until standard input ends.
 ///
@@ -43,8 +40,8 @@ pub(crate) fn run(args: &EditArgs) -> Result<Done, CliError> {
         if !args.common.quiet {
             terminal::print_warnings(&input.name(), &warnings);
         }
-        let session = Session::new(live, args, &input, kind);
-        match serve(session, io::stdin().lock(), io::stdout().lock()) {
+        let saving = Saving { args, input: &input, kind };
+        match serve(Session::new(live), &saving, io::stdin().lock(), io::stdout().lock()) {
             // nobody is left to answer
             Err(CliError::Stdout(error)) if error.kind() == ErrorKind::BrokenPipe => Ok(Done::Complete),
             outcome => outcome.map(|()| Done::Complete),
@@ -53,21 +50,35 @@ pub(crate) fn run(args: &EditArgs) -> Result<Done, CliError> {
 }
 
 /// Answers each line but empty ones.
-fn serve(mut session: Session<'_>, input: impl BufRead, mut output: impl Write) -> Result<(), CliError> {
+///
+/// # Errors
+/// [`CliError::Read`], [`CliError::Stdout`], and [`CliError::Bug`] after an edit that shows one.
+fn serve(
+    mut session: Session,
+    saving: &Saving<'_>,
+    input: impl BufRead,
+    mut output: impl Write,
+) -> Result<(), CliError> {
     for line in Lines::new(input) {
-        let (answer, outcome) = match line {
+        let (message, bug) = match line {
             Ok(Line::Text(text)) if text.trim_ascii().is_empty() => continue,
-            Ok(Line::Text(text)) => session.answer(&text),
-            Ok(Line::TooLong) => (
-                refusal(None, &format!("found a line of more than {} bytes, expected a shorter one", lines::LIMIT)),
-                Ok(()),
-            ),
+            Ok(Line::Text(text)) => {
+                let save = |live: &LiveModel, path: &Path| saving.save(live, path).map_err(|error| error.to_string());
+                let Answer { message, bug } = session.answer(&text, save);
+                (message, bug)
+            }
+            Ok(Line::TooLong) => {
+                let fault = format!("found a line of more than {} bytes, expected a shorter one", lines::LIMIT);
+                (refusal(None, &fault), None)
+            }
             Err(source) => return Err(CliError::Read { path: "standard input".into(), source }),
         };
-        let mut bytes = answer.to_string().into_bytes();
+        let mut bytes = message.to_string().into_bytes();
         bytes.push(b'\n');
         output.write_all(&bytes).and_then(|()| output.flush()).map_err(CliError::Stdout)?;
-        outcome?;
+        if let Some(source) = bug {
+            return Err(CliError::of_evaluation(&saving.input.path, source));
+        }
     }
     Ok(())
 }

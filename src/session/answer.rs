@@ -1,7 +1,7 @@
 //! What a line gets: one JSON object.
 
-use planecut::csg::{ConvexPiece, Edited, FaceId, LiveModel, PlaneRemoval, Preview, TreeOperand};
-use planecut::kernel::DVec3;
+use crate::csg::{ConvexPiece, Edited, FaceId, LiveModel, PlaneRemoval, Preview, TreeOperand};
+use crate::kernel::DVec3;
 use serde_json::{Map, Value, json};
 
 /// What is said of a line that asks for what can be done.
@@ -11,8 +11,9 @@ pub(super) fn success(id: Option<Value>, mut content: Map<String, Value>) -> Val
     content.into()
 }
 
-/// What is said of one that does not.
-pub(super) fn refusal(id: Option<Value>, error: &str) -> Value {
+/// The answer to a message that is refused; `id` is what it is to repeat.
+#[must_use]
+pub fn refusal(id: Option<Value>, error: &str) -> Value {
     let mut content = Map::from_iter([("ok".into(), false.into()), ("error".into(), error.into())]);
     content.extend(id.map(|id| ("id".into(), id)));
     content.into()
@@ -73,7 +74,7 @@ pub(super) fn face(live: &LiveModel, id: FaceId) -> Option<Map<String, Value>> {
 
 /// What an edit would change.
 pub(super) fn preview(preview: &Preview, material: impl Fn(u32) -> String) -> Map<String, Value> {
-    let face = |face: &planecut::csg::PreviewFace| {
+    let face = |face: &crate::csg::PreviewFace| {
         json!({
             "material": material(face.material.0),
             "normal": face.normal.to_array(),

@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use planecut::csg::{Edit, Material};
-use planecut::import::edits::edit_of_keys;
+use crate::csg::{Edit, Material};
+use crate::import::edits::edit_of_keys;
 use serde::Deserialize;
 use serde_json::{Map, Value};
 

@@ -1,61 +1,109 @@
-//! A live model, and what is done to it and asked of it.
+//! A live model that a program drives by messages: edits and queries as JSON objects, each answered by one. `planecut edit --serve` reads them line by line, a page
+//! in a browser sends them to its worker. [Serving an editor](https://docs.rs/crate/planecut/latest/source/docs/command-line.md) has all of them.
+//!
+//! - [`request`]: what a message asks for; [`answer`]: what it gets; [`measures`]: the longest of these.
 
-use planecut::csg::{
+mod answer;
+mod measures;
+mod request;
+
+use std::path::Path;
+
+use crate::csg::{
     BrushId, EditError, EvaluateError, FaceId, LiveModel, Material, NodeId, SnapOptions, SnapTarget, TreeOperand,
 };
-use planecut::import::edits::edit_of_keys;
-use planecut::kernel::{DVec3, HalfSpace, PlaneIdx};
+use crate::import::Warning;
+use crate::import::edits::edit_of_keys;
+use crate::kernel::{DVec3, HalfSpace, PlaneIdx};
 use serde_json::{Map, Value, json};
 
-use super::answer::{self, keys, operand, refusal, success};
-use super::measures::measures;
-use super::request::{Asked, Query, Request};
-use super::save::save;
-use crate::cli::args::EditArgs;
-use crate::cli::error::CliError;
-use crate::cli::input::{Input, InputKind};
+pub use answer::refusal;
+use answer::{keys, operand, success};
+use measures::measures;
+use request::{Asked, Query, Request};
 
-/// A live model that is edited, and the arguments by which it is written.
-pub(super) struct Session<'a> {
+/// A live model that is edited by messages.
+///
+/// ```
+/// use planecut::csg::LiveModel;
+/// use planecut::session::Session;
+///
+/// # fn main() -> Result<(), serde_json::Error> {
+/// let mut session = Session::new(LiveModel::new(Vec::new()));
+/// let box_of = r#"{"op": "add_brush", "planes": [[1, 0, 0, 2], [-1, 0, 0, 0], [0, 1, 0, 2], [0, -1, 0, 0], [0, 0, 1, 2], [0, 0, -1, 0]]}"#;
+/// let answer = session.answer(box_of.as_bytes(), |_, _| Err("found a file, expected none".into()));
+/// assert_eq!(answer.message["added"].as_array().map(Vec::len), Some(6));
+/// let answer = session.answer(br#"{"query": "measures"}"#, |_, _| Err("found a file, expected none".into()));
+/// assert_eq!(answer.message["volume"], 8.0);
+/// # Ok(())
+/// # }
+/// ```
+pub struct Session {
     live: LiveModel,
-    args: &'a EditArgs,
-    input: &'a Input,
-    kind: InputKind,
+}
+
+/// What a message gets.
+pub struct Answer {
+    /// The answer.
+    pub message: Value,
+    /// A bug that an edit has shown: the model cannot be trusted any more.
+    pub bug: Option<EvaluateError>,
 }
 
 /// The content of an answer, or why there is none.
 type Content = Result<Map<String, Value>, String>;
 
-impl<'a> Session<'a> {
-    pub(super) fn new(live: LiveModel, args: &'a EditArgs, input: &'a Input, kind: InputKind) -> Self {
-        Self { live, args, input, kind }
+/// Writes a model to a file; gives what there is to warn of, or says what is wrong.
+type Save<'a> = &'a mut dyn FnMut(&LiveModel, &Path) -> Result<Vec<Warning>, String>;
+
+impl Session {
+    /// A session on a model.
+    #[must_use]
+    pub fn new(live: LiveModel) -> Self {
+        Self { live }
     }
 
-    /// The answer to a line; after a bug the session cannot go on.
-    pub(super) fn answer(&mut self, text: &[u8]) -> (Value, Result<(), CliError>) {
+    /// The model as it is now.
+    #[must_use]
+    pub fn live(&self) -> &LiveModel {
+        &self.live
+    }
+
+    /// The model, for calls that no message makes.
+    pub fn live_mut(&mut self) -> &mut LiveModel {
+        &mut self.live
+    }
+
+    /// The answer to a message, a JSON object in UTF-8. `save` writes the model to a file, gives what there is to warn of, or says what is wrong.
+    pub fn answer(
+        &mut self,
+        text: &[u8],
+        mut save: impl FnMut(&LiveModel, &Path) -> Result<Vec<Warning>, String>,
+    ) -> Answer {
         let Request { id, asked } = Request::read(text, self.live.materials());
-        let mut outcome = Ok(());
+        let mut bug = None;
         let content = match asked {
             Err(fault) => Err(fault),
-            Ok(Asked::Query { query, buffers }) => self.query(query, buffers),
+            Ok(Asked::Query { query, buffers }) => self.query(query, buffers, &mut save),
             Ok(Asked::Edit { edit, materials, buffers }) => match self.live.apply_with(edit, materials) {
                 Ok(edited) => Ok(answer::edited(&self.live, &edited, buffers)),
                 Err(error) => {
+                    let message = error.to_string();
                     if let EditError::Evaluate(source @ EvaluateError::Weld(_)) = error {
-                        outcome = Err(CliError::of_evaluation(&self.input.path, source));
+                        bug = Some(source);
                     }
-                    Err(error.to_string())
+                    Err(message)
                 }
             },
         };
-        let answer = match content {
+        let message = match content {
             Ok(content) => success(id, content),
             Err(error) => refusal(id, &error),
         };
-        (answer, outcome)
+        Answer { message, bug }
     }
 
-    fn query(&mut self, query: Query, buffers: bool) -> Content {
+    fn query(&mut self, query: Query, buffers: bool, save: Save<'_>) -> Content {
         match query {
             Query::Faces {} => {
                 let all = || self.live.faces().map(|(id, _)| id);
@@ -90,8 +138,7 @@ impl<'a> Session<'a> {
                 Ok(answer::removal(&removal.map_err(|error| error.to_string())?))
             }
             Query::Save { output } => {
-                let warnings =
-                    save(&self.live, self.args, self.input, self.kind, &output).map_err(|error| error.to_string())?;
+                let warnings = save(&self.live, &output)?;
                 let warnings: Vec<String> = warnings.into_iter().map(|warning| warning.message).collect();
                 Ok(keys(json!({"output": output.display().to_string(), "warnings": warnings})))
             }

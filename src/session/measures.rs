@@ -1,6 +1,6 @@
 //! Measures of a live model as they are answered.
 
-use planecut::csg::{EvaluateError, LiveModel, Material};
+use crate::csg::{EvaluateError, LiveModel, Material};
 use serde_json::{Map, Value, json};
 
 use super::answer::keys;
