@@ -119,6 +119,7 @@ pub mod cli;
 pub mod enclosing;
 #[cfg(feature = "picture")]
 pub mod picture;
+pub mod reading;
 #[cfg(feature = "session")]
 pub mod session;
 

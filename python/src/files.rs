@@ -5,16 +5,15 @@ use std::sync::Arc;
 
 use planecut::cells::convex_union;
 use planecut::csg::polyhedron::convex_tree;
-use planecut::csg::{Mesh as CoreMesh, Model, Tree};
+use planecut::csg::{Mesh as CoreMesh, Model};
 use planecut::export::{BrushFormat, ExportOptions, Format, encode, write_atomic, write_brushes};
+use planecut::import::Warning;
 use planecut::import::file::{MAX_MESH, read_file};
-use planecut::import::map::{MapOptions, read_map};
 use planecut::import::mesh::{
-    IndexedMesh, MeshFormat, MeshObject, Precision, SolidError, SolidOptions, WindingRule, read_solid, solid_of_mesh,
+    IndexedMesh, MeshFormat, MeshObject, Precision, SolidError, SolidOptions, WindingRule, solid_of_mesh,
 };
-use planecut::import::model::{MAX_TEXT, ModelError, ModelOptions, read_model};
-use planecut::import::scad::{ScadOptions, read_scad};
-use planecut::import::{DEFAULT_MAX_PIECES, Warning};
+use planecut::import::model::MAX_TEXT;
+use planecut::reading::{self, ENDINGS, FileKind, ReadError, ReadOptions};
 use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyFloat};
@@ -146,9 +145,11 @@ fn load(
             value.extract().map_err(|_| refuse(format!("{name}: found what is no number, expected one")))?;
         values.push((name, value));
     }
-    let options = SolidOptions { rule: winding_of(winding)?, close: not_negative("close", close)?, textures: false };
+    let solid = SolidOptions { rule: winding_of(winding)?, close: not_negative("close", close)?, textures: false };
+    let folder = path.parent().map(Path::to_owned).unwrap_or_default();
+    let options = ReadOptions { parameters: values, folder, solid };
     let name = path.display().to_string();
-    let (model, warnings) = Job::default().run(py, move || read(&path, values, &options))?;
+    let (model, warnings) = Job::default().run(py, move || read(&path, &options))?;
     warn(py, &name, &warnings, allow_loss)?;
     Ok(Solid::of(Node::of_model(model)))
 }
@@ -171,85 +172,22 @@ fn not_negative(name: &str, value: f64) -> PyResult<f64> {
     }
 }
 
-fn read(path: &Path, parameters: Vec<(String, f64)>, options: &SolidOptions) -> Outcome<(Model, Vec<Warning>)> {
+fn read(path: &Path, options: &ReadOptions) -> Outcome<(Model, Vec<Warning>)> {
     let name = path.display().to_string();
-    let ending = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
-    let mesh_format = MeshFormat::from_extension(&ending);
-    let is_text = matches!(ending.as_str(), "json" | "map" | "csg");
-    if !is_text && mesh_format.is_none() {
-        return Err(at(
-            path,
-            "found a file of another kind, expected .json, .map, .csg, .obj, .stl, .ply, .glb or .gltf",
-        ));
-    }
-    if !parameters.is_empty() && ending != "json" {
-        return Err(at(path, "found parameters for a file that has none, expected a model file (.json)"));
-    }
-    let bytes = read_file(path, if is_text { MAX_TEXT as u64 } else { MAX_MESH }).map_err(|error| at(path, error))?;
-    let folder = path.parent().map(Path::to_owned).unwrap_or_default();
-    let refused = |error: &dyn std::fmt::Display, line: Option<usize>| Failure {
+    let ending = path.extension().unwrap_or_default().to_string_lossy();
+    let Some(kind) = FileKind::from_extension(&ending) else {
+        return Err(at(path, format!("found a file of another kind, expected {ENDINGS}")));
+    };
+    let limit = if matches!(kind, FileKind::Mesh(_)) { MAX_MESH } else { MAX_TEXT as u64 };
+    let bytes = read_file(path, limit).map_err(|error| at(path, error))?;
+    let failed = |error: ReadError| Failure {
         message: error.to_string(),
         path: Some(name.clone()),
-        line,
+        line: error.line().map(|line| line as usize),
+        json_path: error.json_path().map(str::to_owned),
         ..Failure::default()
     };
-    if let Some(format) = mesh_format {
-        let import = read_solid(&bytes, format, &name, options).map_err(|error| refused(&error, line_of(&error)))?;
-        return Ok((import.model, import.warnings));
-    }
-    match ending.as_str() {
-        "json" => {
-            let options = ModelOptions { parameters, folder, ..ModelOptions::default() };
-            let failed = |error: ModelError| Failure {
-                json_path: error.path().map(str::to_owned),
-                ..refused(&error, error.line().map(|line| line as usize))
-            };
-            let import = read_model(&bytes, &name, &options).map_err(failed)?;
-            Ok((import.model, import.warnings))
-        }
-        "map" => {
-            let import = read_map(&bytes, &name, &MapOptions::default()).map_err(|error| refused(&error, None))?;
-            let (model, mut warnings) = (import.model, import.warnings);
-            let model = without_unbounded(model, &mut warnings);
-            Ok((model, warnings))
-        }
-        _ => {
-            let options = ScadOptions { folder, max_pieces: DEFAULT_MAX_PIECES, ..ScadOptions::default() };
-            let import = read_scad(&bytes, &name, &options).map_err(|error| refused(&error, None))?;
-            Ok((import.model, import.warnings))
-        }
-    }
-}
-
-/// A map without brushes that are not bounded: nobody means half of space there, the brush lacks a face.
-fn without_unbounded(model: Model, warnings: &mut Vec<Warning>) -> Model {
-    let unbounded = planecut::csg::summarize(&model).unbounded;
-    if unbounded.is_empty() {
-        return model;
-    }
-    let line = unbounded.first().and_then(|brush| model.tree.source_line(*brush)).map_or(0, std::num::NonZeroU32::get);
-    let count = unbounded.len();
-    warnings.push(Warning::loss(
-        line,
-        format!("left out {count} brushes that are not bounded, the first of them here"),
-        count,
-    ));
-    let brushes = model.tree.into_brushes().into_iter().enumerate();
-    let kept = brushes.filter(|(number, _)| unbounded.binary_search(number).is_err()).map(|(_, brush)| brush);
-    Model { materials: model.materials, tree: Tree::union_of(kept.collect()) }
-}
-
-fn line_of(error: &SolidError) -> Option<usize> {
-    use planecut::import::mesh::Place;
-    let place = match error {
-        SolidError::Mesh(error) => &error.place,
-        SolidError::Surface { place, .. } => place,
-        _ => return None,
-    };
-    match place {
-        Place::Line(line) => Some(*line),
-        _ => None,
-    }
+    reading::read(&bytes, kind, &name, options).map_err(failed)
 }
 
 /// Triangles that somebody gives, as a reader of files gives them.
