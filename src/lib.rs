@@ -18,6 +18,9 @@
 //! | [`import`] | readers of the native [model file](import::model), of OpenSCAD's evaluated trees ([`scad`](import::scad)), of Quake-family [`map`](import::map)s, and of [`mesh`](import::mesh) files: OBJ, STL, PLY and glTF |
 //! | [`export`] | [`encode`](export::encode) a mesh as GLB, glTF, OBJ, STL, 3MF or PLY |
 //! | [`enclosing`] | few convex cells around a solid, made the way that adds least |
+//! | [`coarsening`] | the same of solids, meshes and hulls, as others read the cells |
+//! | [`expression`] | solids as operations on solids, evaluated when somebody asks |
+//! | [`reading`], [`triangles`] | solids of any file's bytes, and of triangles that a program has |
 //! | `picture` | pictures of meshes and cells (feature `picture`, on unless turned off) |
 //! | `cli` | the `planecut` program, for others that carry it (feature `cli`, on unless turned off) |
 //!
@@ -116,12 +119,15 @@ pub mod export {
 }
 #[cfg(feature = "cli")]
 pub mod cli;
+pub mod coarsening;
 pub mod enclosing;
+pub mod expression;
 #[cfg(feature = "picture")]
 pub mod picture;
 pub mod reading;
 #[cfg(feature = "session")]
 pub mod session;
+pub mod triangles;
 
 /// The command line names the crate as other programs do.
 #[cfg(feature = "cli")]

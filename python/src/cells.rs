@@ -2,18 +2,14 @@
 
 use glam::DVec3;
 use numpy::PyArray2;
-use planecut::cells::Solid as CellSolid;
-use planecut::csg::polyhedron::convex_tree;
-use planecut::csg::{Brush, ConvexPiece, Material, MaterialId, Model, Tree};
-use planecut::kernel::{HalfSpace, IncrementalPolytope};
-use planecut_parallel::job::check;
+use planecut::csg::{Brush, ConvexPiece, Material, MaterialId, Model};
+use planecut::expression::{self, DEFAULT_MATERIAL, Node};
+use planecut::kernel::HalfSpace;
 use pyo3::prelude::*;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::arrays::{view_points, view_rows};
 use crate::errors::{Failure, Outcome, refuse};
-use crate::expression::Node;
 use crate::pickles::{Reduced, reduced, unpickled};
 use crate::solid::Solid;
 
@@ -29,42 +25,14 @@ pub(crate) struct Cell {
 }
 
 impl Cell {
-    /// The body of half-spaces.
-    pub(crate) fn of_planes(planes: impl Iterator<Item = HalfSpace>, material: &Material) -> Outcome<Self> {
-        let mut body = IncrementalPolytope::with_epsilon(0.0);
-        planes.for_each(|plane| _ = body.add_plane(plane));
-        if !body.is_bounded() {
-            return Err(Failure::of("found a cell that reaches infinity, expected a solid that is bounded"));
-        }
-        let (vertices, polygons) = body.to_mesh();
-        let fan = |polygon: &Vec<usize>| {
-            let corner = |k: usize| polygon[k] as u32;
-            (2..polygon.len()).map(|k| [corner(0), corner(k - 1), corner(k)]).collect::<Vec<_>>()
-        };
-        let planes =
-            body.facets().iter().filter_map(|(plane, _)| body.plane(*plane)).map(HalfSpace::to_array).collect();
-        let volume = body.measures().map_or(0.0, |measures| measures.volume);
-        let triangles = polygons.iter().flat_map(fan).collect();
-        Ok(Self { planes, vertices, triangles, volume, material: material.name.clone() })
-    }
-
     /// A convex body whose boundary is known.
     pub(crate) fn of_piece(piece: ConvexPiece, material: String) -> Self {
         let ConvexPiece { half_spaces, positions: vertices, triangles, volume } = piece;
         Self { planes: half_spaces.iter().map(HalfSpace::to_array).collect(), vertices, triangles, volume, material }
     }
 
-    /// The same body with corners and triangles as they are written for others.
-    pub(crate) fn written_as(self, mesh: &planecut::csg::Mesh) -> Self {
-        Self { vertices: mesh.positions.clone(), triangles: mesh.triangles.clone(), ..self }
-    }
-
-    pub(crate) fn volume(&self) -> f64 {
-        self.volume
-    }
-
-    pub(crate) fn parts(&self) -> (&[DVec3], &[[u32; 3]]) {
-        (&self.vertices, &self.triangles)
+    pub(crate) fn corners(&self) -> &[DVec3] {
+        &self.vertices
     }
 }
 
@@ -89,8 +57,8 @@ impl Cell {
     }
 
     /// The volume.
-    #[getter(volume)]
-    fn volume_of(&self) -> f64 {
+    #[getter]
+    fn volume(&self) -> f64 {
         self.volume
     }
 
@@ -131,30 +99,10 @@ impl Cell {
 }
 
 /// The disjoint convex cells of a model.
-pub(crate) fn cells_of(model: Model) -> Outcome<Vec<Cell>> {
-    let tree = convex_tree(&model.tree).map_err(Failure::of)?;
-    let solid = CellSolid::from_tree(&tree);
-    if !solid.is_bounded() {
-        return Err(Failure::of("found a solid that reaches infinity, expected one that is bounded"));
-    }
-    let cells: Vec<_> = solid.cells().collect();
-    let cell = |cell: &&planecut::cells::Cell| {
-        check();
-        let brush = solid.brush_of(cell);
-        let material = brush.faces.first().and_then(|face| model.materials.get(face.material.0 as usize));
-        let default = Material::named(crate::shapes::DEFAULT_MATERIAL);
-        Cell::of_planes(brush.half_spaces().copied(), material.unwrap_or(&default))
+pub(crate) fn cells_of(model: &Model) -> Outcome<Vec<Cell>> {
+    let name = |material: MaterialId| {
+        model.materials.get(material.0 as usize).map_or(DEFAULT_MATERIAL, |material| material.name.as_str()).to_owned()
     };
-    cells.par_iter().map(cell).collect()
-}
-
-/// The connected parts of a model, each the union of disjoint cells.
-pub(crate) fn components_of(model: Model) -> Outcome<Vec<Model>> {
-    let tree = convex_tree(&model.tree).map_err(Failure::of)?;
-    let solid = CellSolid::from_tree(&tree);
-    let part = |part: CellSolid| {
-        let brushes = part.cells().map(|cell| part.brush_of(cell)).collect();
-        Model { materials: model.materials.clone(), tree: Tree::union_of(brushes) }
-    };
-    Ok(solid.connected_components().into_iter().map(part).collect())
+    let cells = expression::cells_of(model)?;
+    Ok(cells.into_iter().map(|(piece, material)| Cell::of_piece(piece, name(material))).collect())
 }

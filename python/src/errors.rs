@@ -4,8 +4,9 @@ use std::any::Any;
 use std::fmt::Display;
 
 use planecut::cells::coarsen::CoarsenError;
+use planecut::coarsening::CoarseningError;
 use planecut::csg::{EditError, EvaluateError};
-use planecut::enclosing::EncloseError;
+use planecut::expression::ExpressionError;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::{PyErr, create_exception};
@@ -33,8 +34,6 @@ pub(crate) struct Failure {
     pub(crate) line: Option<usize>,
     pub(crate) json_path: Option<String>,
     pub(crate) is_bug: bool,
-    /// Whether it is that a solid reaches infinity.
-    pub(crate) is_unbounded: bool,
 }
 
 /// What work without the interpreter gives.
@@ -60,7 +59,7 @@ impl Failure {
 
 impl From<Failure> for PyErr {
     fn from(failure: Failure) -> Self {
-        let Failure { message, path, line, json_path, is_bug, is_unbounded: _ } = failure;
+        let Failure { message, path, line, json_path, is_bug } = failure;
         if is_bug {
             return InternalError::new_err(message);
         }
@@ -81,12 +80,15 @@ impl From<Failure> for PyErr {
     }
 }
 
+impl From<ExpressionError> for Failure {
+    fn from(error: ExpressionError) -> Self {
+        Self { is_bug: error.is_bug(), ..Self::of(&error) }
+    }
+}
+
 impl From<EvaluateError> for Failure {
     fn from(error: EvaluateError) -> Self {
-        match error {
-            EvaluateError::Weld(_) | EvaluateError::Combine(_) => Self::bug(error),
-            _ => Self { is_unbounded: error == EvaluateError::Unbounded, ..Self::of(error) },
-        }
+        ExpressionError::from(error).into()
     }
 }
 
@@ -108,12 +110,9 @@ impl From<CoarsenError> for Failure {
     }
 }
 
-impl From<EncloseError> for Failure {
-    fn from(error: EncloseError) -> Self {
-        match error {
-            EncloseError::Coarsen(error) => error.into(),
-            EncloseError::Cells(error) => Self::of(error),
-        }
+impl From<CoarseningError> for Failure {
+    fn from(error: CoarseningError) -> Self {
+        Self { is_bug: error.is_bug(), ..Self::of(&error) }
     }
 }
 

@@ -7,22 +7,21 @@ use planecut::cells::convex_union;
 use planecut::csg::polyhedron::convex_tree;
 use planecut::csg::{Mesh as CoreMesh, Model};
 use planecut::export::{BrushFormat, ExportOptions, Format, encode, write_atomic, write_brushes};
+use planecut::expression::Node;
 use planecut::import::Warning;
 use planecut::import::file::{MAX_MESH, read_file};
-use planecut::import::mesh::{
-    IndexedMesh, MeshFormat, MeshObject, Precision, SolidError, SolidOptions, WindingRule, solid_of_mesh,
-};
+use planecut::import::mesh::{SolidError, SolidOptions, WindingRule};
 use planecut::import::model::MAX_TEXT;
 use planecut::reading::{self, ENDINGS, FileKind, ReadError, ReadOptions};
+use planecut::triangles::{self, Triangles, said_of_surface};
 use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyFloat};
 use serde::de::DeserializeOwned;
 
 use crate::errors::{Failure, Outcome, refuse};
-use crate::expression::Node;
 use crate::job::Job;
-use crate::mesh::{Given, Mesh};
+use crate::mesh::{self, Mesh};
 use crate::solid::Solid;
 
 /// Keyword arguments as JSON.
@@ -190,38 +189,15 @@ fn read(path: &Path, options: &ReadOptions) -> Outcome<(Model, Vec<Warning>)> {
     reading::read(&bytes, kind, &name, options).map_err(failed)
 }
 
-/// Triangles that somebody gives, as a reader of files gives them.
-pub(crate) fn indexed(given: Given) -> IndexedMesh {
-    let Given { positions, triangles, materials, material_ids } = given;
-    let material_of = if material_ids.is_empty() {
-        vec![Some(0); triangles.len()]
-    } else {
-        material_ids.into_iter().map(Some).collect()
-    };
-    let precision = Precision::of_coordinates(&positions);
-    let objects = vec![MeshObject { name: None, triangles: 0..triangles.len() }];
-    let (colors, textures, places) = (Vec::new(), Vec::new(), Vec::new());
-    IndexedMesh { positions, triangles, objects, precision, materials, material_of, colors, textures, places }
-}
-
 /// The boundary of a solid as a closed mesh.
 pub(crate) fn one_body(node: &Node) -> Outcome<Model> {
     let evaluated = node.evaluated()?;
-    let mesh = &evaluated.evaluation.mesh;
-    if mesh.triangles.is_empty() {
-        return Ok(Model::default());
-    }
-    let options = SolidOptions::default();
-    let import = solid_of_mesh(indexed(Given::of_core(mesh)), MeshFormat::Obj, "mesh", &options);
-    Ok(import.map_err(|error| surface_failure(&error))?.model)
+    triangles::one_body(&evaluated.evaluation.mesh).map_err(|error| surface_failure(&error))
 }
 
 /// What is wrong with triangles that somebody gives, without the name of a file.
-pub(crate) fn surface_failure(error: &SolidError) -> Failure {
-    match error {
-        SolidError::Surface { source, .. } => Failure::of(source),
-        other => Failure::of(other),
-    }
+fn surface_failure(error: &SolidError) -> Failure {
+    Failure::of(said_of_surface(error))
 }
 
 /// The solid that a closed mesh bounds.
@@ -276,10 +252,10 @@ fn from_mesh(
         }
     };
     let mut given = match own {
-        Some(mesh) => Given::of_core(mesh.get().core()),
+        Some(mesh) => Triangles::of_mesh(mesh.get().core()),
         None => {
             let positions = crate::arrays::positions(&vertices, "vertices")?;
-            Given::new(&positions, &triangles, material, materials, material_ids)?
+            mesh::given(&positions, &triangles, material, materials, material_ids)?
         }
     };
     if let [Some(from), Some(to)] = merges {
@@ -293,9 +269,7 @@ fn from_mesh(
     if given.triangles.is_empty() {
         return Ok(Solid::of(Node::of_model(Model::default())));
     }
-    let import = Job::default().run(py, move || {
-        solid_of_mesh(indexed(given), MeshFormat::Obj, "mesh", &options).map_err(|error| surface_failure(&error))
-    })?;
+    let import = Job::default().run(py, move || given.solid(&options).map_err(|error| surface_failure(&error)))?;
     warn(py, "mesh", &import.warnings, false)?;
     Ok(Solid::of(Node::of_model(import.model)))
 }

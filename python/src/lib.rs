@@ -1,6 +1,6 @@
 //! The Python package `planecut`: the part of it that is written in Rust.
 //!
-//! [`solid`] and [`shapes`] make expressions ([`expression`]), of which a mesh is made when somebody asks for it, by a [`job`] without the interpreter's lock. [`arrays`]
+//! [`solid`] and [`shapes`] make expressions ([`planecut::expression`]), of which a mesh is made when somebody asks for it, by a [`job`] without the interpreter's lock. [`arrays`]
 //! checks what comes in, and gives views of what goes out.
 #![deny(missing_docs)]
 
@@ -9,11 +9,9 @@ mod cells;
 mod coarsen;
 mod command;
 mod errors;
-mod expression;
 mod files;
 mod job;
 mod live;
-mod membership;
 mod mesh;
 mod pickles;
 mod picture;

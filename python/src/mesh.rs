@@ -5,13 +5,14 @@ use std::sync::{Arc, OnceLock};
 use glam::DVec3;
 use numpy::{PyArray1, PyArray2, PyArray3};
 use planecut::check::{CheckOptions, check_mesh, check_topology};
-use planecut::csg::{Material, MaterialId, Mesh as CoreMesh, MeshFace};
+use planecut::csg::{Material, Mesh as CoreMesh};
+use planecut::expression::Evaluated;
+use planecut::triangles::Triangles;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 
 use crate::arrays::{numbers, points, small_rows, triangles, view, view_points, view_rows};
 use crate::errors::refuse;
-use crate::expression::Evaluated;
 use crate::files::{save_mesh, text_of};
 use crate::job::Job;
 use crate::pickles::{Reduced, reduced, unpickled};
@@ -83,56 +84,24 @@ impl Handle {
 }
 
 /// Triangles with materials that a caller gives.
-pub(crate) struct Given {
-    pub(crate) positions: Vec<DVec3>,
-    pub(crate) triangles: Vec<[u32; 3]>,
-    pub(crate) materials: Vec<Material>,
-    /// Of each triangle; empty where all are of the first one.
-    pub(crate) material_ids: Vec<u32>,
-}
-
-impl Given {
-    pub(crate) fn new(
-        vertices: &Bound<'_, PyAny>,
-        faces: &Bound<'_, PyAny>,
-        material: Option<String>,
-        materials: Option<Vec<String>>,
-        material_ids: Option<&Bound<'_, PyAny>>,
-    ) -> PyResult<Self> {
-        let positions = points(vertices, "vertices")?;
-        let triangles = triangles(faces, "triangles", positions.len())?;
-        let (materials, material_ids) = match (materials, material_ids) {
-            (None, None) => (vec![material_of(material)], Vec::new()),
-            (Some(names), Some(ids)) if material.is_none() => {
-                let ids = numbers(ids, "material_ids", Some(triangles.len()), names.len())?;
-                (names.into_iter().map(|name| material_of(Some(name))).collect(), ids)
-            }
-            _ => return Err(refuse("expected either material, or both materials and material_ids")),
-        };
-        Ok(Self { positions, triangles, materials, material_ids })
-    }
-
-    /// Triangles of a mesh of ours.
-    pub(crate) fn of_core(mesh: &CoreMesh) -> Self {
-        let material = |face: &u32| mesh.faces[*face as usize].material.0;
-        Self {
-            positions: mesh.positions.clone(),
-            triangles: mesh.triangles.clone(),
-            materials: mesh.materials.clone(),
-            material_ids: mesh.triangle_faces.iter().map(material).collect(),
+pub(crate) fn given(
+    vertices: &Bound<'_, PyAny>,
+    faces: &Bound<'_, PyAny>,
+    material: Option<String>,
+    materials: Option<Vec<String>>,
+    material_ids: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Triangles> {
+    let positions = points(vertices, "vertices")?;
+    let triangles = triangles(faces, "triangles", positions.len())?;
+    let (materials, material_ids) = match (materials, material_ids) {
+        (None, None) => (vec![material_of(material)], Vec::new()),
+        (Some(names), Some(ids)) if material.is_none() => {
+            let ids = numbers(ids, "material_ids", Some(triangles.len()), names.len())?;
+            (names.into_iter().map(|name| material_of(Some(name))).collect(), ids)
         }
-    }
-
-    pub(crate) fn into_core(self) -> CoreMesh {
-        let Self { positions, triangles, materials, material_ids } = self;
-        let face = |(number, corners): (usize, &[u32; 3])| {
-            let [a, b, c] = corners.map(|corner| positions[corner as usize]);
-            let material = MaterialId(material_ids.get(number).copied().unwrap_or(0));
-            MeshFace { normal: (b - a).cross(c - a).normalize_or_zero(), material }
-        };
-        let faces = triangles.iter().enumerate().map(face).collect();
-        CoreMesh { triangle_faces: (0..triangles.len() as u32).collect(), faces, positions, triangles, materials }
-    }
+        _ => return Err(refuse("expected either material, or both materials and material_ids")),
+    };
+    Ok(Triangles { positions, triangles, materials, material_ids })
 }
 
 #[pymethods]
@@ -146,7 +115,7 @@ impl Mesh {
         materials: Option<Vec<String>>,
         material_ids: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        Ok(Self::of_core(Given::new(vertices, triangles, material, materials, material_ids)?.into_core()))
+        Ok(Self::of_core(given(vertices, triangles, material, materials, material_ids)?.into_mesh()))
     }
 
     /// The places of vertices, shape (n, 3), float64.

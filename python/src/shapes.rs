@@ -7,17 +7,14 @@ use planecut::csg::outline::Outline;
 use planecut::csg::polyhedron::convex_tree;
 use planecut::csg::primitives::{self, Extrusion};
 use planecut::csg::{Brush, Material, MaterialId, Operation, ShapeError, Tree, shaping};
+use planecut::expression::{DEFAULT_MATERIAL, Node};
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PySequence, PyTuple};
 
 use crate::arrays::{columns, row, table, vector};
 use crate::errors::{Failure, refuse};
-use crate::expression::Node;
 use crate::job::Job;
 use crate::solid::Solid;
-
-/// The name of what nobody has given a material.
-pub(crate) const DEFAULT_MATERIAL: &str = "default";
 
 /// The material of a name.
 pub(crate) fn material_of(name: Option<String>) -> Material {

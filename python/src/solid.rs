@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::{DMat3, DVec3};
 use numpy::{PyArray1, PyArray2, PyArray3};
 use planecut::csg::{Brush, Material, Model, Operation, SolidMeasures, Transform, shaping};
+use planecut::expression::{Evaluated, Node, components_of, contains};
 use planecut_csg::stages::{Ray, check_materials};
 use planecut_parallel::job::check;
 use pyo3::prelude::*;
@@ -12,12 +13,10 @@ use pyo3::types::PyBytes;
 use rayon::prelude::*;
 
 use crate::arrays::{points, row, shape, small, small_rows, table, vector};
-use crate::cells::{Cell, cells_of, components_of};
+use crate::cells::{Cell, cells_of};
 use crate::errors::{Failure, Outcome, refuse};
-use crate::expression::{Evaluated, Node};
 use crate::files::{one_body, save_solid, text_of};
 use crate::job::Job;
-use crate::membership;
 use crate::mesh::Mesh;
 use crate::pickles::{Reduced, reduced, unpickled};
 use crate::picture::{Look, is_picture, pixels, save_picture};
@@ -48,7 +47,7 @@ impl Solid {
     }
 
     fn transformed(&self, transform: &Transform) -> PyResult<Self> {
-        Ok(Self::of(self.node.moved(transform)?))
+        Ok(Self::of(self.node.moved(transform).map_err(Failure::from)?))
     }
 
     /// The boundary, worked out by a job where it is not known yet.
@@ -57,7 +56,7 @@ impl Solid {
             return Ok(known);
         }
         let node = Arc::clone(&self.node);
-        job.short_if(node.is_small()).run(py, move || node.evaluated())
+        job.short_if(node.is_small()).run(py, move || Ok(node.evaluated()?))
     }
 
     fn measures(&self, py: Python<'_>) -> PyResult<SolidMeasures> {
@@ -169,7 +168,7 @@ impl Solid {
     #[pyo3(signature = (*, threads=None, progress=None))]
     fn components(&self, py: Python<'_>, threads: Option<usize>, progress: Option<Py<PyAny>>) -> PyResult<Vec<Self>> {
         let node = Arc::clone(&self.node);
-        let models = Job::new(py, threads, progress)?.run(py, move || components_of(node.model()?))?;
+        let models = Job::new(py, threads, progress)?.run(py, move || Ok(components_of(&node.model()?)?))?;
         Ok(models.into_iter().map(|model| Self::of(Node::of_model(model))).collect())
     }
 
@@ -182,7 +181,8 @@ impl Solid {
             return Err(refuse(format!("height: found {height}, expected a finite number")));
         }
         // upside down: what is just below there is just above here
-        let node = self.node.moved(&Transform::scale([1.0, 1.0, -1.0]).map_err(Failure::of)?)?;
+        let upside_down = Transform::scale([1.0, 1.0, -1.0]).map_err(Failure::of)?;
+        let node = self.node.moved(&upside_down).map_err(Failure::from)?;
         let outline =
             Job::default().run(py, move || shaping::slice(&node.model()?.tree, -height).map_err(Failure::of))?;
         let loops = outline.loops().map(|corners| corners.iter().map(|corner| corner.to_array()).collect::<Vec<_>>());
@@ -230,8 +230,8 @@ impl Solid {
         let node = Arc::clone(&self.node);
         let is_empty = move || match node.evaluated() {
             Ok(evaluated) => Ok(evaluated.evaluation.mesh.triangles.is_empty()),
-            Err(failure) if failure.is_unbounded => Ok(false),
-            Err(failure) => Err(failure),
+            Err(error) if error.is_unbounded() => Ok(false),
+            Err(error) => Err(error.into()),
         };
         Job::default().short_if(self.node.is_small()).run(py, is_empty)
     }
@@ -254,8 +254,7 @@ impl Solid {
         let points = crate::arrays::points(points, "points")?;
         let node = Arc::clone(&self.node);
         let is_short = node.is_small() && points.len() < 1000;
-        let held =
-            Job::new(py, threads, None)?.short_if(is_short).run(py, move || membership::contains(&node, &points))?;
+        let held = Job::new(py, threads, None)?.short_if(is_short).run(py, move || Ok(contains(&node, &points)?))?;
         Ok(PyArray1::from_vec(py, held))
     }
 
@@ -317,7 +316,7 @@ impl Solid {
     #[pyo3(signature = (*, threads=None, progress=None))]
     fn cells(&self, py: Python<'_>, threads: Option<usize>, progress: Option<Py<PyAny>>) -> PyResult<Vec<Cell>> {
         let node = Arc::clone(&self.node);
-        Job::new(py, threads, progress)?.run(py, move || cells_of(node.model()?))
+        Job::new(py, threads, progress)?.run(py, move || cells_of(&node.model()?))
     }
 
     /// Writes the boundary, or for .map and .csg the convex bodies, or a picture, to a file. The file appears when it is complete.
@@ -416,7 +415,10 @@ impl Solid {
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
         let node = Arc::clone(&slf.get().node);
-        let bytes = slf.py().detach(move || node.model().map(|model| rmp_serde::to_vec_named(&model)))?;
+        let bytes = slf
+            .py()
+            .detach(move || node.model().map(|model| rmp_serde::to_vec_named(&model)))
+            .map_err(Failure::from)?;
         reduced(slf, bytes)
     }
 

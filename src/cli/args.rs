@@ -17,6 +17,7 @@ use super::output::{MeshTarget, OutputFormat};
 use super::reading_args::ReadingArgs;
 use super::render::RenderArgs;
 use super::terminal;
+use super::view::ViewArgs;
 
 /// Convex-CSG modeling kernel: exact half-spaces in, watertight meshes out.
 #[derive(Debug, Parser)]
@@ -39,6 +40,8 @@ pub(crate) enum Command {
     Edit(EditArgs),
     /// Reduce a solid or a convex decomposition to few convex cells within an error bound, for colliders
     Coarsen(CoarsenArgs),
+    /// Show a file in the editor, in a browser, and again when it changes
+    View(ViewArgs),
     /// Check that a mesh is watertight, manifold and not self-crossing; exit status 1 if not
     Check(CheckArgs),
     /// Print the JSON Schema of the model file

@@ -193,6 +193,14 @@ pub(crate) enum CliError {
     /// Standard output cannot be written.
     #[error("standard output: found {}, expected a place that can be written", reason(.0))]
     Stdout(io::Error),
+    /// Nothing can be served at a port.
+    #[error("127.0.0.1:{port}: found {}, expected a port that is free", reason(.source))]
+    Port {
+        /// The port.
+        port: u16,
+        /// What the system said.
+        source: io::Error,
+    },
     /// The system gives no threads.
     #[error("found no threads to work with: {0}, expected a smaller --threads")]
     Threads(#[from] ThreadPoolBuildError),
@@ -233,6 +241,7 @@ impl CliError {
             | Self::Encode { .. }
             | Self::Write { .. }
             | Self::Stdout(_)
+            | Self::Port { .. }
             | Self::Threads(_) => FAILED,
         }
     }
@@ -260,6 +269,7 @@ fn reason(error: &io::Error) -> String {
     match error.kind() {
         io::ErrorKind::NotFound => "no such file".to_owned(),
         io::ErrorKind::IsADirectory => "a folder".to_owned(),
+        io::ErrorKind::AddrInUse => "a port in use".to_owned(),
         io::ErrorKind::PermissionDenied => "no permission".to_owned(),
         _ => format!("`{error}`"),
     }

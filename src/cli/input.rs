@@ -1,5 +1,6 @@
 //! Input files: what kind they are, and their bytes.
 
+use std::fs::{self, File};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
@@ -144,11 +145,40 @@ impl Input {
             Source::File => read_file(&self.path, self.limit),
             Source::Stdin => read_stream(io::stdin().lock(), MAX_TEXT as u64),
         };
-        bytes.map_err(|source| match source.kind() {
+        bytes.map_err(|source| self.failed(source))
+    }
+
+    /// The file and its length, for what passes it on as it is. It must be a regular one, which can be read more than once.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read).
+    pub(crate) fn open(&self) -> Result<(File, u64), CliError> {
+        open_file(&self.path, self.limit).map_err(|source| self.failed(source))
+    }
+
+    fn failed(&self, source: io::Error) -> CliError {
+        match source.kind() {
             ErrorKind::FileTooLarge => CliError::TooLong { path: self.path.clone(), source },
             _ => CliError::Read { path: self.path.clone(), source },
-        })
+        }
     }
+}
+
+fn open_file(path: &Path, limit: u64) -> io::Result<(File, u64)> {
+    // asked before it is opened: a pipe is open only when another program is at its other end
+    let metadata = fs::metadata(path)?;
+    if metadata.is_dir() {
+        return Err(ErrorKind::IsADirectory.into());
+    }
+    if !metadata.is_file() {
+        return Err(io::Error::other("a device or a pipe"));
+    }
+    let file = File::open(path)?;
+    let length = file.metadata()?.len();
+    if length > limit {
+        return Err(io::Error::new(ErrorKind::FileTooLarge, format!("more than {limit} bytes")));
+    }
+    Ok((file, length))
 }
 
 /// Most bytes of a regular file.

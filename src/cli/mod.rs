@@ -29,6 +29,7 @@ mod serve;
 mod solve;
 mod surface;
 mod terminal;
+mod view;
 mod written_cells;
 
 use std::ffi::OsString;
@@ -62,6 +63,7 @@ fn parse_and_run(arguments: &[OsString]) -> Result<Done, CliError> {
         Command::Render(args) => return render::run(&args),
         Command::Edit(args) => return edit::run(&args),
         Command::Coarsen(args) => return coarsen::run(&args),
+        Command::View(args) => return view::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Schema => schema::run(),
         Command::Completions(args) => completions::run(&args),

@@ -25,7 +25,7 @@ fn print_line(kind: &str, message: &str) {
 }
 
 /// The message without what would break the line or command the terminal: file names may hold anything.
-fn in_one_line(message: &str) -> String {
+pub(crate) fn in_one_line(message: &str) -> String {
     let shown = |c: char| match c {
         c if c.is_whitespace() => ' ',
         c if c.is_control() => char::REPLACEMENT_CHARACTER,

@@ -28,4 +28,5 @@ mod shared_maps;
 mod support;
 mod textures;
 mod usage;
+mod view;
 mod written;

@@ -7,19 +7,21 @@ mod subject;
 use std::sync::Arc;
 
 use planecut::cells::coarsen::{CoarsenOptions, Side};
+use planecut::coarsening::{Taken, WrittenCells};
 use planecut::csg::polyhedron::convex_tree;
 use planecut::csg::{Model, Tree};
 use planecut::export::Engine;
+use planecut::expression::Node;
 use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 
+use crate::cells::Cell;
 use crate::errors::{Failure, Outcome, refuse};
-use crate::expression::Node;
 use crate::job::Job;
 use crate::solid::Solid;
 pub(crate) use coarsened::Coarsened;
 use coarsened::Data;
-use subject::{Subject, Taken, Work, work, written};
+use subject::Subject;
 
 /// Few convex cells that enclose a solid, with as little added as can be found: for colliders.
 ///
@@ -102,11 +104,10 @@ fn coarsen(
             Ok(convex_tree(&tree).map_err(|error| Failure::of(format!("keep_clear: {error}")))?.into_owned())
         };
         let options = CoarsenOptions { keep_clear: clear.map(clear_tree).transpose()?, ..options };
-        let mut work = work(subject, taken, &options)?;
-        let (cells, meshes) = written(&mut work, max_vertices, !inner)?;
-        let Work { outcome, materials, bounded, note, visual, is_closed } = work;
+        let written = subject.coarsened(taken, &options)?;
+        let WrittenCells { cells, meshes, outcome, materials, bounded, note, visual, is_closed } = written;
         let data = Data {
-            cells,
+            cells: cells.into_iter().map(|cell| Cell::of_piece(cell.piece, cell.material.name)).collect(),
             meshes,
             visual,
             is_closed,

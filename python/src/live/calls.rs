@@ -3,20 +3,19 @@
 use std::sync::Arc;
 
 use planecut::csg::{BrushId, Edit as CoreEdit, Material, Role, TreeOperand};
+use planecut::expression::{self, EditMaterials};
 use planecut::kernel::{HalfSpace, PlaneIdx};
 use pyo3::prelude::*;
 
-use super::materials::Materials;
 use super::tree::{Node, operand_of, operation_of};
 use crate::arrays::row;
 use crate::errors::{Failure, Outcome, refuse};
-use crate::expression;
 use crate::solid::{Solid, transform_of};
 
 /// A call, which makes its edit once the materials of the model are known.
 pub(super) struct Call(Box<MakeEdit>);
 
-type MakeEdit = dyn FnOnce(&mut Materials<'_>) -> Outcome<CoreEdit> + Send;
+type MakeEdit = dyn FnOnce(&mut EditMaterials<'_>) -> Outcome<CoreEdit> + Send;
 
 impl From<CoreEdit> for Call {
     fn from(edit: CoreEdit) -> Self {
@@ -25,13 +24,13 @@ impl From<CoreEdit> for Call {
 }
 
 impl Call {
-    fn of(make: impl FnOnce(&mut Materials<'_>) -> Outcome<CoreEdit> + Send + 'static) -> Self {
+    fn of(make: impl FnOnce(&mut EditMaterials<'_>) -> Outcome<CoreEdit> + Send + 'static) -> Self {
         Self(Box::new(make))
     }
 
     /// The edit for a model of these materials, and those that it names for the first time.
     pub(super) fn edit_of(self, known: &[Material]) -> Outcome<(CoreEdit, Vec<Material>)> {
-        let mut materials = Materials::new(known);
+        let mut materials = EditMaterials::new(known);
         let edit = self.0(&mut materials)?;
         Ok((edit, materials.into_new()))
     }

@@ -1,6 +1,6 @@
 //! The live model: edits that cost what they touch.
 //!
-//! - [`edit`] has the calls of an edit, and [`preview`] the same ones as questions about what they would change; [`calls`] makes the edits of both, with their [`materials`].
+//! - [`edit`] has the calls of an edit, and [`preview`] the same ones as questions about what they would change; [`calls`] makes the edits of both.
 //! - [`tree`] shows the operations of a model, and names them.
 //! - [`face`] is what users see of the boundary, [`buffers`] what renderers take of it.
 
@@ -8,7 +8,6 @@ mod buffers;
 mod calls;
 mod edit;
 mod face;
-mod materials;
 mod preview;
 mod tree;
 
@@ -20,13 +19,13 @@ use numpy::{PyArray1, PyArray2};
 use planecut::csg::{
     BrushId, Change as CoreChange, Edited, FaceId, LiveModel, Snap, SnapOptions, SnapTarget, SolidMeasures,
 };
+use planecut::expression;
 use planecut::kernel::PlaneIdx;
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict};
 
 use crate::arrays::{small, small_rows, vector};
 use crate::errors::{Failure, Outcome, refuse};
-use crate::expression;
 use crate::job::{Job, on_threads_of_process};
 use crate::mesh::Mesh;
 use crate::solid::Solid;

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use js_sys::Uint32Array;
 use planecut::csg::polyhedron::convex_tree;
-use planecut::csg::{FaceId, LiveModel, Model, UnboundedBrushes};
-use planecut::export::material_color;
+use planecut::csg::{BrushId, FaceId, LiveModel, Model, UnboundedBrushes};
+use planecut::export::{MassProperties, material_color};
 use planecut::import::Warning;
 use planecut::kernel::DVec3;
 use planecut::reading::{ENDINGS, FileKind, ReadOptions, read};
@@ -69,6 +69,32 @@ impl Editor {
         let live = self.session.live();
         let all: Vec<FaceId> = live.faces().map(|(face, _)| face).collect();
         Faces::of(live, &all, self.center)
+    }
+
+    /// The brushes in the order of their numbers, as a JSON array of objects of `brush`, `name` and `material`, which is that of the first face.
+    #[must_use]
+    pub fn brushes(&self) -> String {
+        let live = self.session.live();
+        let entry = |id: BrushId| {
+            let (brush, _) = live.brush(id).ok()?;
+            let material = brush.faces.first().map(|face| &live.materials()[face.material.0 as usize].name);
+            Some(json!({"brush": id.0, "name": brush.name, "material": material}))
+        };
+        live.brushes().filter_map(entry).collect::<Value>().to_string()
+    }
+
+    /// Mass, centre of mass and inertia about it of the solid at a density, as a JSON object of `mass`, `center` and `inertia` (xx, yy, zz, xy, xz, yz); `null` of an empty solid.
+    ///
+    /// # Errors
+    /// A `PlanecutError` for a density that is not positive.
+    pub fn mass(&self, density: f64) -> Result<String, JsValue> {
+        let is_density = density.is_finite() && density > 0.0;
+        if !is_density {
+            return Err(Failure::of(format!("density: found {density}, expected a number above zero")).into());
+        }
+        let mesh = self.session.live().mesh().map_err(Failure::of)?;
+        let properties = MassProperties::of_triangles(&mesh.positions, &mesh.triangles, density);
+        Ok(properties.map_or(Value::Null, |it| json!({"mass": it.mass, "center": it.center.to_array(), "inertia": [it.moments.x, it.moments.y, it.moments.z, it.products.x, it.products.y, it.products.z]})).to_string())
     }
 
     /// What positions of faces are relative to: x, y and z.

@@ -1,19 +1,20 @@
 //! Which points a solid holds.
 
-use glam::DVec3;
-use planecut::cells::Solid as CellSolid;
-use planecut::cells::coarsen::Winding;
-use planecut::csg::{Brush, Operation, TreeNode};
-use planecut::kernel::{IncrementalPolytope, Location};
+use planecut_cells::Solid as CellSolid;
+use planecut_cells::coarsen::Winding;
 use planecut_csg::stages::{Bounds, Boxes};
+use planecut_csg::{Brush, Operation, TreeNode};
+use planecut_kernel::{DVec3, IncrementalPolytope, Location};
 use planecut_parallel::job::check;
-use rayon::prelude::*;
+use planecut_parallel::prelude::*;
 
-use crate::errors::Outcome;
-use crate::expression::Node;
+use super::{ExpressionError, Node};
 
 /// For each point whether the closed solid holds it: of convex bodies exactly, of closed meshes by the boundary as it is returned.
-pub(crate) fn contains(node: &Node, points: &[DVec3]) -> Outcome<Vec<bool>> {
+///
+/// # Errors
+/// [`ExpressionError`].
+pub fn contains(node: &Node, points: &[DVec3]) -> Result<Vec<bool>, ExpressionError> {
     if node.has_meshes() {
         let evaluated = node.evaluated()?;
         let mesh = &evaluated.evaluation.mesh;

@@ -1,23 +1,50 @@
-//! What a solid is made of: operations on solids that share their parts, until somebody asks for a mesh.
+//! Solids as expressions: operations on solids that share their parts, until somebody asks for a mesh. The packages for Python and JavaScript are made of them.
+//!
+//! - [`Node`] is a solid, of which [`Node::evaluated`] gives the boundary; [`contains`] asks for points, [`cells_of`] for convex cells.
+//! - [`EditMaterials`] takes such solids into a live model.
+
+mod cells;
+mod error;
+mod materials;
+mod membership;
 
 use std::collections::HashMap;
 use std::mem;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use planecut::csg::{Brush, Evaluation, Material, MaterialId, Model, Operation, Transform, Tree, evaluate};
 use planecut_csg::stages::RayCaster;
+use planecut_csg::{Brush, Evaluation, Material, MaterialId, Model, Operation, Transform, Tree, evaluate};
 
-use crate::errors::{Failure, Outcome};
-use crate::shapes::DEFAULT_MATERIAL;
+pub use cells::{cells_of, components_of, piece_of_planes};
+pub use error::ExpressionError;
+pub use materials::EditMaterials;
+pub use membership::contains;
+
+/// The name of what nobody has given a material.
+pub const DEFAULT_MATERIAL: &str = "default";
 
 /// Most convex bodies and meshes of a solid, each counted as often as it is used.
-const MAX_PIECES: u64 = planecut::import::model::MAX_BRUSHES as u64;
+const MAX_PIECES: u64 = planecut_import::model::MAX_BRUSHES as u64;
 /// Solids of fewer planes than this, and of no mesh, are evaluated in a few milliseconds.
 const FEW_PLANES: u64 = 1500;
 
 /// A solid that nothing changes any more.
+///
+/// ```
+/// use planecut::csg::{Brush, Material, MaterialId, Operation, Transform};
+/// use planecut::expression::Node;
+/// use planecut::kernel::DVec3;
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let cube = Node::of_tree(Brush::cuboid(DVec3::ZERO, DVec3::splat(2.0), MaterialId(0)), Material::named("oak"));
+/// let moved = cube.moved(&Transform::translation([1.0, 1.0, 1.0])?)?;
+/// let both = Node::operation(Operation::Union, vec![cube, moved]);
+/// assert_eq!(both.evaluated()?.evaluation.solid.volume, 15.0);
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Debug)]
-pub(crate) struct Node {
+pub struct Node {
     kind: Kind,
     /// How many bodies it has, each as often as it is used.
     pieces: u64,
@@ -38,14 +65,16 @@ enum Kind {
 
 /// The boundary of a solid, and what is known of it.
 #[derive(Debug)]
-pub(crate) struct Evaluated {
-    pub(crate) evaluation: Evaluation,
+pub struct Evaluated {
+    /// The boundary.
+    pub evaluation: Evaluation,
     rays: Mutex<Option<Arc<RayCaster>>>,
 }
 
 impl Evaluated {
     /// The boundary ready for rays.
-    pub(crate) fn rays(&self) -> Arc<RayCaster> {
+    #[must_use]
+    pub fn rays(&self) -> Arc<RayCaster> {
         let known = lock(&self.rays).clone();
         known.unwrap_or_else(|| {
             let mesh = &self.evaluation.mesh;
@@ -93,57 +122,71 @@ impl Node {
     }
 
     /// A tree with its materials.
-    pub(crate) fn of_model(model: Model) -> Arc<Self> {
+    #[must_use]
+    pub fn of_model(model: Model) -> Arc<Self> {
         Self::new(Kind::Model(model))
     }
 
     /// A tree all of one material.
-    pub(crate) fn of_tree(tree: impl Into<Tree>, material: Material) -> Arc<Self> {
+    #[must_use]
+    pub fn of_tree(tree: impl Into<Tree>, material: Material) -> Arc<Self> {
         Self::of_model(Model { materials: vec![material], tree: tree.into() })
     }
 
     /// An operation on others.
-    pub(crate) fn operation(operation: Operation, operands: Vec<Arc<Self>>) -> Arc<Self> {
+    #[must_use]
+    pub fn operation(operation: Operation, operands: Vec<Arc<Self>>) -> Arc<Self> {
         Self::new(Kind::Operation(operation, operands))
     }
 
     /// The same moved by an affine map.
-    pub(crate) fn moved(self: &Arc<Self>, transform: &Transform) -> Outcome<Arc<Self>> {
+    ///
+    /// # Errors
+    /// [`ExpressionError::Transform`].
+    pub fn moved(self: &Arc<Self>, transform: &Transform) -> Result<Arc<Self>, ExpressionError> {
         // one after another is one: a long chain of moves is no deep tree
         if let Kind::Moved(node, first) = &self.kind {
-            let both = first.then(transform).map_err(Failure::of)?;
+            let both = first.then(transform)?;
             return Ok(Self::new(Kind::Moved(Arc::clone(node), both)));
         }
         Ok(Self::new(Kind::Moved(Arc::clone(self), *transform)))
     }
 
     /// The same, all of one material.
-    pub(crate) fn of_material(self: &Arc<Self>, material: Material) -> Arc<Self> {
+    #[must_use]
+    pub fn of_material(self: &Arc<Self>, material: Material) -> Arc<Self> {
         Self::new(Kind::OfMaterial(Arc::clone(self), material))
     }
 
     /// How many convex bodies and meshes it has, each as often as it is used.
-    pub(crate) fn pieces(&self) -> u64 {
+    #[must_use]
+    pub fn pieces(&self) -> u64 {
         self.pieces
     }
 
     /// Whether a part is a closed mesh.
-    pub(crate) fn has_meshes(&self) -> bool {
+    #[must_use]
+    pub fn has_meshes(&self) -> bool {
         self.has_meshes
     }
 
     /// Whether it is evaluated in far less time than anybody waits.
-    pub(crate) fn is_small(&self) -> bool {
+    #[must_use]
+    pub fn is_small(&self) -> bool {
         self.planes < FEW_PLANES && !self.has_meshes
     }
 
     /// The boundary, where it is known.
-    pub(crate) fn known(&self) -> Option<Arc<Evaluated>> {
+    #[must_use]
+    pub fn known(&self) -> Option<Arc<Evaluated>> {
         lock(&self.evaluated).clone()
     }
 
     /// The boundary. Of threads that ask for it at the same time each may work it out; nobody waits for another.
-    pub(crate) fn evaluated(&self) -> Outcome<Arc<Evaluated>> {
+    ///
+    /// # Errors
+    /// [`ExpressionError`], as where the solid is unbounded.
+    pub fn evaluated(&self) -> Result<Arc<Evaluated>, ExpressionError> {
         if let Some(known) = self.known() {
             return Ok(known);
         }
@@ -153,12 +196,12 @@ impl Node {
     }
 
     /// All of it as one tree, with the materials that it uses.
-    pub(crate) fn model(&self) -> Outcome<Model> {
+    ///
+    /// # Errors
+    /// [`ExpressionError`], as for too many bodies.
+    pub fn model(&self) -> Result<Model, ExpressionError> {
         if self.pieces > MAX_PIECES {
-            let found = self.pieces;
-            return Err(Failure::of(format!(
-                "found a solid of {found} convex bodies, each counted as often as it is used, expected at most {MAX_PIECES}"
-            )));
+            return Err(ExpressionError::TooMany { found: self.pieces });
         }
         let mut materials = Materials::default();
         let mut values: Vec<Tree> = Vec::new();
@@ -178,7 +221,7 @@ impl Node {
                         steps.extend(places.map(|(place, node)| (place, &**node)).map(enter));
                     }
                     Kind::Moved(node, own) => {
-                        let both = transform.map_or(Ok(*own), |outer| own.then(&outer)).map_err(Failure::of)?;
+                        let both = transform.map_or(Ok(*own), |outer| own.then(&outer))?;
                         steps.push(Step::Enter(node, Some(both), paint));
                     }
                     Kind::OfMaterial(node, own) => {
@@ -242,10 +285,15 @@ fn is_stated(material: &Material) -> bool {
     *material != Material::named(DEFAULT_MATERIAL)
 }
 
-fn leaf(model: &Model, transform: Option<&Transform>, paint: Paint<'_>, materials: &mut Materials) -> Outcome<Tree> {
+fn leaf(
+    model: &Model,
+    transform: Option<&Transform>,
+    paint: Paint<'_>,
+    materials: &mut Materials,
+) -> Result<Tree, ExpressionError> {
     let mut tree = model.tree.clone().without_source_lines();
     if let Some(transform) = transform {
-        tree = tree.transformed(transform).map_err(Failure::of)?;
+        tree = tree.transformed(transform)?;
     }
     if let Some(material) = paint.all {
         let number = materials.number(material);
@@ -255,7 +303,7 @@ fn leaf(model: &Model, transform: Option<&Transform>, paint: Paint<'_>, material
     let numbers: Vec<MaterialId> = model.materials.iter().map(|material| materials.number(own(material))).collect();
     for own in tree.brushes_mut().iter_mut().flat_map(Brush::materials_mut) {
         let number = numbers.get(own.0 as usize).copied();
-        *own = number.ok_or_else(|| Failure::bug(format!("found material number {} of {}", own.0, numbers.len())))?;
+        *own = number.ok_or(ExpressionError::Material { found: own.0, count: numbers.len() })?;
     }
     Ok(tree)
 }

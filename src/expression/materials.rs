@@ -1,23 +1,26 @@
-//! The materials that a call of an edit names.
+//! The materials that an edit of a live model names.
 
-use planecut::csg::{Brush, Material, MaterialId, Model, Tree};
+use planecut_csg::{Brush, Material, MaterialId, Model, Tree};
 
-use crate::errors::{Failure, Outcome};
-use crate::expression::Node;
+use super::{ExpressionError, Node};
 
-/// The materials of a model, and those that a call names for the first time, which come after them. The model has these only once the edit is done.
-pub(super) struct Materials<'a> {
+/// The materials of a model, and those that an edit names for the first time, which come after them. The model has these only once the edit is done.
+#[derive(Debug)]
+pub struct EditMaterials<'a> {
     known: &'a [Material],
     new: Vec<Material>,
 }
 
-impl<'a> Materials<'a> {
-    pub(super) fn new(known: &'a [Material]) -> Self {
+impl<'a> EditMaterials<'a> {
+    /// Those of a model.
+    #[must_use]
+    pub fn new(known: &'a [Material]) -> Self {
         Self { known, new: Vec::new() }
     }
 
     /// Those that were named for the first time.
-    pub(super) fn into_new(self) -> Vec<Material> {
+    #[must_use]
+    pub fn into_new(self) -> Vec<Material> {
         self.new
     }
 
@@ -31,18 +34,18 @@ impl<'a> Materials<'a> {
     }
 
     /// A material by its name.
-    pub(super) fn named(&mut self, name: &str) -> MaterialId {
+    pub fn named(&mut self, name: &str) -> MaterialId {
         self.number(|material| material.name == name, || Material::named(name))
     }
 
     /// The only body of a solid, of materials of the model.
-    pub(super) fn brush_of(&mut self, node: &Node) -> Outcome<Brush> {
+    ///
+    /// # Errors
+    /// [`ExpressionError::NotOneBody`], and others as for [`Node::model`].
+    pub fn brush_of(&mut self, node: &Node) -> Result<Brush, ExpressionError> {
         let Model { materials, tree } = node.model()?;
         if tree.brushes().len() != 1 || !tree.is_union() {
-            let found = tree.brushes().len();
-            return Err(Failure::of(format!(
-                "solid: found one of {found} bodies, expected one convex body or closed mesh"
-            )));
+            return Err(ExpressionError::NotOneBody { found: tree.brushes().len() });
         }
         let numbers: Vec<MaterialId> =
             materials.iter().map(|material| self.number(|known| known == material, || material.clone())).collect();

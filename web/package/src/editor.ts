@@ -1,0 +1,8 @@
+/**
+ * The kernel as a page's worker uses it: a model that messages and calls drive.
+ *
+ * @packageDocumentation
+ */
+
+export { Colliders, Edited, Editor, Faces, Pieces, version } from "../wasm/planecut_web.js";
+export { init, memoryBytes } from "./kernel.js";

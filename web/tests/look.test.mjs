@@ -1,0 +1,115 @@
+/** Sections, cells, colliders, measures, files that leave; the pictures are compared with those of the last version. */
+
+import assert from "node:assert/strict";
+import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { test } from "node:test";
+import { fileURLToPath } from "node:url";
+
+import pixelmatch from "pixelmatch";
+import { PNG } from "pngjs";
+
+import { measures, onPage, openText, out, settle, start } from "./browser.mjs";
+
+const expected = fileURLToPath(new URL("./pictures", import.meta.url));
+
+/** Share of pixels that may differ: another version of the browser smooths letters and edges in another way. */
+const MOST_DIFFERENT = 0.02;
+
+/** Compares what is seen with a picture that was looked at; with UPDATE_PICTURES set it becomes that. */
+async function compare(page, name) {
+  await page.mouse.move(0, 0);
+  await page.evaluate(() => document.activeElement?.blur());
+  await settle(page);
+  const bytes = await page.screenshot();
+  mkdirSync(out, { recursive: true });
+  writeFileSync(join(out, `${name}.png`), bytes);
+  const file = join(expected, `${name}.png`);
+  if (process.env.UPDATE_PICTURES) {
+    mkdirSync(expected, { recursive: true });
+    writeFileSync(file, bytes);
+  }
+  assert.ok(existsSync(file), `found no ${file}, expected a picture: look at tests/out/${name}.png, then run with UPDATE_PICTURES=1`);
+  const [found, known] = [PNG.sync.read(bytes), PNG.sync.read(readFileSync(file))];
+  assert.deepEqual([found.width, found.height], [known.width, known.height]);
+  const different = pixelmatch(found.data, known.data, null, found.width, found.height, { threshold: 0.2 });
+  assert.ok(different / (found.width * found.height) <= MOST_DIFFERENT, `${name}: ${different} pixels differ`);
+}
+
+test("the page as it opens, in light and dark", async () => {
+  for (const dark of [false, true]) {
+    const { page, close } = await start({ dark });
+    await compare(page, dark ? "castle_dark" : "castle");
+    await close();
+  }
+});
+
+test("a section, x-ray, cells moved apart, and colliders", async () => {
+  const { page, errors, close } = await start({ query: "#example=flange.json" });
+  await page.click("#tab-Look");
+  await page.keyboard.press("c");
+  await compare(page, "section");
+  await page.keyboard.press("c");
+  await page.keyboard.press("y");
+  await compare(page, "xray");
+  await page.keyboard.press("y");
+  await page.keyboard.press("b");
+  await page.waitForFunction(() => /cells, which/.test(document.querySelector(".look").textContent));
+  await compare(page, "cells");
+  await page.keyboard.press("b");
+  await page.keyboard.press("h");
+  await page.waitForSelector("#colliders-result");
+  const excess = async () => Number(/add ([\d.,]+) %/.exec(await page.textContent("#colliders-result"))[1].replace(",", ""));
+  const sixteen = await excess();
+  await compare(page, "colliders");
+  await page.fill('input[aria-label="Maximum number of hulls"]', "2");
+  await page.keyboard.press("Tab");
+  await page.waitForFunction(() => /^[12] hulls/.test(document.querySelector("#colliders-result").textContent));
+  assert.ok((await excess()) > sixteen);
+  assert.deepEqual(errors, []);
+  await close();
+});
+
+test("mass and inertia, distances and angles", async () => {
+  const { page, close } = await start();
+  await openText(page, "box.json", '{"planecut": 1, "model": {"box": {"min": [0, 0, 0], "max": [2, 4, 6]}}}');
+  await page.waitForFunction(() => globalThis.planecut.document.source?.name === "box.json");
+  await settle(page);
+  await page.click("#tab-Measure");
+  await page.click('button:has-text("Mass and inertia")');
+  await page.waitForSelector("#mass dd");
+  const text = await page.textContent("#mass");
+  // m (b² + c²) / 12 of a box
+  const mass = 48_000;
+  for (const value of [mass, (mass * (16 + 36)) / 12, (mass * (4 + 36)) / 12, (mass * (4 + 16)) / 12]) {
+    assert.ok(text.includes(value.toLocaleString("en")), `${value} in ${text}`);
+  }
+  await page.keyboard.press("4");
+  for (const place of [[0.02, 0, 6], [2, 0.02, 5.98]]) {
+    const { x, y } = await onPage(page, place);
+    await page.mouse.move(x, y);
+    await page.waitForTimeout(150);
+    await page.mouse.click(x, y);
+    await settle(page);
+  }
+  assert.match(await page.textContent(".measures [role=status]"), /Distance .* angle between the faces/);
+  await close();
+});
+
+test("a GLB that was saved has the volume of the solid", async () => {
+  const { page, close } = await start({ query: "#example=gear.json" });
+  const { volume } = await measures(page);
+  const [download] = await Promise.all([page.waitForEvent("download"), page.keyboard.press("Control+s")]);
+  assert.equal(download.suggestedFilename(), "gear.glb");
+  const file = await download.path();
+  await page.setInputFiles("input[type=file]", { name: "back.glb", mimeType: "model/gltf-binary", buffer: readFileSync(file) });
+  await page.waitForFunction(() => globalThis.planecut.document.source?.name === "back.glb");
+  await settle(page);
+  const back = (await measures(page)).volume;
+  assert.ok(Math.abs(back / volume - 1) < 1e-4, `${back} ${volume}`);
+  for (const format of ["stl", "3mf", "obj", "ply", "map", "csg"]) {
+    const size = await page.evaluate((name) => globalThis.planecut.document.kernel.call("encode", name).then((bytes) => bytes.length), format);
+    assert.ok(size > 100, format);
+  }
+  await close();
+});
