@@ -1,7 +1,7 @@
 //! A live model that a program drives by messages: edits and queries as JSON objects, each answered by one. `planecut edit --serve` reads them line by line, a page
 //! in a browser sends them to its worker. [Serving an editor](https://docs.rs/crate/planecut/latest/source/docs/command-line.md) has all of them.
 //!
-//! - [`request`]: what a message asks for; [`answer`]: what it gets; [`measures`]: the longest of these.
+//! `request` is what a message asks for, `answer` what it gets, `measures` the longest of these.
 
 mod answer;
 mod measures;
