@@ -85,14 +85,19 @@ pub struct Coarsened {
 }
 
 fn made(subject: Subject<'_>, options: &str, keep_clear: &Operands) -> Outcome<Coarsened> {
+    let (written, encloses) = written(subject, options, keep_clear)?;
+    Ok(Coarsened { written, encloses })
+}
+
+/// Cells of a subject, and whether they hold it; as [`Coarsened::of_solid`].
+pub(crate) fn written(subject: Subject<'_>, options: &str, keep_clear: &Operands) -> Outcome<(WrittenCells, bool)> {
     let settings: Settings = settings(options)?;
     let taken = match settings.surface {
         Surface::Auto => Taken::Auto,
         Surface::Shell => Taken::Shell,
         Surface::Filled => Taken::Filled,
     };
-    let written = coarsened(subject, taken, &settings.options(keep_clear)?)?;
-    Ok(Coarsened { written, encloses: !settings.inner })
+    Ok((coarsened(subject, taken, &settings.options(keep_clear)?)?, !settings.inner))
 }
 
 #[wasm_bindgen]
