@@ -406,6 +406,7 @@ async function begin() {
   if (state.camera) {
     const [x, y, z, u, v, w] = state.camera as [number, number, number, number, number, number];
     const [a, b, c] = document_.center;
+    viewer.release();
     viewer.camera.position.set(x - a, y - b, z - c);
     viewer.controls.target.set(u - a, v - b, w - c);
     viewer.controls.update();

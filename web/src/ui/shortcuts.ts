@@ -79,6 +79,7 @@ function turn(key: string, viewer: Viewer): boolean {
   if (!step) {
     return false;
   }
+  viewer.release();
   step();
   const { x, y, z } = new Vector3().setFromSpherical(sphere.makeSafe());
   camera.position.copy(controls.target).add(new Vector3(x, -z, y));

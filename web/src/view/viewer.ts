@@ -68,6 +68,8 @@ export class Viewer {
   private readonly raycaster = new Raycaster();
   private look: Look = { edges: true, xray: false, solid: true };
   private isAsked = false;
+  /** The box that all of the picture was fitted to, until somebody moves the camera. */
+  private fitted: Box3 | null = null;
   private readonly isSoftware = drawsInSoftware();
 
   constructor(readonly canvas: HTMLCanvasElement) {
@@ -77,6 +79,7 @@ export class Viewer {
     this.camera.position.set(3, -4, 2.5);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener("change", () => this.draw());
+    this.controls.addEventListener("start", () => this.release());
     this.controls.addEventListener("end", () => this.onCamera());
     const key = new DirectionalLight(0xffffff, 1.7);
     key.position.set(0.6, 1, 1.2);
@@ -146,6 +149,7 @@ export class Viewer {
     if (box.isEmpty()) {
       return;
     }
+    this.fitted = box.clone();
     box.getCenter(center);
     const radius = Math.max(box.getSize(size).length() / 2, 1e-6);
     const direction = this.camera.position.clone().sub(this.controls.target).normalize();
@@ -167,8 +171,14 @@ export class Viewer {
     this.draw();
   }
 
+  /** From now on the camera stays where it is, whatever the size of the picture. */
+  release() {
+    this.fitted = null;
+  }
+
   /** Looks from a direction at what is in view. */
   lookFrom(direction: Vector3) {
+    this.release();
     const distance = this.camera.position.distanceTo(this.controls.target);
     this.camera.position.copy(this.controls.target).addScaledVector(direction.clone().normalize(), distance);
     this.controls.update();
@@ -233,6 +243,9 @@ export class Viewer {
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
+    if (this.fitted) {
+      this.fit(this.fitted);
+    }
     this.frame();
   }
 }
