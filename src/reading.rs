@@ -28,6 +28,20 @@ pub enum FileKind {
 pub const ENDINGS: &str = ".json, .map, .csg, .obj, .stl, .ply, .glb or .gltf";
 
 impl FileKind {
+    /// The name of the format, for arguments and reports.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Model => "json",
+            Self::Map => "map",
+            Self::Scad => "csg",
+            Self::Mesh(MeshFormat::Obj) => "obj",
+            Self::Mesh(MeshFormat::Stl) => "stl",
+            Self::Mesh(MeshFormat::Ply) => "ply",
+            Self::Mesh(MeshFormat::Gltf) => "gltf",
+        }
+    }
+
     /// That of a file with an ending, without the dot and in any case; nothing where none has it.
     #[must_use]
     pub fn from_extension(extension: &str) -> Option<Self> {

@@ -25,6 +25,14 @@ pub enum ExportError {
         /// The ending as given, without the dot.
         extension: String,
     },
+    /// No engine has this name.
+    #[error("engine: found {name:?}, expected one of {expected}")]
+    UnknownEngine {
+        /// The name.
+        name: String,
+        /// Those that there are.
+        expected: String,
+    },
     /// A rigid body has nothing to collide with.
     #[error("found a rigid body without colliders, expected one at least")]
     NoColliders,

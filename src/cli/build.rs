@@ -4,11 +4,11 @@ use std::time::Instant;
 
 use planecut::export::Part;
 use planecut::picture::Subject;
+use planecut::reading::FileKind;
 
 use super::args::BuildArgs;
 use super::combine::Inputs;
 use super::error::{CliError, Done};
-use super::input::InputKind;
 use super::output::{MeshTarget, OutputFormat, Target, check_targets};
 use super::pieces::{Pieces, bounded_tree, brushes};
 use super::product::{Contents, Product, draw, encode, first_written, produce};
@@ -20,7 +20,7 @@ use super::solve::solve_split;
 struct Plan<'a> {
     args: &'a BuildArgs,
     inputs: Inputs,
-    kind: InputKind,
+    kind: FileKind,
     meshes: Vec<MeshTarget>,
     preview: Option<Target>,
     report: Option<Target>,

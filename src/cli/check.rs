@@ -2,10 +2,11 @@
 
 use planecut::check::{CheckOptions, CheckReport, TOLERANCE_F32, TOLERANCE_F64, check_mesh};
 use planecut::import::mesh::{MeshFormat, Precision, read_mesh_or_empty};
+use planecut::reading::FileKind;
 
 use super::args::CheckArgs;
 use super::error::CliError;
-use super::input::{Input, InputKind};
+use super::input::Input;
 use super::pool::on_threads;
 use super::progress::Progress;
 use super::terminal;
@@ -17,8 +18,8 @@ use super::terminal;
 pub(crate) fn run(args: &CheckArgs) -> Result<(), CliError> {
     let expected = "a mesh: `.obj`, `.stl`, `.ply`, `.glb` or `.gltf`";
     let mesh_format = |kind| match kind {
-        InputKind::Mesh(format) => Some(format),
-        InputKind::Json | InputKind::Map | InputKind::Csg => None,
+        FileKind::Mesh(format) => Some(format),
+        FileKind::Model | FileKind::Map | FileKind::Scad => None,
     };
     let (input, format) = Input::resolve(&args.mesh, None, mesh_format, expected)?;
     let progress = Progress::start(args.common.quiet);

@@ -10,10 +10,11 @@ use planecut::export::{Collider, ExportOptions, Format, PhysicsFormat, distinct_
 use planecut::import::Warning;
 use planecut::import::mesh::{MeshImport, PartsImport, read_parts};
 use planecut::kernel::DVec3;
+use planecut::reading::FileKind;
 
 use super::args::CoarsenArgs;
 use super::error::{CliError, Done};
-use super::input::{Input, InputKind};
+use super::input::Input;
 use super::output::{MeshTarget, Output, OutputFormat, Target, check_targets};
 use super::pieces::{NUMBER, bounded_tree, no_cells, of_cells};
 use super::product::{Contents, Product, draw, encode, produce};
@@ -36,7 +37,7 @@ enum Shape {
 struct Plan<'a> {
     args: &'a CoarsenArgs,
     input: Input,
-    kind: InputKind,
+    kind: FileKind,
     /// The first output: the report says what it holds.
     first: Option<MeshTarget>,
     /// Where all cells go together.
@@ -47,7 +48,7 @@ struct Plan<'a> {
     bodies: Vec<BodyTarget>,
     /// A pattern for the names of cells.
     name: String,
-    clear: Vec<(Input, InputKind)>,
+    clear: Vec<(Input, FileKind)>,
     preview: Option<Target>,
     report: Option<Target>,
 }
@@ -67,7 +68,7 @@ impl<'a> Plan<'a> {
     fn resolve(args: &'a CoarsenArgs) -> Result<Self, CliError> {
         let (input, kind) = Input::resolve_any(&args.input, args.reading.input_format)?;
         args.reading.check(kind)?;
-        if (args.surface.shell || args.surface.solid) && !matches!(kind, InputKind::Mesh(_)) {
+        if (args.surface.shell || args.surface.solid) && !matches!(kind, FileKind::Mesh(_)) {
             let message =
                 "found --shell or --solid with another input, expected it with a mesh (.obj, .stl, .ply, .glb, .gltf)";
             return Err(CliError::Usage(message.to_owned()));
@@ -157,7 +158,7 @@ impl<'a> Plan<'a> {
     /// The solid, and what its cells are to be made of. `warnings` are those about other files.
     fn solve(&self, warnings: Vec<Warning>, begin: Instant, progress: &Progress) -> Result<(Solved, Shape), CliError> {
         let CoarsenArgs { reading, surface, limits, .. } = self.args;
-        let InputKind::Mesh(format) = self.kind else {
+        let FileKind::Mesh(format) = self.kind else {
             let mut read = read(&self.input, self.kind, reading)?;
             read.warnings.extend(warnings);
             let solved = solve_read(&self.input, self.kind, read, begin.elapsed(), progress)?;

@@ -4,18 +4,19 @@ use std::path::PathBuf;
 
 use planecut::csg::{Brush, Material, MaterialId, Model, ModelSummary, Operation, Tree, summarize};
 use planecut::import::Warning;
+use planecut::reading::FileKind;
 
 use super::args::Combine;
 use super::error::CliError;
-use super::input::{Input, InputKind};
+use super::input::Input;
 use super::pieces::without;
 use super::reading_args::ReadingArgs;
 use super::solve::{Read, brush_warnings, read};
 
 /// One input, or several that are combined.
 pub(crate) struct Inputs {
-    first: (Input, InputKind),
-    others: Vec<(Input, InputKind)>,
+    first: (Input, FileKind),
+    others: Vec<(Input, FileKind)>,
     operation: Combine,
 }
 
@@ -40,7 +41,7 @@ impl Inputs {
         }
         let resolve = |path: &PathBuf| Input::resolve_any(path, reading.input_format);
         let mut inputs = paths.iter().map(resolve).collect::<Result<Vec<_>, _>>()?;
-        let kinds: Vec<InputKind> = inputs.iter().map(|(_, kind)| *kind).collect();
+        let kinds: Vec<FileKind> = inputs.iter().map(|(_, kind)| *kind).collect();
         reading.check_any(&kinds)?;
         let others = inputs.split_off(1);
         let first = inputs.pop().expect("the parser wants one");
@@ -53,8 +54,8 @@ impl Inputs {
     }
 
     /// How what is read is evaluated: of several maps are read without what is not bounded.
-    pub(crate) fn kind(&self) -> InputKind {
-        if self.others.is_empty() { self.first.1 } else { InputKind::Json }
+    pub(crate) fn kind(&self) -> FileKind {
+        if self.others.is_empty() { self.first.1 } else { FileKind::Model }
     }
 
     /// The format of the first one, and for several how they are combined and their names, for the report.
@@ -65,7 +66,7 @@ impl Inputs {
     }
 
     /// All of them in their order.
-    pub(crate) fn all(&self) -> impl Iterator<Item = &(Input, InputKind)> {
+    pub(crate) fn all(&self) -> impl Iterator<Item = &(Input, FileKind)> {
         std::iter::once(&self.first).chain(&self.others)
     }
 
@@ -114,8 +115,8 @@ fn in_file(input: &Input, warning: &Warning) -> Warning {
 }
 
 /// What was read of a map without brushes that are not bounded, which are named in warnings; anything else as it is.
-fn without_unbounded(mut read: Read, kind: InputKind) -> Read {
-    if kind != InputKind::Map {
+fn without_unbounded(mut read: Read, kind: FileKind) -> Read {
+    if kind != FileKind::Map {
         return read;
     }
     // brushes without interior are told of all inputs at once

@@ -7,10 +7,11 @@ use planecut::csg::{Edit, EditError, Evaluation, LiveModel, Mesh, Model, evaluat
 use planecut::export::Part;
 use planecut::import::Warning;
 use planecut::import::edits::{EditsImport, read_edits};
+use planecut::reading::FileKind;
 
 use super::args::EditArgs;
 use super::error::{CliError, Done};
-use super::input::{Input, InputKind};
+use super::input::Input;
 use super::output::{MeshTarget, Output, Target, check_targets};
 use super::pieces::{bounded_tree_of, brushes, of_cells};
 use super::product::{Contents, Product, encode, first_written, produce};
@@ -26,7 +27,7 @@ struct Plan<'a> {
     /// Where the edits are.
     edits: &'a Path,
     input: Input,
-    kind: InputKind,
+    kind: FileKind,
     meshes: Vec<MeshTarget>,
     report: Option<Target>,
 }
@@ -165,7 +166,7 @@ impl<'a> Plan<'a> {
 /// [`CliError`] for unusable input, [`CliError::Evaluate`] for a solid without a mesh, [`CliError::Bug`] for a bug.
 pub(crate) fn begin(
     input: &Input,
-    kind: InputKind,
+    kind: FileKind,
     reading: &ReadingArgs,
     progress: &Progress,
 ) -> Result<(LiveModel, Vec<Warning>), CliError> {
@@ -176,7 +177,7 @@ pub(crate) fn begin(
 /// What an input holds, as convex bodies: edits are of these.
 fn read_model(
     input: &Input,
-    kind: InputKind,
+    kind: FileKind,
     reading: &ReadingArgs,
     progress: &Progress,
 ) -> Result<(Model, Vec<Warning>), CliError> {
@@ -186,7 +187,7 @@ fn read_model(
     Ok((model, warnings))
 }
 
-fn live_model(input: &Input, kind: InputKind, model: Model, progress: &Progress) -> Result<LiveModel, CliError> {
+fn live_model(input: &Input, kind: FileKind, model: Model, progress: &Progress) -> Result<LiveModel, CliError> {
     progress.stage("evaluating");
     LiveModel::from_model_with(model, unbounded_of(kind)).map_err(|error| match error {
         EditError::Evaluate(source) => CliError::of_evaluation(&input.path, source),
@@ -200,7 +201,7 @@ fn live_model(input: &Input, kind: InputKind, model: Model, progress: &Progress)
 /// [`CliError`] of encoding, and of beginning to write.
 pub(crate) fn encode_model(
     args: &EditArgs,
-    (input, kind): (&Input, InputKind),
+    (input, kind): (&Input, FileKind),
     (model, unbounded): (&Model, &[usize]),
     mesh: &Mesh,
     targets: &[MeshTarget],

@@ -6,10 +6,11 @@ use std::time::Instant;
 use planecut::check::check_topology;
 use planecut::import::Warning;
 use planecut::import::mesh::{MeshFormat, read_mesh, solid_of_mesh};
+use planecut::reading::FileKind;
 
 use super::args::InfoArgs;
 use super::error::{CliError, Done, advice};
-use super::input::{Input, InputKind};
+use super::input::Input;
 use super::pool::on_threads;
 use super::progress::Progress;
 use super::reading_args::ReadingArgs;
@@ -27,7 +28,7 @@ pub(crate) fn run(args: &InfoArgs) -> Result<Done, CliError> {
     args.reading.check(kind)?;
     let progress = Progress::start(args.common.quiet);
     let (mut report, warnings) = on_threads(args.common.threads, || match kind {
-        InputKind::Mesh(format) => report_on_mesh(&input, format, &args.reading, &progress),
+        FileKind::Mesh(format) => report_on_mesh(&input, format, &args.reading, &progress),
         kind => {
             let solved = solve(&input, kind, &args.reading, None, false, &progress)?;
             Ok((solved.report, solved.warnings))
@@ -51,7 +52,7 @@ fn report_on_mesh(
 ) -> Result<(Report, Vec<Warning>), CliError> {
     let begin = Instant::now();
     progress.stage("reading");
-    let kind = InputKind::Mesh(format);
+    let kind = FileKind::Mesh(format);
     let mesh = read_mesh(&input.read()?, format, &input.name())?;
     let reading_time = begin.elapsed();
     let topology = check_topology(&mesh.positions, &mesh.triangles);

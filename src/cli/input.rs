@@ -9,48 +9,21 @@ use clap::builder::PossibleValue;
 use planecut::import::file::{MAX_MESH, read_file, read_stream};
 use planecut::import::mesh::MeshFormat;
 use planecut::import::model::MAX_TEXT;
+use planecut::reading::FileKind;
 
 use super::error::CliError;
 
-/// What an input is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum InputKind {
-    /// The native model file.
-    Json,
-    /// A Quake-family map.
-    Map,
-    /// An evaluated tree of OpenSCAD.
-    Csg,
-    /// A triangle mesh.
-    Mesh(MeshFormat),
-}
-
-impl InputKind {
-    /// The name of the format, for arguments and reports.
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Self::Json => "json",
-            Self::Map => "map",
-            Self::Csg => "csg",
-            Self::Mesh(MeshFormat::Obj) => "obj",
-            Self::Mesh(MeshFormat::Stl) => "stl",
-            Self::Mesh(MeshFormat::Ply) => "ply",
-            Self::Mesh(MeshFormat::Gltf) => "gltf",
-        }
-    }
-}
-
-impl ValueEnum for InputKind {
+impl ValueEnum for FileKind {
     fn value_variants<'a>() -> &'a [Self] {
         use MeshFormat::{Gltf, Obj, Ply, Stl};
-        &[Self::Json, Self::Map, Self::Csg, Self::Mesh(Obj), Self::Mesh(Stl), Self::Mesh(Ply), Self::Mesh(Gltf)]
+        &[Self::Model, Self::Map, Self::Scad, Self::Mesh(Obj), Self::Mesh(Stl), Self::Mesh(Ply), Self::Mesh(Gltf)]
     }
 
     fn to_possible_value(&self) -> Option<PossibleValue> {
         let help = match self {
-            Self::Json => "The native model file",
+            Self::Model => "The native model file",
             Self::Map => "A Quake-family map",
-            Self::Csg => "An evaluated tree of OpenSCAD",
+            Self::Scad => "An evaluated tree of OpenSCAD",
             Self::Mesh(_) => "A closed mesh",
         };
         Some(PossibleValue::new(self.name()).help(help))
@@ -86,14 +59,14 @@ impl Input {
     /// [`CliError::Ending`], which says `expected`, where the ending is that of no kind that is accepted.
     pub(crate) fn resolve<T>(
         path: &Path,
-        stated: Option<InputKind>,
-        accept: impl FnOnce(InputKind) -> Option<T>,
+        stated: Option<FileKind>,
+        accept: impl FnOnce(FileKind) -> Option<T>,
         expected: &'static str,
     ) -> Result<(Self, T), CliError> {
         let source = if path == Path::new("-") { Source::Stdin } else { Source::File };
         let of_name = || match source {
             Source::File => kind_of(path),
-            Source::Stdin => Some(InputKind::Json),
+            Source::Stdin => Some(FileKind::Model),
         };
         let kind = stated.or_else(of_name);
         match kind.and_then(|kind| Some((kind, accept(kind)?))) {
@@ -114,7 +87,7 @@ impl Input {
     ///
     /// # Errors
     /// [`CliError::Ending`] where it is none by its name.
-    pub(crate) fn resolve_any(path: &Path, stated: Option<InputKind>) -> Result<(Self, InputKind), CliError> {
+    pub(crate) fn resolve_any(path: &Path, stated: Option<FileKind>) -> Result<(Self, FileKind), CliError> {
         Self::resolve(path, stated, Some, EXPECTED)
     }
 
@@ -182,15 +155,13 @@ fn open_file(path: &Path, limit: u64) -> io::Result<(File, u64)> {
 }
 
 /// Most bytes of a regular file.
-fn limit_of(kind: InputKind) -> u64 {
+fn limit_of(kind: FileKind) -> u64 {
     match kind {
-        InputKind::Mesh(_) => MAX_MESH,
-        InputKind::Json | InputKind::Map | InputKind::Csg => MAX_TEXT as u64,
+        FileKind::Mesh(_) => MAX_MESH,
+        FileKind::Model | FileKind::Map | FileKind::Scad => MAX_TEXT as u64,
     }
 }
 
-fn kind_of(path: &Path) -> Option<InputKind> {
-    let ending = path.extension()?.to_str()?;
-    let known = InputKind::value_variants().iter().copied().find(|kind| kind.name().eq_ignore_ascii_case(ending));
-    known.or_else(|| MeshFormat::from_extension(ending).map(InputKind::Mesh))
+fn kind_of(path: &Path) -> Option<FileKind> {
+    FileKind::from_extension(path.extension()?.to_str()?)
 }

@@ -11,10 +11,11 @@ use planecut::csg::{
     evaluate_with,
 };
 use planecut::export::Part;
+use planecut::reading::FileKind;
 use rayon::prelude::*;
 
 use super::error::CliError;
-use super::input::{Input, InputKind};
+use super::input::Input;
 use super::report::{MeshPart, milliseconds};
 use super::solve::{Solved, unbounded_of};
 
@@ -34,7 +35,7 @@ impl Pieces {
     ///
     /// # Errors
     /// [`CliError::Evaluate`] for an unbounded solid, [`CliError::Bug`] for a bug.
-    pub(crate) fn cells(input: &Input, kind: InputKind, solved: &mut Solved) -> Result<Self, CliError> {
+    pub(crate) fn cells(input: &Input, kind: FileKind, solved: &mut Solved) -> Result<Self, CliError> {
         let begin = Instant::now();
         let tree = bounded_tree(kind, solved);
         let solid = Solid::from_tree(&*of_cells(&input.path, &tree)?);
@@ -61,7 +62,7 @@ impl Pieces {
     ///
     /// # Errors
     /// [`CliError::Evaluate`] for an unbounded part, [`CliError::Bug`] for a bug.
-    pub(crate) fn parts(input: &Input, kind: InputKind, solved: &mut Solved) -> Result<Self, CliError> {
+    pub(crate) fn parts(input: &Input, kind: FileKind, solved: &mut Solved) -> Result<Self, CliError> {
         let begin = Instant::now();
         let trees = bounded_tree(kind, solved).into_owned().into_named_parts();
         let has_own = has_own_materials(&solved.sources);
@@ -165,15 +166,15 @@ pub(crate) fn no_cells(path: &Path, source: ConvexTreeError) -> CliError {
 }
 
 /// The tree of an input, of a map without what is not bounded.
-pub(crate) fn bounded_tree(kind: InputKind, solved: &Solved) -> Cow<'_, Tree> {
+pub(crate) fn bounded_tree(kind: FileKind, solved: &Solved) -> Cow<'_, Tree> {
     bounded_tree_of(kind, &solved.model, &solved.unbounded)
 }
 
 /// The same for a model, given the numbers of its unbounded brushes.
-pub(crate) fn bounded_tree_of<'a>(kind: InputKind, model: &'a Model, unbounded: &[usize]) -> Cow<'a, Tree> {
+pub(crate) fn bounded_tree_of<'a>(kind: FileKind, model: &'a Model, unbounded: &[usize]) -> Cow<'a, Tree> {
     match kind {
-        InputKind::Json | InputKind::Csg | InputKind::Mesh(_) => Cow::Borrowed(&model.tree),
-        InputKind::Map => Cow::Owned(without(model, unbounded)),
+        FileKind::Model | FileKind::Scad | FileKind::Mesh(_) => Cow::Borrowed(&model.tree),
+        FileKind::Map => Cow::Owned(without(model, unbounded)),
     }
 }
 

@@ -8,16 +8,17 @@ use planecut::import::map::MapOptions;
 use planecut::import::mesh::{SolidOptions, WindingRule};
 use planecut::import::model::{MAX_BRUSHES, ModelOptions};
 use planecut::import::scad::ScadOptions;
+use planecut::reading::FileKind;
 
 use super::error::CliError;
-use super::input::{Input, InputKind};
+use super::input::Input;
 
 /// How to read the input.
 #[derive(Debug, Clone, Args)]
 pub(crate) struct ReadingArgs {
     /// Format of the input; by default from the ending of its name, and json for `-`
     #[arg(long, value_enum, value_name = "FORMAT")]
-    pub(crate) input_format: Option<InputKind>,
+    pub(crate) input_format: Option<FileKind>,
     /// End with exit status 0, not 3, where a solid that the input states is left out
     #[arg(long)]
     pub(crate) allow_loss: bool,
@@ -94,7 +95,7 @@ impl ReadingArgs {
     ///
     /// # Errors
     /// [`CliError::Usage`]; `kind` is that of the input.
-    pub(crate) fn check(&self, kind: InputKind) -> Result<(), CliError> {
+    pub(crate) fn check(&self, kind: FileKind) -> Result<(), CliError> {
         self.check_any(&[kind])
     }
 
@@ -102,24 +103,24 @@ impl ReadingArgs {
     ///
     /// # Errors
     /// As [`check`](Self::check).
-    pub(crate) fn check_any(&self, kinds: &[InputKind]) -> Result<(), CliError> {
-        let lacks = |kind: InputKind| !kinds.contains(&kind);
+    pub(crate) fn check_any(&self, kinds: &[FileKind]) -> Result<(), CliError> {
+        let lacks = |kind: FileKind| !kinds.contains(&kind);
         let refuse = |option: &str, expected: &str| {
             Err(CliError::Usage(format!("found {option} with another input, expected it with {expected}")))
         };
-        if lacks(InputKind::Json) && !self.model.set.is_empty() {
+        if lacks(FileKind::Model) && !self.model.set.is_empty() {
             return refuse("--set", "a model file (.json)");
         }
-        if lacks(InputKind::Map) && self.map.options() != MapOptions::default() {
+        if lacks(FileKind::Map) && self.map.options() != MapOptions::default() {
             return refuse("--world-only, --skip-texture or --skip-class", "a map (.map)");
         }
-        if lacks(InputKind::Csg) && self.scad.keep_going {
+        if lacks(FileKind::Scad) && self.scad.keep_going {
             return refuse("--keep-going", "an OpenSCAD tree (.csg)");
         }
-        if lacks(InputKind::Csg) && self.scad.keep_touching {
+        if lacks(FileKind::Scad) && self.scad.keep_touching {
             return refuse("--keep-touching", "an OpenSCAD tree (.csg)");
         }
-        let has_mesh = kinds.iter().any(|kind| matches!(kind, InputKind::Mesh(_)));
+        let has_mesh = kinds.iter().any(|kind| matches!(kind, FileKind::Mesh(_)));
         let asked = SolidOptions { textures: false, ..self.solid_options() };
         if !has_mesh && asked != SolidOptions::default() {
             return refuse("--winding or --close", "a mesh (.obj, .stl, .ply, .glb, .gltf)");

@@ -12,9 +12,10 @@ use planecut::import::map::{MapImport, read_map};
 use planecut::import::mesh::read_solid;
 use planecut::import::model::read_model;
 use planecut::import::scad::read_scad;
+use planecut::reading::FileKind;
 
 use super::error::CliError;
-use super::input::{Input, InputKind};
+use super::input::Input;
 use super::progress::Progress;
 use super::reading_args::ReadingArgs;
 use super::report::{MeshLeaves, MeshPart, Report, milliseconds};
@@ -43,7 +44,7 @@ pub(crate) struct Solved {
 /// [`CliError`] for unusable input, [`CliError::Evaluate`] for a solid without a mesh, [`CliError::Bug`] for a bug.
 pub(crate) fn solve(
     input: &Input,
-    kind: InputKind,
+    kind: FileKind,
     reading: &ReadingArgs,
     splits_by_face: Option<bool>,
     needs_brushes: bool,
@@ -61,7 +62,7 @@ pub(crate) fn solve(
 /// As [`solve_read`].
 pub(crate) fn solve_split(
     input: &Input,
-    kind: InputKind,
+    kind: FileKind,
     mut read: Read,
     begin: Instant,
     splits_by_face: Option<bool>,
@@ -85,7 +86,7 @@ pub(crate) fn solve_split(
 /// [`CliError::Evaluate`] for a solid without a mesh, [`CliError::Bug`] for a bug.
 pub(crate) fn solve_read(
     input: &Input,
-    kind: InputKind,
+    kind: FileKind,
     read: Read,
     import_time: Duration,
     progress: &Progress,
@@ -98,7 +99,7 @@ pub(crate) fn solve_read(
 /// The solid of a model that was evaluated, with the report on it.
 pub(crate) fn solved(
     input: &Input,
-    kind: InputKind,
+    kind: FileKind,
     Read { mut model, mut warnings, drops_brushes, .. }: Read,
     evaluation: Evaluation,
     import_time: Duration,
@@ -141,22 +142,22 @@ pub(crate) struct Read {
 ///
 /// # Errors
 /// [`CliError`] for unusable input.
-pub(crate) fn read(input: &Input, kind: InputKind, reading: &ReadingArgs) -> Result<Read, CliError> {
+pub(crate) fn read(input: &Input, kind: FileKind, reading: &ReadingArgs) -> Result<Read, CliError> {
     let bytes = input.read()?;
     let (model, warnings) = match kind {
-        InputKind::Json => {
+        FileKind::Model => {
             let import = read_model(&bytes, &input.name(), &reading.model_options(input))?;
             (import.model, import.warnings)
         }
-        InputKind::Map => {
+        FileKind::Map => {
             let MapImport { model, warnings, textures, .. } = read_map(&bytes, &input.name(), &reading.map_options())?;
             return Ok(Read { model, warnings, textures, ..Read::default() });
         }
-        InputKind::Csg => {
+        FileKind::Scad => {
             let import = read_scad(&bytes, &input.name(), &reading.scad_options(input))?;
             (import.model, import.warnings)
         }
-        InputKind::Mesh(format) => {
+        FileKind::Mesh(format) => {
             let import = read_solid(&bytes, format, &input.name(), &reading.solid_options())?;
             (import.model, import.warnings)
         }
@@ -168,21 +169,21 @@ pub(crate) fn read(input: &Input, kind: InputKind, reading: &ReadingArgs) -> Res
 ///
 /// # Errors
 /// [`CliError::Evaluate`] for a solid without a mesh, [`CliError::Bug`] for a bug.
-pub(crate) fn evaluate_model(input: &Input, kind: InputKind, model: &Model) -> Result<Evaluation, CliError> {
+pub(crate) fn evaluate_model(input: &Input, kind: FileKind, model: &Model) -> Result<Evaluation, CliError> {
     evaluate_with(model, unbounded_of(kind)).map_err(|source| CliError::of_evaluation(&input.path, source))
 }
 
 /// What becomes of unbounded brushes of an input.
-pub(crate) fn unbounded_of(kind: InputKind) -> UnboundedBrushes {
+pub(crate) fn unbounded_of(kind: FileKind) -> UnboundedBrushes {
     match kind {
-        InputKind::Json | InputKind::Csg | InputKind::Mesh(_) => UnboundedBrushes::Keep,
+        FileKind::Model | FileKind::Scad | FileKind::Mesh(_) => UnboundedBrushes::Keep,
         // Nobody means half of space in a map: the brush lacks a face.
-        InputKind::Map => UnboundedBrushes::LeaveOut,
+        FileKind::Map => UnboundedBrushes::LeaveOut,
     }
 }
 
 /// What is doubtful about a solid: brushes that add nothing to it, and an empty result.
-pub(crate) fn solid_warnings(kind: InputKind, model: &Model, summary: &ModelSummary, mesh: &Mesh) -> Vec<Warning> {
+pub(crate) fn solid_warnings(kind: FileKind, model: &Model, summary: &ModelSummary, mesh: &Mesh) -> Vec<Warning> {
     let mut warnings: Vec<Warning> = brush_warnings(kind, model, summary).collect();
     if mesh.triangles.is_empty() {
         warnings.push(Warning::note(0, "the result is empty"));
@@ -191,8 +192,8 @@ pub(crate) fn solid_warnings(kind: InputKind, model: &Model, summary: &ModelSumm
 }
 
 /// One warning for each kind of brush that adds nothing to the solid, on the line of the first of them.
-pub(crate) fn brush_warnings(kind: InputKind, model: &Model, summary: &ModelSummary) -> impl Iterator<Item = Warning> {
-    let unbounded: &[usize] = if kind == InputKind::Map { &summary.unbounded } else { &[] };
+pub(crate) fn brush_warnings(kind: FileKind, model: &Model, summary: &ModelSummary) -> impl Iterator<Item = Warning> {
+    let unbounded: &[usize] = if kind == FileKind::Map { &summary.unbounded } else { &[] };
     // without interior there is nothing to leave out
     let kinds = [(&summary.empty[..], "without interior", false), (unbounded, "that is not bounded", true)];
     kinds.into_iter().filter_map(|(numbers, kind, is_loss)| {

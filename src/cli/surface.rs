@@ -9,10 +9,11 @@ use planecut::enclosing::bounded_by;
 use planecut::import::Warning;
 use planecut::import::mesh::{MeshFormat, Place, SolidError, TrianglesImport, read_triangles};
 use planecut::kernel::DVec3;
+use planecut::reading::FileKind;
 
 use super::args::SurfaceArgs;
 use super::error::CliError;
-use super::input::{Input, InputKind};
+use super::input::Input;
 use super::reading_args::ReadingArgs;
 use super::report::{Report, milliseconds};
 use super::solve::Solved;
@@ -44,7 +45,7 @@ impl Triangles {
         let bounded = bounded_by(&positions, &triangles, asked.solid, min_thickness);
         warnings.extend(why.map(|why| why.note(bounded, asked)));
         let topology = check_topology(&positions, &triangles);
-        let mut report = Report::of_mesh(input.given(), InputKind::Mesh(format).name(), &topology);
+        let mut report = Report::of_mesh(input.given(), FileKind::Mesh(format).name(), &topology);
         report.time_ms.import = milliseconds(begin.elapsed());
         report.warn(&warnings);
         let model = Model { materials, tree: Tree::default() };

@@ -288,8 +288,7 @@ function nudge(brush: number, plane: number, direction: number) {
   const size = document_.faces.box().getSize(new Vector3()).length();
   const step = direction * (grid > 0 ? grid : Number((size / 100).toPrecision(1)));
   void document_.attempt(async () => {
-    const { planes } = await document_.brush(brush);
-    const half = planes.find((entry) => entry.plane === plane)?.half_space;
+    const half = await document_.halfSpace(brush, plane);
     if (half) {
       await document_.edit({ op: "move_plane", brush, plane, offset: half[3] + step * Math.hypot(half[0], half[1], half[2]) });
     }

@@ -12,7 +12,7 @@ use super::sweep::{Context, Sweep};
 use super::{BoundaryEdge, EdgeChange, KnownEdge, Scene};
 use crate::base::{Bounds, Boxes};
 use crate::body::BodyFace;
-use crate::expression::{OneLevel, Polarity, Restriction};
+use crate::expression::{OneLevel, Restriction};
 use crate::ids::{BodyFaceId, BodyId, EdgeId, Id, KeptLeafId, LeafId, NearId, holds, number32};
 use crate::plane_table::PlaneTable;
 
@@ -29,7 +29,6 @@ pub(super) struct Reaching {
     pub(super) leaf: KeptLeafId,
     pub(super) contact: Contact,
     /// When its face on the plane has its turn, where it has one.
-    pub(super) polarity: Polarity,
     pub(super) turn: Turn,
 }
 
@@ -120,8 +119,8 @@ impl<'a> FaceWorker<'a> {
         if !self.restriction.matters(own) {
             return;
         }
-        let (polarity, turn) = (scene.polarity(body), scene.turn(body, this));
-        let own = Reaching { body, place: NearId::NONE, leaf: own, contact: Contact::SameWay, polarity, turn };
+        let turn = scene.turn(body, this);
+        let own = Reaching { body, place: NearId::NONE, leaf: own, contact: Contact::SameWay, turn };
         self.ownership.begin(scene.expression, &mut self.restriction, &own);
         if !self.sort_out(&own, this) {
             return;
@@ -203,8 +202,7 @@ impl<'a> FaceWorker<'a> {
                 continue;
             }
             let (body, place) = (self.bodies[leaf.index()], self.places[leaf.index()]);
-            let (polarity, turn) = (self.scene.polarity(body), self.scene.turn(body, face));
-            let across = Reaching { body, place, leaf, contact: Contact::Across, polarity, turn };
+            let across = Reaching { body, place, leaf, contact: Contact::Across, turn: self.scene.turn(body, face) };
             if is_tool && self.leaves[leaf.index()].index() == 0 {
                 if !self.require(face, &across) {
                     return None;
@@ -285,10 +283,11 @@ impl<'a> FaceWorker<'a> {
                 self.others.push(self.reaching(leaf, face));
             }
         }
+        let polarity = self.scene.polarity(own.body);
         let coplanar = self.others.iter().filter(|other| other.contact != Contact::Across).count();
         for k in 0..self.others.len() {
             let reaching = self.others[k];
-            match Pair::new(self.scene.expression, &self.restriction, own, &reaching, coplanar).role() {
+            match Pair::new(self.scene.expression, &self.restriction, (own, polarity), &reaching, coplanar).role() {
                 Role::None => {}
                 Role::Covers => self.covering.push(reaching),
                 Role::Open => self.open.push(reaching),
@@ -314,7 +313,7 @@ impl<'a> FaceWorker<'a> {
         };
         // a body that crosses the plane has no face there, and its turn is never asked for
         let turn = self.scene.turn(body, other.unwrap_or(face));
-        Reaching { body, place: self.places[leaf.index()], leaf, contact, polarity: self.scene.polarity(body), turn }
+        Reaching { body, place: self.places[leaf.index()], leaf, contact, turn }
     }
 
     fn cutter(&self, face: &'a BodyFace, by: &Reaching) -> Cutter<'a> {

@@ -26,6 +26,8 @@ pub(super) struct Pair<'a> {
     expression: &'a Expression,
     restriction: &'a Restriction,
     own: &'a Reaching,
+    /// Whether the own leaf adds or takes, whatever leaves that equal it do.
+    polarity: Polarity,
     other: &'a Reaching,
     /// How many bodies besides the own one have a face on the plane.
     coplanar: usize,
@@ -39,12 +41,12 @@ impl<'a> Pair<'a> {
     pub(super) fn new(
         expression: &'a Expression,
         restriction: &'a Restriction,
-        own: &'a Reaching,
+        (own, polarity): (&'a Reaching, Polarity),
         other: &'a Reaching,
         coplanar: usize,
     ) -> Self {
         let by = |body: &Reaching| body.contact.sides().map(|value| restriction.decides(body.leaf, value));
-        Self { expression, restriction, own, other, coplanar, by_own: by(own), by_other: by(other) }
+        Self { expression, restriction, own, polarity, other, coplanar, by_own: by(own), by_other: by(other) }
     }
 
     pub(super) fn role(&self) -> Role {
@@ -87,7 +89,7 @@ impl<'a> Pair<'a> {
     /// The own turn makes the tree solid: where the body adds, it does so as it comes, so the boundary faces as the face does; where
     /// it takes, as it goes, so the boundary faces the other way.
     fn is_against_polarity(&self, facing: Facing) -> bool {
-        match self.own.polarity {
+        match self.polarity {
             Polarity::Adds => facing == Facing::In,
             Polarity::Takes => facing == Facing::Out,
             Polarity::Both => false,

@@ -1,5 +1,7 @@
 //! What physics engines and the editors around them accept of convex colliders, as far as they say so.
 
+use crate::error::ExportError;
+
 /// A physics engine, or a game engine with one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Engine {
@@ -50,6 +52,16 @@ impl Engine {
             Self::Unity => "unity",
             Self::Unreal => "unreal",
         }
+    }
+
+    /// The engine of a name.
+    ///
+    /// # Errors
+    /// [`ExportError::UnknownEngine`].
+    pub fn from_name(name: &str) -> Result<Self, ExportError> {
+        let known = Self::ALL.into_iter().find(|engine| engine.name() == name);
+        let expected = || Self::ALL.map(Self::name).join(", ");
+        known.ok_or_else(|| ExportError::UnknownEngine { name: name.to_owned(), expected: expected() })
     }
 
     /// What it accepts. All of them hold vertices in single precision as they are usually built.

@@ -80,7 +80,7 @@ fn coarsen(
         "filled" => Taken::Filled,
         found => return Err(refuse(format!("surface: found {found:?}, expected \"auto\", \"shell\" or \"filled\""))),
     };
-    let limits = engine.map(engine_of).transpose()?.map(Engine::limits);
+    let limits = engine.map(Engine::from_name).transpose().map_err(refuse)?.map(Engine::limits);
     let clear = keep_clear.map(|solid| Arc::clone(solid.get().node()));
     let subject = Subject::of(subject)?;
     let side = if inner { Side::Inner } else { Side::Outer };
@@ -128,14 +128,6 @@ fn coarsen(
         PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 1)?;
     }
     Coarsened::of(py, data)
-}
-
-fn engine_of(name: &str) -> PyResult<Engine> {
-    let known = Engine::ALL.into_iter().find(|engine| engine.name() == name);
-    known.ok_or_else(|| {
-        let names: Vec<&str> = Engine::ALL.iter().map(|engine| engine.name()).collect();
-        refuse(format!("engine: found {name:?}, expected one of {}", names.join(", ")))
-    })
 }
 
 /// Adds the function to the module.

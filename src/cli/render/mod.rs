@@ -11,12 +11,13 @@ use planecut::picture::{
     AnimationFormat, AnimationWriter, Background, Picture, PictureError, PreviewOptions, SheetColors, Tile, Turntable,
     contact_sheet, render, render_buffers, sheet_layout,
 };
+use planecut::reading::FileKind;
 
 use self::args::IdKind;
 pub(crate) use self::args::RenderArgs;
 use self::subject::{Drawn, subject};
 use super::error::{CliError, Done};
-use super::input::{Input, InputKind};
+use super::input::Input;
 use super::output::{Output, PictureFormat, Target, check_targets};
 use super::pool::on_threads;
 use super::product::draw;
@@ -26,7 +27,7 @@ use super::terminal;
 /// What is to be drawn from what.
 struct Plan<'a> {
     args: &'a RenderArgs,
-    inputs: Vec<(Input, InputKind)>,
+    inputs: Vec<(Input, FileKind)>,
     picture: Target,
     /// `None` for a single picture.
     animation: Option<AnimationFormat>,

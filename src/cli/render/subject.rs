@@ -7,10 +7,11 @@ use planecut::import::Warning;
 use planecut::import::mesh::{IndexedMesh, MeshFormat, SolidOptions, read_mesh};
 use planecut::kernel::DVec3;
 use planecut::picture::{PreviewOptions, Subject};
+use planecut::reading::FileKind;
 
 use super::args::{IdKind, RenderArgs};
 use crate::cli::error::CliError;
-use crate::cli::input::{Input, InputKind};
+use crate::cli::input::Input;
 use crate::cli::pieces::{bounded_tree_of, brush_meshes, of_cells};
 use crate::cli::progress::Progress;
 use crate::cli::solve::{read, solve};
@@ -35,7 +36,7 @@ impl Drawn {
 /// [`CliError`] for unusable input or a solid without a mesh.
 pub(super) fn subject(
     input: &Input,
-    kind: InputKind,
+    kind: FileKind,
     args: &RenderArgs,
     options: &PreviewOptions,
     progress: &Progress,
@@ -44,7 +45,7 @@ pub(super) fn subject(
     let takes_as_it_is = args.reading.solid_options() == SolidOptions::default();
     match kind {
         // A mesh is drawn as it is, whether it bounds a solid or not.
-        InputKind::Mesh(format) if is_whole && args.buffers.id_of != IdKind::Brush && takes_as_it_is => {
+        FileKind::Mesh(format) if is_whole && args.buffers.id_of != IdKind::Brush && takes_as_it_is => {
             progress.stage("reading");
             mesh_as_it_is(input, format)
         }
@@ -85,7 +86,7 @@ fn drawable(read: IndexedMesh) -> Mesh {
 /// The cells of an input, or what is left where it is cut open.
 fn inside(
     input: &Input,
-    kind: InputKind,
+    kind: FileKind,
     args: &RenderArgs,
     options: &PreviewOptions,
     progress: &Progress,
@@ -109,7 +110,7 @@ fn inside(
         return Ok(Drawn::new(Subject::from(mesh).hatching(&cuts), read.warnings));
     };
     model.tree = of_cells(&input.path, &model.tree)?.into_owned();
-    let cells = if matches!(kind, InputKind::Mesh(_)) && is_union(&model.tree) {
+    let cells = if matches!(kind, FileKind::Mesh(_)) && is_union(&model.tree) {
         // A file of convex bodies: they are the cells, even where they overlap.
         brush_meshes(model.tree.brushes(), &model.materials)
     } else {

@@ -4,11 +4,12 @@ use std::path::Path;
 
 use planecut::csg::{LiveModel, summarize};
 use planecut::import::Warning;
+use planecut::reading::FileKind;
 
 use crate::cli::args::EditArgs;
 use crate::cli::edit::encode_model;
 use crate::cli::error::CliError;
-use crate::cli::input::{Input, InputKind};
+use crate::cli::input::Input;
 use crate::cli::output::{MeshTarget, Output, OutputFormat, Target, check_targets};
 use crate::cli::solve::solid_warnings;
 
@@ -16,7 +17,7 @@ use crate::cli::solve::solid_warnings;
 pub(super) struct Saving<'a> {
     pub(super) args: &'a EditArgs,
     pub(super) input: &'a Input,
-    pub(super) kind: InputKind,
+    pub(super) kind: FileKind,
 }
 
 impl Saving<'_> {

@@ -52,7 +52,8 @@ impl Settings {
             Ok(convex_tree(&tree).map_err(|error| Failure::of(format!("keepClear: {error}")))?.into_owned())
         };
         let clear = Some(keep_clear.nodes()).filter(|nodes| !nodes.is_empty()).map(clear);
-        let limits = self.engine.as_deref().map(engine_of).transpose()?.map(Engine::limits);
+        let limits =
+            self.engine.as_deref().map(Engine::from_name).transpose().map_err(Failure::of)?.map(Engine::limits);
         Ok(CoarsenOptions {
             max_cells: self.max_cells,
             max_excess: self.max_excess,
@@ -67,14 +68,6 @@ impl Settings {
             max_gap: self.max_gap,
         })
     }
-}
-
-fn engine_of(name: &str) -> Outcome<Engine> {
-    let known = Engine::ALL.into_iter().find(|engine| engine.name() == name);
-    known.ok_or_else(|| {
-        let names: Vec<&str> = Engine::ALL.iter().map(|engine| engine.name()).collect();
-        Failure::of(format!("engine: found {name:?}, expected one of {}", names.join(", ")))
-    })
 }
 
 /// Few convex cells, and what they add.

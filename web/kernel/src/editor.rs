@@ -50,17 +50,19 @@ impl Editor {
         self.answer_of(message).to_string()
     }
 
-    /// The same for an edit, with the faces that it has changed.
+    /// The same for an edit, with the faces that it has changed in the place of their numbers.
     #[must_use]
     pub fn edit(&mut self, message: &str) -> Edited {
-        let answer = self.answer_of(message);
-        let faces = |name: &str| -> Vec<u32> {
-            let numbers = answer[name].as_array().into_iter().flatten();
+        let mut answer = self.answer_of(message);
+        let mut faces = |name: &str| -> Vec<u32> {
+            let numbers = answer.as_object_mut().and_then(|keys| keys.remove(name));
+            let numbers = numbers.iter().filter_map(Value::as_array).flatten();
             numbers.filter_map(|number| u32::try_from(number.as_u64()?).ok()).collect()
         };
+        let removed = Uint32Array::from(&faces("removed")[..]);
         let added: Vec<FaceId> = faces("added").into_iter().map(FaceId::from).collect();
         let added = Faces::of(self.session.live(), &added, self.center);
-        Edited { removed: Uint32Array::from(&faces("removed")[..]), added, answer: answer.to_string() }
+        Edited { removed, added, answer: answer.to_string() }
     }
 
     /// All faces.

@@ -4,5 +4,5 @@
  * @packageDocumentation
  */
 
-export { Colliders, Edited, Editor, Faces, Pieces, version } from "../wasm/planecut_web.js";
+export { Colliders, Edited, Editor, Faces, Pieces, simulateBug, version } from "../wasm/planecut_web.js";
 export { init, memoryBytes } from "./kernel.js";

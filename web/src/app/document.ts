@@ -152,6 +152,12 @@ export class Document {
     return this.kernel.call("brush", brush);
   }
 
+  /** A plane of a brush; nothing where the brush has none of this number. */
+  async halfSpace(brush: number, plane: number): Promise<HalfSpace | null> {
+    const { planes } = await this.brush(brush);
+    return planes.find((entry) => entry.plane === plane)?.half_space ?? null;
+  }
+
   /** Asks for what lists and panels show. */
   async refresh() {
     const [brushes, tree, materials] = await Promise.all([this.kernel.call("brushes"), this.kernel.call("tree"), this.kernel.call("materials")]);

@@ -2,10 +2,11 @@
 
 import { Group, Matrix4, Plane, Quaternion, Vector3 } from "three";
 
-import type { HalfSpace, Hit, Snapping } from "../kernel/protocol";
+import type { Hit, Snapping } from "../kernel/protocol";
 import { Highlight, discard, markedLine } from "../view/overlays";
 import type { Viewer } from "../view/viewer";
 import type { Document } from "./document";
+import { PlaneMover } from "./plane_mover";
 
 export type ToolName = "select" | "turn" | "cut" | "measure";
 
@@ -416,69 +417,6 @@ export class Tools {
   private snapping(place: Vector3): Snapping {
     const near = this.settings.snapsToPlanes ? ATTRACTION * this.viewer.pixelAt(place) : 0;
     return { grid: this.settings.grid, planes: near, vertices: near };
-  }
-}
-
-/** Moves a plane of a brush as one step: the newest place alone is asked for while an answer is awaited. */
-export class PlaneMover {
-  /** Where the plane was at first. */
-  half: HalfSpace | null = null;
-  snapped: string | null = null;
-  private target: HalfSpace | null = null;
-  private running: Promise<void> | null = null;
-  private hasBegun = false;
-
-  constructor(
-    private readonly document: Document,
-    private readonly brush: number,
-    private readonly plane: number,
-    private readonly snapping: () => Snapping,
-  ) {
-    document
-      .brush(brush)
-      .then((answer) => {
-        this.half = answer.planes.find((entry) => entry.plane === plane)?.half_space ?? null;
-      })
-      .catch((error: unknown) => document.fail(error));
-  }
-
-  to(target: HalfSpace) {
-    this.target = target;
-    this.running ??= this.run();
-  }
-
-  async commit() {
-    await this.running;
-    if (this.hasBegun) {
-      await this.document.attempt(() => this.document.edit({ op: "commit" }));
-    }
-  }
-
-  async cancel() {
-    this.target = null;
-    await this.running;
-    if (this.hasBegun) {
-      await this.document.attempt(() => this.document.edit({ op: "cancel" }));
-    }
-  }
-
-  private async run() {
-    try {
-      if (!this.hasBegun) {
-        await this.document.edit({ op: "begin" });
-        this.hasBegun = true;
-      }
-      while (this.target) {
-        const target = this.target;
-        this.target = null;
-        const { snapped } = await this.document.drag(this.brush, this.plane, target, this.snapping());
-        this.snapped = snapped;
-      }
-    } catch (error) {
-      this.document.fail(error);
-    } finally {
-      this.running = null;
-    }
   }
 }
 

@@ -181,7 +181,7 @@ export interface Calls {
   coarsen(settings: CoarsenSettings): ColliderArrays;
   /** Bytes of the kernel's memory. */
   memory(): number;
-  /** For tests: fails as a bug in the kernel would. */
+  /** For tests: fails as a bug in the kernel does. */
   fail(): never;
 }
 

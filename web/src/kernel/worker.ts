@@ -1,6 +1,6 @@
 /** The kernel in a thread of its own: answers the calls of {@link Calls} one after another. */
 
-import { Editor, init, memoryBytes } from "planecut/editor";
+import { Editor, init, memoryBytes, simulateBug } from "planecut/editor";
 
 import type { Calls, CallName, Edit, EditAnswer, Fault, FaceArrays, MaterialEntry, PieceArrays, Request, Response } from "./protocol";
 
@@ -107,9 +107,7 @@ const calls: Calls = {
     return { pieces: arrays, volume, excess };
   },
   memory: () => memoryBytes(),
-  fail() {
-    throw new WebAssembly.RuntimeError("unreachable, as a test asked for");
-  },
+  fail: () => simulateBug() as never,
 };
 
 /** The buffers of typed arrays within a value, which are handed over. */

@@ -100,7 +100,7 @@ export class Properties {
 
   private planePart(answer: BrushAnswer, { plane, half_space, material }: BrushAnswer["planes"][number]): HTMLElement {
     const { brush } = answer;
-    const [x, y, z, offset] = half_space;
+    const offset = half_space[3];
     const edit = (edit: { op: string } & Record<string, unknown>) => void this.document.attempt(() => this.document.edit(edit));
     const turn = (to: HalfSpace) => edit({ op: "move_plane", brush, plane, to });
     const component = (k: number) => {
@@ -124,7 +124,7 @@ export class Properties {
       field("Offset", numberInput(offset, (value) => edit({ op: "move_plane", brush, plane, offset: value }), { "data-key": "offset" })),
       h("div", { class: "field" }, h("span", {}, "Normal"), component(0), component(1), component(2)),
       field("Material", materialInput),
-      h("div", { class: "row" }, remove, button("Flip", () => turn([-x, -y, -z, -offset]), { keys: "F", "data-key": "flip", title: "Keep the other side of the plane" })),
+      h("div", { class: "row" }, remove, button("Flip", () => this.flip(brush, plane), { keys: "F", "data-key": "flip", title: "Keep the other side of the plane" })),
     );
   }
 
@@ -168,8 +168,7 @@ export class Properties {
   /** Keeps the other side of a plane. */
   flip(brush: number, plane: number) {
     void this.document.attempt(async () => {
-      const { planes } = await this.document.brush(brush);
-      const half = planes.find((entry) => entry.plane === plane)?.half_space;
+      const half = await this.document.halfSpace(brush, plane);
       if (half) {
         await this.document.edit({ op: "move_plane", brush, plane, to: half.map((value) => -value) });
       }
