@@ -3,18 +3,17 @@
 import { Vector3 } from "three";
 
 import { exampleAddress, gallery } from "./ui/gallery";
-import { readAddress, writeAddress, type AddressState } from "./app/address";
 import { Document } from "./app/document";
 import { READABLE, WRITABLE, download, sourceOfAddress, sourceOfFile, stem } from "./app/files";
 import { Gizmo, type GizmoMode } from "./app/gizmo";
 import { SHAPES, shapePlanes, type Shape } from "./app/shapes";
 import { Tools, type ToolName } from "./app/tools";
-import type { Edit, Source } from "./kernel/protocol";
 import { button, field, h, numberInput, toggle } from "./ui/element";
 import { LookPanel } from "./ui/look";
 import { MeasurePanel } from "./ui/measures";
 import { Menu, Dialog, Tabs } from "./ui/layout";
 import { Messages } from "./ui/messages";
+import { PageState } from "./ui/page_state";
 import { ParameterPanel } from "./ui/parameters";
 import { Properties } from "./ui/properties";
 import { shortcuts, type Shortcut } from "./ui/shortcuts";
@@ -75,21 +74,13 @@ const theme = new Theme((isDark) => {
   source.setTheme(isDark);
 });
 
-/** What is open, as an address says it. */
-let opened: Pick<AddressState, "file" | "example"> = {};
-
-async function open(next: Source, from: typeof opened = {}, edits: Edit[] = []) {
-  return document_.attempt(async () => {
-    await document_.open(next, edits);
-    opened = from;
-  });
-}
+const state = new PageState(document_, viewer, look);
 
 async function openExample(file: string) {
   gallerySheet.close();
-  const address = exampleAddress(file);
-  if (address) {
-    await document_.attempt(async () => open(await sourceOfAddress(address, file), { example: file }));
+  const from = exampleAddress(file);
+  if (from) {
+    await state.open(() => sourceOfAddress(from, file));
   }
 }
 
@@ -97,7 +88,7 @@ const chooser = h("input", { type: "file", accept: READABLE.join(","), hidden: t
 chooser.addEventListener("change", () => {
   const [file] = chooser.files ?? [];
   if (file) {
-    void document_.attempt(async () => open(await sourceOfFile(file)));
+    void state.open(() => sourceOfFile(file));
   }
   chooser.value = "";
 });
@@ -114,7 +105,7 @@ const addressSheet = new Dialog(
 
 async function openAddress() {
   addressSheet.close();
-  await document_.attempt(async () => open(await sourceOfAddress(address.value), { file: address.value }));
+  await state.open(() => sourceOfAddress(address.value));
 }
 
 async function save(format: string) {
@@ -131,9 +122,9 @@ function savePicture() {
 }
 
 async function share() {
-  const fits = await rememberNow();
+  const fits = await state.rememberNow();
   await navigator.clipboard?.writeText(location.href).catch(() => {});
-  document_.say(fits ? "The address of this page holds the model, the edits and the view. It is in the clipboard." : "The edits are too many for an address: it holds the model and the view alone.");
+  document_.say(fits ? "The address of this page holds the model, the edits and the view. It is in the clipboard." : "The model, or the edits, are too long for an address: it holds the view, and what else has room. Save the model as a file to keep it.");
 }
 
 function add(shape: Shape, role: "add" | "subtract") {
@@ -158,7 +149,7 @@ function add(shape: Shape, role: "add" | "subtract") {
 
 async function newModel() {
   const text = '{\n  "planecut": 1,\n  "model": {"box": {"min": [0, 0, 0], "max": [4, 3, 2]}}\n}\n';
-  await open({ name: "model.json", bytes: new TextEncoder().encode(text), parameters: {} });
+  await state.open(() => ({ name: "model.json", bytes: new TextEncoder().encode(text), parameters: {}, origin: {} }));
 }
 
 function undo() {
@@ -171,7 +162,7 @@ function redo() {
 
 function fit() {
   viewer.fit(document_.faces.box());
-  remember();
+  state.remember();
 }
 
 const toolButtons = new Map(TOOLS.map(([name, text, keys, title]) => [name, button(text, () => tools.use(name), { keys, title, class: "tool", "data-tool": name })]));
@@ -314,33 +305,8 @@ for (const name of ["dragover", "drop"] as const) {
     event.preventDefault();
     const [file] = name === "drop" ? (event.dataTransfer?.files ?? []) : [];
     if (file) {
-      void document_.attempt(async () => open(await sourceOfFile(file)));
+      void state.open(() => sourceOfFile(file));
     }
-  });
-}
-
-let timer: ReturnType<typeof setTimeout> | null = null;
-
-/** Writes the state into the address soon. */
-function remember() {
-  timer ??= setTimeout(() => void rememberNow(), 400);
-}
-
-async function rememberNow(): Promise<boolean> {
-  if (timer !== null) {
-    clearTimeout(timer);
-    timer = null;
-  }
-  const { center } = document_;
-  const from = viewer.camera.position.toArray().map((value, k) => value + center[k]!);
-  const to = viewer.controls.target.toArray().map((value, k) => value + center[k]!);
-  return writeAddress({
-    ...opened,
-    parameters: document_.source?.parameters ?? {},
-    // without a file to do them to, edits say nothing
-    edits: opened.file || opened.example ? [...document_.edits] : [],
-    camera: [...from, ...to],
-    look: look.state,
   });
 }
 
@@ -364,73 +330,21 @@ document_.on("opened", ({ time }) => {
   }
   isFirst = false;
   showHistory();
-  remember();
+  state.remember();
 });
 document_.on("changed", ({ step }) => {
   showHistory();
   viewer.draw();
   if (!step) {
-    remember();
+    state.remember();
   }
 });
 document_.on("selected", (selection) => selection && right.show("Edit"));
-viewer.onCamera = remember;
-look.onChange = remember;
-
-async function begin() {
-  const state = await readAddress();
-  let isOpen = false;
-  if (state.file) {
-    const { file } = state;
-    // first, so that no change is missed
-    watch(file);
-    isOpen = await document_.attempt(async () => {
-      const found = await sourceOfAddress(file);
-      await document_.open({ ...found, parameters: state.parameters ?? {} }, state.edits ?? []);
-      opened = { file };
-    });
-  }
-  if (!isOpen) {
-    const example = state.example && exampleAddress(state.example) ? state.example : "castle.json";
-    const edits = example === state.example ? (state.edits ?? []) : [];
-    await document_.attempt(async () => {
-      const found = await sourceOfAddress(exampleAddress(example)!, example);
-      await document_.open({ ...found, parameters: example === state.example ? (state.parameters ?? {}) : {} }, edits);
-      opened = { example };
-    });
-  }
-  if (state.look) {
-    look.set(state.look);
-  }
-  if (state.camera) {
-    const [x, y, z, u, v, w] = state.camera as [number, number, number, number, number, number];
-    const [a, b, c] = document_.center;
-    viewer.release();
-    viewer.camera.position.set(x - a, y - b, z - c);
-    viewer.controls.target.set(u - a, v - b, w - c);
-    viewer.controls.update();
-  }
-  viewer.frame();
-  document.body.dataset.ready = "true";
-}
-
-/** Opens the file again when the server says that it has changed; only `planecut view` does. */
-function watch(file: string) {
-  if (!new URLSearchParams(location.search).has("file")) {
-    return;
-  }
-  const events = new EventSource("/changes");
-  events.addEventListener("change", () => {
-    void document_.attempt(async () => {
-      const found = await sourceOfAddress(file);
-      const hadEdits = document_.edits.length > 0;
-      await document_.open({ ...found, parameters: document_.source?.parameters ?? {} });
-      document_.say(hadEdits ? "The file has changed and was read again; edits made here are gone." : "The file has changed and was read again.");
-    });
-  });
-}
+viewer.onCamera = () => state.remember();
+look.onChange = () => state.remember();
 
 // for tests in a browser, and for whoever looks on
 Object.assign(globalThis, { planecut: { document: document_, viewer, tools, look, gizmo } });
 
-void begin();
+await state.restore();
+document.body.dataset.ready = "true";

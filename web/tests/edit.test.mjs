@@ -200,3 +200,33 @@ test("what an address says is there again", async () => {
   assert.ok(await page.evaluate(() => globalThis.planecut.viewer.sectionPlane !== null));
   await close();
 });
+
+test("an address holds a file of one's own, what was typed, and the edits", async () => {
+  const { page, origin, close } = await start();
+  await openText(page, "own.json", '{"planecut": 1, "model": {"box": {"min": [0, 0, 0], "max": [2, 3, 4]}}}');
+  await page.waitForFunction(() => globalThis.planecut.document.source?.name === "own.json");
+  await page.evaluate(() => globalThis.planecut.document.edit({ op: "move_plane", brush: 0, plane: 1, offset: 3 }));
+  await settle(page);
+  const { volume } = await measures(page);
+  await page.waitForFunction(() => location.hash.includes("source=") && location.hash.includes("edits="));
+  const address = await page.evaluate(() => location.href);
+  assert.ok(address.startsWith(origin));
+  await page.goto("about:blank");
+  await page.goto(address);
+  await page.waitForSelector("body[data-ready]");
+  assert.equal(await page.evaluate(() => globalThis.planecut.document.source.name), "own.json");
+  assert.equal((await measures(page)).volume, volume);
+  // a text that was changed is no example any more
+  await page.goto("about:blank");
+  await page.goto(`${origin}/#example=gear.json`);
+  await page.waitForSelector("body[data-ready]");
+  await page.click("#tab-Text");
+  await page.click(".cm-content");
+  await page.keyboard.press("Control+a");
+  await page.keyboard.insertText('{"planecut": 1, "model": {"box": {"min": [0, 0, 0], "max": [1, 1, 7]}}}');
+  await page.waitForFunction(() => location.hash.includes("source=") && !location.hash.includes("example="));
+  await page.reload();
+  await page.waitForSelector("body[data-ready]");
+  assert.ok(Math.abs((await measures(page)).volume - 7) < 1e-9);
+  await close();
+});

@@ -16,10 +16,11 @@ const quantile = (times, share) => [...times].sort((a, b) => a - b)[Math.min(tim
 const text = (times) => `median ${quantile(times, 0.5).toFixed(2)} ms, 99 % ${quantile(times, 0.99).toFixed(2)} ms, most ${Math.max(...times).toFixed(2)} ms`;
 
 test("a drag of 300 steps in e1m1", { skip }, async (context) => {
-  const { page, close } = await start({ width: 900, height: 420, query: "#file=models/e1m1.map", models: (name) => join(maps, name) });
+  const { page, close } = await start({ width: 480, height: 360, query: "#file=models/e1m1.map", models: (name) => join(maps, name) });
+  const first = await page.evaluate(() => performance.now());
+  context.diagnostic(`first picture of the map: ${first.toFixed(0)} ms after the page was asked for`);
   const result = await page.evaluate(async () => {
     const { document: model, viewer } = globalThis.planecut;
-    viewer.renderer.setSize(320, 240, false);
     // the brush with the most faces that are seen
     let brush = 0;
     let most = 0;

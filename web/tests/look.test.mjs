@@ -89,6 +89,43 @@ test("a section, x-ray, cells moved apart, and colliders", async () => {
   await close();
 });
 
+test("a section along a face and in any direction", async () => {
+  const { page, errors, close } = await start();
+  // the half-space x + 2 y + 2 z <= 9 takes a corner of the box
+  const model = { planecut: 1, model: { intersection: [{ box: { min: [0, 0, 0], max: [4, 3, 2] } }, { halfspaces: [[1, 2, 2, 9]] }] } };
+  await openText(page, "box.json", JSON.stringify(model));
+  await page.waitForFunction(() => globalThis.planecut.document.source?.name === "box.json");
+  await settle(page);
+  await page.click("#tab-Look");
+  await page.evaluate(() => {
+    const { document: model } = globalThis.planecut;
+    const slanted = [...model.faces.faces.values()].find(({ normal }) => Math.abs(normal[0] - 1 / 3) < 1e-6);
+    model.select({ brush: slanted.brush, plane: slanted.plane, face: slanted.id });
+  });
+  await page.click("#tab-Look");
+  await page.click("#section-along");
+  const plane = () =>
+    page.evaluate(() => {
+      const { viewer, document: model } = globalThis.planecut;
+      const { normal, constant } = viewer.sectionPlane;
+      // n·x >= d in the model's own coordinates
+      return [...normal.toArray(), -constant + normal.toArray().reduce((sum, value, k) => sum + value * model.center[k], 0)];
+    });
+  const along = await plane();
+  // the slider goes a thousandth beyond either end
+  [-1 / 3, -2 / 3, -2 / 3, -3].forEach((value, k) => assert.ok(Math.abs(along[k] - value) < 0.01, `${along}`));
+  assert.equal(await page.inputValue("#section-axis"), "free");
+  await page.fill("#section-turn", "90");
+  await page.fill("#section-tilt", "0");
+  const turned = await plane();
+  [0, -1, 0].forEach((value, k) => assert.ok(Math.abs(turned[k] - value) < 1e-6, `${turned}`));
+  await page.selectOption("#section-axis", "z");
+  await page.fill("#section-place", "0.25");
+  assert.ok(Math.abs((await plane())[3] + 0.5) < 0.01);
+  assert.deepEqual(errors, []);
+  await close();
+});
+
 test("mass and inertia, distances and angles", async () => {
   const { page, close } = await start();
   await openText(page, "box.json", '{"planecut": 1, "model": {"box": {"min": [0, 0, 0], "max": [2, 4, 6]}}}');

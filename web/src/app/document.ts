@@ -1,8 +1,11 @@
 /** The model that is open: what was read, what was done to it, and what the page knows of it. */
 
+import { Vector3 } from "three";
+
 import { Kernel, KernelError } from "../kernel/client";
-import type { BrushAnswer, BrushEntry, Edit, EditAnswer, Edited, HalfSpace, Hit, MaterialEntry, Measures, Opened, Snapping, Source, TreeAnswer, Warning } from "../kernel/protocol";
+import type { BrushAnswer, BrushEntry, Edit, EditAnswer, Edited, HalfSpace, Hit, MaterialEntry, Measures, Opened, Snapping, TreeAnswer, Warning } from "../kernel/protocol";
 import { FaceStore } from "../view/faces";
+import type { ModelFile } from "./files";
 
 /** What is chosen: a brush, and one of its planes where a face is. */
 export interface Selection {
@@ -42,7 +45,7 @@ export interface EditTimes {
 export class Document {
   readonly kernel = new Kernel();
   faces = new FaceStore();
-  source: Source | null = null;
+  source: ModelFile | null = null;
   center: [number, number, number] = [0, 0, 0];
   materials: MaterialEntry[] = [];
   tree: TreeAnswer = { parts: [], nodes: [] };
@@ -78,7 +81,7 @@ export class Document {
   }
 
   /** Opens a file, and does edits to it; what was open before stays where that fails. */
-  async open(source: Source, edits: readonly Edit[] = []): Promise<void> {
+  async open(source: ModelFile, edits: readonly Edit[] = []): Promise<void> {
     const opened = await this.kernel.call("open", source, [...edits]);
     this.source = source;
     this.log = [...edits];
@@ -87,6 +90,12 @@ export class Document {
     this.select(null);
     this.emit("opened", opened);
     await this.refresh();
+  }
+
+  /** A place relative to the center, as everything in the picture is. */
+  placed([x, y, z]: [number, number, number]): Vector3 {
+    const { center } = this;
+    return new Vector3(x - center[0], y - center[1], z - center[2]);
   }
 
   /** Does an edit. */

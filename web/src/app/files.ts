@@ -2,6 +2,11 @@
 
 import type { Source } from "../kernel/protocol";
 
+/** A file, and where it can be had again: an address of the server or an example; neither for a file of the user's own. */
+export interface ModelFile extends Source {
+  origin: { file?: string; example?: string };
+}
+
 /** The endings of files that can be opened. */
 export const READABLE = [".json", ".map", ".csg", ".stl", ".obj", ".ply", ".glb", ".gltf"];
 
@@ -20,15 +25,15 @@ export const WRITABLE: [string, string][] = [
 const LIMIT = 1 << 29;
 
 /** A file that was dropped or chosen. */
-export async function sourceOfFile(file: File): Promise<Source> {
+export async function sourceOfFile(file: File): Promise<ModelFile> {
   if (file.size > LIMIT) {
     throw new Error(`${file.name}: found ${file.size} bytes, expected at most ${LIMIT}`);
   }
-  return { name: file.name, bytes: new Uint8Array(await file.arrayBuffer()), parameters: {} };
+  return { name: file.name, bytes: new Uint8Array(await file.arrayBuffer()), parameters: {}, origin: {} };
 }
 
-/** A file from an address of the same server. */
-export async function sourceOfAddress(address: string, name?: string): Promise<Source> {
+/** A file from an address of the same server; an example has a name of its own. */
+export async function sourceOfAddress(address: string, example?: string): Promise<ModelFile> {
   const url = new URL(address, location.href);
   if (url.origin !== location.origin) {
     throw new Error(`${address}: found the address of another server, expected one of ${location.host}: the page loads nothing from elsewhere`);
@@ -38,7 +43,8 @@ export async function sourceOfAddress(address: string, name?: string): Promise<S
     throw new Error(`${address}: the server says ${response.status} ${response.statusText}`);
   }
   const last = decodeURIComponent(url.pathname.split("/").at(-1) ?? "");
-  return { name: name ?? last, bytes: new Uint8Array(await response.arrayBuffer()), parameters: {} };
+  const origin = example === undefined ? { file: address } : { example };
+  return { name: example ?? last, bytes: new Uint8Array(await response.arrayBuffer()), parameters: {}, origin };
 }
 
 /** Hands bytes to the user as a file. */

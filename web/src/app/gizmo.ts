@@ -5,7 +5,8 @@ import { TransformControls } from "three/addons/controls/TransformControls.js";
 
 import type { Viewer } from "../view/viewer";
 import type { Document } from "./document";
-import { rowsOf, type Tools } from "./tools";
+import { rowsOf } from "./matrix";
+import type { Tools } from "./tools";
 
 export type GizmoMode = "translate" | "rotate" | "scale";
 

@@ -1,20 +1,18 @@
 /** How the picture is drawn: edges, x-ray, section, cells moved apart, colliders. */
 
-import { Plane, Vector3 } from "three";
+import { Vector3 } from "three";
 
 import type { Document } from "../app/document";
 import { Pieces } from "../view/pieces";
 import type { Viewer } from "../view/viewer";
-import { button, choice, field, h, numberInput, shown, slider, toggle } from "./element";
-
-const AXES = ["x", "y", "z"] as const;
+import { button, field, h, numberInput, shown, slider, toggle } from "./element";
+import { SectionPart, sectionPlane, type SectionState } from "./section";
 
 /** What can be set, as an address has it. */
 export interface LookState {
   edges: boolean;
   xray: boolean;
-  /** The axis and the place of a section along it, 0 to 1. */
-  section: { axis: number; at: number; isFlipped: boolean } | null;
+  section: SectionState | null;
 }
 
 /** The panel of the picture. */
@@ -22,14 +20,14 @@ export class LookPanel {
   readonly element: HTMLElement;
   /** Is called when something is set. */
   onChange: () => void = () => {};
-  readonly state: LookState = { edges: true, xray: false, section: null };
+  private shading = { edges: true, xray: false };
   private cells: Pieces | null = null;
   private colliders: Pieces | null = null;
   private explosion = 0.6;
-  private readonly sectionPart = h("div");
+  private readonly section: SectionPart;
   private readonly cellsPart = h("div");
   private readonly collidersPart = h("div");
-  private readonly shading = h("div");
+  private readonly shadingPart = h("div");
   private colliderLimit = 16;
   private colliderTimer: ReturnType<typeof setTimeout> | null = null;
   private colliderRun = 0;
@@ -38,7 +36,8 @@ export class LookPanel {
     private readonly document: Document,
     private readonly viewer: Viewer,
   ) {
-    this.element = h("div", { class: "look" }, this.shading, this.sectionPart, this.cellsPart, this.collidersPart);
+    this.section = new SectionPart(document, () => this.applySection());
+    this.element = h("div", { class: "look" }, this.shadingPart, this.section.element, this.cellsPart, this.collidersPart);
     document.on("opened", () => {
       this.hideCells();
       this.hideColliders();
@@ -62,25 +61,29 @@ export class LookPanel {
     this.render();
   }
 
+  get state(): LookState {
+    return { ...this.shading, section: this.section.state };
+  }
+
   /** Sets what an address says. */
-  set(state: LookState) {
-    Object.assign(this.state, state);
+  set({ edges, xray, section }: LookState) {
+    this.shading = { edges, xray };
+    this.section.set(section);
     this.apply();
   }
 
   toggleXray() {
-    this.state.xray = !this.state.xray;
+    this.shading.xray = !this.shading.xray;
     this.apply();
   }
 
   toggleEdges() {
-    this.state.edges = !this.state.edges;
+    this.shading.edges = !this.shading.edges;
     this.apply();
   }
 
   toggleSection() {
-    this.state.section = this.state.section ? null : { axis: 0, at: 0.5, isFlipped: false };
-    this.apply();
+    this.section.toggle();
   }
 
   async toggleCells() {
@@ -105,47 +108,23 @@ export class LookPanel {
   }
 
   private apply() {
-    const { edges, xray, section } = this.state;
-    this.viewer.setLook({ edges, xray, solid: !this.cells });
-    this.viewer.setSection(section && this.planeOf(section));
+    this.viewer.setLook({ ...this.shading, solid: !this.cells });
     this.render();
+    this.applySection();
+  }
+
+  private applySection() {
+    const { state } = this.section;
+    this.viewer.setSection(state && sectionPlane(state, this.document.faces.box()));
     this.onChange();
   }
 
-  private planeOf({ axis, at, isFlipped }: NonNullable<LookState["section"]>): Plane {
-    const box = this.document.faces.box();
-    const [low, high] = [box.min.getComponent(axis), box.max.getComponent(axis)];
-    // a little beyond either end, so that a slider at its end shows all or nothing
-    const offset = low + (high - low) * (1.002 * at - 0.001);
-    const normal = new Vector3().setComponent(axis, isFlipped ? 1 : -1);
-    return new Plane(normal, isFlipped ? -offset : offset);
-  }
-
   private render() {
-    const { state } = this;
-    this.shading.replaceChildren(
+    const { edges, xray } = this.shading;
+    this.shadingPart.replaceChildren(
       h("h3", {}, "Shading"),
-      toggle("Edges", state.edges, () => this.toggleEdges()),
-      toggle("X-ray", state.xray, () => this.toggleXray()),
-    );
-    const { section } = state;
-    const change = (part: Partial<NonNullable<LookState["section"]>>) => {
-      if (this.state.section) {
-        Object.assign(this.state.section, part);
-        this.viewer.setSection(this.planeOf(this.state.section));
-        this.onChange();
-      }
-    };
-    this.sectionPart.replaceChildren(
-      h("h3", {}, "Section"),
-      toggle("Cut open", section !== null, () => this.toggleSection(), { id: "section-toggle" }),
-      ...(section
-        ? [
-            field("Axis", choice(AXES, AXES[section.axis]!, (axis) => change({ axis: AXES.indexOf(axis as "x") }))),
-            field("Place", slider(0, 1, section.at, (at) => change({ at }), { id: "section-place" })),
-            toggle("Other side", section.isFlipped, (isFlipped) => change({ isFlipped })),
-          ]
-        : []),
+      toggle("Edges", edges, () => this.toggleEdges()),
+      toggle("X-ray", xray, () => this.toggleXray()),
     );
     this.cellsPart.replaceChildren(
       h("h3", {}, "Convex cells"),

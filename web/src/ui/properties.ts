@@ -3,7 +3,7 @@
 import { Matrix4, Vector3 } from "three";
 
 import type { Document } from "../app/document";
-import { rowsOf } from "../app/tools";
+import { rowsOf } from "../app/matrix";
 import type { BrushAnswer, HalfSpace, Role } from "../kernel/protocol";
 import { ghost, discard } from "../view/overlays";
 import type { Viewer } from "../view/viewer";

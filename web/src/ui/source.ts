@@ -73,7 +73,7 @@ export class SourcePane {
     }
     this.ownText = text;
     try {
-      await this.document.open({ ...source, bytes: new TextEncoder().encode(text), parameters: {} });
+      await this.document.open({ ...source, bytes: new TextEncoder().encode(text), parameters: {}, origin: {} });
       this.pane?.mark(null);
       this.state.textContent = edits.length > 0 ? "Built. Edits made in the picture are gone." : "Built.";
     } catch (error) {

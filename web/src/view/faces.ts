@@ -74,7 +74,7 @@ export class FaceStore {
     const attribute = (array: Float32Array | Uint8Array, size: number, normalized = false) =>
       new BufferAttribute(array, size, normalized).setUsage(DynamicDrawUsage);
     this.setAttribute("position", attribute(new Float32Array(3 * vertices), 3));
-    this.surface.setAttribute("normal", attribute(new Float32Array(3 * vertices), 3));
+    this.setAttribute("normal", attribute(new Float32Array(3 * vertices), 3));
     this.surface.setAttribute("color", attribute(new Uint8Array(4 * vertices), 4, true));
     this.surface.setIndex(new BufferAttribute(new Uint32Array(this.triangles.capacity), 1).setUsage(DynamicDrawUsage));
     this.outlines.setIndex(new BufferAttribute(new Uint32Array(this.segments.capacity), 1).setUsage(DynamicDrawUsage));
@@ -169,7 +169,7 @@ export class FaceStore {
     this.surface.dispose();
     this.outlines.dispose();
     this.setAttribute("position", position);
-    this.surface.setAttribute("normal", normal);
+    this.setAttribute("normal", normal);
     this.surface.setAttribute("color", color);
   }
 

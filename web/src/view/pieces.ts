@@ -1,8 +1,9 @@
 /** Convex pieces of the solid: its cells, moved apart, or few cells around it. */
 
-import { BufferAttribute, BufferGeometry, Color, DoubleSide, Group, LineBasicMaterial, LineSegments, Mesh, MeshLambertMaterial, Vector3 } from "three";
+import { BufferAttribute, BufferGeometry, Color, Group, LineBasicMaterial, LineSegments, Mesh, Vector3, type Material } from "three";
 
 import type { PieceArrays } from "../kernel/protocol";
+import { faceMaterial } from "./materials";
 
 /** A piece with its own middle. */
 interface Piece {
@@ -53,23 +54,11 @@ export class Pieces {
     geometry.setAttribute("position", this.position);
     geometry.setAttribute("color", new BufferAttribute(colors, 4, true));
     geometry.computeVertexNormals();
-    const isClear = opacity < 1;
-    const material = new MeshLambertMaterial({
-      vertexColors: true,
-      transparent: isClear,
-      opacity,
-      depthWrite: !isClear,
-      side: DoubleSide,
-      // cells stand for the solid, hulls lie over it
-      polygonOffset: true,
-      polygonOffsetFactor: isClear ? -1 : 1,
-      polygonOffsetUnits: isClear ? -1 : 1,
-    });
     const edges = new BufferGeometry();
     edges.setAttribute("position", this.position);
     edges.setIndex(new BufferAttribute(outline(this.places), 1));
     const lines = new LineSegments(edges, new LineBasicMaterial({ color: 0x1b1f27, transparent: true, opacity: 0.6 }));
-    const mesh = new Mesh(geometry, material);
+    const mesh = new Mesh(geometry, faceMaterial(opacity));
     mesh.frustumCulled = false;
     lines.frustumCulled = false;
     this.group.add(mesh, lines);
@@ -91,7 +80,7 @@ export class Pieces {
     this.group.removeFromParent();
     for (const child of this.group.children as (Mesh | LineSegments)[]) {
       child.geometry.dispose();
-      (child.material as MeshLambertMaterial).dispose();
+      (child.material as Material).dispose();
     }
   }
 }

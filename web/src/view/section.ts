@@ -10,7 +10,6 @@ import {
   IncrementWrapStencilOp,
   Mesh,
   MeshBasicMaterial,
-  MeshLambertMaterial,
   NotEqualStencilFunc,
   Plane,
   PlaneGeometry,
@@ -26,7 +25,7 @@ const CAP_COLOR = 0xd98f4e;
 export class Section {
   readonly group = new Group();
   plane: Plane | null = null;
-  private readonly cap: Mesh<PlaneGeometry, MeshLambertMaterial>;
+  private readonly cap: Mesh<PlaneGeometry, MeshBasicMaterial>;
   private readonly counters: Mesh<BufferGeometry, MeshBasicMaterial>[];
 
   constructor() {
@@ -43,7 +42,7 @@ export class Section {
       return mesh;
     };
     this.counters = [counter(BackSide, IncrementWrapStencilOp), counter(FrontSide, DecrementWrapStencilOp)];
-    const material = new MeshLambertMaterial({ color: CAP_COLOR, side: 2, polygonOffset: true, polygonOffsetFactor: -1, polygonOffsetUnits: -1 });
+    const material = new MeshBasicMaterial({ color: CAP_COLOR, side: 2, polygonOffset: true, polygonOffsetFactor: -1, polygonOffsetUnits: -1 });
     material.stencilWrite = true;
     material.stencilRef = 0;
     material.stencilFunc = NotEqualStencilFunc;

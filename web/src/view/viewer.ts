@@ -1,17 +1,13 @@
-/** The picture: camera, lights, the solid and what lies over it. It is drawn when something has changed, once a frame. */
+/** The picture: camera, the solid and what lies over it. It is drawn when something has changed, once a frame. */
 
 import {
-  AmbientLight,
   Box3,
   Color,
-  DirectionalLight,
   DoubleSide,
   Group,
-  HemisphereLight,
-  LineBasicMaterial,
+  LinearSRGBColorSpace,
   LineSegments,
   Mesh,
-  MeshLambertMaterial,
   PerspectiveCamera,
   Plane,
   Ray,
@@ -24,6 +20,7 @@ import {
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
 import type { FaceStore } from "./faces";
+import { edgeMaterial, faceMaterial } from "./materials";
 import { Section } from "./section";
 
 /** How the solid is drawn. */
@@ -63,8 +60,8 @@ export class Viewer {
 
   private surface: Mesh | null = null;
   private edges: LineSegments | null = null;
-  private readonly material = new MeshLambertMaterial({ vertexColors: true, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
-  private readonly edgeMaterial = new LineBasicMaterial({ transparent: true, opacity: 0.55 });
+  private readonly material = faceMaterial();
+  private readonly edgeMaterial = edgeMaterial(0.55);
   private readonly raycaster = new Raycaster();
   private look: Look = { edges: true, xray: false, solid: true };
   private isAsked = false;
@@ -81,12 +78,7 @@ export class Viewer {
     this.controls.addEventListener("change", () => this.draw());
     this.controls.addEventListener("start", () => this.release());
     this.controls.addEventListener("end", () => this.onCamera());
-    const key = new DirectionalLight(0xffffff, 1.7);
-    key.position.set(0.6, 1, 1.2);
-    const fill = new DirectionalLight(0xffffff, 0.5);
-    fill.position.set(-1, -0.4, 0.2);
-    this.camera.add(key, fill);
-    this.scene.add(this.camera, new HemisphereLight(0xffffff, 0x667788, 1.1), new AmbientLight(0xffffff, 0.35), this.overlay, this.section.group);
+    this.scene.add(this.camera, this.overlay, this.section.group);
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement ?? canvas);
     this.setTheme(false);
     this.resize();
@@ -94,7 +86,8 @@ export class Viewer {
 
   setTheme(isDark: boolean) {
     this.scene.background = new Color(isDark ? DARK_BACKGROUND : LIGHT_BACKGROUND);
-    this.edgeMaterial.color.set(isDark ? 0x0b0c0f : 0x20242c);
+    // as it is shown: the shader takes it as it is
+    this.edgeMaterial.uniforms.line!.value.setHex(isDark ? 0x0b0c0f : 0x20242c, LinearSRGBColorSpace);
     this.draw();
   }
 
@@ -119,10 +112,11 @@ export class Viewer {
       this.edges.visible = look.edges && look.solid;
     }
     this.material.transparent = look.xray;
-    this.material.opacity = look.xray ? 0.28 : 1;
+    this.material.uniforms.opacity!.value = look.xray ? 0.28 : 1;
     this.material.depthWrite = !look.xray;
     this.material.side = look.xray ? DoubleSide : 0;
     this.material.needsUpdate = true;
+    this.edgeMaterial.uniforms.hasBack!.value = look.xray || this.section.plane !== null;
     this.draw();
   }
 
@@ -134,6 +128,7 @@ export class Viewer {
     this.edgeMaterial.clippingPlanes = planes;
     this.material.side = this.look.xray || plane ? DoubleSide : 0;
     this.material.needsUpdate = true;
+    this.edgeMaterial.uniforms.hasBack!.value = this.look.xray || plane !== null;
     this.edgeMaterial.needsUpdate = true;
     this.draw();
   }

@@ -1,7 +1,7 @@
 /** The state of the page in its address: what is open, what was done to it, where the camera is and how the picture is drawn. */
 
-import type { Edit } from "../kernel/protocol";
-import type { LookState } from "../ui/look";
+import type { Edit, Source } from "../kernel/protocol";
+import type { LookState } from "./look";
 
 /** What an address says. */
 export interface AddressState {
@@ -9,6 +9,8 @@ export interface AddressState {
   file?: string;
   /** The file of an example. */
   example?: string;
+  /** A file of the user's own: all of it. */
+  source?: Pick<Source, "name" | "bytes">;
   parameters?: Record<string, number>;
   edits?: Edit[];
   /** Position and target of the camera. */
@@ -16,7 +18,7 @@ export interface AddressState {
   look?: LookState;
 }
 
-/** Longest text of edits that goes into an address. */
+/** Longest text of edits, and of a file, that goes into an address. */
 const LONGEST = 16_000;
 
 async function through(bytes: BufferSource, transform: CompressionStream | DecompressionStream): Promise<Uint8Array> {
@@ -24,14 +26,32 @@ async function through(bytes: BufferSource, transform: CompressionStream | Decom
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-async function packed(value: unknown): Promise<string> {
-  const bytes = await through(new TextEncoder().encode(JSON.stringify(value)), new CompressionStream("deflate-raw"));
-  return btoa(String.fromCharCode(...bytes)).replace(/\+/g, "-").replace(/\//g, "_").replace(/=+$/, "");
+/** More bytes than this are not tried: they do not become so few. */
+const MOST_BYTES = 1 << 21;
+
+/** Bytes as a text; nothing where it would be longer than the longest. */
+async function packedBytes(bytes: Uint8Array<ArrayBuffer>): Promise<string | null> {
+  if (bytes.length > MOST_BYTES) {
+    return null;
+  }
+  const small = await through(bytes, new CompressionStream("deflate-raw"));
+  if (small.length > 0.75 * LONGEST) {
+    return null;
+  }
+  return btoa(String.fromCharCode(...small)).replace(/\+/g, "-").replace(/\//g, "_").replace(/=+$/, "");
+}
+
+async function unpackedBytes(text: string): Promise<Uint8Array> {
+  const bytes = Uint8Array.from(atob(text.replace(/-/g, "+").replace(/_/g, "/")), (letter) => letter.charCodeAt(0));
+  return through(bytes, new DecompressionStream("deflate-raw"));
+}
+
+async function packed(value: unknown): Promise<string | null> {
+  return packedBytes(new TextEncoder().encode(JSON.stringify(value)));
 }
 
 async function unpacked(text: string): Promise<unknown> {
-  const bytes = Uint8Array.from(atob(text.replace(/-/g, "+").replace(/_/g, "/")), (letter) => letter.charCodeAt(0));
-  return JSON.parse(new TextDecoder().decode(await through(bytes, new DecompressionStream("deflate-raw"))));
+  return JSON.parse(new TextDecoder().decode(await unpackedBytes(text)));
 }
 
 /** Reads the address of the page. Parts that cannot be read are left out. */
@@ -50,6 +70,14 @@ export async function readAddress(): Promise<AddressState> {
   const camera = hash.get("camera")?.split(",").map(Number);
   if (camera?.length === 6 && camera.every(Number.isFinite)) {
     state.camera = camera;
+  }
+  const [name, text] = [hash.get("name"), hash.get("source")];
+  if (name && text) {
+    try {
+      state.source = { name, bytes: await unpackedBytes(text) };
+    } catch {
+      // an address that was cut off by whoever sent it
+    }
   }
   for (const name of ["parameters", "edits", "look"] as const) {
     const text = hash.get(name);
@@ -77,18 +105,28 @@ export async function writeAddress(state: AddressState): Promise<boolean> {
   if (state.camera) {
     hash.set("camera", state.camera.map((value) => Number(value.toPrecision(6))).join(","));
   }
+  const put = (name: string, text: string | null) => {
+    if (text === null) {
+      fits = false;
+    } else {
+      hash.set(name, text);
+    }
+  };
+  if (state.source) {
+    put("source", await packedBytes(state.source.bytes as Uint8Array<ArrayBuffer>));
+    if (fits) {
+      hash.set("name", state.source.name);
+    }
+  }
   if (state.parameters && Object.keys(state.parameters).length > 0) {
-    hash.set("parameters", await packed(state.parameters));
+    put("parameters", await packed(state.parameters));
   }
   if (state.look) {
-    hash.set("look", await packed(state.look));
+    put("look", await packed(state.look));
   }
-  if (state.edits && state.edits.length > 0) {
-    const text = await packed(state.edits);
-    fits = text.length <= LONGEST;
-    if (fits) {
-      hash.set("edits", text);
-    }
+  // without the file that they are done to, edits say nothing
+  if (fits && state.edits && state.edits.length > 0) {
+    put("edits", await packed(state.edits));
   }
   const text = hash.toString();
   history.replaceState(null, "", text ? `#${text}` : location.pathname + location.search);
