@@ -16,7 +16,7 @@
 //! | [`shapes`] | [`primitives`](shapes::primitives), [`outline`](shapes::outline)s, [`shaping`](shapes::shaping), closed polyhedra |
 //! | [`check`] | [`check_mesh`](check::check_mesh): is any mesh watertight, manifold, free of self-intersections |
 //! | [`import`] | readers of the native [model file](import::model), of OpenSCAD's evaluated trees ([`scad`](import::scad)), of Quake-family [`map`](import::map)s, and of [`mesh`](import::mesh) files: OBJ, STL, PLY and glTF |
-//! | [`export`] | [`encode`](export::encode) a mesh as GLB, glTF, OBJ, STL, 3MF or PLY |
+//! | [`export`] | [`encode`](export::encode) a mesh as GLB, glTF, OBJ, STL, 3MF or PLY; [`write_model`](export::write_model) writes a tree as a model file |
 //! | [`enclosing`] | few convex cells around a solid, made the way that adds least |
 //! | [`coarsening`] | the same of solids, meshes and hulls, as others read the cells |
 //! | [`expression`] | solids as operations on solids, evaluated when somebody asks |

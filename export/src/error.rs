@@ -82,6 +82,30 @@ pub enum ExportError {
         /// The coordinate after scaling.
         value: f64,
     },
+    /// A model has more of something than the reader of model files takes.
+    #[error("found {found}, expected {expected}: no more is read from a model file")]
+    ModelLimit {
+        /// What there is too much of.
+        found: String,
+        /// How much there may be.
+        expected: String,
+    },
+    /// A material has a number that a model file cannot hold.
+    #[error("material {material:?}: found a colour, metalness or roughness of {value}, expected a number from 0 to 1")]
+    MaterialRange {
+        /// Its name.
+        material: String,
+        /// The number.
+        value: f32,
+    },
+    /// A brush is beyond what a model file can say.
+    #[error("brush {brush} (counted from 0) is beyond the range of model files: {reason}")]
+    ModelRange {
+        /// Its place among the brushes, from 0.
+        brush: usize,
+        /// What of it is.
+        reason: String,
+    },
     /// The mesh refers to something that it does not hold, or holds a value that is not a number.
     #[error("invalid mesh: {0}")]
     InvalidMesh(String),

@@ -6,6 +6,7 @@
 //! - [`stored_positions`] finds positions that such a file stores without rounding.
 //! - [`write_brushes`] puts convex bodies back into formats that editors open: a Quake map, or OpenSCAD's evaluated tree
 //!   ([`BrushFormat`]).
+//! - [`write_model`] puts a model with its whole tree of operations into the project's own model file, exactly.
 //! - [`physics_files`] describes a rigid body for physics engines: MJCF, URDF or USD, with the meshes beside it ([`PhysicsFormat`]); [`MassProperties`]
 //!   are its mass and inertia, [`Cuboid`] finds boxes among its colliders, [`Engine`] says what engines accept.
 //! - [`AtomicFile`] and [`write_atomic`] put bytes under a file name, completely or not at all.
@@ -21,6 +22,7 @@ mod file;
 mod format;
 mod gltf;
 mod material;
+mod model_file;
 mod obj;
 mod part;
 mod physics;
@@ -36,6 +38,7 @@ pub use error::ExportError;
 pub use file::{AtomicFile, write_atomic};
 pub use format::{Format, encode, encode_parts, write_parts, written};
 pub use material::{distinct_color, material_color};
+pub use model_file::write_model;
 pub use obj::write_mtl;
 pub use part::{ExportOptions, Part, Projection, Shading, TextureMapping, Unit, Written};
 pub use physics::{

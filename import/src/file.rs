@@ -1,8 +1,10 @@
 //! Files and streams as bytes, no more of them than is accepted.
 
+use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{self, ErrorKind, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 use crate::source::MAX_TEXT;
 
@@ -12,11 +14,33 @@ pub const MAX_MESH: u64 = 1 << 32;
 /// Bytes of a stream that are read at once; so much more than the stream itself is in memory.
 const CHUNK: usize = 1 << 24;
 
+/// The files that were asked for while somebody wants to know.
+static RECORD: Mutex<Option<BTreeSet<PathBuf>>> = Mutex::new(None);
+
+/// From now on the names of all files that are read are noted, those that turn out to be missing, too: what a result follows from. In all threads of the process.
+pub fn begin_record() {
+    *RECORD.lock().unwrap_or_else(PoisonError::into_inner) = Some(BTreeSet::new());
+}
+
+/// Ends what [`begin_record`] began, and gives the names, as they were given, in their order.
+#[must_use]
+pub fn end_record() -> BTreeSet<PathBuf> {
+    RECORD.lock().unwrap_or_else(PoisonError::into_inner).take().unwrap_or_default()
+}
+
+/// Notes that a file is read.
+pub(crate) fn record(path: &Path) {
+    if let Some(record) = RECORD.lock().unwrap_or_else(PoisonError::into_inner).as_mut() {
+        record.insert(path.to_owned());
+    }
+}
+
 /// The bytes of a file, `limit` of them at most, or [`MAX_TEXT`] where it is no regular file: devices and pipes may have no end.
 ///
 /// # Errors
 /// What the system says; [`ErrorKind::FileTooLarge`] where there are more bytes, [`ErrorKind::OutOfMemory`] where there is no memory for them.
 pub fn read_file(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
+    record(path);
     let mut file = File::open(path)?;
     let metadata = file.metadata()?;
     if !metadata.is_file() {

@@ -11,6 +11,7 @@ use planecut::csg::coarsen::{CoarsenOptions, DEFAULT_OVERLAP_WEIGHT, LEAST_MAX_F
 use planecut::picture::{MAX_IMAGE_SIDE, PreviewOptions};
 
 use super::asset_args::AssetArgs;
+use super::batch::BatchArgs;
 use super::engine_args::EngineArgs;
 use super::error::CliError;
 use super::output::{MeshTarget, OutputFormat};
@@ -42,6 +43,8 @@ pub(crate) enum Command {
     Coarsen(CoarsenArgs),
     /// Show a file in the editor, in a browser, and again when it changes
     View(ViewArgs),
+    /// Do many jobs, each in a process with its limits; what is up to date or in the cache is not made again
+    Batch(BatchArgs),
     /// Check that a mesh is watertight, manifold and not self-crossing; exit status 1 if not
     Check(CheckArgs),
     /// Print the JSON Schema of the model file
@@ -94,14 +97,14 @@ pub(crate) enum Combine {
 /// Where meshes and the report go.
 #[derive(Debug, Args)]
 pub(crate) struct OutputArgs {
-    /// Output file: a mesh (.glb, .gltf, .obj, .stl, .3mf or .ply) or convex bodies (.map or .csg); may be given several times; `-` is standard output. With `coarsen`
+    /// Output file: a mesh (.glb, .gltf, .obj, .stl, .3mf or .ply), convex bodies (.map or .csg) or the model with its tree of operations (.json); may be given several times; `-` is standard output. With `coarsen`
     /// also a rigid body for a physics engine (.xml: MJCF, .urdf or .usda), and a name with `{}` writes a file for each cell, `{}` standing for its number
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1)]
     pub(crate) outputs: Vec<PathBuf>,
-    /// Format of `-o -`: glb, gltf, obj, stl, 3mf, ply, map or csg; with `coarsen` also usda
+    /// Format of `-o -`: glb, gltf, obj, stl, 3mf, ply, map, csg or json; with `coarsen` also usda
     #[arg(long, value_name = "FORMAT", value_parser = parse_format)]
     pub(crate) format: Option<OutputFormat>,
-    /// Factor from the input's units to those of the meshes
+    /// Factor from the input's units to those of the outputs
     #[arg(long, value_name = "S", default_value_t = 1.0, value_parser = parse_scale)]
     pub(crate) scale: f64,
     /// Also write a report as JSON: counts, measures and times
@@ -112,7 +115,7 @@ pub(crate) struct OutputArgs {
 }
 
 impl OutputArgs {
-    /// The places of meshes and convex bodies.
+    /// The places of meshes, convex bodies and models.
     ///
     /// # Errors
     /// As [`MeshTarget::resolve_all`], and [`CliError::Usage`] for a rigid body.
@@ -126,7 +129,7 @@ impl OutputArgs {
         }
     }
 
-    /// The places of meshes, convex bodies and rigid bodies.
+    /// The places of meshes, convex bodies, models and rigid bodies.
     ///
     /// # Errors
     /// As [`MeshTarget::resolve_all`].
@@ -381,7 +384,7 @@ fn in_one_line(message: &str) -> String {
 
 fn parse_format(text: &str) -> Result<OutputFormat, String> {
     OutputFormat::from_extension(text)
-        .ok_or_else(|| "expected glb, gltf, obj, stl, 3mf, ply, map, csg or usda".to_owned())
+        .ok_or_else(|| "expected glb, gltf, obj, stl, 3mf, ply, map, csg, json or usda".to_owned())
 }
 
 fn parse_scale(text: &str) -> Result<f64, String> {

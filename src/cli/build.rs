@@ -10,7 +10,7 @@ use super::args::BuildArgs;
 use super::combine::Inputs;
 use super::error::{CliError, Done};
 use super::output::{MeshTarget, OutputFormat, Target, check_targets};
-use super::pieces::{Pieces, bounded_tree, brushes};
+use super::pieces::{Pieces, bounded_model, bounded_tree, brushes};
 use super::product::{Contents, Product, draw, encode, first_written, produce};
 use super::progress::Progress;
 use super::report::milliseconds;
@@ -59,8 +59,8 @@ impl<'a> Plan<'a> {
     fn carry_out(&self, progress: &Progress) -> Result<Product, CliError> {
         let assets = &self.args.output.assets;
         let splits_by_face = assets.splits_by_face();
-        let writes_brushes = self.meshes.iter().any(|place| matches!(place.format, OutputFormat::Brushes(_)));
-        let needs_brushes = writes_brushes || self.args.cells || self.args.parts;
+        let has_brushes = |place: &MeshTarget| matches!(place.format, OutputFormat::Brushes(_) | OutputFormat::Model);
+        let needs_brushes = self.meshes.iter().any(has_brushes) || self.args.cells || self.args.parts;
         let (input, begin) = (self.inputs.first(), Instant::now());
         progress.stage("reading");
         let read = self.inputs.read(&self.args.reading.with_textures(assets.keeps_textures()))?;
@@ -80,7 +80,8 @@ impl<'a> Plan<'a> {
         let solid = Part { name: "solid", mesh: &solved.mesh, sources: &solved.sources };
         let parts = pieces.as_ref().map_or_else(|| vec![solid], |pieces| pieces.as_parts(&solved.sources));
         let brushes = || brushes(&input.path, &bounded_tree(self.kind, &solved));
-        let contents = Contents { parts: &parts, materials: &solved.model.materials, brushes: &brushes };
+        let model = || bounded_model(self.kind, &solved.model, &solved.unbounded);
+        let contents = Contents { parts: &parts, materials: &solved.model.materials, brushes: &brushes, model: &model };
         let mut outputs = encode(&contents, &self.meshes, &options)?;
         let encoding = begin.elapsed();
         let first = self.meshes.first().filter(|_| self.report.is_some());

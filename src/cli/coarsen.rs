@@ -1,5 +1,6 @@
 //! `planecut coarsen`: few convex cells for a solid or a convex decomposition.
 
+use std::borrow::Cow;
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -242,7 +243,7 @@ impl<'a> Plan<'a> {
             encloses: !self.args.limits.inner,
             max_vertices: limits.max_vertices,
             options: self.options(),
-            has_bodies: places().any(|place| matches!(place.format, OutputFormat::Brushes(_))),
+            has_bodies: places().any(|place| matches!(place.format, OutputFormat::Brushes(_) | OutputFormat::Model)),
             is_single: self.args.engine.engine().is_some(),
         };
         WrittenCells::of(&coarsened.cells, formats, &request)
@@ -293,8 +294,9 @@ impl<'a> Plan<'a> {
         let mut outputs = Vec::new();
         for mesh in &self.meshes {
             let (pieces, options) = cells.in_format(mesh.format);
-            let contents =
-                Contents { parts: &pieces.as_parts(&[]), materials, brushes: &|| Ok(cells.bodies().to_vec()) };
+            let model = || Cow::Owned(union_of(cells.bodies(), pieces.iter().map(|(name, _)| name), materials));
+            let brushes = || Ok(cells.bodies().to_vec());
+            let contents = Contents { parts: &pieces.as_parts(&[]), materials, brushes: &brushes, model: &model };
             outputs.extend(encode(&contents, std::slice::from_ref(mesh), options)?);
         }
         for mesh in &self.patterns {
@@ -302,12 +304,20 @@ impl<'a> Plan<'a> {
             let (pieces, options) = cells.in_format(mesh.format);
             for (number, (part, body)) in pieces.as_parts(&[]).iter().zip(cells.bodies()).enumerate() {
                 let target = Target::File(PathBuf::from(pattern.replace(NUMBER, &number.to_string())));
-                let contents = Contents { parts: &[*part], materials, brushes: &|| Ok(vec![body.clone()]) };
+                let body = std::slice::from_ref(body);
+                let model = || Cow::Owned(union_of(body, [part.name].into_iter(), materials));
+                let contents = Contents { parts: &[*part], materials, brushes: &|| Ok(body.to_vec()), model: &model };
                 outputs.extend(encode(&contents, &[MeshTarget::alone(target, mesh.format)], options)?);
             }
         }
         Ok(outputs)
     }
+}
+
+/// The union of cells with names, in which they keep their materials.
+fn union_of<'a>(cells: &[Brush], names: impl Iterator<Item = &'a str>, materials: &[Material]) -> Model {
+    let named = cells.iter().zip(names).map(|(cell, name)| Brush { name: Some(name.to_owned()), ..cell.clone() });
+    Model { materials: materials.to_vec(), tree: Tree::union_of(named.collect()) }
 }
 
 /// The union of cells, each in a colour of its own; of faces that overlap, one is seen.

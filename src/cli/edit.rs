@@ -13,7 +13,7 @@ use super::args::EditArgs;
 use super::error::{CliError, Done};
 use super::input::Input;
 use super::output::{MeshTarget, Output, Target, check_targets};
-use super::pieces::{bounded_tree_of, brushes, of_cells};
+use super::pieces::{bounded_model, bounded_tree_of, brushes, of_cells};
 use super::product::{Contents, Product, encode, first_written, produce};
 use super::progress::Progress;
 use super::reading_args::ReadingArgs;
@@ -208,7 +208,8 @@ pub(crate) fn encode_model(
 ) -> Result<Vec<Output>, CliError> {
     let parts = [Part::new("solid", mesh)];
     let brushes = || brushes(&input.path, &bounded_tree_of(kind, model, unbounded));
-    let contents = Contents { parts: &parts, materials: &model.materials, brushes: &brushes };
+    let tree = || bounded_model(kind, model, unbounded);
+    let contents = Contents { parts: &parts, materials: &model.materials, brushes: &brushes, model: &tree };
     encode(&contents, targets, &args.output.assets.options(args.output.scale))
 }
 

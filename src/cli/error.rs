@@ -201,6 +201,26 @@ pub(crate) enum CliError {
         /// What the system said.
         source: io::Error,
     },
+    /// A line of a manifest is no job.
+    #[error("{}:{line}: {message}", .path.display())]
+    Manifest {
+        /// The manifest.
+        path: PathBuf,
+        /// The line, counted from 1.
+        line: usize,
+        /// What was found, and what was expected.
+        message: String,
+    },
+    /// Jobs of a batch have failed.
+    #[error("{}: found {failed} of {jobs} jobs that failed, expected none", .path.display())]
+    Batch {
+        /// What says why.
+        path: PathBuf,
+        /// How many.
+        failed: usize,
+        /// Of how many.
+        jobs: usize,
+    },
     /// The system gives no threads.
     #[error("found no threads to work with: {0}, expected a smaller --threads")]
     Threads(#[from] ThreadPoolBuildError),
@@ -220,6 +240,7 @@ impl CliError {
     pub(crate) fn exit_status(&self) -> u8 {
         match self {
             Self::Usage(_)
+            | Self::Manifest { .. }
             | Self::Ending { .. }
             | Self::Output { .. }
             | Self::Read { .. }
@@ -242,6 +263,7 @@ impl CliError {
             | Self::Write { .. }
             | Self::Stdout(_)
             | Self::Port { .. }
+            | Self::Batch { .. }
             | Self::Threads(_) => FAILED,
         }
     }

@@ -78,6 +78,11 @@ impl Input {
         }
     }
 
+    /// A text on standard input.
+    pub(crate) fn stdin() -> Self {
+        Self { path: PathBuf::from("standard input"), source: Source::Stdin, limit: MAX_TEXT as u64 }
+    }
+
     /// A text of any kind.
     pub(crate) fn plain(path: &Path) -> Self {
         Self { path: path.to_owned(), source: Source::File, limit: MAX_TEXT as u64 }

@@ -4,6 +4,7 @@
 
 mod args;
 mod asset_args;
+mod batch;
 mod build;
 mod check;
 mod coarsen;
@@ -64,6 +65,7 @@ fn parse_and_run(arguments: &[OsString]) -> Result<Done, CliError> {
         Command::Edit(args) => return edit::run(&args),
         Command::Coarsen(args) => return coarsen::run(&args),
         Command::View(args) => return view::run(&args),
+        Command::Batch(args) => return batch::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Schema => schema::run(),
         Command::Completions(args) => completions::run(&args),

@@ -225,23 +225,28 @@ pub(crate) enum OutputFormat {
     Mesh(Format),
     /// Convex bodies.
     Brushes(BrushFormat),
+    /// A tree of operations on brushes: the project's own model file.
+    Model,
     /// A rigid body with convex colliders; only `coarsen` makes one.
     Physics(PhysicsFormat),
 }
 
 impl OutputFormat {
     /// The endings that there are, for errors.
-    const ENDINGS: &'static str = "`.glb`, `.gltf`, `.obj`, `.stl`, `.3mf`, `.ply`, `.map` or `.csg` (of coarsen also `.xml`, `.urdf` or `.usda`)";
+    const ENDINGS: &'static str = "`.glb`, `.gltf`, `.obj`, `.stl`, `.3mf`, `.ply`, `.map`, `.csg` or `.json` (of coarsen also `.xml`, `.urdf` or `.usda`)";
 
     /// The format of an ending, without the dot.
     pub(crate) fn from_extension(extension: &str) -> Option<Self> {
+        if extension.eq_ignore_ascii_case("json") {
+            return Some(Self::Model);
+        }
         let brushes = || BrushFormat::from_extension(extension).ok().map(Self::Brushes);
         let physics = || PhysicsFormat::from_extension(extension).ok().map(Self::Physics);
         Format::from_extension(extension).ok().map(Self::Mesh).or_else(brushes).or_else(physics)
     }
 }
 
-/// A mesh, or convex bodies, to write.
+/// A mesh, convex bodies, or a model, to write.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct MeshTarget {
     pub(crate) target: Target,
@@ -275,7 +280,7 @@ impl MeshTarget {
     /// whether OBJ files have their materials beside them.
     ///
     /// # Errors
-    /// [`CliError::Ending`] for a name whose ending is not that of a mesh, [`CliError::Usage`] for `-` without a format or
+    /// [`CliError::Ending`] for a name whose ending is that of no output, [`CliError::Usage`] for `-` without a format or
     /// a format without `-`.
     pub(crate) fn resolve_all(
         paths: &[PathBuf],

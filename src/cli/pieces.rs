@@ -178,6 +178,14 @@ pub(crate) fn bounded_tree_of<'a>(kind: FileKind, model: &'a Model, unbounded: &
     }
 }
 
+/// A model without the brushes of a map that are not bounded, given their numbers.
+pub(crate) fn bounded_model<'a>(kind: FileKind, model: &'a Model, unbounded: &[usize]) -> Cow<'a, Model> {
+    match bounded_tree_of(kind, model, unbounded) {
+        Cow::Borrowed(_) => Cow::Borrowed(model),
+        Cow::Owned(tree) => Cow::Owned(Model { materials: model.materials.clone(), tree }),
+    }
+}
+
 /// The union of a map's brushes but for those that are not bounded.
 pub(crate) fn without(model: &Model, unbounded: &[usize]) -> Tree {
     let brushes = model.tree.brushes().iter().zip(model.tree.source_lines()).enumerate();

@@ -1,9 +1,10 @@
 //! What `build`, `edit` and `coarsen` make: all of it is complete before the first file gets its name.
 
+use std::borrow::Cow;
 use std::time::{Duration, Instant};
 
-use planecut::csg::{Brush, Material};
-use planecut::export::{ExportOptions, Part, Written, write_brushes, write_mtl, write_parts, written};
+use planecut::csg::{Brush, Material, Model};
+use planecut::export::{ExportOptions, Part, Written, write_brushes, write_model, write_mtl, write_parts, written};
 use planecut::import::Warning;
 use planecut::picture::{PictureError, PreviewOptions, Subject, render};
 
@@ -85,6 +86,8 @@ pub(crate) struct Contents<'a> {
     pub(crate) materials: &'a [Material],
     /// Convex bodies, where they are asked for.
     pub(crate) brushes: &'a dyn Fn() -> Result<Vec<Brush>, CliError>,
+    /// The model with its tree, where that is asked for.
+    pub(crate) model: &'a dyn Fn() -> Cow<'a, Model>,
 }
 
 /// Writes what there is to each of some places, and materials beside an OBJ file where that is asked for.
@@ -106,6 +109,7 @@ pub(crate) fn encode(
         outputs.push(place.target.begin(|out| match place.format {
             OutputFormat::Mesh(format) => write_parts(contents.parts, format, &options, out),
             OutputFormat::Brushes(format) => write_brushes(&brushes, contents.materials, format, options.scale, out),
+            OutputFormat::Model => write_model(&(contents.model)(), options.scale, out),
             OutputFormat::Physics(_) => unreachable!("rigid bodies have files of their own: `rigid_body`"),
         })?);
         if let Some(library) = library {

@@ -39,7 +39,7 @@ impl Numbers {
         match format {
             OutputFormat::Mesh(format) => Some(Self::In(format)),
             OutputFormat::Physics(_) => Some(Self::Meters),
-            OutputFormat::Brushes(_) => None,
+            OutputFormat::Brushes(_) | OutputFormat::Model => None,
         }
     }
 

@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 mod assets;
+mod batch;
 mod check;
 mod coarsen;
 mod colliders;
@@ -18,6 +19,7 @@ mod losses;
 mod mesh_data;
 mod meshes;
 mod model;
+mod model_output;
 mod outputs;
 mod reference;
 mod regressions;

@@ -207,7 +207,7 @@ fn a_model_is_saved_in_all_formats_or_not_at_all() {
     let folder = folder();
     let mut served = Served::start(folder.path());
     served.done(&json!({"op": "move_plane", "brush": 0, "plane": 0, "offset": 8}));
-    for name in ["a.glb", "new/a.obj", "a.stl", "a.3mf", "a.ply", "a.gltf", "a.map", "a.csg"] {
+    for name in ["a.glb", "new/a.obj", "a.stl", "a.3mf", "a.ply", "a.gltf", "a.map", "a.csg", "a.json"] {
         assert_eq!(served.done(&json!({"query": "save", "output": name}))["warnings"], json!([]));
     }
     let saved = everything_in(folder.path());
@@ -227,9 +227,9 @@ fn a_model_is_saved_in_all_formats_or_not_at_all() {
     let read = |name: &str| std::fs::read(folder.path().join(name)).expect(name);
     std::fs::write(folder.path().join("e.jsonl"), r#"{"op": "move_plane", "brush": 0, "plane": 0, "offset": 8}"#)
         .unwrap();
-    let arguments = "edit plate.json e.jsonl -o b.glb -o b.obj -o b.map";
+    let arguments = "edit plate.json e.jsonl -o b.glb -o b.obj -o b.map -o b.json";
     finish(command().current_dir(folder.path()).args(arguments.split(' '))).expect_quiet_success();
-    for (one, other) in [("a.glb", "b.glb"), ("new/a.obj", "b.obj"), ("a.map", "b.map")] {
+    for (one, other) in [("a.glb", "b.glb"), ("new/a.obj", "b.obj"), ("a.map", "b.map"), ("a.json", "b.json")] {
         assert!(read(one) == read(other), "{one}");
     }
 }

@@ -221,6 +221,13 @@ class Shapes(unittest.TestCase):
         # (x, y, z) ↦ x turn (x, −z, y) ↦ z turn (z, x, y) ↦ (2z, x, y) ↦ (2z, x, −y) ↦ + (1, 2, 3)
         self.assertEqual((turned.low.tolist(), turned.high.tolist()), ([1, 2, 2], [3, 3, 3]))
 
+    def test_materials_of_faces(self):
+        planes = {"halfspaces": [[0, 0, 1, 1], [0, 0, -1, 0]]}
+        self.assertTrue(read(planes | {"materials": ["a", None]}).is_unbounded)
+        for wrong in (planes | {"materials": ["a"]}, UNIT | {"materials": [None]}, planes | {"materials": "a"}):
+            with self.assertRaises(ValueError):
+                read(wrong)
+
     def test_unbounded(self):
         self.assertTrue(read({"complement": UNIT}).is_unbounded)
         self.assertTrue(read({"halfspaces": [[0, 0, 1, 1], [0, 0, -1, 0]]}).is_unbounded)

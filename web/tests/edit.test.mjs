@@ -1,6 +1,7 @@
 /** Edits by mouse, by keyboard and by panels; each is undone to the bit. */
 
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { test } from "node:test";
 
 import { lookFrom, measures, onPage, openText, settle, start } from "./browser.mjs";
@@ -228,5 +229,34 @@ test("an address holds a file of one's own, what was typed, and the edits", asyn
   await page.reload();
   await page.waitForSelector("body[data-ready]");
   assert.ok(Math.abs((await measures(page)).volume - 7) < 1e-9);
+  await close();
+});
+
+test("a model that was edited is saved and opened with its tree, names and materials of faces", async () => {
+  const { page, errors, close } = await openBlock();
+  const facts = () =>
+    page.evaluate(async () => {
+      const { document: model } = globalThis.planecut;
+      const { volume } = await model.kernel.call("measures", false);
+      const brushes = await Promise.all([...model.brushes.keys()].map(async (brush) => (await model.brush(brush)).planes.map(({ half_space, material }) => [...half_space, material])));
+      return { volume, brushes, names: [...model.brushes.values()].map(({ name, role }) => [name, role]) };
+    });
+  await page.evaluate(async () => {
+    const { document: model } = globalThis.planecut;
+    await model.edit({ op: "move_plane", brush: 1, plane: 0, offset: 2.1 });
+    await model.edit({ op: "set_material", brush: 0, plane: 2, material: "red \"paint\"" });
+  });
+  await settle(page);
+  await page.waitForFunction(() => globalThis.planecut.document.materials.some(({ name }) => name.startsWith("red")));
+  const before = await facts();
+  await page.click('button:has-text("File")');
+  const [download] = await Promise.all([page.waitForEvent("download"), page.click('[role=menuitem]:has-text("model file")')]);
+  assert.equal(download.suggestedFilename(), "block.json");
+  await openText(page, "back.json", readFileSync(await download.path(), "utf8"));
+  await page.waitForFunction(() => globalThis.planecut.document.source?.name === "back.json");
+  await settle(page);
+  assert.deepEqual(await facts(), before);
+  assert.ok(before.brushes[0].some(([, , , , material]) => material === 'red "paint"'));
+  assert.deepEqual(errors, []);
   await close();
 });

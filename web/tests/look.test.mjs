@@ -163,7 +163,7 @@ test("a GLB that was saved has the volume of the solid", async () => {
   await settle(page);
   const back = (await measures(page)).volume;
   assert.ok(Math.abs(back / volume - 1) < 1e-4, `${back} ${volume}`);
-  for (const format of ["stl", "3mf", "obj", "ply", "map", "csg"]) {
+  for (const format of ["stl", "3mf", "obj", "ply", "map", "csg", "json"]) {
     const size = await page.evaluate((name) => globalThis.planecut.document.kernel.call("encode", name).then((bytes) => bytes.length), format);
     assert.ok(size > 100, format);
   }

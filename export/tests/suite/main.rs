@@ -4,4 +4,5 @@
 mod assets;
 mod brushes;
 mod gltf;
+mod model_file;
 mod obj_stl;

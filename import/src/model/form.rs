@@ -2,7 +2,7 @@
 
 use super::error::{Checked, Fault};
 use super::json::{Document, Entry, Kind};
-use super::keys::{Field, WITH};
+use super::keys::{COMPANIONS, Field, INLINE_MESH, MESH};
 use crate::source::shorten;
 
 /// How a place of an instance is written.
@@ -21,6 +21,12 @@ pub(super) fn place_of(document: &Document<'_>, place: Entry) -> Option<PlaceFor
         (Kind::Object, _) => Some(PlaceForm::Matrix),
         _ => None,
     }
+}
+
+/// The keys of a mesh that is an object, by its looks alone: those of one in a file unless it lists vertices or triangles.
+pub(super) fn mesh_fields(document: &Document<'_>, mesh: Entry) -> &'static [Field] {
+    let has = |key| document.member(mesh, key).is_some();
+    if !has("file") && (has("vertices") || has("triangles")) { INLINE_MESH } else { MESH }
 }
 
 /// The one key of an object that says what it is, and its value.
@@ -49,7 +55,8 @@ pub(super) fn kind_of(
             }
         }
     }
-    let is_extra = |key: &str| find(extras, key).is_some() || key == WITH.key;
+    let is_companion = |key: &str| COMPANIONS.iter().any(|(_, field)| field.key == key);
+    let is_extra = |key: &str| find(extras, key).is_some() || is_companion(key);
     let mut members = document.members(entry).map(|(key, value)| (document.text(key), value));
     match (found, members.find(|(key, _)| !is_extra(key))) {
         (Some(found), _) => Ok(found),

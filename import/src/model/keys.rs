@@ -20,7 +20,7 @@ pub(super) enum Want {
     Loops,
     /// A vector of angles, or an axis and an angle.
     Turn,
-    /// The name of a mesh file, or an object with it.
+    /// The name of a mesh file, or an object with it, or with triangles.
     Mesh,
     /// Transform steps.
     Steps,
@@ -37,6 +37,8 @@ pub(super) enum Want {
     PartName,
     OutlineName,
     MaterialName,
+    /// A list of names of materials, or null in their place.
+    MaterialNames,
     /// Numbers by the names of parameters.
     With,
 }
@@ -81,12 +83,19 @@ const OFFSET: &[Field] = &[
     SEGMENTS,
 ];
 
+/// Which winding numbers of a mesh are inside.
+const RULE: Field = optional("rule", Want::Choice(&["positive", "nonzero", "odd"]));
+
 /// A mesh file, and how it is taken.
-pub(super) const MESH: &[Field] = &[
-    required("file", Want::Text),
-    optional("scale", Want::Number),
-    optional("rule", Want::Choice(&["positive", "nonzero", "odd"])),
-    optional("close", Want::Number),
+pub(super) const MESH: &[Field] =
+    &[required("file", Want::Text), optional("scale", Want::Number), RULE, optional("close", Want::Number)];
+
+/// A mesh whose triangles the model lists itself.
+pub(super) const INLINE_MESH: &[Field] = &[
+    required("vertices", Want::Rows(3)),
+    required("triangles", Want::Rows(3)),
+    optional("materials", Want::MaterialNames),
+    RULE,
 ];
 
 /// The regular solids.
@@ -130,8 +139,9 @@ pub(super) const NODE_EXTRAS: &[Field] = &[
     optional("matrix", Want::Matrix(4)),
 ];
 
-/// What a NODE with `use` may have besides that.
-pub(super) const WITH: Field = optional("with", Want::With);
+/// What a NODE may have beside the one key that says what it is, and beside that key alone.
+pub(super) const COMPANIONS: &[(&str, Field)] =
+    &[("use", optional("with", Want::With)), ("halfspaces", optional("materials", Want::MaterialNames))];
 
 /// What an OUTLINE can be: exactly one of these keys.
 pub(super) const OUTLINE_KINDS: &[Field] = &[

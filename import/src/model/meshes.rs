@@ -48,11 +48,7 @@ impl<'n> Meshes<'n> {
         let member = |key| values.document.member(value, key);
         let file = member("file").unwrap_or(value);
         let name = values.document.text(file).into_owned();
-        let rule = match member("rule").map(|rule| values.document.text(rule)).as_deref() {
-            Some("nonzero") => WindingRule::NonZero,
-            Some("odd") => WindingRule::Odd,
-            _ => WindingRule::Positive,
-        };
+        let rule = rule_of(values, value);
         let positive = |key| member(key).map(|entry| above_zero(values, entry)).transpose();
         let close = positive("close")?.unwrap_or(0.0);
         let scale = positive("scale")?;
@@ -126,6 +122,15 @@ impl<'n> Meshes<'n> {
             self.materials.len() - 1
         });
         MaterialId((self.names.materials.len() + place) as u32)
+    }
+}
+
+/// Which winding numbers of a mesh are inside.
+pub(super) fn rule_of(values: &Values<'_, '_>, mesh: Entry) -> WindingRule {
+    match values.document.member(mesh, "rule").map(|rule| values.document.text(rule)).as_deref() {
+        Some("nonzero") => WindingRule::NonZero,
+        Some("odd") => WindingRule::Odd,
+        _ => WindingRule::Positive,
     }
 }
 

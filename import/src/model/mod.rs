@@ -2,7 +2,7 @@
 //!
 //! The format is described in `docs/model-file.md` and, as a JSON Schema, in `docs/model.schema.json`. The stages, each in
 //! its own file: text → flat list of values with their places (`json`), values → names and expressions (`names`, `check`,
-//! `form`, `keys`, `expression`), values → bodies (`values`, `parameters`, `body`, `meshes`), NODEs → one tree (`evaluate`, `copies`). No stage is
+//! `form`, `keys`, `expression`), values → bodies (`values`, `parameters`, `body`, `meshes`, `inline_mesh`), NODEs → one tree (`evaluate`, `copies`). No stage is
 //! recursive, so a file can be nested as deep as [`MAX_DEPTH`] on any stack.
 
 mod body;
@@ -13,6 +13,7 @@ mod error;
 mod evaluate;
 mod expression;
 mod form;
+mod inline_mesh;
 mod json;
 mod keys;
 mod materials;

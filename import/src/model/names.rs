@@ -1,5 +1,6 @@
 //! What a file defines by name.
 
+use planecut_csg::MaterialId;
 use rustc_hash::FxHashMap;
 
 use super::error::{Checked, Fault};
@@ -105,6 +106,19 @@ impl Names {
     /// The number of a material that is known.
     pub(super) fn number_of_material(&self, name: &str) -> u32 {
         self.material_numbers.get(name).copied().unwrap_or(0)
+    }
+
+    /// The numbers of the materials that a list names, `other` where it has null.
+    pub(super) fn numbers_of_materials<'n>(
+        &'n self,
+        document: &'n Document<'_>,
+        list: Entry,
+        other: MaterialId,
+    ) -> impl Iterator<Item = MaterialId> + 'n {
+        document.items(list).map(move |item| match document.kind(item) {
+            Kind::Text => MaterialId(self.number_of_material(&document.text(item))),
+            _ => other,
+        })
     }
 
     /// Whether the file itself defines a material.

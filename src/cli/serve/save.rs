@@ -32,7 +32,7 @@ impl Saving<'_> {
         }
         let targets = MeshTarget::resolve_all(&[path.to_owned()], None, args.output.assets.mtl)?;
         if targets.iter().any(|target| matches!(target.format, OutputFormat::Physics(_))) {
-            let expected = "`.glb`, `.gltf`, `.obj`, `.stl`, `.3mf`, `.ply`, `.map` or `.csg`";
+            let expected = "`.glb`, `.gltf`, `.obj`, `.stl`, `.3mf`, `.ply`, `.map`, `.csg` or `.json`";
             return Err(CliError::Ending { path: path.to_owned(), expected });
         }
         let all: Vec<Target> = targets.iter().flat_map(MeshTarget::targets).collect();

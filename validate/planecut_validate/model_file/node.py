@@ -27,12 +27,17 @@ def read_document(document) -> SolidTree:
 
 def read_node(value, path: str, scope: Scope) -> SolidTree:
     """The solid of a node, moved by the node's own matrices."""
-    kinds = [key for key in check_keys(value, path, {*_KINDS, *_BESIDE, "with"}) if key in _KINDS]
+    kinds = [key for key in check_keys(value, path, {*_KINDS, *_BESIDE, "with", "materials"}) if key in _KINDS]
     if len(kinds) != 1:
         fail(path, "exactly one key of a body or an operation")
     kind = kinds[0]
     if "with" in value and kind != "use":
         fail(f"{path}.with", "no `with` without `use`")
+    if "materials" in value:
+        if kind != "halfspaces":
+            fail(f"{path}.materials", "no `materials` without `halfspaces`")
+        if len(check_list(value["materials"], f"{path}.materials")) != len(check_list(value[kind], f"{path}.{kind}")):
+            fail(f"{path}.materials", "a material for each half-space")
     place = f"{path}.{kind}"
     tree = _use(value, path, scope) if kind == "use" else _KINDS[kind](value[kind], place, scope)
     if len(tree.leaves) > _MOST:

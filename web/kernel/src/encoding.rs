@@ -1,7 +1,7 @@
 //! A model as a file.
 
 use planecut::csg::convex_union;
-use planecut::export::{BrushFormat, ExportOptions, Format, encode, write_brushes};
+use planecut::export::{BrushFormat, ExportOptions, Format, encode, write_brushes, write_model};
 use wasm_bindgen::prelude::*;
 
 use crate::editor::Editor;
@@ -9,7 +9,7 @@ use crate::failure::{Failure, Outcome};
 
 #[wasm_bindgen]
 impl Editor {
-    /// The model as a file of a format, named by the ending of such files: the boundary as `glb`, `gltf`, `obj`, `stl`, `3mf` or `ply`, convex bodies as `map` or `csg`. `options` are those of
+    /// The model as a file of a format, named by the ending of such files: the boundary as `glb`, `gltf`, `obj`, `stl`, `3mf` or `ply`, convex bodies as `map` or `csg`, the whole tree as `json`. `options` are those of
     /// the export library, as JSON.
     ///
     /// # Errors
@@ -23,6 +23,11 @@ impl Editor {
     fn encoded(&self, format: &str, options: &str) -> Outcome<Vec<u8>> {
         let options: ExportOptions =
             serde_json::from_str(options).map_err(|error| Failure::of(format!("options: {error}")))?;
+        if format == "json" {
+            let mut text = Vec::new();
+            write_model(&self.live().to_model(), options.scale, &mut text).map_err(Failure::of)?;
+            return Ok(text);
+        }
         if let Ok(format) = BrushFormat::from_extension(format) {
             let model = self.live().to_model();
             let mut text = Vec::new();

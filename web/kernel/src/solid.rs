@@ -5,7 +5,7 @@ use std::sync::Arc;
 use planecut::csg::polyhedron::convex_tree;
 use planecut::csg::stages::Ray;
 use planecut::csg::{Material, Operation, SolidMeasures, Transform, convex_union};
-use planecut::export::{BrushFormat, ExportOptions, write_brushes};
+use planecut::export::{BrushFormat, ExportOptions, write_brushes, write_model};
 use planecut::expression::{self, Evaluated, Node};
 use planecut::import::Warning;
 use planecut::kernel::DVec3;
@@ -295,7 +295,7 @@ impl Solid {
         Ok(cells_of(&self.node)?)
     }
 
-    /// The boundary as a file of a format, by the ending of such files, or for `map` and `csg` the convex bodies. `options` are those of the export library, as JSON.
+    /// The boundary as a file of a format, by the ending of such files, or for `map` and `csg` the convex bodies, for `json` what it is made of. `options` are those of the export library, as JSON.
     ///
     /// # Errors
     /// A `PlanecutError` for a format or options that there are not, and for a solid that the format cannot say.
@@ -303,22 +303,37 @@ impl Solid {
         if let Ok(format) = BrushFormat::from_extension(format) {
             return Ok(self.written_bodies(format, options)?);
         }
+        if format == "json" {
+            return Ok(self.written_model(options)?);
+        }
         Ok(Mesh::of_evaluated(self.evaluated()?).encoded(format, options)?)
     }
 }
 
 impl Solid {
+    fn written_model(&self, options: &str) -> Outcome<Vec<u8>> {
+        let mut text = Vec::new();
+        write_model(&self.node.model()?, scale_alone(options)?, &mut text).map_err(Failure::of)?;
+        Ok(text)
+    }
+
     fn written_bodies(&self, format: BrushFormat, options: &str) -> Outcome<Vec<u8>> {
-        let options: ExportOptions = settings(options)?;
-        if (ExportOptions { scale: 1.0, ..options.clone() }) != ExportOptions::default() {
-            return Err(Failure::of("options: found some for meshes, expected scale alone"));
-        }
+        let scale = scale_alone(options)?;
         // an unbounded solid has no file
         self.evaluated()?;
         let model = self.node.model()?;
         let tree = convex_tree(&model.tree).map_err(Failure::of)?;
         let mut text = Vec::new();
-        write_brushes(&convex_union(&tree), &model.materials, format, options.scale, &mut text).map_err(Failure::of)?;
+        write_brushes(&convex_union(&tree), &model.materials, format, scale, &mut text).map_err(Failure::of)?;
         Ok(text)
     }
+}
+
+/// The scale of options that have nothing else.
+fn scale_alone(options: &str) -> Outcome<f64> {
+    let options: ExportOptions = settings(options)?;
+    if (ExportOptions { scale: 1.0, ..options.clone() }) != ExportOptions::default() {
+        return Err(Failure::of("options: found some for meshes, expected scale alone"));
+    }
+    Ok(options.scale)
 }

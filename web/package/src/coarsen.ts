@@ -4,7 +4,7 @@ import { Coarsened as Raw } from "../wasm/planecut_web.js";
 
 import { flat, type Points } from "./arrays.js";
 import { Cell } from "./cell.js";
-import { encodeText, type EncodeOptions, type Format } from "./encoding.js";
+import { encodeText, type EncodeOptions, type MeshFormat } from "./encoding.js";
 import { guarded } from "./kernel.js";
 import { Mesh } from "./mesh.js";
 import { operandsOf, Solid } from "./solid.js";
@@ -86,7 +86,7 @@ export class Coarsened {
   }
 
   /** The cells as a file of a format: each as a mesh of its own. */
-  encode(format: Exclude<Format, "map" | "csg">, options: EncodeOptions = {}): Uint8Array {
+  encode(format: MeshFormat, options: EncodeOptions = {}): Uint8Array {
     return guarded(() => this.raw.encode(format, encodeText(options)));
   }
 

@@ -1,7 +1,10 @@
 /** Formats of files, and how they are written. */
 
-/** The ending of the names of files of a format: of meshes, or of convex bodies (`map`, `csg`). */
-export type Format = "glb" | "gltf" | "obj" | "stl" | "3mf" | "ply" | "map" | "csg";
+/** The ending of the names of files of a mesh. */
+export type MeshFormat = "glb" | "gltf" | "obj" | "stl" | "3mf" | "ply";
+
+/** The ending of the names of files of a format: of meshes, of convex bodies (`map`, `csg`), or of all that a solid is made of (`json`, a model file). */
+export type Format = MeshFormat | "map" | "csg" | "json";
 
 /** How a file is written; each format takes what it has a place for. */
 export interface EncodeOptions {

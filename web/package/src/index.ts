@@ -8,7 +8,7 @@ export type { Axis, Matrix, Outline, Planes, Points, Vector } from "./arrays.js"
 export { Cell } from "./cell.js";
 export { coarsen, Coarsened, type CoarsenOptions } from "./coarsen.js";
 export { Edit } from "./edit.js";
-export type { EncodeOptions, Format } from "./encoding.js";
+export type { EncodeOptions, Format, MeshFormat } from "./encoding.js";
 export { InternalError, PlanecutError } from "./errors.js";
 export { init, memoryBytes, type KernelSource } from "./kernel.js";
 export { Live, type Change, type Snap, type SnapOptions } from "./live.js";

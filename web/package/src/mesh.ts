@@ -3,7 +3,7 @@
 import { Mesh as Raw } from "../wasm/planecut_web.js";
 
 import { counts, flat, type Matrix, type Points } from "./arrays.js";
-import { encodeText, type EncodeOptions, type Format } from "./encoding.js";
+import { encodeText, type EncodeOptions, type MeshFormat } from "./encoding.js";
 import { guarded } from "./kernel.js";
 
 /** What the triangles of a mesh are made of. */
@@ -118,7 +118,7 @@ export class Mesh {
   }
 
   /** The mesh as a file of a format. */
-  encode(format: Exclude<Format, "map" | "csg">, options: EncodeOptions = {}): Uint8Array {
+  encode(format: MeshFormat, options: EncodeOptions = {}): Uint8Array {
     return guarded(() => this.raw.encode(format, encodeText(options)));
   }
 

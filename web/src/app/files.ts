@@ -12,6 +12,7 @@ export const READABLE = [".json", ".map", ".csg", ".stl", ".obj", ".ply", ".glb"
 
 /** The endings of files that can be saved, and what they are called. */
 export const WRITABLE: [string, string][] = [
+  ["json", "model file (.json)"],
   ["glb", "glTF (.glb)"],
   ["stl", "STL"],
   ["3mf", "3MF"],

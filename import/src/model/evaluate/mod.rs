@@ -9,7 +9,7 @@ mod outline;
 use std::borrow::Cow;
 use std::num::NonZeroU32;
 
-use planecut_csg::{Material, MaterialId, Operation, Transform, Tree};
+use planecut_csg::{Brush, Material, MaterialId, Operation, Transform, Tree};
 use planecut_shapes::outline::Outline;
 use planecut_shapes::polyhedron::convex_tree;
 use planecut_shapes::{ShapeError, shaping};
@@ -24,6 +24,7 @@ use crate::model::check::Use;
 use crate::model::copies::{count_of_copies, places};
 use crate::model::error::{Checked, Fault};
 use crate::model::form::kind_of;
+use crate::model::inline_mesh::{count_of_triangles, inline_mesh};
 use crate::model::json::Entry;
 use crate::model::keys::{NODE_EXTRAS, NODE_KINDS};
 use crate::model::materials::{NO_MATERIAL, set_missing};
@@ -358,7 +359,17 @@ impl<'v, 'a> Evaluator<'v, 'a> {
         let line = self.line(context.node);
         let planes = self.maker(context, value).planes(key)?;
         self.budget.allow(context.node, Size { brushes: 1, planes }, 1.0)?;
-        self.make_from(context, value, |maker| maker.body(key).map(Option::unwrap_or_default))?;
+        let (document, names) = (self.definitions.document, self.names);
+        let own = document.member(context.node, "materials");
+        self.make_from(context, value, |maker| {
+            let mut tree = maker.body(key)?.unwrap_or_default();
+            if let Some(list) = own {
+                let faces = tree.brushes_mut().iter_mut().flat_map(Brush::materials_mut);
+                let materials = names.numbers_of_materials(document, list, maker.material);
+                faces.zip(materials).for_each(|(face, material)| *face = material);
+            }
+            Ok(tree)
+        })?;
         if key == "points" && self.trees.last().is_some_and(|tree| tree.brushes().is_empty()) {
             let message = "the hull of the points has no interior: they lie on a plane".to_owned();
             self.warnings.push(Warning::note(line, message));
@@ -367,6 +378,11 @@ impl<'v, 'a> Evaluator<'v, 'a> {
     }
 
     fn mesh(&mut self, context: &Context, value: Entry) -> Checked<()> {
+        if let Some(planes) = count_of_triangles(self.definitions.document, value) {
+            self.budget.allow(context.node, Size { brushes: 1, planes }, 1.0)?;
+            let names = self.names;
+            return self.make_from(context, value, |maker| inline_mesh(&maker.values, names, value).map(Tree::from));
+        }
         let line = self.line(context.node);
         let (tree, messages) = self.meshes.tree(&self.definitions.values(&context.environment), value)?;
         self.warnings.extend(messages.into_iter().map(|message| Warning::note(line, message)));

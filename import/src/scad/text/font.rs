@@ -9,6 +9,7 @@ use fontdb::{Database, FaceInfo, Style};
 use rustc_hash::FxHashMap;
 
 use super::TextError;
+use crate::file;
 
 /// The font that OpenSCAD takes where none is named.
 const DEFAULT: &str = "Liberation Sans";
@@ -60,6 +61,9 @@ impl Fonts {
         let warning =
             is_other.then(|| format!("the font `{}` is not there, `{}` takes its place", request.family(), family()));
         let unreadable = || TextError::Unreadable(family().to_owned());
+        if let fontdb::Source::File(path) | fontdb::Source::SharedFile(path, _) = &face.source {
+            file::record(path);
+        }
         let data = database.with_face_data(face.id, |data, _| data.to_vec()).ok_or_else(unreadable)?;
         let font = Rc::new(Font { data, index: face.index });
         self.found.insert(name.to_owned(), Rc::clone(&font));

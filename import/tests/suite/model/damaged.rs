@@ -18,6 +18,8 @@ const WHOLE: &str = r#"{
       {"halfspaces": [[1, 1, 1, 1.5e0]], "transform": [{"mirror": [1, 0, 0]}, {"scale": [1, 2, -1]}]},
       {"instances": {"of": {"points": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]}, "at": [[1, 2, 3], {"matrix": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]}]}},
       {"ring": {"of": {"sphere": {"radius": 1, "segments": 6}}, "count": "=n"}},
+      {"halfspaces": [[1, 0, 0, 1], [0, 1, 0, 1]], "materials": ["steel", null]},
+      {"mesh": {"vertices": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], "triangles": [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]], "materials": ["steel", null, null, "steel"], "rule": "odd"}},
       {"xor": [{"complement": {"wedge": {"size": [1, 1, 1]}}}, {"intersection": [{"use": "hole"}]}]}
     ]
   }
@@ -83,7 +85,7 @@ fn changed_bytes_do_no_harm() {
 
 #[test]
 fn changed_words_do_no_harm() {
-    const WORDS: [&str; 42] = [
+    const WORDS: [&str; 46] = [
         "planecut",
         "model",
         "union",
@@ -126,6 +128,10 @@ fn changed_words_do_no_harm() {
         "slice",
         "mesh",
         "\"l.obj\"",
+        "materials",
+        "vertices",
+        "triangles",
+        "rule",
     ];
     let mut random = Rng::new(2);
     for round in 0..10_000 {

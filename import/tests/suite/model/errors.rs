@@ -110,7 +110,7 @@ fn nodes_that_are_none() {
     bad(r#"{"bax": {}}"#, "$.model.bax", "the key `bax`", "one of halfspaces, points, box");
     bad(r#"{"union": [], "box": {}}"#, "$.model", "both `union` and `box`", "only one");
     bad(&CUBE.replace("}}", "}, \"colour\": 1}"), "$.model.colour", "the key `colour`", "material, name, transform");
-    bad(&CUBE.replace("}}", "}, \"with\": {}}"), "$.model.with", "the key `with`", "one of");
+    bad(&CUBE.replace("}}", "}, \"with\": {}}"), "$.model.with", "the key `with` beside `box`", "it beside `use`");
     bad(&CUBE.replace("}}", "}, \"odd key\": {}}"), "$.model[\"odd key\"]", "the key `odd key`", "one of");
     for key in ["union", "intersection", "difference", "xor", "hull"] {
         bad(&format!("{{\"{key}\": []}}"), &format!("$.model.{key}"), "an empty list", "one or more nodes");

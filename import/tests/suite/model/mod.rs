@@ -2,7 +2,9 @@
 
 mod damaged;
 mod errors;
+mod face_materials;
 mod forms;
+mod inline_meshes;
 mod limits;
 mod meshes;
 mod schema;

@@ -79,6 +79,9 @@ fn good() -> Vec<String> {
         r#"{"regular": {"solid": "icosahedron", "radius": 1}}"#,
         r#"{"torus": {"radius": 3, "tube": 1, "segments": 6, "tube_segments": 6}}"#,
         r#"{"mesh": {"file": "./l.obj", "scale": "=1/2", "rule": "nonzero", "close": 1e-9}}"#,
+        r#"{"halfspaces": [[1, 0, 0, 1], [0, 1, 0, "=1"]], "materials": ["m", null], "material": "n"}"#,
+        r#"{"mesh": {"vertices": [[0, 0, 0], [1, 0, 0], [0, "=1", 0], [0, 0, 1]],
+            "triangles": [[0, 2, 1], [0, 1, 3], [0, 3, "=2"], [1, 2, 3]], "materials": ["m", null, "m", "n"], "rule": "odd"}}"#,
     ]
     .map(str::to_owned)
     .into();
@@ -166,8 +169,8 @@ fn with_change(value: &Value, description: &str) -> Option<Value> {
     Some(copy)
 }
 
-/// The schema and the reader refuse the same changes. (Names of parts and numbers that contradict each other are beyond a
-/// schema; no change here makes such.)
+/// The schema and the reader refuse the same changes. (Names of parts, numbers that contradict each other and lists that must be as long as others are
+/// beyond a schema; no change here makes such.)
 #[test]
 fn one_fault_anywhere_is_refused_by_both() {
     let validator = validator();
@@ -176,6 +179,7 @@ fn one_fault_anywhere_is_refused_by_both() {
         let whole: Value = serde_json::from_str(&file(&model)).expect("JSON");
         let mut changes = Vec::new();
         spoiled(&whole, "", &mut changes);
+        changes.retain(|(description, _)| !description.ends_with("/materials with one more"));
         for (description, _) in changes {
             let Some(changed) = with_change(&whole, &description) else { continue };
             let (by_schema, by_reader) = (validator.is_valid(&changed), read(&changed.to_string()).is_ok());
@@ -199,6 +203,15 @@ fn faults_beyond_one_change() {
         r#"{"mesh": ""}"#.to_owned(),
         r#"{"mesh": {"file": "l.obj", "scale": 0}}"#.to_owned(),
         r#"{"mesh": {"file": "l.obj", "rule": "even"}}"#.to_owned(),
+        r#"{"mesh": {"vertices": [], "triangles": []}}"#.to_owned(),
+        r#"{"mesh": {"vertices": [[0, 0, 0]]}}"#.to_owned(),
+        r#"{"mesh": {"vertices": [[0, 0, 0]], "triangles": [[0, 0, -1]]}}"#.to_owned(),
+        r#"{"mesh": {"vertices": [[0, 0, 0]], "triangles": [[0, 0, 0.5]]}}"#.to_owned(),
+        r#"{"mesh": {"file": "l.obj", "vertices": [[0, 0, 0]], "triangles": [[0, 0, 0]]}}"#.to_owned(),
+        r#"{"mesh": {"vertices": [[0, 0, 0]], "triangles": [[0, 0, 0]], "close": 1}}"#.to_owned(),
+        r#"{"halfspaces": [[1, 0, 0, 1]], "materials": []}"#.to_owned(),
+        r#"{"mesh": "l.obj", "materials": ["m"]}"#.to_owned(),
+        CUBE.replace("}}", r#"}, "materials": [null, null, null, null, null, null]}"#),
         r#"{"sphere": {"radius": 0}}"#.to_owned(),
         r#"{"sphere": {"radius": "1"}}"#.to_owned(),
         r#"{"sphere": {"radius": 1, "segments": 2}}"#.to_owned(),

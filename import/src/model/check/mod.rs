@@ -1,42 +1,44 @@
 //! Whether a text has the form of a model: keys, types, names. Values are looked at where they are used.
 
+mod surfaces;
+
 use rustc_hash::FxHashMap;
 
-use super::MAX_DEPTH;
-use super::error::{Checked, Fault};
-use super::expression::{self, Expression};
-use super::form::{PlaceForm, find, kind_of, list, place_of, unknown_key};
-use super::json::{Document, Entry, Kind};
-use super::keys::{
-    Field, MATERIAL, MESH, NODE_EXTRAS, NODE_KINDS, OUTLINE_EXTRAS, OUTLINE_KINDS, PLACE, STEP_KINDS, TURN, WITH, Want,
+use crate::model::MAX_DEPTH;
+use crate::model::error::{Checked, Fault};
+use crate::model::expression::{self, Expression};
+use crate::model::form::{PlaceForm, find, kind_of, list, place_of, unknown_key};
+use crate::model::json::{Document, Entry, Kind};
+use crate::model::keys::{
+    COMPANIONS, Field, MATERIAL, NODE_EXTRAS, NODE_KINDS, OUTLINE_EXTRAS, OUTLINE_KINDS, PLACE, STEP_KINDS, TURN, Want,
 };
-use super::names::Names;
+use crate::model::names::Names;
 use crate::source::shorten;
 
 /// What was learned from looking at every value once.
 #[derive(Debug, Default)]
-pub(super) struct Findings {
+pub(in crate::model) struct Findings {
     /// The expressions, by the texts that hold them.
-    pub(super) expressions: FxHashMap<Entry, Expression>,
+    pub(in crate::model) expressions: FxHashMap<Entry, Expression>,
     /// Who uses which part or outline.
-    pub(super) uses: Vec<Use>,
+    pub(in crate::model) uses: Vec<Use>,
     /// How many brushes each definition makes at least, without the parts that it uses.
-    pub(super) brushes: Vec<f64>,
+    pub(in crate::model) brushes: Vec<f64>,
     /// The first node whose copies alone are too many.
-    pub(super) too_many: Option<Entry>,
+    pub(in crate::model) too_many: Option<Entry>,
     /// Names of materials that the file does not define.
-    pub(super) unknown_materials: Vec<Entry>,
+    pub(in crate::model) unknown_materials: Vec<Entry>,
 }
 
 /// A use of a part or an outline; definitions have numbers, the model itself being 0.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Use {
-    pub(super) user: usize,
-    pub(super) used: usize,
+pub(in crate::model) struct Use {
+    pub(in crate::model) user: usize,
+    pub(in crate::model) used: usize,
     /// The name.
-    pub(super) entry: Entry,
+    pub(in crate::model) entry: Entry,
     /// How many copies the user makes of it at least; none where it is a hull or an outline that is made from it.
-    pub(super) copies: f64,
+    pub(in crate::model) copies: f64,
 }
 
 /// A NODE or OUTLINE that is still to be looked at.
@@ -49,7 +51,7 @@ struct Task {
 }
 
 /// Looks at values; NODEs and OUTLINEs within one another wait in a list, so that no depth is too deep for the stack.
-pub(super) struct Checker<'d, 'a> {
+pub(in crate::model) struct Checker<'d, 'a> {
     document: &'d Document<'a>,
     names: &'d Names,
     findings: Findings,
@@ -66,7 +68,7 @@ pub(super) struct Checker<'d, 'a> {
 
 impl<'d, 'a> Checker<'d, 'a> {
     /// A checker that has seen nothing yet.
-    pub(super) fn new(document: &'d Document<'a>, names: &'d Names, limit: usize) -> Self {
+    pub(in crate::model) fn new(document: &'d Document<'a>, names: &'d Names, limit: usize) -> Self {
         let findings = Findings { brushes: vec![0.0; names.vertices()], ..Findings::default() };
         Self {
             document,
@@ -85,7 +87,7 @@ impl<'d, 'a> Checker<'d, 'a> {
     ///
     /// # Errors
     /// The first [`Fault`] of the materials, the parameters, the parts, the outlines, or the model.
-    pub(super) fn run(mut self, model: Entry) -> Checked<Findings> {
+    pub(in crate::model) fn run(mut self, model: Entry) -> Checked<Findings> {
         for material in &self.names.materials {
             if let Some(entry) = material.entry {
                 self.object(entry, MATERIAL)?;
@@ -131,11 +133,11 @@ impl<'d, 'a> Checker<'d, 'a> {
         for (key, value) in self.document.members(entry) {
             let name = self.document.text(key);
             let field = find(NODE_KINDS, &name).or_else(|| find(NODE_EXTRAS, &name));
-            let field = field.or_else(|| (kind.key == "use").then_some(&WITH).filter(|with| with.key == name));
-            match field {
-                Some(field) => self.value(value, field.want)?,
-                None => return Err(unknown_key(value, &name, NODE_KINDS.iter().chain(NODE_EXTRAS).chain([&WITH]))),
-            }
+            let field = field.map_or_else(|| companion(kind.key, &name, value), Ok)?;
+            self.value(value, field.want)?;
+        }
+        if kind.key == "halfspaces" {
+            self.a_material_for_each(entry, value, "half-spaces")?;
         }
         Ok(())
     }
@@ -204,6 +206,7 @@ impl<'d, 'a> Checker<'d, 'a> {
             Want::PartName => self.use_of(entry, true),
             Want::OutlineName => self.use_of(entry, false),
             Want::MaterialName => self.material(entry),
+            Want::MaterialNames => self.material_names(entry),
             Want::With => self.with(entry),
         }
     }
@@ -291,14 +294,6 @@ impl<'d, 'a> Checker<'d, 'a> {
         }
     }
 
-    fn mesh(&mut self, entry: Entry) -> Checked<()> {
-        match self.document.kind(entry) {
-            Kind::Text => Ok(()),
-            Kind::Object => self.object(entry, MESH),
-            _ => self.document.refuse(entry, "the name of a mesh file, or an object with the key file"),
-        }
-    }
-
     fn steps(&mut self, entry: Entry) -> Checked<()> {
         self.is(entry, self.length(entry).is_some(), "a list of transform steps")?;
         let document = self.document;
@@ -368,14 +363,6 @@ impl<'d, 'a> Checker<'d, 'a> {
         Ok(())
     }
 
-    fn material(&mut self, entry: Entry) -> Checked<()> {
-        self.is(entry, self.document.kind(entry) == Kind::Text, "the name of a material")?;
-        if !self.names.defines_material(&self.document.text(entry)) {
-            self.findings.unknown_materials.push(entry);
-        }
-        Ok(())
-    }
-
     fn with(&mut self, entry: Entry) -> Checked<()> {
         self.is(entry, self.document.kind(entry) == Kind::Object, "an object of parameters and their numbers")?;
         let document = self.document;
@@ -388,5 +375,19 @@ impl<'d, 'a> Checker<'d, 'a> {
             self.number(value)?;
         }
         Ok(())
+    }
+}
+
+/// The field of a key that a NODE may have beside the one that says what it is.
+fn companion(kind: &str, key: &str, value: Entry) -> Checked<&'static Field> {
+    match COMPANIONS.iter().find(|(_, field)| field.key == key) {
+        Some((owner, field)) if *owner == kind => Ok(field),
+        Some((owner, _)) => {
+            Err(Fault::new(value, format!("the key `{key}` beside `{kind}`"), format!("it beside `{owner}` alone")))
+        }
+        None => {
+            let companions = COMPANIONS.iter().map(|(_, field)| field);
+            Err(unknown_key(value, key, NODE_KINDS.iter().chain(NODE_EXTRAS).chain(companions)))
+        }
     }
 }
