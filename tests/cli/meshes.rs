@@ -132,3 +132,31 @@ fn meshes_that_are_no_solid_are_unusable_to_build_from() {
     );
     refused("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 3 2 1\n", "no volume");
 }
+
+/// A prism over an L whose coordinates are no normal numbers: products of them are 0.
+#[test]
+fn a_mesh_that_is_too_small_to_be_told_from_nothing_is_refused() {
+    let folder = folder();
+    let corners = [[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]];
+    let mut text = String::new();
+    for z in [0, 1] {
+        for [x, y] in corners {
+            text += &format!("v {x}e-320 {y}e-320 {z}e-320\n");
+        }
+    }
+    for [a, b, c] in [[1, 2, 3], [1, 3, 4], [1, 4, 5], [1, 5, 6]] {
+        text += &format!("f {a} {c} {b}\nf {} {} {}\n", a + 6, b + 6, c + 6);
+    }
+    for k in 1..=6 {
+        let next = k % 6 + 1;
+        text += &format!("f {k} {next} {}\nf {k} {} {}\n", next + 6, next + 6, k + 6);
+    }
+    let (tiny, large) = (folder.path().join("tiny.obj"), folder.path().join("large.obj"));
+    std::fs::write(&tiny, &text).expect("written");
+    std::fs::write(&large, text.replace("e-320", "e-20")).expect("written");
+    let out = folder.path().join("out.stl");
+    let build =
+        |input: &std::path::Path| planecut(["build".as_ref(), input.as_os_str(), "-o".as_ref(), out.as_os_str()]);
+    build(&tiny).expect_error(2, "expected at least 2^-100");
+    build(&large).expect_quiet_success();
+}

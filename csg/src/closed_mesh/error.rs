@@ -15,6 +15,12 @@ pub enum ClosedMeshError {
         /// Where it is.
         position: DVec3,
     },
+    /// All of it is so small that products of coordinates are no numbers any more.
+    #[error("found a mesh of the size {size:e}, expected at least 2^-100")]
+    TooSmall {
+        /// The largest difference of two coordinates along an axis.
+        size: f64,
+    },
     /// A triangle refers to a vertex that there is not.
     #[error("found vertex {vertex} in triangle {triangle}, expected a number below {vertices}")]
     NoVertex {

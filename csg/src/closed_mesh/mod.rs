@@ -41,7 +41,7 @@ impl ClosedMesh {
     /// of what it is made of in another list, the one of [`MeshBody`](crate::MeshBody).
     ///
     /// # Errors
-    /// Where a coordinate is not finite, a vertex is missing, or an edge is open.
+    /// Where a coordinate is not finite, the mesh is too small, a vertex is missing, or an edge is open.
     pub fn new(
         positions: &[DVec3],
         triangles: &[[u32; 3]],
@@ -121,12 +121,21 @@ impl ClosedMesh {
     }
 }
 
-/// Refuses coordinates that are not finite, and numbers of vertices that there are not.
+/// Least size of a mesh, `2^-100`, so that products of differences of its coordinates do not underflow.
+const MIN_SIZE: f64 = f64::from_bits((1023 - 100) << 52);
+
+/// Refuses coordinates that are not finite, meshes that are too small, and numbers of vertices that there are not.
 fn check(positions: &[DVec3], triangles: &[[u32; 3]]) -> Result<(), ClosedMeshError> {
     if !positions.par_iter().with_min_len(CHUNK).all(|position| position.is_finite())
         && let Some(vertex) = positions.iter().position(|position| !position.is_finite())
     {
         return Err(ClosedMeshError::NotFinite { vertex, position: positions[vertex] });
+    }
+    let smallest = positions.iter().copied().reduce(DVec3::min).unwrap_or_default();
+    let largest = positions.iter().copied().reduce(DVec3::max).unwrap_or_default();
+    let size = (largest - smallest).max_element();
+    if size > 0.0 && size < MIN_SIZE {
+        return Err(ClosedMeshError::TooSmall { size });
     }
     let vertices = positions.len();
     let is_there = |triangle: &[u32; 3]| triangle.iter().all(|vertex| (*vertex as usize) < vertices);

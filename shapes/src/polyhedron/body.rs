@@ -221,6 +221,7 @@ fn fault(error: &ClosedMeshError, facet_of: &[u32]) -> PolyhedronError {
             PolyhedronError::UnknownPoint { facet: facet_of[triangle] as usize, point: vertex, points: vertices }
         }
         ClosedMeshError::NotFinite { vertex, position } => PolyhedronError::Point { point: vertex, position },
+        ClosedMeshError::TooSmall { size } => PolyhedronError::TooSmall { size },
         _ => PolyhedronError::NoVolume,
     }
 }

@@ -16,6 +16,12 @@ pub enum PolyhedronError {
         /// Where it is.
         position: DVec3,
     },
+    /// All of it is too small.
+    #[error("found a mesh of the size {size:e}, expected at least 2^-100")]
+    TooSmall {
+        /// The largest difference of two coordinates along an axis.
+        size: f64,
+    },
     /// A facet names a point that does not exist.
     #[error("facet {facet}: found point {point}, expected a number below {points}")]
     UnknownPoint {

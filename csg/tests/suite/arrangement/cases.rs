@@ -38,6 +38,10 @@ fn what_is_no_mesh_is_refused() {
     assert!(matches!(error, ClosedMeshError::NotFinite { vertex: 3, .. }));
     let error = ClosedMesh::new(&mesh.positions, &[[0, 1, 99]], |_| 0).expect_err("no such vertex");
     assert!(matches!(error, ClosedMeshError::NoVertex { triangle: 0, vertex: 99, .. }));
+    // products of such coordinates are no numbers any more
+    let tiny: Vec<DVec3> = mesh.positions.iter().map(|position| *position * 1e-320).collect();
+    let error = ClosedMesh::new(&tiny, &mesh.triangles, |_| 0).expect_err("too small");
+    assert!(matches!(error, ClosedMeshError::TooSmall { size } if size > 0.0 && size < 1e-319), "{error}");
 }
 
 /// Two boxes in one mesh, one turned inside out or not, under each rule.
