@@ -13,7 +13,7 @@ Lengths are in the units of the caller, z is up, axes are right-handed, and tria
 owns; arrays that come in are copied. Long calls release the interpreter's lock and can be interrupted with Ctrl-C.
 """
 
-from . import compat
+from . import batch, compat
 from ._planecut import (
     Buffers,
     Cell,
@@ -69,6 +69,7 @@ __all__ = [
     "Solid",
     "View",
     "__version__",
+    "batch",
     "box",
     "coarsen",
     "compat",

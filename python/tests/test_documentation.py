@@ -19,7 +19,7 @@ from planecut import _planecut
 PACKAGE = Path(pc.__file__).parent
 STUB = PACKAGE / "_planecut.pyi"
 ARRAYS_IN = {"ArrayLike", "_Outline", "_Hull", "_MeshObject"}
-MODULES = [pc, pc.compat, _planecut]
+MODULES = [pc, pc.batch, pc.compat, _planecut]
 
 REFERS = "as by `Solid.render`"
 """Says where the rest of a docstring is."""

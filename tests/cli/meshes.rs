@@ -155,8 +155,7 @@ fn a_mesh_that_is_too_small_to_be_told_from_nothing_is_refused() {
     std::fs::write(&tiny, &text).expect("written");
     std::fs::write(&large, text.replace("e-320", "e-20")).expect("written");
     let out = folder.path().join("out.stl");
-    let build =
-        |input: &std::path::Path| planecut(["build".as_ref(), input.as_os_str(), "-o".as_ref(), out.as_os_str()]);
+    let build = |input: &Path| planecut(["build".as_ref(), input.as_os_str(), "-o".as_ref(), out.as_os_str()]);
     build(&tiny).expect_error(2, "expected at least 2^-100");
     build(&large).expect_quiet_success();
 }

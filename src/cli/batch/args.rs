@@ -45,6 +45,9 @@ pub(crate) struct BatchArgs {
     /// The program and its arguments that such a process is started as, where it is not this program
     #[arg(long, hide = true, value_name = "WORD", allow_hyphen_values = true)]
     pub(crate) worker_command: Vec<OsString>,
+    /// The address of a server that does the jobs instead; it is first told the value of PLANECUT_BATCH_TOKEN
+    #[arg(long, hide = true, value_name = "HOST:PORT", conflicts_with = "worker_command")]
+    pub(crate) worker_address: Option<String>,
 }
 
 fn parse_seconds(text: &str) -> Result<Duration, String> {

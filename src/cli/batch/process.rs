@@ -1,9 +1,10 @@
-//! A process that does jobs, from outside: it is asked, and ended where it takes too long.
+//! A process that does jobs, from outside: it is asked, and ended where it takes too long. It may be one of this machine, or whatever answers at an address.
 
 use std::collections::VecDeque;
 use std::ffi::OsString;
 use std::io::{self, BufRead, BufReader, Read, Write};
-use std::process::{Child, ChildStdin, Command, Stdio};
+use std::net::{Shutdown, TcpStream};
+use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::sync::{Arc, Mutex};
 use std::thread;
@@ -18,11 +19,19 @@ const LAST_BYTES: usize = 2000;
 /// How processes are started.
 #[derive(Debug, Clone)]
 pub(super) struct Launch {
-    /// The program and its arguments.
-    pub(super) command: Vec<OsString>,
+    pub(super) how: How,
     pub(super) timeout: Option<Duration>,
     /// Whether memory is limited.
     pub(super) is_limited: bool,
+}
+
+/// Where jobs are done.
+#[derive(Debug, Clone)]
+pub(super) enum How {
+    /// In a process of this machine: the program and its arguments.
+    Command(Vec<OsString>),
+    /// By whatever answers at an address, and what it is told first, so that it knows who asks.
+    Address(String, String),
 }
 
 /// What became of a request.
@@ -34,18 +43,31 @@ pub(super) enum Outcome {
 
 /// A process that is kept for job after job.
 pub(super) struct Process {
-    child: Child,
-    requests: ChildStdin,
+    other: Other,
+    requests: Box<dyn Write + Send>,
     answers: Receiver<io::Result<String>>,
     said: Arc<Mutex<VecDeque<u8>>>,
     timeout: Option<Duration>,
 }
 
+/// Who does the work.
+enum Other {
+    Child(Child),
+    Connection(TcpStream),
+}
+
 impl Drop for Process {
     fn drop(&mut self) {
         // it may be in the middle of something, and ends by itself otherwise
-        let _ = self.child.kill();
-        let _ = self.child.wait();
+        match &mut self.other {
+            Other::Child(child) => {
+                let _ = child.kill();
+                let _ = child.wait();
+            }
+            Other::Connection(stream) => {
+                let _ = stream.shutdown(Shutdown::Both);
+            }
+        }
     }
 }
 
@@ -55,44 +77,28 @@ impl Process {
     /// # Errors
     /// [`CliError::Usage`] where the system does not start it.
     pub(super) fn start(launch: &Launch) -> Result<Self, CliError> {
-        let (program, arguments) =
-            launch.command.split_first().ok_or_else(|| failed(&io::ErrorKind::NotFound.into()))?;
-        let mut command = Command::new(program);
-        if launch.is_limited {
-            // the allocator takes address space ahead of need: that counts as taken unless it is told so
-            command.env("MIMALLOC_ARENA_EAGER_COMMIT", "0");
-        }
-        let mut child = command
-            .args(arguments)
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .map_err(|error| failed(&error))?;
-        let no_pipe = || failed(&io::ErrorKind::BrokenPipe.into());
-        let requests = child.stdin.take().ok_or_else(no_pipe)?;
-        let output = child.stdout.take().ok_or_else(no_pipe)?;
-        let mut errors = child.stderr.take().ok_or_else(no_pipe)?;
-        let (sender, answers) = mpsc::channel();
-        thread::spawn(move || {
-            for line in BufReader::new(output).lines() {
-                if sender.send(line).is_err() {
-                    break;
-                }
-            }
-        });
         let said = Arc::new(Mutex::new(VecDeque::new()));
-        let kept = Arc::clone(&said);
-        thread::spawn(move || {
-            let mut chunk = [0; 1024];
-            while let Ok(count @ 1..) = errors.read(&mut chunk) {
-                let Ok(mut said) = kept.lock() else { break };
-                said.extend(&chunk[..count]);
-                let surplus = said.len().saturating_sub(LAST_BYTES);
-                said.drain(..surplus);
+        match &launch.how {
+            How::Command(command) => {
+                let mut child = started(command, launch.is_limited).map_err(|error| failed(&error))?;
+                let no_pipe = || failed(&io::ErrorKind::BrokenPipe.into());
+                let requests = child.stdin.take().ok_or_else(no_pipe)?;
+                let answers = lines_of(child.stdout.take().ok_or_else(no_pipe)?);
+                keep_last(child.stderr.take().ok_or_else(no_pipe)?, Arc::clone(&said));
+                let (other, requests) = (Other::Child(child), Box::new(requests));
+                Ok(Self { other, requests, answers, said, timeout: launch.timeout })
             }
-        });
-        Ok(Self { child, requests, answers, said, timeout: launch.timeout })
+            How::Address(address, token) => {
+                let connected = TcpStream::connect(address).and_then(|mut stream| {
+                    stream.set_nodelay(true)?;
+                    stream.write_all(format!("{token}\n").as_bytes())?;
+                    Ok((stream.try_clone()?, stream.try_clone()?, stream))
+                });
+                let (requests, answers, stream) = connected.map_err(|error| failed(&error))?;
+                let (other, requests) = (Other::Connection(stream), Box::new(requests));
+                Ok(Self { other, requests, answers: lines_of(answers), said, timeout: launch.timeout })
+            }
+        }
     }
 
     /// Has a command line carried out; a process that is lost is of no use any more.
@@ -124,7 +130,10 @@ impl Process {
 
     /// What is to be said of a process that has ended.
     fn end(&mut self) -> String {
-        let status = self.child.wait().map_or_else(|error| error.to_string(), |status| status.to_string());
+        let status = match &mut self.other {
+            Other::Child(child) => child.wait().map_or_else(|error| error.to_string(), |status| status.to_string()),
+            Other::Connection(_) => "its connection is closed".to_owned(),
+        };
         let said = self.said.lock().map(|mut said| said.drain(..).collect::<Vec<u8>>()).unwrap_or_default();
         let said = String::from_utf8_lossy(&said);
         let mut lines = said.lines().filter(|line| !line.trim().is_empty());
@@ -136,6 +145,42 @@ impl Process {
             Some(first) => format!("found its process ended ({status}: {first}), expected an answer"),
         }
     }
+}
+
+fn started(command: &[OsString], is_limited: bool) -> io::Result<Child> {
+    let (program, arguments) = command.split_first().ok_or(io::ErrorKind::NotFound)?;
+    let mut command = Command::new(program);
+    if is_limited {
+        // the allocator takes address space ahead of need: that counts as taken unless it is told so
+        command.env("MIMALLOC_ARENA_EAGER_COMMIT", "0");
+    }
+    command.args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn()
+}
+
+/// The lines of a stream as they come.
+fn lines_of(stream: impl Read + Send + 'static) -> Receiver<io::Result<String>> {
+    let (sender, lines) = mpsc::channel();
+    thread::spawn(move || {
+        for line in BufReader::new(stream).lines() {
+            if sender.send(line).is_err() {
+                break;
+            }
+        }
+    });
+    lines
+}
+
+/// Keeps what a stream says last.
+fn keep_last(mut stream: impl Read + Send + 'static, kept: Arc<Mutex<VecDeque<u8>>>) {
+    thread::spawn(move || {
+        let mut chunk = [0; 1024];
+        while let Ok(count @ 1..) = stream.read(&mut chunk) {
+            let Ok(mut said) = kept.lock() else { break };
+            said.extend(&chunk[..count]);
+            let surplus = said.len().saturating_sub(LAST_BYTES);
+            said.drain(..surplus);
+        }
+    });
 }
 
 fn failed(error: &io::Error) -> CliError {

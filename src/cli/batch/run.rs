@@ -17,7 +17,7 @@ use super::args::BatchArgs;
 use super::cache::{Cache, Made};
 use super::job::{Job, RESULTS, UNFINISHED};
 use super::key::{self, Sum, with_files};
-use super::process::{Launch, Outcome, Process};
+use super::process::{How, Launch, Outcome, Process};
 use super::results::{JobResult, Results};
 use super::verify::difference;
 use super::worker::Request;
@@ -121,7 +121,7 @@ impl<'a> Batch<'a> {
             cache,
             cache_size: args.cache_size,
             verified: by_chance.into_iter().take(args.verify_cache).map(|(_, number)| number).collect(),
-            launch: Launch { command: worker_command(args)?, timeout: args.timeout, is_limited: args.memory.is_some() },
+            launch: Launch { how: how(args)?, timeout: args.timeout, is_limited: args.memory.is_some() },
             count,
             threads,
             before,
@@ -270,7 +270,7 @@ impl<'a> Batch<'a> {
     fn execute(&self, job: &Job, folder: &Path, process: &mut Option<Process>) -> Result<Fresh, CliError> {
         let arguments =
             job.arguments(folder, self.threads).into_iter().map(|argument| argument.to_string_lossy().into_owned());
-        let request = Request { arguments: arguments.collect() };
+        let request = Request { arguments: arguments.collect(), folder: folder.display().to_string() };
         let running = match process {
             Some(running) => running,
             None => process.insert(Process::start(&self.launch)?),
@@ -341,8 +341,11 @@ impl<'a> Batch<'a> {
     }
 }
 
-/// How processes are started: as this program, where nothing else is said.
-fn worker_command(args: &BatchArgs) -> Result<Vec<OsString>, CliError> {
+/// How jobs are done: by processes of this program, where nothing else is said.
+fn how(args: &BatchArgs) -> Result<How, CliError> {
+    if let Some(address) = &args.worker_address {
+        return Ok(How::Address(address.clone(), env::var("PLANECUT_BATCH_TOKEN").unwrap_or_default()));
+    }
     let mut command = args.worker_command.clone();
     if command.is_empty() {
         let program = env::current_exe();
@@ -353,7 +356,7 @@ fn worker_command(args: &BatchArgs) -> Result<Vec<OsString>, CliError> {
     if let Some(megabytes) = args.memory {
         command.push(format!("--memory={megabytes}").into());
     }
-    Ok(command)
+    Ok(How::Command(command))
 }
 
 /// The files below a folder, by their names within it.

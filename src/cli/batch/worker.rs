@@ -15,6 +15,9 @@ use crate::cli::{parse_and_run, terminal};
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Request {
     pub(super) arguments: Vec<String>,
+    /// Where its outputs go, as arguments name it: who does it elsewhere puts another folder in its place.
+    #[serde(default)]
+    pub(super) folder: String,
 }
 
 /// What became of it.
