@@ -156,6 +156,6 @@ fn a_mesh_that_is_too_small_to_be_told_from_nothing_is_refused() {
     std::fs::write(&large, text.replace("e-320", "e-20")).expect("written");
     let out = folder.path().join("out.stl");
     let build = |input: &Path| planecut(["build".as_ref(), input.as_os_str(), "-o".as_ref(), out.as_os_str()]);
-    build(&tiny).expect_error(2, "expected at least 2^-100");
+    build(&tiny).expect_error(2, "expected at least 2^-240");
     build(&large).expect_quiet_success();
 }

@@ -16,7 +16,7 @@ pub enum ClosedMeshError {
         position: DVec3,
     },
     /// All of it is so small that products of coordinates are no numbers any more.
-    #[error("found a mesh of the size {size:e}, expected at least 2^-100")]
+    #[error("found a mesh of the size {size:e}, expected at least 2^-240")]
     TooSmall {
         /// The largest difference of two coordinates along an axis.
         size: f64,

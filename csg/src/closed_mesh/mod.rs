@@ -121,8 +121,8 @@ impl ClosedMesh {
     }
 }
 
-/// Least size of a mesh, `2^-100`, so that products of differences of its coordinates do not underflow.
-const MIN_SIZE: f64 = f64::from_bits((1023 - 100) << 52);
+/// Least size of a mesh, `2^-240`, so that products of differences of its coordinates do not underflow.
+const MIN_SIZE: f64 = f64::from_bits((1023 - 240) << 52);
 
 /// Refuses coordinates that are not finite, meshes that are too small, and numbers of vertices that there are not.
 fn check(positions: &[DVec3], triangles: &[[u32; 3]]) -> Result<(), ClosedMeshError> {

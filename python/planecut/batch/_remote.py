@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 import sys
 import tempfile
@@ -34,9 +35,14 @@ _kept = threading.local()
 def _process(settings: Settings) -> subprocess.Popen[bytes]:
     process: subprocess.Popen[bytes] | None = getattr(_kept, "process", None)
     if process is None or process.poll() is not None or _kept.settings != settings:
-        limits = [] if settings.memory is None else [f"--memory={settings.memory}"]
-        command = [sys.executable, "-m", "planecut", "batch", "--worker", *limits]
-        process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, cwd=settings.folder)
+        command = [sys.executable, "-m", "planecut", "batch", "--worker"]
+        environment = dict(os.environ)
+        if settings.memory is not None:
+            command.append(f"--memory={settings.memory}")
+            # the allocator takes address space ahead of need: that counts as taken unless it is told so
+            environment["MIMALLOC_ARENA_EAGER_COMMIT"] = "0"
+        pipe, folder = subprocess.PIPE, settings.folder
+        process = subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=subprocess.DEVNULL, cwd=folder, env=environment)
         _kept.process, _kept.settings = process, settings
     return process
 

@@ -17,7 +17,7 @@ pub enum PolyhedronError {
         position: DVec3,
     },
     /// All of it is too small.
-    #[error("found a mesh of the size {size:e}, expected at least 2^-100")]
+    #[error("found a mesh of the size {size:e}, expected at least 2^-240")]
     TooSmall {
         /// The largest difference of two coordinates along an axis.
         size: f64,
