@@ -3,6 +3,7 @@
 
 mod assets;
 mod brushes;
+mod full_disk;
 mod gltf;
 mod model_file;
 mod obj_stl;

@@ -5,12 +5,8 @@ from __future__ import annotations
 import importlib
 from typing import Any
 
-from ._remote import Answer, Settings, carry_out
+from ._remote import RETRIES, Answer, Settings, carry_out
 from ._server import CarryOut
-
-RETRIES = 3
-"""How often a job is begun again whose worker was lost."""
-
 
 def connect(settings: Settings, threads: int) -> tuple[CarryOut, int]:
     """What has a request carried out by a task, and the number of cores; joins the cluster that there is, or begins one on this machine."""

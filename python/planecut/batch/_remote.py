@@ -12,6 +12,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+RETRIES = 3
+"""How often a job is begun again whose worker was lost."""
+
 Answer = tuple[dict[str, Any], dict[str, bytes]]
 """What became of a request, and the files that it made, by their names."""
 

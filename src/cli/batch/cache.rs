@@ -83,11 +83,11 @@ impl Cache {
 
     /// The result of a job; nothing where none is known for the files as they are now.
     pub(super) fn find(&self, job: Sum) -> Option<Found> {
-        let lists = fs::read_dir(self.lists(job)).into_iter().flatten().flatten();
+        let lists = fs::read_dir(self.place("jobs", &job.to_string())).into_iter().flatten().flatten();
         let known = lists.filter_map(|list| serde_json::from_slice::<Vec<String>>(&fs::read(list.path()).ok()?).ok());
         std::iter::once(Vec::new()).chain(known).find_map(|read| {
             let key = with_files(job, &read);
-            let folder = self.place("results", key);
+            let folder = self.place("results", &key.to_string());
             let entry = serde_json::from_slice(&fs::read(folder.join(ENTRY)).ok()?).ok()?;
             Some(Found { key, entry, folder })
         })
@@ -105,7 +105,7 @@ impl Cache {
             }
             let from = found.folder.join(number.to_string());
             if !from.is_file() || fs::copy(&from, &to).is_err() || sum_of_file(&to)?.to_string() != *sum {
-                self.remove(&found.folder);
+                self.remove(found);
                 return Ok(false);
             }
         }
@@ -121,17 +121,17 @@ impl Cache {
     ///
     /// # Errors
     /// What the system says.
-    pub(super) fn keep(&self, job: Sum, made: &Made<'_>, from: &Path) -> io::Result<()> {
+    pub(super) fn keep(&self, job: Sum, key: Sum, made: &Made<'_>, from: &Path) -> io::Result<()> {
         let unfinished = self.unfinished();
         fs::create_dir_all(&unfinished)?;
-        let kept = self.fill(&unfinished, job, made, from);
+        let kept = self.fill(&unfinished, (job, key), made, from);
         if kept.is_err() {
             let _ = fs::remove_dir_all(&unfinished);
         }
         kept
     }
 
-    fn fill(&self, unfinished: &Path, job: Sum, made: &Made<'_>, from: &Path) -> io::Result<()> {
+    fn fill(&self, unfinished: &Path, (job, key): (Sum, Sum), made: &Made<'_>, from: &Path) -> io::Result<()> {
         let mut files = Vec::with_capacity(made.files.len());
         for (number, name) in made.files.iter().enumerate() {
             let to = unfinished.join(number.to_string());
@@ -142,7 +142,7 @@ impl Cache {
         let (warnings, read) = (warnings.to_vec(), read.to_vec());
         let entry = Entry { status, seconds, warnings, read, files, job: job.to_string() };
         fs::write(unfinished.join(ENTRY), serde_json::to_vec(&entry)?)?;
-        let place = self.place("results", with_files(job, made.read));
+        let place = self.place("results", &key.to_string());
         if let Some(parent) = place.parent() {
             fs::create_dir_all(parent)?;
         }
@@ -152,16 +152,15 @@ impl Cache {
                 return Err(io::Error::other(format!("{} cannot be named", place.display())));
             }
         }
-        if made.read.is_empty() { Ok(()) } else { self.keep_list(job, made.read) }
+        if made.read.is_empty() { Ok(()) } else { self.keep_list(&job.to_string(), made.read) }
     }
 
-    fn keep_list(&self, job: Sum, read: &[String]) -> io::Result<()> {
+    fn keep_list(&self, job: &str, read: &[String]) -> io::Result<()> {
         let text = serde_json::to_vec(read)?;
         let unfinished = self.unfinished();
         fs::write(&unfinished, &text)?;
-        let lists = self.lists(job);
-        fs::create_dir_all(&lists)?;
-        fs::rename(&unfinished, lists.join(format!("{}.json", Sum::of(&text))))
+        fs::create_dir_all(self.place("jobs", job))?;
+        fs::rename(&unfinished, self.list_place(job, &text))
     }
 
     /// Removes what was not used for longest until no more than so many bytes are left.
@@ -184,7 +183,7 @@ impl Cache {
             if total <= bytes {
                 break;
             }
-            self.remove(&folder);
+            self.remove_entry(&folder);
             total -= size;
         }
         for forgotten in fs::read_dir(self.root.join("tmp"))?.flatten() {
@@ -196,36 +195,36 @@ impl Cache {
         Ok(())
     }
 
+    /// Removes a result that was found.
+    pub(super) fn remove(&self, found: &Found) {
+        self.remove_entry(&found.folder);
+    }
+
     /// Removes an entry: it is gone for others before its files are. What fails is left for the next time.
-    pub(super) fn remove(&self, folder: &Path) {
-        let lists = fs::read(folder.join(ENTRY)).ok().and_then(|bytes| {
+    fn remove_entry(&self, folder: &Path) {
+        let list = fs::read(folder.join(ENTRY)).ok().and_then(|bytes| {
             let entry: Entry = serde_json::from_slice(&bytes).ok()?;
             (!entry.read.is_empty()).then_some(())?;
-            let name = format!("{}.json", Sum::of(&serde_json::to_vec(&entry.read).ok()?));
-            Some(self.root.join("jobs").join(&entry.job[..2]).join(&entry.job).join(name))
+            Some(self.list_place(&entry.job, &serde_json::to_vec(&entry.read).ok()?))
         });
         let gone = self.unfinished();
         if fs::rename(folder, &gone).is_ok() {
             let _ = fs::remove_dir_all(gone);
         }
-        if let Some(list) = lists {
+        if let Some(list) = list {
             let _ = fs::remove_file(&list);
             let _ = list.parent().map(fs::remove_dir);
         }
     }
 
-    /// Removes what was found.
-    pub(super) fn remove_found(&self, found: &Found) {
-        self.remove(&found.folder);
+    /// Where a sum has its folder.
+    fn place(&self, kind: &str, sum: &str) -> PathBuf {
+        self.root.join(kind).join(&sum[..2]).join(sum)
     }
 
-    fn place(&self, kind: &str, sum: Sum) -> PathBuf {
-        let name = sum.to_string();
-        self.root.join(kind).join(&name[..2]).join(name)
-    }
-
-    fn lists(&self, job: Sum) -> PathBuf {
-        self.place("jobs", job)
+    /// Where a job has a list of files, by its text.
+    fn list_place(&self, job: &str, text: &[u8]) -> PathBuf {
+        self.place("jobs", job).join(format!("{}.json", Sum::of(text)))
     }
 
     /// A name that no process on any machine takes as well.

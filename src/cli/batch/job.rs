@@ -44,8 +44,6 @@ const OTHER_OPTIONS: [&str; 5] = ["output", "format", "quiet", "threads", "help"
 /// A line of the manifest.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Job {
-    /// The line in the manifest, counted from 1.
-    pub(super) line: usize,
     pub(super) id: String,
     pub(super) command: JobCommand,
     pub(super) inputs: Vec<String>,
@@ -186,7 +184,6 @@ mod tests {
     fn job(options: Value) -> Job {
         let Value::Object(options) = options else { panic!("an object") };
         Job {
-            line: 1,
             id: "a".to_owned(),
             command: JobCommand::Build,
             inputs: vec!["-x.json".to_owned()],

@@ -80,7 +80,7 @@ pub(super) fn read(path: &Path) -> Result<Vec<Job>, CliError> {
         if line.iter().all(u8::is_ascii_whitespace) {
             continue;
         }
-        let job = job_of(line, number).map_err(|message| refuse(number, message))?;
+        let job = job_of(line).map_err(|message| refuse(number, message))?;
         if let Some(first) = ids.insert(job.id.clone(), number) {
             return Err(refuse(number, format!("found the id {:?} of line {first}, expected another one", job.id)));
         }
@@ -97,14 +97,14 @@ pub(super) fn read(path: &Path) -> Result<Vec<Job>, CliError> {
     Ok(jobs)
 }
 
-fn job_of(line: &[u8], number: usize) -> Result<Job, String> {
+fn job_of(line: &[u8]) -> Result<Job, String> {
     let Line { id, command, input, outputs, options } =
         serde_json::from_slice(line).map_err(|error| format!("found {}", without_place(&error.to_string())))?;
     let inputs = match input {
         OneOrMore::One(input) => vec![input],
         OneOrMore::More(inputs) => inputs,
     };
-    let job = Job { line: number, id, command, inputs, outputs, options: options.0 };
+    let job = Job { id, command, inputs, outputs, options: options.0 };
     job.check()?;
     let arguments: Vec<OsString> = job.arguments(Path::new("out"), 1);
     match args::parse(&arguments) {

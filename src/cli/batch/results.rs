@@ -9,7 +9,7 @@ use rustc_hash::FxHashMap;
 use serde::{Deserialize, Serialize};
 
 use super::job::{Job, RESULTS};
-use crate::cli::error::CliError;
+use crate::cli::error::{CliError, INCOMPLETE};
 
 /// A line of the results.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -39,8 +39,13 @@ pub(super) struct JobResult {
 impl JobResult {
     /// Whether the job was done, with all that the input states or without some of it.
     pub(super) fn is_done(&self) -> bool {
-        matches!(self.status, 0 | 3)
+        is_done(self.status)
     }
+}
+
+/// Whether an exit status is that of a job that was done.
+pub(super) fn is_done(status: u8) -> bool {
+    matches!(status, 0 | INCOMPLETE)
 }
 
 /// The file of results.

@@ -18,7 +18,7 @@ use super::cache::{Cache, Made};
 use super::job::{Job, RESULTS, UNFINISHED};
 use super::key::{self, Sum, with_files};
 use super::process::{How, Launch, Outcome, Process};
-use super::results::{JobResult, Results};
+use super::results::{JobResult, Results, is_done};
 use super::verify::difference;
 use super::worker::Request;
 use crate::cli::error::{CliError, Done, FAILED};
@@ -239,9 +239,10 @@ impl<'a> Batch<'a> {
             if self.verified.contains(&number) {
                 let fresh = self.execute(job, folder, process)?;
                 let difference = difference(job, folder, fresh.status, &fresh.files, cache, &found);
-                let mut result = self.place(job, folder, fresh, sum, true);
+                let key = key_of(sum, &fresh);
+                let mut result = self.place(job, folder, fresh, key, true);
                 if let Some(error) = difference {
-                    cache.remove_found(&found);
+                    cache.remove(&found);
                     (result.status, result.error) = (FAILED, Some(error));
                 }
                 return Ok(result);
@@ -253,19 +254,20 @@ impl<'a> Batch<'a> {
                 let files = entry.files.into_iter().map(|kept| kept.name).collect();
                 let (status, seconds, warnings, read) = (entry.status, entry.seconds, entry.warnings, entry.read);
                 let fresh = Fresh { status, seconds, error: None, warnings, read, files };
-                return Ok(self.place(job, folder, fresh, sum, true));
+                return Ok(self.place(job, folder, fresh, Some(found.key), true));
             }
         }
         let fresh = self.execute(job, folder, process)?;
         // an input that was written to meanwhile: nobody knows what the result follows from
         let sum = sum.filter(|sum| key::of_job(job).is_ok_and(|now| now == *sum));
-        if let (Some(cache), Some(sum), 0 | 3) = (&self.cache, sum, fresh.status) {
+        let key = key_of(sum, &fresh);
+        if let (Some(cache), Some(sum), Some(key)) = (&self.cache, sum, key) {
             let Fresh { status, seconds, warnings, read, files, .. } = &fresh;
             let made = Made { status: *status, seconds: *seconds, warnings, read, files };
             // the job is done, whether others profit or not
-            cache.keep(sum, &made, folder).unwrap_or_else(|error| warn_of_cache(&error));
+            cache.keep(sum, key, &made, folder).unwrap_or_else(|error| warn_of_cache(&error));
         }
-        Ok(self.place(job, folder, fresh, sum, false))
+        Ok(self.place(job, folder, fresh, key, false))
     }
 
     /// Has the command carried out, its outputs in a folder.
@@ -302,7 +304,7 @@ impl<'a> Batch<'a> {
             read: answer.read.into_iter().filter(|name| !named.contains(name.as_str())).collect(),
             files: Vec::new(),
         };
-        if matches!(fresh.status, 0 | 3) {
+        if is_done(fresh.status) {
             let written = match job.outputs.first().filter(|_| job.command.prints()) {
                 Some(output) => fs::write(folder.join(output), answer.text),
                 None => Ok(()),
@@ -320,13 +322,13 @@ impl<'a> Batch<'a> {
     }
 
     /// Gives files their names.
-    fn place(&self, job: &Job, folder: &Path, fresh: Fresh, sum: Option<Sum>, cached: bool) -> JobResult {
+    fn place(&self, job: &Job, folder: &Path, fresh: Fresh, key: Option<Sum>, cached: bool) -> JobResult {
         let Fresh { mut status, seconds, mut error, warnings, read, mut files } = fresh;
         if let Err(message) = files.iter().try_for_each(|name| self.place_file(job, folder, name)) {
             (status, error) = (FAILED, Some(message));
             files.clear();
         }
-        let key = sum.filter(|_| matches!(status, 0 | 3)).map(|sum| with_files(sum, &read).to_string());
+        let key = key.filter(|_| is_done(status)).map(|key| key.to_string());
         JobResult { id: job.id.clone(), status, seconds, cached, error, warnings, files, read, key }
     }
 
@@ -341,6 +343,11 @@ impl<'a> Batch<'a> {
             .and_then(|()| fs::rename(folder.join(name), &to))
             .map_err(|error| format!("{}: found `{error}`, expected a place that can be written", to.display()))
     }
+}
+
+/// The key of what was made; nothing where it was not, or nobody knows what it follows from.
+fn key_of(job: Option<Sum>, fresh: &Fresh) -> Option<Sum> {
+    job.filter(|_| is_done(fresh.status)).map(|job| with_files(job, &fresh.read))
 }
 
 /// How jobs are done: by processes of this program, where nothing else is said.

@@ -4,6 +4,7 @@ import {
   Box3,
   Color,
   DoubleSide,
+  FrontSide,
   Group,
   LinearSRGBColorSpace,
   LineSegments,
@@ -114,9 +115,7 @@ export class Viewer {
     this.material.transparent = look.xray;
     this.material.uniforms.opacity!.value = look.xray ? 0.28 : 1;
     this.material.depthWrite = !look.xray;
-    this.material.side = look.xray ? DoubleSide : 0;
-    this.material.needsUpdate = true;
-    this.edgeMaterial.uniforms.hasBack!.value = look.xray || this.section.plane !== null;
+    this.setSides();
     this.draw();
   }
 
@@ -126,11 +125,17 @@ export class Viewer {
     const planes = plane ? [plane] : [];
     this.material.clippingPlanes = planes;
     this.edgeMaterial.clippingPlanes = planes;
-    this.material.side = this.look.xray || plane ? DoubleSide : 0;
-    this.material.needsUpdate = true;
-    this.edgeMaterial.uniforms.hasBack!.value = this.look.xray || plane !== null;
     this.edgeMaterial.needsUpdate = true;
+    this.setSides();
     this.draw();
+  }
+
+  /** Faces are seen from behind, and their edges, where the solid is clear or cut open. */
+  private setSides() {
+    const hasBack = this.look.xray || this.section.plane !== null;
+    this.material.side = hasBack ? DoubleSide : FrontSide;
+    this.material.needsUpdate = true;
+    this.edgeMaterial.uniforms.hasBack!.value = hasBack;
   }
 
   /** The plane that the picture is cut open by. */

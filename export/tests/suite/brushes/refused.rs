@@ -1,11 +1,13 @@
 //! What cannot be written is refused, and the message says what it is.
 
-use std::io::{self, Write};
+use std::io;
 use std::path::Path;
 
 use planecut_csg::{Brush, Material, MaterialId};
 use planecut_export::{BrushFormat, ExportError, write_brushes};
 use planecut_kernel::DVec3;
+
+use crate::full_disk::Full;
 
 fn cube() -> Brush {
     Brush::cuboid(DVec3::ZERO, DVec3::ONE, MaterialId(0))
@@ -53,24 +55,6 @@ fn scales_and_coordinates_out_of_range_are_refused() {
         let far = Brush::cuboid(DVec3::ZERO, DVec3::splat(1e20), MaterialId(0));
         let error = error(&[cube(), far], 1e15, format);
         assert!(matches!(error, ExportError::BrushRange { brush: 1, .. }), "{error}");
-    }
-}
-
-/// Takes that number of bytes, then no more.
-struct Full(usize);
-
-impl Write for Full {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        if self.0 == 0 {
-            return Err(io::ErrorKind::StorageFull.into());
-        }
-        let taken = bytes.len().min(self.0);
-        self.0 -= taken;
-        Ok(taken)
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        Ok(())
     }
 }
 

@@ -1,11 +1,13 @@
 //! What cannot be written is refused, and the message says what it is.
 
-use std::io::{self, Write};
+use std::io;
 
 use planecut_csg::{Brush, ClosedMesh, Material, MaterialId, MeshBody, Model, Tree};
 use planecut_export::{ExportError, write_model};
 use planecut_kernel::{DVec3, HalfSpace};
 use planecut_testkit::random::Rng;
+
+use crate::full_disk::Full;
 
 use super::support::{any_brush, any_tree, materials};
 
@@ -78,24 +80,6 @@ fn looks_that_no_file_can_hold_are_named() {
             );
             assert_eq!(error, expected);
         }
-    }
-}
-
-/// Takes that number of bytes, then no more.
-struct Full(usize);
-
-impl Write for Full {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        if self.0 == 0 {
-            return Err(io::ErrorKind::StorageFull.into());
-        }
-        let taken = bytes.len().min(self.0);
-        self.0 -= taken;
-        Ok(taken)
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        Ok(())
     }
 }
 
