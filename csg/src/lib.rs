@@ -54,7 +54,7 @@ pub use live::{
 pub use mesh::{Mesh, MeshFace, Noise, SolidMeasures, contract_edges, contract_short_edges};
 pub use model::{
     Brush, BrushFace, CutMaterial, Cutaway, FaceSource, Material, MaterialId, MeshBody, Model, Operation, TextureAxes,
-    TextureUnit, Transform, TransformError, Tree, TreeNode, UsedMaterials, sine_and_cosine,
+    TextureUnit, Transform, TransformError, Tree, TreeBuilder, TreeNode, TreeSink, UsedMaterials, sine_and_cosine,
 };
 pub use plane_table::{PlaneId, PlaneTable};
 pub use tolerances::SNAP_TOLERANCE;

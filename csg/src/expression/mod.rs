@@ -5,7 +5,7 @@
 //! operations between two branchings come to nothing, a negation, or a constant, which is looked up.
 
 #[cfg(test)]
-mod random_trees;
+pub(crate) mod random_trees;
 mod repeats;
 mod restriction;
 

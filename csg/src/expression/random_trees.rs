@@ -3,10 +3,10 @@
 use crate::model::{Operation, TreeNode};
 
 /// Small random numbers (Marsaglia's xorshift).
-pub(super) struct Random(pub(super) u64);
+pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
-    pub(super) fn below(&mut self, n: u64) -> u64 {
+    pub(crate) fn below(&mut self, n: u64) -> u64 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
         self.0 ^= self.0 << 17;
@@ -14,7 +14,7 @@ impl Random {
     }
 }
 
-pub(super) fn random_tree(random: &mut Random) -> Vec<TreeNode> {
+pub(crate) fn random_tree(random: &mut Random) -> Vec<TreeNode> {
     use Operation::{Complement, Difference, Intersection, Union, Xor};
     let mut entries = Vec::new();
     let mut open = 0;
@@ -35,7 +35,7 @@ pub(super) fn random_tree(random: &mut Random) -> Vec<TreeNode> {
 }
 
 /// The value of a tree from its definition.
-pub(super) fn value(entries: &[TreeNode], leaves: &[bool]) -> bool {
+pub(crate) fn value(entries: &[TreeNode], leaves: &[bool]) -> bool {
     let mut stack: Vec<bool> = Vec::new();
     let mut next = leaves.iter();
     for entry in entries {

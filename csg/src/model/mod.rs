@@ -10,6 +10,7 @@ mod parts;
 #[cfg(feature = "serde")]
 mod saved;
 mod source;
+mod stream;
 mod texture;
 mod transform;
 mod tree;
@@ -20,6 +21,7 @@ pub use cutaway::{CutMaterial, Cutaway};
 pub use material::{Material, MaterialId};
 pub use mesh_body::MeshBody;
 pub use source::FaceSource;
+pub use stream::{TreeBuilder, TreeSink};
 pub use texture::{TextureAxes, TextureUnit};
 pub use transform::{Transform, TransformError, sine_and_cosine};
 #[cfg(test)]
