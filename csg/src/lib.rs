@@ -39,13 +39,19 @@ pub mod tolerances;
 mod weld;
 
 pub use arrangement::{CombineError, CombinedMeshes, Inside, combine_meshes, unite_meshes};
-pub use blocks::{Block, BlockOptions, BlocksError, BlocksSummary, evaluate_in_blocks};
+pub use blocks::{
+    Block, BlockBuilder, BlockGrid, BlockNode, BlockOperation, BlockOptions, BlockPlace, BlockSides, BlockSurvey,
+    BlocksError, BlocksSummary, BrushPlace, FirstOperand, NearPlaneFinder, NearRanges, PlaneMark, PlaneSurvey,
+    PolarityStack, SeamEdge, SeamEdges, SharedBrushes, SnappedPlanes, TreeScatter, UnboundedBrush, brush_mark,
+    evaluate_in_blocks, unmatched_edges,
+};
 pub use body::BuiltBodies;
 pub use closed_mesh::{ClosedMesh, ClosedMeshError, WindingRule};
 pub use evaluate::{
     EvaluateError, Evaluation, ModelSummary, StageTimes, UnboundedBrushes, evaluate, evaluate_built, evaluate_with,
     summarize,
 };
+pub use expression::Polarity;
 pub use live::{
     BrushId, Change, ConvexPiece, Edit, EditError, Edited, FaceBuffers, FaceId, FaceRange, LiveFace, LiveModel,
     LiveNode, ModelBuffers, NodeId, PlaneRemoval, Preview, PreviewFace, Role, Snap, SnapOptions, SnapTarget,

@@ -85,7 +85,7 @@ fn intern_repeated_planes(brushes: &[Brush], size: f64) -> (PlaneTable, Vec<Vec<
 }
 
 /// What is known of a brush of which nothing but its planes is kept.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) enum BrushExtent {
     /// A bounded body.
     Bounded {
@@ -93,8 +93,8 @@ pub(crate) enum BrushExtent {
         bounds: Bounds,
         /// Its volume.
         volume: f64,
-        /// How many of its planes have no face.
-        redundant: usize,
+        /// Numbers of its planes that have no face.
+        redundant: Vec<u32>,
     },
     /// No interior.
     Empty,
@@ -123,7 +123,7 @@ pub(crate) fn brush_extents(brushes: &[Brush], built: &BuiltBodies, size: f64) -
                 BrushShape::Bounded(shape) => BrushExtent::Bounded {
                     bounds: *shape.bounds(),
                     volume: shape.volume,
-                    redundant: planes.len() - shape.faces.len(),
+                    redundant: shape.without_face(planes.len()),
                 },
                 BrushShape::Empty => BrushExtent::Empty,
                 BrushShape::Unbounded => BrushExtent::Unbounded,

@@ -1,5 +1,7 @@
 //! Bodies that are equal.
 
+use std::hash::Hash;
+
 use rustc_hash::FxHashMap;
 
 use crate::base::hash_of;
@@ -37,8 +39,13 @@ pub(crate) fn kinds<I: Iterator<Item = (PlaneId, MaterialId)>>(
 
 /// A number that faces of the same planes and materials share, whatever their order.
 pub(crate) fn mark_of(faces: impl Iterator<Item = (PlaneId, MaterialId)>) -> u64 {
+    mark_of_faces(faces)
+}
+
+/// The same of faces that are told in another way.
+pub(crate) fn mark_of_faces<F: Hash>(faces: impl Iterator<Item = F>) -> u64 {
     // the hash is linear in what it is of, so that sums of it would be the same wherever sums of plane numbers are
-    let mixed = |face| {
+    let mixed = |face: F| {
         let hash = hash_of(&face);
         let folded = (hash ^ hash >> 32).wrapping_mul(0xD6E8_FEB8_6659_FD93);
         folded ^ folded >> 32

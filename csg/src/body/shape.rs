@@ -147,6 +147,15 @@ impl Shape {
         &self.bounds
     }
 
+    /// Those of its first planes, of which there are so many, that have no face.
+    pub(super) fn without_face(&self, planes: usize) -> Vec<u32> {
+        if self.faces.len() == planes {
+            return Vec::new();
+        }
+        let has_face = |plane: &usize| self.corners.planes.contains(&PlaneIdx(*plane));
+        (0..planes).filter(|plane| !has_face(plane)).map(number32).collect()
+    }
+
     /// Cuts what corners are known to lie in down to what the planes leave of it.
     fn tighten_bounds<'a>(&mut self, half_space: impl Fn(PlaneIdx) -> &'a HalfSpace) {
         let planes = &self.corners.planes;

@@ -10,6 +10,7 @@ use crate::ids::number32;
 use std::time::Duration;
 
 use planecut_kernel::sign::Counts;
+use rustc_hash::FxHashMap;
 use thiserror::Error;
 
 use crate::arrangement::CombineError;
@@ -157,27 +158,54 @@ pub fn evaluate_built(
 ) -> Result<Evaluation, EvaluateError> {
     let convex = model.tree.brushes().iter().filter(|brush| !brush.is_mesh());
     let size = smallest_size(convex.map(Brush::half_spaces));
-    evaluate_among(model, unbounded, built, size)
+    evaluate_among(model, unbounded, built, OtherBrushes { size, polarities: None })
 }
 
-/// The same among other brushes, of which the smallest has this size: planes are nearly the same here where they are there.
+/// What the evaluation of some brushes of a model follows from the others, which are not there.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct OtherBrushes<'a> {
+    /// The size of the smallest brush of all: planes are nearly the same here where they are there.
+    pub(crate) size: f64,
+    /// For each leaf the polarity of all that equal it, also of those that are not there; where nothing is given, all are there.
+    pub(crate) polarities: Option<&'a [Polarity]>,
+}
+
+impl OtherBrushes<'_> {
+    /// Kinds of leaves, of which those are no longer equal that are told apart by others.
+    fn kinds(&self, mut kinds: Vec<LeafId>) -> Vec<LeafId> {
+        let Some(polarities) = self.polarities else { return kinds };
+        let mut first: FxHashMap<(LeafId, Polarity), LeafId> = FxHashMap::default();
+        for (leaf, kind) in kinds.iter_mut().enumerate() {
+            *kind = *first.entry((*kind, polarities[leaf])).or_insert(LeafId::from_index(leaf));
+        }
+        kinds
+    }
+
+    /// For each leaf the polarity of all that equal it.
+    fn polarities(&self, expression: &Expression, kinds: &[LeafId]) -> Vec<Polarity> {
+        self.polarities.map_or_else(|| expression.common_polarities(kinds), <[Polarity]>::to_vec)
+    }
+}
+
+/// The same among other brushes.
 pub(crate) fn evaluate_among(
     model: &Model,
     unbounded: UnboundedBrushes,
     built: &BuiltBodies,
-    size: f64,
+    others: OtherBrushes<'_>,
 ) -> Result<Evaluation, EvaluateError> {
     let begin = Clock::start();
     check_materials(model.tree.brushes().iter().flat_map(Brush::materials), model.materials.len())?;
     if model.tree.has_meshes() {
-        return meshes::evaluate_meshes(model, unbounded, built, size);
+        return meshes::evaluate_meshes(model, unbounded, built, others.size);
     }
     if model.tree.brushes().len() >= scattered::LEAST
-        && let Some(evaluation) = scattered::evaluate_scattered(model, unbounded, built, size)?
+        && let Some(evaluation) = scattered::evaluate_scattered(model, unbounded, built, others)?
     {
         return Ok(evaluation);
     }
-    let BrushBodies { mut table, planes, bodies, mut signs } = build_other_bodies(model.tree.brushes(), built, size);
+    let BrushBodies { mut table, planes, bodies, mut signs } =
+        build_other_bodies(model.tree.brushes(), built, others.size);
     let summary = summary_of(&table, &bodies);
     let expression = Expression::new(model.tree.nodes());
     let keeps = unbounded == UnboundedBrushes::Keep && !summary.unbounded.is_empty();
@@ -192,9 +220,9 @@ pub(crate) fn evaluate_among(
     };
     let bodies: Vec<Option<Body>> = bodies.into_iter().enumerate().map(bounded).collect();
     let faces = |leaf: LeafId| bodies[leaf.index()].iter().flat_map(Body::planes_and_materials);
-    let kinds = kinds(bodies.len(), faces, |leaf| mark_of(faces(leaf)));
+    let kinds = others.kinds(kinds(bodies.len(), faces, |leaf| mark_of(faces(leaf))));
     let repeated = expression.repeated_leaves(&kinds);
-    let polarities = expression.common_polarities(&kinds);
+    let polarities = others.polarities(&expression, &kinds);
     let mut leaves = Leaves::default();
     for (leaf, body) in bodies.into_iter().enumerate().filter(|(leaf, _)| !repeated[*leaf]) {
         body.into_iter().for_each(|body| leaves.push(leaf, body));

@@ -11,7 +11,7 @@ use planecut_kernel::sign::Counts;
 
 use super::convex::{ConvexMesh, mesh_of};
 use super::totals::Totals;
-use super::{EvaluateError, Evaluation, Leaves, ModelSummary, StageTimes, UnboundedBrushes, ranks};
+use super::{EvaluateError, Evaluation, Leaves, ModelSummary, OtherBrushes, StageTimes, UnboundedBrushes, ranks};
 use crate::base::{Bounds, Boxes, Clock, DisjointSets, map_chunks};
 use crate::body::{
     Body, BrushExtent, BrushExtents, BuiltBodies, ShapeBuilder, brush_extents, built_or_build, kinds, mark_of,
@@ -37,21 +37,21 @@ pub(super) fn evaluate_scattered(
     model: &Model,
     unbounded: UnboundedBrushes,
     built: &BuiltBodies,
-    size: f64,
+    others: OtherBrushes<'_>,
 ) -> Result<Option<Evaluation>, EvaluateError> {
     let begin = Clock::start();
     let expression = Expression::new(model.tree.nodes());
     if expression.base() {
         return Ok(None);
     }
-    let BrushExtents { table, planes, extents, mut signs } = brush_extents(model.tree.brushes(), built, size);
+    let BrushExtents { table, planes, extents, mut signs } = brush_extents(model.tree.brushes(), built, others.size);
     let summary = summary_of(&table, &extents);
     if unbounded == UnboundedBrushes::Keep && !summary.unbounded.is_empty() {
         return Ok(None);
     }
-    let kinds = kinds_of(model, &planes, &extents);
+    let kinds = others.kinds(kinds_of(model, &planes, &extents));
     let groups = Groups::of(&extents, &expression, &expression.repeated_leaves(&kinds));
-    let polarities = expression.common_polarities(&kinds);
+    let polarities = others.polarities(&expression, &kinds);
     drop(kinds);
     let scene = Scattered { model, built, table: &table, planes: &planes };
     let evaluated = begin.elapsed();
@@ -230,9 +230,9 @@ struct Solid {
 impl Solid {
     /// With room for bodies of which each is its own boundary, with three planes at every corner.
     fn with_room(model: &Model, alone: &[LeafId], extents: &[BrushExtent]) -> Self {
-        let face_count = |leaf: &LeafId| match extents[leaf.index()] {
+        let face_count = |leaf: &LeafId| match &extents[leaf.index()] {
             BrushExtent::Bounded { redundant, .. } => {
-                model.tree.brushes()[leaf.index()].faces.len().saturating_sub(redundant)
+                model.tree.brushes()[leaf.index()].faces.len().saturating_sub(redundant.len())
             }
             BrushExtent::Empty | BrushExtent::Unbounded => 0,
         };
@@ -272,7 +272,7 @@ fn summary_of(table: &PlaneTable, extents: &[BrushExtent]) -> ModelSummary {
     for (number, extent) in extents.iter().enumerate() {
         match extent {
             BrushExtent::Bounded { volume, redundant, .. } => {
-                summary.redundant_planes += redundant;
+                summary.redundant_planes += redundant.len();
                 summary.brush_volume_sum += volume;
             }
             BrushExtent::Empty => summary.empty.push(number),

@@ -39,8 +39,9 @@ struct Node {
 }
 
 /// Whether a node adds to the solid or takes from it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Polarity {
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Polarity {
     /// What is added to the node can only take from the solid.
     Takes,
     /// Either, depending on other operands of an exclusive or.

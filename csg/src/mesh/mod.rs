@@ -64,4 +64,23 @@ impl Mesh {
         }
         self.faces = faces;
     }
+
+    /// Drops the positions that no triangle has; the others keep their order.
+    pub(crate) fn drop_unused_positions(&mut self) {
+        let mut new = vec![u32::MAX; self.positions.len()];
+        self.triangles.iter().flatten().for_each(|vertex| new[*vertex as usize] = 0);
+        let mut count = 0;
+        for number in new.iter_mut().filter(|number| **number == 0) {
+            *number = count;
+            count += 1;
+        }
+        let mut old = 0;
+        self.positions.retain(|_| {
+            old += 1;
+            new[old - 1] != u32::MAX
+        });
+        for vertex in self.triangles.iter_mut().flatten() {
+            *vertex = new[*vertex as usize];
+        }
+    }
 }

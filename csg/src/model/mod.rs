@@ -21,6 +21,7 @@ pub use cutaway::{CutMaterial, Cutaway};
 pub use material::{Material, MaterialId};
 pub use mesh_body::MeshBody;
 pub use source::FaceSource;
+pub(crate) use stream::TreePiece;
 pub use stream::{TreeBuilder, TreeSink};
 pub use texture::{TextureAxes, TextureUnit};
 pub use transform::{Transform, TransformError, sine_and_cosine};

@@ -1,6 +1,7 @@
 //! Trees that go from where they are read to where they are used piece by piece, and never are in memory as a whole.
 
 use std::cmp::Reverse;
+use std::convert::Infallible;
 use std::num::NonZeroU32;
 
 use super::tree::known_lines;
@@ -70,7 +71,7 @@ impl TreeBuilder {
 }
 
 impl TreeSink for TreeBuilder {
-    type Error = std::convert::Infallible;
+    type Error = Infallible;
 
     fn begin(&mut self, operation: Operation) -> Result<(), Self::Error> {
         self.count_operand();
@@ -94,26 +95,45 @@ impl TreeSink for TreeBuilder {
     }
 }
 
+/// One step of the way through a tree, as a [`TreeSink`] is told of them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum TreePiece {
+    Begin(Operation),
+    /// The next leaf.
+    Leaf,
+    End,
+}
+
 impl Tree {
     /// Hands the tree to a sink piece by piece.
     ///
     /// # Errors
     /// Those of the sink.
-    pub fn send<S: TreeSink>(self, sink: &mut S) -> Result<(), S::Error> {
+    pub fn send<S: TreeSink>(mut self, sink: &mut S) -> Result<(), S::Error> {
+        let mut brushes = std::mem::take(&mut self.brushes).into_iter();
+        let mut lines = std::mem::take(&mut self.lines).into_iter();
+        self.try_pieces(|piece| match piece {
+            TreePiece::Begin(operation) => sink.begin(operation),
+            TreePiece::Leaf => sink.leaf(brushes.next().expect("a brush for each leaf"), lines.next().flatten()),
+            TreePiece::End => sink.end(),
+        })
+    }
+
+    /// Goes through the tree.
+    pub(crate) fn pieces(&self, mut take: impl FnMut(TreePiece)) {
+        let Ok(()) = self.try_pieces(|piece| {
+            take(piece);
+            Ok::<(), Infallible>(())
+        });
+    }
+
+    fn try_pieces<E>(&self, mut take: impl FnMut(TreePiece) -> Result<(), E>) -> Result<(), E> {
         let mut begins = self.begins().into_iter().peekable();
-        let mut lines = self.lines.into_iter();
-        let mut brushes = self.brushes.into_iter();
         for (place, node) in self.nodes.iter().enumerate() {
             while let Some((_, _, operation)) = begins.next_if(|(start, ..)| *start == place) {
-                sink.begin(operation)?;
+                take(TreePiece::Begin(operation))?;
             }
-            match node {
-                TreeNode::Leaf => {
-                    let brush = brushes.next().expect("a brush for each leaf");
-                    sink.leaf(brush, lines.next().flatten())?;
-                }
-                TreeNode::Operation { .. } => sink.end()?,
-            }
+            take(if *node == TreeNode::Leaf { TreePiece::Leaf } else { TreePiece::End })?;
         }
         Ok(())
     }

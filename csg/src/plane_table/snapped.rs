@@ -1,40 +1,24 @@
-//! What snapping makes of many planes, without a table of them.
+//! What snapping makes of planes, without the table of them.
 
 use planecut_kernel::HalfSpace;
 use planecut_kernel::sign::Row;
 use rustc_hash::FxHashMap;
 
 use super::PlaneTable;
-use super::near::{may_be_near, unit};
-use super::same::{first_side, is_exact};
 
-/// The planes of many half-spaces that a table of all of them would replace by one that is nearly the same, without such a
-/// table.
+/// The planes that a table would replace by one that is nearly the same.
+#[derive(Debug, Default)]
 pub(crate) struct Snapped {
     replaced: FxHashMap<[u64; 4], HalfSpace>,
 }
 
 impl Snapped {
-    /// Those among some half-spaces of bodies, of which the smallest has this size.
-    pub(crate) fn of<'a>(half_spaces: impl Iterator<Item = &'a HalfSpace> + Clone, size: f64) -> Self {
-        let mut snapped = Self { replaced: FxHashMap::default() };
-        let rows = || half_spaces.clone().map(Row::new);
-        if rows().all(|row| is_exact(&row)) {
-            return snapped;
-        }
-        let first_sides = rows().map(|row| first_side(&row).0);
-        let units: Vec<[f64; 4]> = first_sides.map(|row| unit(&row)).collect();
-        let may_be_near = may_be_near(&units, size);
-        drop(units);
-        let doubtful = half_spaces.zip(may_be_near).filter(|(_, is_near)| *is_near);
-        let doubtful: Vec<HalfSpace> = doubtful.map(|(half_space, _)| *half_space).collect();
-        let (table, ids) = PlaneTable::intern(&doubtful, size);
-        for (half_space, id) in doubtful.iter().zip(ids) {
-            if !table.row(id).is_same_plane(&Row::new(half_space)) {
-                snapped.replaced.insert(bits(half_space), *table.half_space(id));
-            }
-        }
-        snapped
+    /// Those among some planes of bodies, of which the smallest has this size.
+    pub(crate) fn of(half_spaces: &[HalfSpace], size: f64) -> Self {
+        let (table, ids) = PlaneTable::intern(half_spaces, size);
+        let pairs = half_spaces.iter().zip(ids);
+        let replaced = pairs.filter(|(half_space, id)| !table.row(*id).is_same_plane(&Row::new(half_space)));
+        Self { replaced: replaced.map(|(half_space, id)| (bits(half_space), *table.half_space(id))).collect() }
     }
 
     /// What stands for a half-space.
@@ -43,6 +27,11 @@ impl Snapped {
             return *half_space;
         }
         self.replaced.get(&bits(half_space)).copied().unwrap_or(*half_space)
+    }
+
+    /// How many others stand for.
+    pub(crate) fn count(&self) -> usize {
+        self.replaced.len()
     }
 }
 

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 use planecut_csg::{
-    BlockOptions, BlocksError, Brush, EvaluateError, Material, MaterialId, Mesh, Model, Tree, evaluate,
+    BlockOptions, BlocksError, Brush, EvaluateError, Material, MaterialId, Mesh, Model, Tree, UnboundedBrush, evaluate,
     evaluate_in_blocks,
 };
 use planecut_kernel::HalfSpace;
@@ -144,11 +144,59 @@ fn what_is_not_bounded_is_refused() {
         let model = Model { materials: materials(), tree };
         evaluate_in_blocks(&model, BlockOptions::default(), |_| Ok::<(), ()>(()))
     };
-    assert_eq!(run(Tree::from(cube.clone()) - half.into()), Err(BlocksError::Unbounded { brush: 1 }));
+    assert_eq!(run(Tree::from(cube.clone()) - half.into()), Err(UnboundedBrush { brush: 1, is_mesh: false }.into()));
     assert_eq!(run(!Tree::from(cube.clone())), Err(BlocksError::Evaluate(EvaluateError::Unbounded)));
     let refused =
         evaluate_in_blocks(&Model { materials: materials(), tree: cube.into() }, BlockOptions::default(), |_| {
             Err("full")
         });
     assert_eq!(refused, Err(BlocksError::Taker("full")));
+}
+
+/// Trees of all operations over brushes of which many are equal, or have faces on one plane.
+fn random_of(seed: u64) -> Tree {
+    let rng = &mut Rng::spread(1000 + seed);
+    let mut parts: Vec<Tree> = brushes(rng, 40).into_iter().map(Tree::from).collect();
+    while parts.len() > 1 {
+        let count = 1 + rng.below(parts.len().min(6));
+        let operands = parts.split_off(parts.len() - count);
+        let tree = match rng.below(5) {
+            0 => Tree::union(operands),
+            1 => Tree::difference(operands),
+            2 => Tree::xor(operands),
+            3 => Tree::union(operands.iter().cloned()) - Tree::intersection(operands),
+            // what is outside is taken from something, not from everything
+            _ => Tree::intersection([operands[0].clone(), !Tree::union(operands[1..].to_vec())]),
+        };
+        let place = rng.below(parts.len() + 1);
+        parts.insert(place, tree);
+    }
+    parts.pop().unwrap()
+}
+
+#[test]
+fn random_trees_are_the_same_in_blocks() {
+    for seed in 0..60 {
+        println!("seed {seed}");
+        compare(&Model { materials: materials(), tree: random_of(seed) }, 5);
+    }
+}
+
+/// A slab is added and another one taken that are the same within one block alone: which of their coplanar faces the boundary gets may not be
+/// decided there, or the blocks beside it decide otherwise.
+#[test]
+fn brushes_that_are_equal_in_one_block_alone_are_told_apart_there() {
+    let slab = |low: f64, high: f64, material: u32| {
+        Tree::from(Brush::cuboid(DVec3::new(low, 0.0, 0.0), DVec3::new(high, 4.0, 1.0), MaterialId(material)))
+    };
+    for (first, second) in [(0, 1), (1, 0)] {
+        let tower = |k: u32| {
+            let at = DVec3::new(f64::from(k), 1.0, -2.0);
+            Tree::from(Brush::cuboid(at, at + DVec3::new(0.5, 1.0, 3.0), MaterialId(first)))
+        };
+        let long = slab(-3.0, 40.0, first);
+        let taken = slab(-1.0, 30.0, second) & slab(-2.0, 44.0, first);
+        let tree = (Tree::union((0..30).map(tower)) | long) ^ taken;
+        assert!(compare(&Model { materials: materials(), tree }, 3) > 8);
+    }
 }

@@ -2,8 +2,8 @@
 
 use glam::{DVec2, DVec3};
 use planecut_csg::{
-    BlockOptions, BlocksError, Brush, ClosedMesh, Material, MaterialId, MeshBody, Model, TextureAxes, Transform, Tree,
-    evaluate, evaluate_in_blocks,
+    BlockOptions, Brush, ClosedMesh, Material, MaterialId, MeshBody, Model, TextureAxes, Transform, Tree,
+    UnboundedBrush, evaluate, evaluate_in_blocks,
 };
 use planecut_kernel::HalfSpace;
 
@@ -117,5 +117,5 @@ fn leaves_are_replaced_in_place() {
 fn blocks_are_of_convex_bodies_alone() {
     let model = Model { materials: materials(), tree: l_shape([0, 1]).into() };
     let refused = evaluate_in_blocks(&model, BlockOptions::default(), |_| Ok::<(), ()>(()));
-    assert_eq!(refused, Err(BlocksError::Mesh { brush: 0 }));
+    assert_eq!(refused, Err(UnboundedBrush { brush: 0, is_mesh: true }.into()));
 }
