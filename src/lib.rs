@@ -117,6 +117,8 @@ pub mod export {
     #[doc(no_inline)]
     pub use crate::picture::*;
 }
+#[cfg(feature = "blocks")]
+pub mod blocks;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod coarsening;
@@ -127,6 +129,8 @@ pub mod picture;
 pub mod reading;
 #[cfg(feature = "session")]
 pub mod session;
+#[cfg(feature = "blocks")]
+pub mod tiles;
 pub mod triangles;
 
 /// The command line names the crate as other programs do.

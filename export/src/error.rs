@@ -151,6 +151,26 @@ pub enum ExportError {
         /// What the library said.
         message: String,
     },
+    /// The format has no place for pieces that are open.
+    #[error("no .{extension} file is written in pieces, expected .glb, .gltf, .obj, .stl or .ply")]
+    NotInPieces {
+        /// The file name ending of the format, without the dot.
+        extension: &'static str,
+    },
+    /// A piece of a mesh cannot be read.
+    #[error("cannot read piece {piece} (counted from 0): {source}")]
+    ReadPiece {
+        /// Its number, from 0.
+        piece: usize,
+        /// The reason.
+        source: io::Error,
+    },
+    /// A piece of a mesh is not what it was when it was read before.
+    #[error("piece {piece} (counted from 0) has changed while the file was written, expected the same mesh each time")]
+    ChangedPiece {
+        /// Its number, from 0.
+        piece: usize,
+    },
     /// What is written to takes no more.
     #[error("cannot write: {0}")]
     Io(#[from] io::Error),

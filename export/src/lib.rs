@@ -2,6 +2,7 @@
 //!
 //! - [`encode`] turns a [`planecut_csg::Mesh`] into the bytes of a mesh file ([`Format`]); [`encode_parts`]
 //!   does so for several named meshes in one file, and [`write_parts`] piece by piece. [`Format`] says what each format keeps of the mesh.
+//! - [`write_pieces`] writes one file of many meshes that together are one surface, of which one at a time is read ([`MeshPieces`]).
 //! - [`written`] tells what triangles such a file holds, where its precision is not that of the mesh.
 //! - [`stored_positions`] finds positions that such a file stores without rounding.
 //! - [`write_brushes`] puts convex bodies back into formats that editors open: a Quake map, or OpenSCAD's evaluated tree
@@ -26,6 +27,7 @@ mod model_file;
 mod obj;
 mod part;
 mod physics;
+mod pieces;
 mod ply;
 mod stl;
 mod stored;
@@ -39,12 +41,13 @@ pub use file::{AtomicFile, write_atomic};
 pub use format::{Format, encode, encode_parts, write_parts, written};
 pub use material::{distinct_color, material_color};
 pub use model_file::write_model;
-pub use obj::write_mtl;
+pub use obj::{write_mtl, write_mtl_of_pieces};
 pub use part::{ExportOptions, Part, Projection, Shading, TextureMapping, Unit, Written};
 pub use physics::{
     Collider, Cuboid, Engine, EngineLimits, MassProperties, PhysicsFile, PhysicsFormat, PrincipalInertia, RigidBody,
     physics_files,
 };
+pub use pieces::{MeshPieces, PiecesWritten, write_pieces};
 pub use stored::stored_positions;
 
 /// The example of the README, run as a test.

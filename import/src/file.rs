@@ -57,6 +57,16 @@ pub fn read_file(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
+/// A file to be read as a stream, of any length.
+///
+/// # Errors
+/// What the system says.
+pub fn open_stream(path: &Path) -> io::Result<File> {
+    record(path);
+    let file = File::open(path)?;
+    if file.metadata()?.is_dir() { Err(ErrorKind::IsADirectory.into()) } else { Ok(file) }
+}
+
 /// The bytes of a stream to its end, `limit` of them at most.
 ///
 /// # Errors

@@ -10,6 +10,7 @@ pub mod mesh;
 pub mod model;
 pub mod scad;
 mod source;
+pub mod stream;
 mod warning;
 
 pub use source::DEFAULT_MAX_PIECES;

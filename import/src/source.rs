@@ -37,9 +37,11 @@ pub(crate) fn shorten(text: &str) -> String {
     if text.chars().nth(MAX_SHOWN).is_some() { shown + "…" } else { shown }
 }
 
+/// Most bytes of a token that are looked at to show it: four a character at most, and one more character.
+pub(crate) const SHOWN_BYTES: usize = 4 * (MAX_SHOWN + 1);
+
 /// A token of which the first `length` bytes count, for an error.
 pub(crate) fn shown_token(text: &[u8], length: usize) -> String {
-    // Four bytes a character at most, so no more of an endless token need be looked at.
-    let token = String::from_utf8_lossy(&text[..length.min(4 * (MAX_SHOWN + 1)).min(text.len())]);
+    let token = String::from_utf8_lossy(&text[..length.min(SHOWN_BYTES).min(text.len())]);
     format!("`{}`", shorten(token.trim_end()))
 }

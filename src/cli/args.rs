@@ -57,6 +57,7 @@ pub(crate) enum Command {
 
 /// Arguments of `build`.
 #[derive(Debug, Args)]
+#[command(mut_arg("outputs", |outputs| outputs.required(false).required_unless_present("tiles")))]
 pub(crate) struct BuildArgs {
     /// The model, map, tree or closed mesh to read (.json, .map, .csg, .obj, .stl, .ply, .glb, .gltf); several, of any kinds, with --combine; `-` is standard
     /// input
@@ -76,9 +77,34 @@ pub(crate) struct BuildArgs {
     #[command(flatten)]
     pub(crate) picture: PictureArgs,
     #[command(flatten)]
+    pub(crate) blocks: BlockArgs,
+    #[command(flatten)]
     pub(crate) reading: ReadingArgs,
     #[command(flatten)]
     pub(crate) common: CommonArgs,
+}
+
+/// Block by block.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Models larger than memory")]
+pub(crate) struct BlockArgs {
+    /// Evaluate block by block, of about N brushes each [default: 8192]: memory holds one block for each thread, whatever the size of the model. Of convex bodies alone; maps and copies in model files are read as a stream.
+    /// Outputs may be .glb, .gltf, .obj, .stl and .ply
+    #[arg(long, value_name = "N", num_args = 0..=1, require_equals = true, value_parser = parse_count::<1>, conflicts_with_all = ["cells", "parts", "combine", "preview"])]
+    pub(crate) blocks: Option<Option<usize>>,
+    /// Where blocks and their meshes are kept: what is up to date there is not evaluated again. By default a temporary folder, which takes about 1 GB for a million boxes
+    #[arg(long, value_name = "DIR")]
+    pub(crate) work_dir: Option<PathBuf>,
+    /// Write a tile set (3D Tiles 1.1) to this folder, with coarser levels for what is far away; implies --blocks
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["cells", "parts", "combine", "preview"])]
+    pub(crate) tiles: Option<PathBuf>,
+}
+
+impl BlockArgs {
+    /// Whether the model is evaluated block by block.
+    pub(crate) fn are_asked_for(&self) -> bool {
+        self.blocks.is_some() || self.tiles.is_some()
+    }
 }
 
 /// How several inputs become one solid.

@@ -9,6 +9,7 @@ use planecut::reading::FileKind;
 use super::args::BuildArgs;
 use super::combine::Inputs;
 use super::error::{CliError, Done};
+use super::in_blocks;
 use super::output::{MeshTarget, OutputFormat, Target, check_targets};
 use super::pieces::{Pieces, bounded_model, bounded_tree, brushes};
 use super::product::{Contents, Product, draw, encode, first_written, produce};
@@ -31,6 +32,12 @@ struct Plan<'a> {
 /// # Errors
 /// Any [`CliError`] but those of `check`.
 pub(crate) fn run(args: &BuildArgs) -> Result<Done, CliError> {
+    if args.blocks.are_asked_for() {
+        return in_blocks::run(args);
+    }
+    if args.blocks.work_dir.is_some() {
+        return Err(CliError::Usage("found --work-dir alone, expected it with --blocks or --tiles".to_owned()));
+    }
     let begin = Instant::now();
     let plan = Plan::resolve(args)?;
     let product =

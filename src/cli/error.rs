@@ -3,6 +3,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+use planecut::blocks::BlocksError;
 use planecut::check::MeshProblem;
 use planecut::csg::coarsen::CoarsenError;
 use planecut::csg::polyhedron::ConvexTreeError;
@@ -15,6 +16,7 @@ use planecut::import::mesh::{MeshError, SolidError};
 use planecut::import::model::ModelError;
 use planecut::import::scad::ScadError;
 use planecut::picture::PictureError;
+use planecut::tiles::TilesError;
 use rayon::ThreadPoolBuildError;
 use thiserror::Error;
 
@@ -221,6 +223,22 @@ pub(crate) enum CliError {
         /// Of how many.
         jobs: usize,
     },
+    /// A model is not evaluated block by block.
+    #[error("{}{}: {source}", .path.display(), at_line(source.line()))]
+    Blocks {
+        /// The input.
+        path: PathBuf,
+        /// Why.
+        source: BlocksError,
+    },
+    /// A tile set is not written.
+    #[error("{}: {source}", .folder.display())]
+    Tiles {
+        /// Its folder.
+        folder: PathBuf,
+        /// Why.
+        source: TilesError,
+    },
     /// The system gives no threads.
     #[error("found no threads to work with: {0}, expected a smaller --threads")]
     Threads(#[from] ThreadPoolBuildError),
@@ -264,6 +282,8 @@ impl CliError {
             | Self::Stdout(_)
             | Self::Port { .. }
             | Self::Batch { .. }
+            | Self::Blocks { .. }
+            | Self::Tiles { .. }
             | Self::Threads(_) => FAILED,
         }
     }

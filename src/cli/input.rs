@@ -1,12 +1,12 @@
 //! Input files: what kind they are, and their bytes.
 
 use std::fs::{self, File};
-use std::io::{self, ErrorKind};
+use std::io::{self, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use clap::builder::PossibleValue;
-use planecut::import::file::{MAX_MESH, read_file, read_stream};
+use planecut::import::file::{MAX_MESH, open_stream, read_file, read_stream};
 use planecut::import::mesh::MeshFormat;
 use planecut::import::model::MAX_TEXT;
 use planecut::reading::FileKind;
@@ -124,6 +124,17 @@ impl Input {
             Source::Stdin => read_stream(io::stdin().lock(), MAX_TEXT as u64),
         };
         bytes.map_err(|source| self.failed(source))
+    }
+
+    /// The content, to be read piece by piece, of any length.
+    ///
+    /// # Errors
+    /// [`CliError::Read`].
+    pub(crate) fn stream(&self) -> Result<Box<dyn Read + Send>, CliError> {
+        match self.source {
+            Source::File => Ok(Box::new(open_stream(&self.path).map_err(|source| self.failed(source))?)),
+            Source::Stdin => Ok(Box::new(io::stdin())),
+        }
     }
 
     /// The file and its length, for what passes it on as it is. It must be a regular one, which can be read more than once.

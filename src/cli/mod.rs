@@ -13,6 +13,7 @@ mod completions;
 mod edit;
 mod engine_args;
 mod error;
+mod in_blocks;
 mod info;
 mod input;
 mod man;

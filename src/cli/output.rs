@@ -95,6 +95,22 @@ impl Target {
         write(&mut file).map_err(failed)?;
         Ok(Output { target: self.clone(), content: Content::File(file) })
     }
+
+    /// The same for what is larger than memory: a folder that is missing is made at once. Standard output waits in memory all the same.
+    ///
+    /// # Errors
+    /// As [`begin`](Self::begin).
+    pub(crate) fn begin_large<E: OutputError>(
+        &self,
+        write: impl FnOnce(&mut dyn Write) -> Result<(), E>,
+    ) -> Result<Output, CliError> {
+        if let Self::File(path) = self
+            && let Some(folder) = folder_of(path)
+        {
+            fs::create_dir_all(folder).map_err(|source| CliError::Write { path: path.clone(), source })?;
+        }
+        self.begin(write)
+    }
 }
 
 /// The folder of a file, where its path names one.

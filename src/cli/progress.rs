@@ -32,6 +32,11 @@ impl Progress {
     pub(crate) fn stage(&self, name: &'static str) {
         self.bar.set_message(name);
     }
+
+    /// Says how much of it is done.
+    pub(crate) fn counted(&self, name: &'static str, done: usize, of: usize) {
+        self.bar.set_message(format!("{name} {done} of {of}"));
+    }
 }
 
 impl Drop for Progress {

@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use planecut::import::DEFAULT_MAX_PIECES;
 use planecut::import::map::MapOptions;
 use planecut::import::mesh::{SolidOptions, WindingRule};
-use planecut::import::model::{MAX_BRUSHES, ModelOptions};
+use planecut::import::model::{MAX_BRUSHES, MAX_STREAMED, ModelOptions};
 use planecut::import::scad::ScadOptions;
 use planecut::reading::FileKind;
 
@@ -26,6 +26,9 @@ pub(crate) struct ReadingArgs {
     /// before it is made
     #[arg(long, value_name = "N", default_value_t = DEFAULT_MAX_PIECES, value_parser = parse_pieces)]
     max_pieces: usize,
+    /// Whether there is no such limit, as nothing is held of what is made.
+    #[arg(skip)]
+    is_streamed: bool,
     /// Whether texture coordinates of meshes are kept; this follows from what is written.
     #[arg(skip)]
     keeps_textures: bool,
@@ -45,10 +48,17 @@ impl ReadingArgs {
         Self { keeps_textures, ..self.clone() }
     }
 
+    /// The same for a model that is read as a stream.
+    pub(crate) fn streamed(&self) -> Self {
+        Self { is_streamed: true, ..self.clone() }
+    }
+
     /// The options for model files; meshes that `input` names lie beside it.
     pub(crate) fn model_options(&self, input: &Input) -> ModelOptions {
         let (parameters, folder) = (self.model.set.clone(), folder_of(input));
-        ModelOptions { parameters, max_pieces: self.max_pieces, folder, textures: self.keeps_textures }
+        let streamed = usize::try_from(MAX_STREAMED).unwrap_or(usize::MAX);
+        let max_pieces = if self.is_streamed { streamed } else { self.max_pieces };
+        ModelOptions { parameters, max_pieces, folder, textures: self.keeps_textures }
     }
 
     /// The options for maps.
@@ -83,6 +93,7 @@ impl ReadingArgs {
             input_format: None,
             allow_loss: self.allow_loss,
             max_pieces: self.max_pieces,
+            is_streamed: self.is_streamed,
             keeps_textures: self.keeps_textures,
             model: ModelArgs { set: Vec::new() },
             map: MapArgs { world_only: false, skip_texture: Vec::new(), skip_class: Vec::new() },

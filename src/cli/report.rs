@@ -5,6 +5,7 @@
 
 use std::time::Duration;
 
+use planecut::blocks::{BlockPlan, Pieces};
 use planecut::check::{Measures, TopologyReport, check_topology, measure_triangles};
 use planecut::csg::coarsen::{Bounded, Coarsened};
 use planecut::csg::{Evaluation, ModelSummary, Noise, SolidMeasures, StageTimes, Tree};
@@ -39,6 +40,9 @@ pub(crate) struct Report {
     /// What `edit` did; other commands say nothing of it.
     #[serde(skip_serializing_if = "Option::is_none")]
     edit: Option<EditPart>,
+    /// The blocks in which the model was evaluated.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    blocks: Option<BlocksPart>,
     /// What `coarsen` did; other commands say nothing of it.
     #[serde(skip_serializing_if = "Option::is_none")]
     coarsen: Option<CoarsenPart>,
@@ -70,11 +74,73 @@ impl Report {
             signs: SignsPart::new(&evaluation.signs),
             combine: None,
             edit: None,
+            blocks: None,
             coarsen: None,
             time_ms: Times::new(&evaluation.times),
             left_out: 0,
             warnings: Vec::new(),
         }
+    }
+
+    /// The report on a model that was evaluated in blocks; export and total times are still to be filled in.
+    pub(crate) fn of_blocks(
+        input: String,
+        format: &'static str,
+        plan: &BlockPlan,
+        pieces: &Pieces,
+        vertices: Option<u64>,
+    ) -> Self {
+        let model = plan.model();
+        let [of_pieces, triangles, faces] = pieces.mesh_counts();
+        let count = |number: u64| usize::try_from(number).unwrap_or(usize::MAX);
+        let summary = ModelPart {
+            brushes: count(model.brushes),
+            planes: count(model.planes),
+            empty_brushes: count(model.empty),
+            redundant_planes: count(model.redundant_planes),
+            snapped_planes: count(model.snapped_planes),
+            materials: plan.materials().len(),
+            unbounded_brushes: count(model.unbounded),
+            brush_volume_sum: model.brush_volume_sum,
+            meshes: 0,
+            mesh_triangles: 0,
+        };
+        let mesh = MeshPart {
+            vertices: count(vertices.unwrap_or(of_pieces)),
+            triangles: count(triangles),
+            faces: Some(count(faces)),
+            components: None,
+            genus: None,
+            // each piece is, and that they fit together is proven before there is a report
+            watertight: true,
+            manifold: true,
+            volume: pieces.mesh_volume() + 0.0,
+        };
+        let walls: usize = (0..3).map(|axis| plan.grid().walls(axis).len().saturating_sub(2)).sum();
+        let blocks = BlocksPart { count: pieces.count(), walls, seam_edges: pieces.seam_edges() };
+        Self {
+            planecut: env!("CARGO_PKG_VERSION"),
+            input,
+            format,
+            model: Some(summary),
+            solid: Some(SolidPart::new(&pieces.solid())),
+            mesh,
+            noise: NoisePart::new(pieces.noise()),
+            signs: SignsPart::new(&pieces.signs()),
+            combine: None,
+            edit: None,
+            blocks: Some(blocks),
+            coarsen: None,
+            time_ms: Times::default(),
+            left_out: 0,
+            warnings: Vec::new(),
+        }
+    }
+
+    /// Says how long reading, evaluating and encoding took.
+    pub(crate) fn set_times(&mut self, import: Duration, evaluate: Duration, export: Duration) {
+        let [import, evaluate, export] = [import, evaluate, export].map(milliseconds);
+        self.time_ms = Times { import, evaluate, export, ..Times::default() };
     }
 
     /// Says what is to be warned of, after what was said before.
@@ -123,6 +189,7 @@ impl Report {
             signs: SignsPart::new(&Counts::default()),
             combine: None,
             edit: None,
+            blocks: None,
             coarsen: None,
             time_ms: Times::default(),
             left_out: 0,
@@ -226,6 +293,17 @@ struct CombinePart {
     inputs: Vec<String>,
 }
 
+/// How a model was evaluated in blocks.
+#[derive(Debug, Clone, Serialize)]
+struct BlocksPart {
+    /// Blocks with a brush.
+    count: usize,
+    /// Walls between blocks, across all axes.
+    walls: usize,
+    /// Edges on walls in which the meshes of two blocks meet.
+    seam_edges: u64,
+}
+
 #[derive(Debug, Clone, Serialize)]
 struct NoisePart {
     /// How many edges were contracted or gaps closed.
@@ -273,8 +351,9 @@ pub(crate) struct MeshPart {
     triangles: usize,
     /// Planar regions; `null` for meshes from files, which do not say.
     faces: Option<usize>,
-    components: usize,
-    /// Handles, summed over components; `null` where the mesh is not manifold.
+    /// `null` where the mesh was never in memory as a whole.
+    components: Option<usize>,
+    /// Handles, summed over components; `null` where the mesh is not manifold, or was never in memory as a whole.
     genus: Option<i64>,
     watertight: bool,
     manifold: bool,
@@ -302,7 +381,7 @@ impl MeshPart {
             vertices: topology.vertices,
             triangles: topology.triangles,
             faces,
-            components: topology.components,
+            components: Some(topology.components),
             genus: topology.genus,
             watertight: topology.watertight,
             manifold: topology.manifold,

@@ -3,6 +3,7 @@
 use std::num::NonZeroU32;
 
 use glam::DVec3;
+use planecut_kernel::sign::Counts;
 
 use super::contents::BlockTree;
 use super::grid::{BlockSides, add_walls};
@@ -10,15 +11,14 @@ use super::scatter::BlockOperation;
 use super::seams::SeamEdges;
 use crate::base::Bounds;
 use crate::body::BuiltBodies;
-use crate::evaluate::{EvaluateError, OtherBrushes, UnboundedBrushes, evaluate_among};
+use crate::evaluate::{EvaluateError, Evaluation, OtherBrushes, UnboundedBrushes, evaluate_among};
 use crate::expression::Polarity;
 use crate::ids::number32;
-use crate::mesh::{Mesh, SolidMeasures};
+use crate::mesh::{Mesh, Noise, SolidMeasures};
 use crate::model::{Brush, Material, MaterialId, Model};
 
 /// The boundary of a solid within a box.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Block {
     /// The corner of the box of smallest coordinates.
     pub min: DVec3,
@@ -32,6 +32,10 @@ pub struct Block {
     pub solid: SolidMeasures,
     /// The edges in which the mesh ends on walls.
     pub seams: SeamEdges,
+    /// What was removed from the mesh as rounding noise.
+    pub noise: Noise,
+    /// The signs that were asked for.
+    pub signs: Counts,
 }
 
 /// A block on the way: what it was told goes in, in the order in which it was told.
@@ -75,14 +79,15 @@ impl BlockBuilder {
         let model = Model { materials, tree };
         let others = OtherBrushes { size, polarities: Some(&polarities) };
         let evaluation = evaluate_among(&model, UnboundedBrushes::Keep, &BuiltBodies::default(), others)?;
-        let (mut mesh, mut solid) = (evaluation.mesh, evaluation.solid);
+        let Evaluation { mut mesh, mut solid, noise, signs, .. } = evaluation;
+        let triangles = mesh.triangles.len();
         let seams = SeamEdges::part(&mut mesh, wall);
         mesh.materials = model.materials;
         mesh.materials.pop();
-        if seams.sides() != 0 {
+        if mesh.triangles.len() < triangles {
             solid.area = area_of(&mesh);
         }
-        Ok(Block { min: bounds.min, max: bounds.max, mesh, volume: solid.volume, solid, seams })
+        Ok(Block { min: bounds.min, max: bounds.max, mesh, volume: solid.volume, solid, seams, noise, signs })
     }
 }
 

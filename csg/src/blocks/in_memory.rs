@@ -85,7 +85,10 @@ pub fn evaluate_in_blocks<E>(
     let mut survey = BlockSurvey::default();
     let mut places: Vec<BrushPlace> = Vec::with_capacity(brushes.len());
     for some in brushes.chunks(AT_A_TIME) {
-        places.extend(survey.add(some)?);
+        places.extend(survey.add(some));
+    }
+    if let Some(brush) = places.iter().position(|place| place.is_unbounded) {
+        return Err(UnboundedBrush { brush: brush as u64, is_mesh: brushes[brush].is_mesh() }.into());
     }
     let snapped = snapped_among(survey.planes(), brushes.iter().flat_map(Brush::half_spaces));
     let brush = |leaf: usize| {

@@ -3,7 +3,6 @@
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
-use super::grid::BlockSides;
 use crate::base::sortable;
 use crate::mesh::Mesh;
 use crate::model::MaterialId;
@@ -11,7 +10,7 @@ use crate::model::MaterialId;
 /// An edge from one point to another.
 pub type SeamEdge = [DVec3; 2];
 
-/// The edges in which the mesh of a block ends on its walls, by side (as [`BlockSides`] counts them). They are sorted, and directed as in the
+/// The edges in which the mesh of a block ends on its walls, by side (as [`BlockSides`](super::BlockSides) counts them). They are sorted, and directed as in the
 /// block of larger coordinates, so that two neighbours fit together exactly where their lists are equal.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -64,12 +63,6 @@ impl SeamEdges {
         mesh.drop_empty_faces();
         mesh.drop_unused_positions();
         seams
-    }
-
-    /// The sides on which there are edges.
-    #[must_use]
-    pub fn sides(&self) -> BlockSides {
-        (0..6).filter(|side| !self.0[*side].is_empty()).fold(0, |sides, side| sides | 1 << side)
     }
 }
 

@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 
+use super::BlockOptions;
 use super::grid::BlockGrid;
 use super::snapping::PlaneSurvey;
-use super::{BlockOptions, UnboundedBrush};
-use crate::base::Bounds;
+use crate::base::{Bounds, CompensatedSum};
 use crate::body::{BrushExtent, BrushExtents, BuiltBodies, brush_extents};
 use crate::model::Brush;
 use crate::plane_table::{size_of, smallest_size};
@@ -20,6 +20,8 @@ pub struct BrushPlace {
     pub bounds: Bounds,
     /// Numbers of its planes that have no face.
     pub redundant: Vec<u32>,
+    /// Whether it is not bounded, or a closed mesh: then it is in no block, and nothing else is known of it.
+    pub is_unbounded: bool,
 }
 
 /// A survey of the brushes of a model, which are given one after another and not kept.
@@ -33,6 +35,7 @@ pub struct BlockSurvey {
     pub planes: u64,
     /// Planes of brushes that have no face.
     pub redundant_planes: u64,
+    volume: CompensatedSum,
     bounds: Bounds,
     size: Option<f64>,
     of_planes: PlaneSurvey,
@@ -46,6 +49,7 @@ impl Default for BlockSurvey {
             empty: 0,
             planes: 0,
             redundant_planes: 0,
+            volume: CompensatedSum::default(),
             bounds: Bounds::EMPTY,
             size: None,
             of_planes: PlaneSurvey::default(),
@@ -56,28 +60,26 @@ impl Default for BlockSurvey {
 
 impl BlockSurvey {
     /// Adds brushes that follow those that were given; gives where each is. Brushes are built in parallel: some thousands at once are best.
-    ///
-    /// # Errors
-    /// [`UnboundedBrush`] where a brush is not bounded, or is a closed mesh.
-    pub fn add(&mut self, brushes: &[Brush]) -> Result<Vec<BrushPlace>, UnboundedBrush> {
-        if let Some(brush) = brushes.iter().position(Brush::is_mesh) {
-            return Err(UnboundedBrush { brush: self.brushes + brush as u64, is_mesh: true });
-        }
+    pub fn add(&mut self, brushes: &[Brush]) -> Vec<BrushPlace> {
         let size = smallest_size(brushes.iter().map(Brush::half_spaces));
         let BrushExtents { extents, .. } = brush_extents(brushes, &BuiltBodies::default(), size);
         let mut places = Vec::with_capacity(brushes.len());
         for (number, (extent, brush)) in (self.brushes..).zip(extents.into_iter().zip(brushes)) {
             places.push(match extent {
-                BrushExtent::Bounded { bounds, redundant, .. } => {
+                BrushExtent::Bounded { bounds, redundant, volume } => {
+                    self.volume.add(volume);
                     self.redundant_planes += redundant.len() as u64;
                     self.sample.add(number, bounds.center());
-                    BrushPlace { bounds: bounds.with_room(), redundant }
+                    BrushPlace { bounds: bounds.with_room(), redundant, is_unbounded: false }
                 }
                 BrushExtent::Empty => {
                     self.empty += 1;
-                    BrushPlace { bounds: Bounds::EMPTY, redundant: Vec::new() }
+                    BrushPlace { bounds: Bounds::EMPTY, redundant: Vec::new(), is_unbounded: false }
                 }
-                BrushExtent::Unbounded => return Err(UnboundedBrush { brush: number, is_mesh: false }),
+                BrushExtent::Unbounded => {
+                    places.push(BrushPlace { bounds: Bounds::EMPTY, redundant: Vec::new(), is_unbounded: true });
+                    continue;
+                }
             });
             let own = size_of(brush.half_spaces());
             self.size = [self.size, own].into_iter().flatten().reduce(f64::min);
@@ -86,7 +88,13 @@ impl BlockSurvey {
         }
         self.bounds = places.iter().fold(self.bounds, |all, place| all.union(&place.bounds));
         self.brushes += brushes.len() as u64;
-        Ok(places)
+        places
+    }
+
+    /// The sum of the volumes of the brushes.
+    #[must_use]
+    pub fn volume_sum(&self) -> f64 {
+        self.volume.value()
     }
 
     /// The size of the smallest brush, below which planes are nearly the same: 0 where there is none.

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_1_SQRT_2;
-use std::io::{self, Write};
 
-use gltf_json::accessor::{ComponentType, GenericComponentType, IndexComponentType, Type, sparse};
+use glam::DVec3;
+use gltf_json::accessor::{ComponentType, GenericComponentType, Type};
 use gltf_json::buffer::{Stride, Target, View};
 use gltf_json::extensions::buffer::{Buffer as BufferExtensions, View as ViewExtensions};
 use gltf_json::extensions::mesh::Mesh as MeshExtensions;
@@ -13,17 +13,15 @@ use gltf_json::mesh::{Mode, Primitive, Semantic};
 use gltf_json::validation::{Checked, USize64};
 use gltf_json::{Accessor, Asset, Buffer, Index, Material, Mesh, Node, Root, Scene};
 use planecut_csg::Material as InputMaterial;
-use planecut_parallel::prelude::*;
 use rustc_hash::FxHashMap;
-use serde::Serialize;
 use serde_json::{Value, json};
 
+use super::arrays::{Arrays, bounds, sparse_merges};
 use super::geometry::Geometry;
-use super::packed::Packed;
-use super::repeats::Repeats;
-use super::sections::{Kind, Section, Width};
+use super::group::{ALIGNED, Group};
+use super::sections::Kind;
 use crate::material::material_color;
-use crate::{ExportError, ExportOptions, Part, Unit};
+use crate::{ExportError, ExportOptions, Unit};
 
 /// Name of the extension that says that a mesh is a closed, oriented 2-manifold, and which split vertices are one.
 ///
@@ -34,99 +32,84 @@ const MESH_MANIFOLD: &str = "EXT_mesh_manifold";
 const QUANTIZATION: &str = "KHR_mesh_quantization";
 const MESHOPT: &str = "EXT_meshopt_compression";
 
-/// Alignment of arrays in bytes: no component is larger.
-const ALIGNED: usize = 4;
-
 /// What a material is where it does not say: matt and no metal.
 const METALLIC: f32 = 0.0;
 const ROUGHNESS: f32 = 0.9;
 
-/// A glTF document and the arrays that it describes. The root node has index 0, the parts' nodes follow.
-pub(super) struct Document<'a> {
+/// A glTF document. The root node has index 0, the parts' nodes follow.
+pub(super) struct Document {
     root: Root,
     options: ExportOptions,
-    meshes: Vec<Geometry<'a>>,
-    sections: Vec<Section>,
-    /// For each section its packed form, where packing is asked for.
-    packed: Vec<Packed>,
+    /// How long the buffer is so far.
+    buffer_bytes: usize,
+    /// How long it would be if nothing were packed.
+    plain_bytes: usize,
+    /// For each primitive of each mesh what its triangles come from.
+    sources: Vec<Vec<Vec<[u32; 3]>>>,
     /// Translation and scale of each part's node, kept apart because the JSON types of the library are single precision.
     places: Vec<([f64; 3], Option<f64>)>,
     materials: FxHashMap<(String, [u32; 5]), Index<Material>>,
+    has_manifolds: bool,
 }
 
-impl<'a> Document<'a> {
-    /// Describes `parts`. A part without triangles becomes a node without a mesh, since glTF forbids empty arrays; parts that are alike
-    /// share a mesh.
-    pub(super) fn build(parts: &[Part<'a>], options: &ExportOptions) -> Result<Self, ExportError> {
-        let repeats = Repeats::of(parts, options);
-        let firsts: Vec<&Part<'a>> = repeats.firsts().iter().map(|part| &parts[*part]).collect();
-        let mut meshes: Vec<Geometry<'a>> =
-            firsts.par_iter().map(|part| Geometry::new(part, options)).collect::<Result<_, _>>()?;
-        if options.meshopt {
-            Packed::turn_triangles(&mut meshes)?;
-        }
-        meshes.par_iter_mut().for_each(Geometry::find_merges);
-        let sections = Section::of(&meshes, options.quantize);
-        let packed = if options.meshopt {
-            sections.par_iter().map(|section| Packed::of(section, &meshes)).collect::<Result<_, _>>()?
-        } else {
-            Vec::new()
-        };
+impl Document {
+    /// One without meshes.
+    pub(super) fn new(options: &ExportOptions) -> Self {
         let mut document = Self {
             root: new_root(),
             options: options.clone(),
-            meshes: Vec::new(),
-            sections,
-            packed,
+            buffer_bytes: 0,
+            plain_bytes: 0,
+            sources: Vec::new(),
             places: Vec::new(),
             materials: FxHashMap::default(),
+            has_manifolds: false,
         };
-        let views = document.push_views();
         document.root.nodes.push(node("planecut root"));
-        let described: Vec<Option<Index<Mesh>>> = (0..meshes.len())
-            .map(|number| {
-                let is_empty = meshes[number].vertices.corners.is_empty();
-                (!is_empty).then(|| document.push_mesh(firsts[number].name, number, &meshes[number], &views))
-            })
-            .collect();
-        for (part, repeat) in parts.iter().zip(repeats.iter()) {
-            let mesh = &meshes[repeat.first];
-            let node = Node { mesh: described[repeat.first], ..node(part.name) };
-            document.places.push(((mesh.rounding.origin + repeat.moved).to_array(), mesh.rounding.step));
-            document.root.nodes.push(node);
+        document
+    }
+
+    /// Describes meshes, with their names, whose arrays follow in the buffer. One without triangles is none, since glTF forbids empty arrays.
+    pub(super) fn push_group(&mut self, group: &mut Group<'_>, names: &[&str]) -> Vec<Option<Index<Mesh>>> {
+        let arrays = Arrays { views: self.push_views(group), sections: &group.sections };
+        let meshes = group.meshes.iter_mut().zip(names).enumerate();
+        let described = meshes.map(|(number, (mesh, called))| {
+            let is_empty = mesh.vertices.corners.is_empty();
+            (!is_empty).then(|| self.push_mesh(called, number, mesh, &arrays))
+        });
+        described.collect()
+    }
+
+    /// Adds the node of a part, at a place.
+    pub(super) fn push_node(&mut self, called: &str, mesh: Option<Index<Mesh>>, origin: DVec3, step: Option<f64>) {
+        self.places.push((origin.to_array(), step));
+        self.root.nodes.push(Node { mesh, ..node(called) });
+    }
+
+    /// Ends the document once everything is described.
+    pub(super) fn finish(&mut self) {
+        let children: Vec<_> = (1..self.root.nodes.len()).map(|child| Index::new(child as u32)).collect();
+        self.root.nodes[0].children = (!children.is_empty()).then_some(children);
+        let buffer = |bytes: usize| Buffer {
+            byte_length: USize64::from(bytes),
+            name: None,
+            uri: None,
+            extensions: None,
+            extras: Default::default(),
+        };
+        if self.buffer_bytes > 0 {
+            self.root.buffers.push(buffer(self.buffer_bytes));
+            if self.options.meshopt {
+                let fallback = BufferExtensions { others: extension(MESHOPT, json!({"fallback": true})) };
+                self.root.buffers.push(Buffer { extensions: Some(fallback), ..buffer(self.plain_bytes) });
+            }
         }
-        let children: Vec<_> = (1..document.root.nodes.len()).map(|child| Index::new(child as u32)).collect();
-        document.root.nodes[0].children = (!children.is_empty()).then_some(children);
-        document.meshes = meshes;
-        document.name_extensions();
-        Ok(document)
+        self.name_extensions();
     }
 
     /// How long the buffer is.
     pub(super) fn buffer_bytes(&self) -> usize {
-        let long = |(number, section): (usize, &Section)| match self.packed.get(number) {
-            Some(packed) => packed.bytes.len(),
-            None => section.bytes(),
-        };
-        self.sections.iter().enumerate().map(|section| long(section).next_multiple_of(ALIGNED)).sum()
-    }
-
-    /// Writes the buffer.
-    pub(super) fn write_buffer(&self, out: &mut dyn Write) -> io::Result<()> {
-        for (number, section) in self.sections.iter().enumerate() {
-            let long = match self.packed.get(number) {
-                Some(packed) => {
-                    out.write_all(&packed.bytes)?;
-                    packed.bytes.len()
-                }
-                None => {
-                    section.write(&self.meshes, out)?;
-                    section.bytes()
-                }
-            };
-            out.write_all(&[0; ALIGNED][..long.next_multiple_of(ALIGNED) - long])?;
-        }
-        Ok(())
+        self.buffer_bytes
     }
 
     /// The document as JSON bytes; `uri` is that of the buffer when it is not a GLB chunk.
@@ -171,25 +154,24 @@ impl<'a> Document<'a> {
     /// Says in the extras of primitives what their triangles come from: `{"faces": [[triangles, brush, plane], …]}`.
     fn name_sources(&self, json: &mut Value) {
         let values = json.get_mut("meshes").and_then(Value::as_array_mut).into_iter().flatten();
-        let described = self.meshes.iter().filter(|mesh| !mesh.vertices.corners.is_empty());
-        for (value, mesh) in values.zip(described) {
-            for (number, run) in mesh.runs.iter().enumerate().filter(|(_, run)| !run.sources.is_empty()) {
-                value["primitives"][number]["extras"] = json!({"faces": run.sources});
+        for (value, sources) in values.zip(&self.sources) {
+            for (number, sources) in sources.iter().enumerate().filter(|(_, sources)| !sources.is_empty()) {
+                value["primitives"][number]["extras"] = json!({"faces": sources});
             }
         }
     }
 
     /// Describes sections: in the buffer where they are, or, packed, in one that nobody sees, with where they really are beside it.
-    fn push_views(&mut self) -> Vec<Index<View>> {
-        let is_packed = !self.packed.is_empty();
-        let (mut plain_end, mut packed_end) = (0, 0);
+    fn push_views(&mut self, group: &Group<'_>) -> Vec<Index<View>> {
+        let is_packed = !group.packed.is_empty();
+        let (mut plain_end, mut packed_end) = (self.plain_bytes, self.buffer_bytes);
         let mut views = Vec::new();
-        for (number, section) in self.sections.iter().enumerate() {
+        for (number, section) in group.sections.iter().enumerate() {
             let target = match section.kind {
                 Kind::Indices(_) => Some(Target::ElementArrayBuffer),
                 kind => kind.is_attribute().then_some(Target::ArrayBuffer),
             };
-            let packed = self.packed.get(number).map(|packed| {
+            let packed = group.packed.get(number).map(|packed| {
                 let mut extension = json!({
                     "buffer": 0, "byteOffset": packed_end, "byteLength": packed.bytes.len(),
                     "byteStride": section.stride, "count": section.count(), "mode": packed.mode,
@@ -214,28 +196,17 @@ impl<'a> Document<'a> {
             });
             plain_end += section.bytes().next_multiple_of(ALIGNED);
         }
-        if self.sections.is_empty() {
-            return Vec::new();
-        }
-        let buffer = |bytes: usize| Buffer {
-            byte_length: USize64::from(bytes),
-            name: None,
-            uri: None,
-            extensions: None,
-            extras: Default::default(),
-        };
-        self.root.buffers.push(buffer(self.buffer_bytes()));
-        if is_packed {
-            let fallback = BufferExtensions { others: extension(MESHOPT, json!({"fallback": true})) };
-            self.root.buffers.push(Buffer { extensions: Some(fallback), ..buffer(plain_end) });
-        }
+        self.plain_bytes = plain_end;
+        self.buffer_bytes += group.bytes();
         views.into_iter().map(|view| self.root.push(view)).collect()
     }
 
     /// Describes a mesh, which has a number.
-    fn push_mesh(&mut self, called: &str, number: usize, mesh: &Geometry, views: &[Index<View>]) -> Index<Mesh> {
-        let attributes = self.push_attributes(number, mesh, views);
-        let indices = self.array(Kind::indices(mesh), number, views);
+    fn push_mesh(&mut self, called: &str, number: usize, mesh: &mut Geometry, arrays: &Arrays<'_>) -> Index<Mesh> {
+        self.sources.push(mesh.runs.iter_mut().map(|run| std::mem::take(&mut run.sources)).collect());
+        self.has_manifolds |= mesh.merge_count().is_some();
+        let attributes = self.push_attributes(number, mesh, arrays);
+        let indices = arrays.get(Kind::indices(mesh), number);
         let mut primitives = Vec::with_capacity(mesh.runs.len());
         for run in &mesh.runs {
             let indices = self.root.push(indices.part(run.corners.start, run.corners.len()));
@@ -245,7 +216,7 @@ impl<'a> Document<'a> {
         let manifold = mesh.merge_count().map(|merges| {
             let positions = attributes.iter().find(|(semantic, _)| *semantic == Semantic::Positions);
             let positions: Vec<_> = positions.cloned().into_iter().collect();
-            self.manifold_extension(positions, indices.whole(), merges, (number, mesh), views)
+            self.manifold_extension(positions, indices.whole(), merges, (number, &*mesh), arrays)
         });
         self.root.push(Mesh {
             extensions: manifold.map(|value| MeshExtensions { others: extension(MESH_MANIFOLD, value) }),
@@ -260,7 +231,7 @@ impl<'a> Document<'a> {
         &mut self,
         number: usize,
         mesh: &Geometry,
-        views: &[Index<View>],
+        arrays: &Arrays<'_>,
     ) -> Vec<(Semantic, Index<Accessor>)> {
         let kinds = [
             (Semantic::Positions, Kind::Positions, Type::Vec3),
@@ -272,7 +243,7 @@ impl<'a> Document<'a> {
         let quantized = self.options.quantize;
         let mut attributes = Vec::new();
         for (semantic, kind, type_) in kinds {
-            let Some(array) = self.find_array(kind, number, views) else { continue };
+            let Some(array) = arrays.find(kind, number) else { continue };
             let (component, normalized) = match (kind, quantized) {
                 (Kind::Positions, true) => (ComponentType::I16, false),
                 (Kind::Normals | Kind::Tangents, true) => (ComponentType::I8, true),
@@ -295,31 +266,6 @@ impl<'a> Document<'a> {
         attributes
     }
 
-    /// The array of a mesh; an empty one where it has none.
-    fn array(&self, kind: Kind, mesh: usize, views: &[Index<View>]) -> Array {
-        let nothing = Array { view: Index::new(0), start: 0, count: 0, stride: 1, component: ComponentType::U16 };
-        self.find_array(kind, mesh, views).unwrap_or(nothing)
-    }
-
-    fn find_array(&self, kind: Kind, mesh: usize, views: &[Index<View>]) -> Option<Array> {
-        let place = self.sections.iter().position(|section| section.kind == kind)?;
-        let section = &self.sections[place];
-        let (start, end) = (section.starts[mesh], section.starts[mesh + 1]);
-        let component = match kind {
-            Kind::Indices(Width::U16) | Kind::MergePlaces(Width::U16) | Kind::MergeVertices(Width::U16) => {
-                ComponentType::U16
-            }
-            _ => ComponentType::U32,
-        };
-        (end > start).then(|| Array {
-            view: views[place],
-            start,
-            count: end - start,
-            stride: section.stride,
-            component,
-        })
-    }
-
     /// The extension object of one mesh. Its primitive reads the same indices as the visible ones, all at once, with the
     /// split vertices replaced by sparse values; the two merge accessors repeat these, as the extension demands.
     fn manifold_extension(
@@ -328,11 +274,11 @@ impl<'a> Document<'a> {
         mut indices: Accessor,
         merges: usize,
         (number, mesh): (usize, &Geometry),
-        views: &[Index<View>],
+        arrays: &Arrays<'_>,
     ) -> Value {
         let merged = (merges > 0).then(|| {
-            let places = self.array(Kind::merge_places(mesh), number, views);
-            (places, self.array(Kind::merge_vertices(mesh), number, views))
+            let places = arrays.get(Kind::merge_places(mesh), number);
+            (places, arrays.get(Kind::merge_vertices(mesh), number))
         });
         indices.sparse = merged.as_ref().map(|(places, vertices)| sparse_merges(places, vertices));
         let indices = self.root.push(indices);
@@ -367,63 +313,22 @@ impl<'a> Document<'a> {
     }
 
     fn name_extensions(&mut self) {
-        let has_meshes = !self.sections.is_empty();
+        let has_meshes = self.buffer_bytes > 0;
         let mut name = |extension: &str, is_required: bool| {
             self.root.extensions_used.push(extension.to_owned());
             if is_required {
                 self.root.extensions_required.push(extension.to_owned());
             }
         };
-        if self.meshes.iter().any(|mesh| !mesh.vertices.corners.is_empty() && mesh.merge_count().is_some()) {
+        if self.has_manifolds {
             name(MESH_MANIFOLD, false);
         }
         if self.options.quantize && has_meshes {
             name(QUANTIZATION, true);
         }
-        if !self.packed.is_empty() {
+        if self.options.meshopt && has_meshes {
             name(MESHOPT, true);
         }
-    }
-}
-
-/// An array within a view.
-struct Array {
-    view: Index<View>,
-    /// Its first element.
-    start: usize,
-    count: usize,
-    /// Bytes of an element.
-    stride: usize,
-    component: ComponentType,
-}
-
-impl Array {
-    /// All of it, as scalars.
-    fn whole(&self) -> Accessor {
-        self.part(0, self.count)
-    }
-
-    /// Some of its elements, as scalars.
-    fn part(&self, start: usize, count: usize) -> Accessor {
-        Accessor {
-            buffer_view: Some(self.view),
-            byte_offset: Some(self.offset(start)),
-            count: USize64::from(count),
-            component_type: Checked::Valid(GenericComponentType(self.component)),
-            extensions: None,
-            extras: Default::default(),
-            type_: Checked::Valid(Type::Scalar),
-            min: None,
-            max: None,
-            name: None,
-            normalized: false,
-            sparse: None,
-        }
-    }
-
-    /// Where an element lies in the view.
-    fn offset(&self, element: usize) -> USize64 {
-        USize64::from((self.start + element) * self.stride)
     }
 }
 
@@ -473,59 +378,5 @@ fn primitive(
         material,
         mode: Checked::Valid(Mode::Triangles),
         targets: None,
-    }
-}
-
-fn sparse_merges(places: &Array, vertices: &Array) -> sparse::Sparse {
-    sparse::Sparse {
-        count: USize64::from(places.count),
-        indices: sparse::Indices {
-            buffer_view: places.view,
-            byte_offset: places.offset(0),
-            component_type: Checked::Valid(IndexComponentType(places.component)),
-            extensions: None,
-            extras: Default::default(),
-        },
-        values: sparse::Values {
-            buffer_view: vertices.view,
-            byte_offset: vertices.offset(0),
-            extensions: None,
-            extras: Default::default(),
-        },
-        extensions: None,
-        extras: Default::default(),
-    }
-}
-
-/// The least and greatest coordinates as they are stored.
-fn bounds(mesh: &Geometry) -> (Value, Value) {
-    fn of<T: Copy + PartialOrd + Serialize>(positions: impl Iterator<Item = [T; 3]>) -> (Value, Value) {
-        let wider = |(min, max): ([T; 3], [T; 3]), position: [T; 3]| {
-            let pick = |other: [T; 3], is_better: fn(&T, &T) -> bool| {
-                std::array::from_fn(|k| if is_better(&position[k], &other[k]) { position[k] } else { other[k] })
-            };
-            (pick(min, T::lt), pick(max, T::gt))
-        };
-        let bounds =
-            positions.fold(None, |bounds, position| Some(wider(bounds.unwrap_or((position, position)), position)));
-        bounds.map_or((Value::Null, Value::Null), |(min, max)| (json!(min), json!(max)))
-    }
-    let vertices = 0..mesh.vertices.origins.len();
-    match mesh.rounding.step {
-        Some(step) => of(vertices.map(|vertex| mesh.grid_position(vertex, step))),
-        None => {
-            let (min, max) = of(vertices.map(|vertex| mesh.position(vertex)));
-            (as_parsed(min), as_parsed(max))
-        }
-    }
-}
-
-/// Single-precision numbers, which JSON values hold in double precision, as the JSON library parses their decimals: up to one unit in the last
-/// place off, and so still the same in single precision. Files have had these digits from the beginning; they stay comparable byte by byte.
-fn as_parsed(bounds: Value) -> Value {
-    let parsed = |value: &Value| serde_json::from_str(&value.to_string()).unwrap_or_else(|_| value.clone());
-    match bounds {
-        Value::Array(numbers) => numbers.iter().map(parsed).collect(),
-        other => other,
     }
 }

@@ -11,7 +11,7 @@ use planecut_parallel::prelude::*;
 use super::rounding::Rounding;
 use super::tangents::tangents;
 use crate::material::Looks;
-use crate::surface::Vertices;
+use crate::surface::{Vertices, has_three_corners};
 use crate::{ExportError, ExportOptions, Part};
 
 /// Marks a vertex that no triangle has used yet.
@@ -51,10 +51,9 @@ pub(super) struct Run {
 }
 
 impl<'a> Geometry<'a> {
-    /// The arrays of a checked part. Edges whose ends are rounded to one place are contracted; triangles that name a
+    /// The arrays of a checked part, its positions stored like this. Edges whose ends are rounded to one place are contracted; triangles that name a
     /// vertex twice have no area by construction and are left out.
-    pub(super) fn new(part: &Part<'a>, options: &ExportOptions) -> Result<Self, ExportError> {
-        let rounding = Rounding::of(&part.mesh.positions, options);
+    pub(super) fn new(part: &Part<'a>, rounding: Rounding, options: &ExportOptions) -> Result<Self, ExportError> {
         let mesh = rounding.reduced(part.mesh);
         check_range(&mesh.positions, rounding.origin)?;
         let looks = Looks::of(&mesh.materials);
@@ -142,11 +141,6 @@ impl<'a> Geometry<'a> {
             all.filter(|(_, corner, merged)| corner != merged).map(|(place, _, merged)| (place, merged))
         })
     }
-}
-
-/// Whether a triangle names three vertices.
-pub(super) fn has_three_corners([a, b, c]: &[u32; 3]) -> bool {
-    a != b && b != c && c != a
 }
 
 fn check_range(positions: &[DVec3], origin: DVec3) -> Result<(), ExportError> {

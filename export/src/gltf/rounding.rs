@@ -19,12 +19,36 @@ pub(super) struct Rounding {
     pub(super) origin: DVec3,
     /// Of the grid that they lie on, a power of two; none where they are in single precision.
     pub(super) step: Option<f64>,
+    /// Of the grid that they are rounded to first, a power of two of which the origin is a multiple; none where they are not. Meshes that have this
+    /// in common store what they share at one place.
+    common: Option<f64>,
 }
 
 impl Rounding {
     pub(super) fn of(positions: &[DVec3], options: &ExportOptions) -> Self {
         let origin = choose_origin(positions);
-        Self { origin, step: options.quantize.then(|| grid_step(positions, origin)) }
+        Self { origin, step: options.quantize.then(|| grid_step(positions, origin)), common: None }
+    }
+
+    /// Those of meshes in boxes, which meet: all on one grid, so that a position is stored at the same place in each. Its step is that of single
+    /// precision, or of 16 bits, at the farthest corner of the largest box.
+    pub(super) fn in_common(boxes: &[Option<[DVec3; 2]>], options: &ExportOptions) -> Vec<Self> {
+        let origins: Vec<DVec3> =
+            boxes.iter().map(|corners| choose_origin(corners.as_slice().as_flattened())).collect();
+        let reach = |(corners, origin): (&Option<[DVec3; 2]>, &DVec3)| {
+            let corners = corners.as_slice().as_flattened().iter();
+            corners.map(|corner| (*corner - *origin).abs().max_element()).fold(0.0, f64::max)
+        };
+        let reach = boxes.iter().zip(&origins).map(reach).fold(0.0, f64::max);
+        let step = exact_step_within(reach, options);
+        // that of a small mesh may lie on a finer grid; adding zero turns -0 into 0
+        let onto_grid = |origin: DVec3| (origin / step).round() * step + DVec3::ZERO;
+        let of_origin = |origin: DVec3| Self {
+            origin: onto_grid(origin),
+            step: options.quantize.then_some(step),
+            common: Some(step),
+        };
+        origins.into_iter().map(of_origin).collect()
     }
 
     /// The mesh without the edges whose ends are stored as one place.
@@ -34,12 +58,19 @@ impl Rounding {
 
     /// In single precision, relative to the origin.
     pub(super) fn single(self, position: DVec3) -> Vec3 {
-        (position - self.origin).as_vec3()
+        self.relative(position).as_vec3()
     }
 
     /// On the grid.
     pub(super) fn grid(self, position: DVec3, step: f64) -> I16Vec3 {
-        ((position - self.origin) / step).round().as_i16vec3()
+        (self.relative(position) / step).round().as_i16vec3()
+    }
+
+    fn relative(self, position: DVec3) -> DVec3 {
+        match self.common {
+            Some(step) => (position / step).round() * step - self.origin,
+            None => position - self.origin,
+        }
     }
 
     /// Where readers find a position.
@@ -72,7 +103,11 @@ pub(super) fn exact_step(positions: &[DVec3], options: &ExportOptions) -> f64 {
     let (min, max) = positions.iter().fold((first, first), |(min, max), p| (min.min(*p), max.max(*p)));
     let (middle, half) = (min * 0.5 + max * 0.5, (max * 0.5 - min * 0.5).max_element());
     let origin = (half / 16.0).max(middle.abs().max_element() * f64::from(f32::EPSILON));
-    let reach = 1.01 * half + origin;
+    exact_step_within(1.01 * half + origin, options)
+}
+
+/// The least power of two whose multiples are stored without rounding as far as this from an origin that is one of them.
+fn exact_step_within(reach: f64, options: &ExportOptions) -> f64 {
     let finest = if options.quantize { reach / REACH } else { reach / (1u64 << 24) as f64 };
     if finest.is_normal() && finest.is_finite() {
         finest.log2().ceil().exp2().max(f64::from(f32::MIN_POSITIVE) * f64::from(f32::EPSILON))

@@ -1,44 +1,53 @@
 //! The materials of all parts of a file, each once, with a name of its own.
 
-use planecut_csg::{Material, MaterialId};
+use planecut_csg::Material;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::looks;
 use crate::Part;
 
+/// What tells a material from others of its name.
+type Look = [Option<u32>; 5];
+
 /// Materials and their names in a file.
-#[derive(Debug)]
-pub(crate) struct Library<'a> {
-    materials: Vec<(String, &'a Material)>,
-    /// For each part the place in the list of each of its materials.
-    places: Vec<Vec<u32>>,
+#[derive(Debug, Default)]
+pub(crate) struct Library {
+    materials: Vec<(String, Material)>,
+    /// For each name of a material those that have it, by what tells them apart, and their places in the list.
+    known: FxHashMap<String, Vec<(Look, u32)>>,
+    taken: FxHashSet<String>,
 }
 
-impl<'a> Library<'a> {
-    /// Those of some parts, in the order in which they come; `name` makes a name that the format can hold, and what that gives twice for
-    /// materials that differ is numbered.
-    pub(crate) fn of(parts: &[Part<'a>], name: impl Fn(&str) -> String) -> Self {
-        let mut known = FxHashMap::default();
-        let mut taken = FxHashSet::default();
-        let mut materials: Vec<(String, &Material)> = Vec::new();
-        let mut place_of = |material: &'a Material| {
-            *known.entry((material.name.as_str(), looks(material))).or_insert_with(|| {
-                materials.push((unique(&name(&material.name), &mut taken), material));
-                materials.len() as u32 - 1
-            })
-        };
-        let places = parts.iter().map(|part| part.mesh.materials.iter().map(&mut place_of).collect()).collect();
-        Self { materials, places }
+impl Library {
+    /// Those of some parts, in the order in which they come, and for each part the places in the list of its materials; `name` as for
+    /// [`Library::add`].
+    pub(crate) fn of(parts: &[Part<'_>], name: impl Fn(&str) -> String) -> (Self, Vec<Vec<u32>>) {
+        let mut library = Self::default();
+        let places = parts.iter().map(|part| library.add(&part.mesh.materials, &name)).collect();
+        (library, places)
+    }
+
+    /// Adds materials that are not there yet and gives the places of all of these in the list. `name` makes a name that the format can hold,
+    /// and what that gives twice for materials that differ is numbered.
+    pub(crate) fn add(&mut self, materials: &[Material], name: impl Fn(&str) -> String) -> Vec<u32> {
+        materials.iter().map(|material| self.add_one(material, &name)).collect()
+    }
+
+    fn add_one(&mut self, material: &Material, name: impl Fn(&str) -> String) -> u32 {
+        let looks = looks(material);
+        let mut known = self.known.get(&material.name).into_iter().flatten();
+        if let Some((_, place)) = known.find(|(other, _)| *other == looks) {
+            return *place;
+        }
+        let place = self.materials.len() as u32;
+        self.known.entry(material.name.clone()).or_default().push((looks, place));
+        self.materials.push((unique(&name(&material.name), &mut self.taken), material.clone()));
+        place
     }
 
     /// Names and materials.
-    pub(crate) fn materials(&self) -> &[(String, &'a Material)] {
+    pub(crate) fn materials(&self) -> &[(String, Material)] {
         &self.materials
-    }
-
-    /// The place in the list of a part's material.
-    pub(crate) fn place(&self, part: usize, material: MaterialId) -> u32 {
-        self.places[part][material.0 as usize]
     }
 }
 
@@ -71,9 +80,10 @@ mod tests {
         let materials = |materials: Vec<Material>| Mesh { materials, ..Mesh::default() };
         let one = materials(vec![Material::named("a b"), red.clone(), Material::named("a_b")]);
         let other = materials(vec![red, Material::named("a b"), Material::named("a b")]);
-        let library = Library::of(&[Part::new("", &one), Part::new("", &other)], |name| name.replace(' ', "_"));
+        let (library, places) =
+            Library::of(&[Part::new("", &one), Part::new("", &other)], |name| name.replace(' ', "_"));
         let names: Vec<&str> = library.materials().iter().map(|(name, _)| name.as_str()).collect();
         assert_eq!(names, ["a_b", "a_b_2", "a_b_3"]);
-        assert_eq!(library.places, [vec![0, 1, 2], vec![1, 0, 0]]);
+        assert_eq!(places, [vec![0, 1, 2], vec![1, 0, 0]]);
     }
 }

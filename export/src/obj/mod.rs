@@ -7,22 +7,46 @@
 use std::io::{self, Write};
 
 use crate::decimal::{write_decimal, write_digits, write_point};
-use crate::material::Library;
-use crate::material::{linear_to_srgb, material_color};
+use crate::material::{Library, linear_to_srgb, material_color};
 use crate::part::{ExportOptions, Shading};
+use crate::pieces::{Numbers, Pieces};
 use crate::surface::Vertices;
-use crate::{ExportError, Part};
+use crate::{ExportError, MeshPieces, Part};
 
 /// Writes each part as an object (`o`) with a group (`g`) and `usemtl` for each of its materials, Z-up.
 pub(crate) fn write_obj(parts: &[Part<'_>], options: &ExportOptions, out: &mut dyn Write) -> Result<(), ExportError> {
+    write_header(options, out)?;
+    let (library, places) = Library::of(parts, material_name);
+    let (mut vertex, mut first) = (1, First::default());
+    for (part, places) in parts.iter().zip(&places) {
+        write_part(part, (&library, places), &Numbers::From(vertex), options, &mut first, out)?;
+        vertex += part.mesh.positions.len() as u64;
+    }
+    Ok(())
+}
+
+/// Writes each piece as an object. Vertices that pieces share stand before the triangles of the first that has them.
+pub(crate) fn write_obj_pieces(
+    pieces: &Pieces<'_>,
+    options: &ExportOptions,
+    out: &mut dyn Write,
+) -> Result<(), ExportError> {
+    write_header(options, out)?;
+    let (mut library, mut first) = (Library::default(), First::default());
+    let mut numbering = pieces.numbering(1);
+    for number in 0..pieces.count() {
+        let piece = pieces.read(number)?;
+        let places = library.add(&piece.mesh.materials, material_name);
+        let numbers = numbering.of_piece(&piece);
+        write_part(&piece.part(), (&library, &places), &numbers.as_numbers(), options, &mut first, out)?;
+    }
+    Ok(())
+}
+
+fn write_header(options: &ExportOptions, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, concat!("# planecut ", env!("CARGO_PKG_VERSION"), ", Z up"))?;
     if let Some(name) = &options.material_library {
         writeln!(out, "mtllib {}", token(name, "materials.mtl"))?;
-    }
-    let library = library(parts);
-    let mut first = First { vertex: 1, texture: 1, normal: 1 };
-    for number in 0..parts.len() {
-        write_part(parts, number, &library, options, &mut first, out)?;
     }
     Ok(())
 }
@@ -33,8 +57,25 @@ pub(crate) fn write_obj(parts: &[Part<'_>], options: &ExportOptions, out: &mut d
 /// # Errors
 /// [`ExportError::Io`] where the writer takes no more.
 pub fn write_mtl(parts: &[Part<'_>], out: &mut dyn Write) -> Result<(), ExportError> {
+    write_library(&Library::of(parts, material_name).0, out)
+}
+
+/// The same for the OBJ file that [`write_pieces`](crate::write_pieces) makes of pieces, each of which is read once.
+///
+/// # Errors
+/// [`ExportError::ReadPiece`] where one cannot be read, and [`ExportError::Io`] where the writer takes no more.
+pub fn write_mtl_of_pieces(pieces: &dyn MeshPieces, out: &mut dyn Write) -> Result<(), ExportError> {
+    let mut library = Library::default();
+    for piece in 0..pieces.count() {
+        let mesh = pieces.piece(piece).map_err(|source| ExportError::ReadPiece { piece, source })?;
+        library.add(&mesh.materials, material_name);
+    }
+    write_library(&library, out)
+}
+
+fn write_library(library: &Library, out: &mut dyn Write) -> Result<(), ExportError> {
     writeln!(out, concat!("# planecut ", env!("CARGO_PKG_VERSION")))?;
-    for (name, material) in library(parts).materials() {
+    for (name, material) in library.materials() {
         write!(out, "newmtl {name}\nKd")?;
         for channel in material_color(material) {
             write!(out, " {:.4}", linear_to_srgb(channel))?;
@@ -49,34 +90,41 @@ pub fn write_mtl(parts: &[Part<'_>], out: &mut dyn Write) -> Result<(), ExportEr
     Ok(())
 }
 
-fn library<'a>(parts: &[Part<'a>]) -> Library<'a> {
-    Library::of(parts, |name| token(name, "material"))
+fn material_name(name: &str) -> String {
+    token(name, "material")
 }
 
-/// The numbers of the next part's first lines of each kind.
+/// The numbers of the next part's first lines of each kind but vertices.
 struct First {
-    vertex: u64,
     texture: u64,
     normal: u64,
 }
 
+impl Default for First {
+    fn default() -> Self {
+        Self { texture: 1, normal: 1 }
+    }
+}
+
 fn write_part(
-    parts: &[Part<'_>],
-    number: usize,
-    library: &Library<'_>,
+    part: &Part<'_>,
+    (library, places): (&Library, &[u32]),
+    numbers: &Numbers<'_>,
     options: &ExportOptions,
     first: &mut First,
     out: &mut dyn Write,
 ) -> Result<(), ExportError> {
-    let Part { name, mesh, sources } = parts[number];
+    let Part { name, mesh, sources } = *part;
     writeln!(out, "o {}", token(name, "solid"))?;
-    for &position in &mesh.positions {
+    for vertex in numbers.own(mesh.positions.len()) {
         out.write_all(b"v")?;
-        write_point(position * options.scale, out)?;
+        write_point(mesh.positions[vertex] * options.scale, out)?;
         out.write_all(b"\n")?;
     }
-    let place =
-        |triangle: &u32| library.place(number, mesh.faces[mesh.triangle_faces[*triangle as usize] as usize].material);
+    let place = |triangle: &u32| {
+        let face = mesh.triangle_faces[*triangle as usize];
+        places[mesh.faces[face as usize].material.0 as usize]
+    };
     let mut triangles: Vec<u32> = (0..mesh.triangles.len() as u32).collect();
     triangles.sort_by_key(place);
     let is_smooth = options.shading != Shading::Flat;
@@ -94,7 +142,7 @@ fn write_part(
             out.write_all(b"f")?;
             for corner in mesh.triangles[*triangle as usize] {
                 out.write_all(b" ")?;
-                write_digits(first.vertex + u64::from(corner), out)?;
+                write_digits(numbers.of(corner), out)?;
                 if let Some(vertices) = &attributes {
                     let vertex = u64::from(vertices.corners[place_in_list]);
                     out.write_all(b"/")?;
@@ -111,7 +159,6 @@ fn write_part(
             out.write_all(b"\n")?;
         }
     }
-    first.vertex += mesh.positions.len() as u64;
     if let Some(vertices) = &attributes {
         first.texture += vertices.texture.len() as u64;
         first.normal += if is_smooth { vertices.normals.len() as u64 } else { 0 };

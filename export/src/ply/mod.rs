@@ -7,52 +7,98 @@ use planecut_csg::Mesh;
 use crate::decimal::{write_decimal, write_digits};
 use crate::material::{linear_to_srgb, material_color};
 use crate::part::{ExportOptions, Shading};
+use crate::pieces::{Numbers, Piece, Pieces};
 use crate::surface::Vertices;
 use crate::{ExportError, Part};
 
 /// Writes the triangles of all parts, Z-up. Vertices are those of the mesh, unless they have normals or texture coordinates: then they are split
 /// where these differ.
 pub(crate) fn write_ply(parts: &[Part<'_>], options: &ExportOptions, out: &mut dyn Write) -> Result<(), ExportError> {
-    let has_normals = options.shading != Shading::Flat;
-    let split: Vec<Option<Vertices>> = parts
-        .iter()
-        .map(|part| {
-            let triangles: Vec<u32> = (0..part.mesh.triangles.len() as u32).collect();
-            let is_split = has_normals || options.texture.is_some();
-            is_split.then(|| Vertices::of(part.mesh, part.sources, &triangles, has_normals, options))
-        })
-        .collect();
+    let split: Vec<Option<Vertices>> = parts.iter().map(|part| split_vertices(part, options)).collect();
     let vertices =
         |part: usize| split[part].as_ref().map_or(parts[part].mesh.positions.len(), |split| split.origins.len());
     let count: usize = (0..parts.len()).map(vertices).sum();
-    // readers take numbers of vertices for signed
-    if i32::try_from(count).is_err() {
-        return Err(ExportError::TooLarge { what: format!("{count} vertices in a PLY file") });
-    }
     let triangles: usize = parts.iter().map(|part| part.mesh.triangles.len()).sum();
-    write_header(count, triangles, has_normals, options, out)?;
+    write_header(count as u64, triangles as u64, options, out)?;
     for (part, split) in parts.iter().zip(&split) {
-        write_vertices(part.mesh, split.as_ref(), has_normals, options, out)?;
+        write_vertices(part.mesh, split.as_ref(), &Numbers::From(0), options, out)?;
     }
     let mut first = 0;
     for (number, part) in parts.iter().enumerate() {
-        write_triangles(part.mesh, split[number].as_ref(), first, options.text, out)?;
-        first += vertices(number) as u32;
+        write_triangles(part.mesh, split[number].as_ref(), &Numbers::From(first), options.text, out)?;
+        first += vertices(number) as u64;
     }
     Ok(())
 }
 
-fn write_header(
-    vertices: usize,
-    triangles: usize,
-    has_normals: bool,
+/// Writes the triangles of all pieces. Those that are neighbours share vertices, unless these are split. All pieces are read twice, after the
+/// survey: for vertices, then for triangles.
+pub(crate) fn write_ply_pieces(
+    pieces: &Pieces<'_>,
     options: &ExportOptions,
     out: &mut dyn Write,
 ) -> Result<(), ExportError> {
+    let mut split_count = 0;
+    if is_split(options) {
+        each(pieces, options, |_, split, _| {
+            split_count += split.map_or(0, |split| split.origins.len() as u64);
+            Ok(())
+        })?;
+    }
+    let count = if is_split(options) { split_count } else { pieces.vertices() };
+    write_header(count, pieces.triangles(), options, out)?;
+    each(pieces, options, |piece, split, numbers| write_vertices(&piece.mesh, split, numbers, options, out))?;
+    each(pieces, options, |piece, split, numbers| write_triangles(&piece.mesh, split, numbers, options.text, out))
+}
+
+/// Hands on each piece, with its vertices where they are split, and their numbers.
+fn each(
+    pieces: &Pieces<'_>,
+    options: &ExportOptions,
+    mut take: impl FnMut(&Piece, Option<&Vertices>, &Numbers<'_>) -> Result<(), ExportError>,
+) -> Result<(), ExportError> {
+    let (mut numbering, mut first) = (pieces.numbering(0), 0);
+    for number in 0..pieces.count() {
+        let piece = pieces.read(number)?;
+        match split_vertices(&piece.part(), options) {
+            Some(split) => {
+                take(&piece, Some(&split), &Numbers::From(first))?;
+                first += split.origins.len() as u64;
+            }
+            None => take(&piece, None, &numbering.of_piece(&piece).as_numbers())?,
+        }
+    }
+    Ok(())
+}
+
+fn has_normals(options: &ExportOptions) -> bool {
+    options.shading != Shading::Flat
+}
+
+fn is_split(options: &ExportOptions) -> bool {
+    has_normals(options) || options.texture.is_some()
+}
+
+/// The vertices of a part where they are not those of its mesh.
+fn split_vertices(part: &Part<'_>, options: &ExportOptions) -> Option<Vertices> {
+    let triangles: Vec<u32> = (0..part.mesh.triangles.len() as u32).collect();
+    is_split(options).then(|| Vertices::of(part.mesh, part.sources, &triangles, has_normals(options), options))
+}
+
+fn write_header(
+    vertices: u64,
+    triangles: u64,
+    options: &ExportOptions,
+    out: &mut dyn Write,
+) -> Result<(), ExportError> {
+    // readers take numbers of vertices for signed
+    if i32::try_from(vertices).is_err() {
+        return Err(ExportError::TooLarge { what: format!("{vertices} vertices in a PLY file") });
+    }
     let format = if options.text { "ascii" } else { "binary_little_endian" };
     writeln!(out, "ply\nformat {format} 1.0\ncomment planecut {}, Z up", env!("CARGO_PKG_VERSION"))?;
     writeln!(out, "element vertex {vertices}\nproperty double x\nproperty double y\nproperty double z")?;
-    if has_normals {
+    if has_normals(options) {
         writeln!(out, "property float nx\nproperty float ny\nproperty float nz")?;
     }
     if options.texture.is_some() {
@@ -66,11 +112,12 @@ fn write_header(
 fn write_vertices(
     mesh: &Mesh,
     split: Option<&Vertices>,
-    has_normals: bool,
+    numbers: &Numbers<'_>,
     options: &ExportOptions,
     out: &mut dyn Write,
 ) -> Result<(), ExportError> {
-    for vertex in 0..split.map_or(mesh.positions.len(), |split| split.origins.len()) {
+    let has_normals = has_normals(options);
+    for vertex in numbers.own(split.map_or(mesh.positions.len(), |split| split.origins.len())) {
         let origin = split.map_or(vertex, |split| split.origins[vertex] as usize);
         let position = (mesh.positions[origin] * options.scale).to_array();
         let mut floats = Vec::new();
@@ -96,7 +143,7 @@ fn write_vertices(
 fn write_triangles(
     mesh: &Mesh,
     split: Option<&Vertices>,
-    first: u32,
+    numbers: &Numbers<'_>,
     is_text: bool,
     out: &mut dyn Write,
 ) -> Result<(), ExportError> {
@@ -107,7 +154,7 @@ fn write_triangles(
             Some(split) => std::array::from_fn(|k| split.corners[3 * triangle + k]),
             None => mesh.triangles[triangle],
         };
-        let corners: [u32; 3] = corners.map(|corner| corner + first);
+        let corners: [u32; 3] = corners.map(|corner| numbers.of(corner) as u32);
         let color = colors[mesh.faces[*face as usize].material.0 as usize];
         if is_text {
             out.write_all(b"3")?;

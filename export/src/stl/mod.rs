@@ -9,6 +9,7 @@ use std::io::{self, Write};
 use glam::DVec3;
 use planecut_csg::Mesh;
 
+use crate::pieces::Pieces;
 use crate::surface::without_lost_edges;
 use crate::{ExportError, ExportOptions, Part, Written};
 
@@ -25,10 +26,49 @@ pub(crate) fn write_stl(parts: &[Part<'_>], options: &ExportOptions, out: &mut d
     }
 }
 
+/// Writes the triangles of all pieces, as text in one solid. All pieces are read twice, after the survey: to count triangles, then to write them.
+///
+/// Equal corners are equal once rounded, so what neighbours share still fits. The edges that go may end at a seam, but not lie on it.
+pub(crate) fn write_stl_pieces(
+    pieces: &Pieces<'_>,
+    options: &ExportOptions,
+    out: &mut dyn Write,
+) -> Result<(), ExportError> {
+    let mut triangles = 0;
+    for number in 0..pieces.count() {
+        let piece = pieces.read(number)?;
+        let mesh = reduced_mesh(&piece.mesh, options);
+        check_range(&mesh.positions, options.scale)?;
+        triangles += mesh.triangles.len() as u64;
+    }
+    let name = "planecut";
+    if options.text {
+        writeln!(out, "solid {name}")?;
+    } else {
+        write_header(triangles, out)?;
+    }
+    for number in 0..pieces.count() {
+        let piece = pieces.read(number)?;
+        let mesh = reduced_mesh(&piece.mesh, options);
+        match options.text {
+            true => write_text_triangles(&mesh, options.scale, out)?,
+            false => write_binary_triangles(&mesh, options.scale, out)?,
+        }
+    }
+    if options.text {
+        writeln!(out, "endsolid {name}")?;
+    }
+    Ok(())
+}
+
+/// A mesh without the edges whose ends are stored as one place.
+fn reduced_mesh<'a>(mesh: &'a Mesh, options: &ExportOptions) -> Cow<'a, Mesh> {
+    without_lost_edges(mesh, |position| (position * options.scale).as_vec3())
+}
+
 /// The meshes of all parts without the edges whose ends are stored as one place.
 fn reduced<'a>(parts: &[Part<'a>], options: &ExportOptions) -> Vec<Cow<'a, Mesh>> {
-    let round = |position: DVec3| (position * options.scale).as_vec3();
-    parts.iter().map(|part| without_lost_edges(part.mesh, round)).collect()
+    parts.iter().map(|part| reduced_mesh(part.mesh, options)).collect()
 }
 
 /// What a file of the parts holds.
@@ -43,20 +83,26 @@ pub(crate) fn written(parts: &[Part<'_>], options: &ExportOptions) -> Result<Wri
 
 fn write_binary(meshes: &[Cow<'_, Mesh>], scale: f64, out: &mut dyn Write) -> Result<(), ExportError> {
     let triangles: usize = meshes.iter().map(|mesh| mesh.triangles.len()).sum();
+    write_header(triangles as u64, out)?;
+    Ok(meshes.iter().try_for_each(|mesh| write_binary_triangles(mesh, scale, out))?)
+}
+
+fn write_header(triangles: u64, out: &mut dyn Write) -> Result<(), ExportError> {
     let count =
         u32::try_from(triangles).map_err(|_| ExportError::TooLarge { what: format!("{triangles} triangles") })?;
     // Must not begin with "solid": readers would take the file for a text one.
     let title = concat!("binary STL, planecut ", env!("CARGO_PKG_VERSION"), ", Z up").as_bytes();
     out.write_all(title)?;
     out.write_all(&[0; HEADER_BYTES][title.len()..])?;
-    out.write_all(&count.to_le_bytes())?;
-    for mesh in meshes {
-        for triangle in 0..mesh.triangles.len() {
-            for vector in vectors(mesh, triangle, scale) {
-                vector.iter().try_for_each(|value| out.write_all(&value.to_le_bytes()))?;
-            }
-            out.write_all(&[0, 0])?;
+    Ok(out.write_all(&count.to_le_bytes())?)
+}
+
+fn write_binary_triangles(mesh: &Mesh, scale: f64, out: &mut dyn Write) -> io::Result<()> {
+    for triangle in 0..mesh.triangles.len() {
+        for vector in vectors(mesh, triangle, scale) {
+            vector.iter().try_for_each(|value| out.write_all(&value.to_le_bytes()))?;
         }
+        out.write_all(&[0, 0])?;
     }
     Ok(())
 }
@@ -71,14 +117,19 @@ fn write_text(
         // a name ends with its line
         let name: String = part.name.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
         writeln!(out, "solid {name}")?;
-        for triangle in 0..mesh.triangles.len() {
-            let [normal, a, b, c] = vectors(mesh, triangle, scale);
-            write_line("facet normal", normal, out)?;
-            out.write_all(b"outer loop\n")?;
-            [a, b, c].into_iter().try_for_each(|corner| write_line("vertex", corner, out))?;
-            out.write_all(b"endloop\nendfacet\n")?;
-        }
+        write_text_triangles(mesh, scale, out)?;
         writeln!(out, "endsolid {name}")?;
+    }
+    Ok(())
+}
+
+fn write_text_triangles(mesh: &Mesh, scale: f64, out: &mut dyn Write) -> io::Result<()> {
+    for triangle in 0..mesh.triangles.len() {
+        let [normal, a, b, c] = vectors(mesh, triangle, scale);
+        write_line("facet normal", normal, out)?;
+        out.write_all(b"outer loop\n")?;
+        [a, b, c].into_iter().try_for_each(|corner| write_line("vertex", corner, out))?;
+        out.write_all(b"endloop\nendfacet\n")?;
     }
     Ok(())
 }

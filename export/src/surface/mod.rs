@@ -21,6 +21,11 @@ use texture::Texture;
 /// Marks a vertex that no triangle has used yet.
 const NONE: u32 = u32::MAX;
 
+/// Whether a triangle names three vertices.
+pub(crate) fn has_three_corners([a, b, c]: &[u32; 3]) -> bool {
+    a != b && b != c && c != a
+}
+
 /// Vertices of one mesh, split.
 #[derive(Debug, Default)]
 pub(crate) struct Vertices {

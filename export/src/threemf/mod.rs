@@ -66,7 +66,8 @@ fn write_model(parts: &[Part<'_>], options: &ExportOptions, out: &mut dyn Write)
     };
     write!(out, r#"<?xml version="1.0" encoding="UTF-8"?><model unit="{unit}" xml:lang="en-US" xmlns="{NAMESPACE}">"#)?;
     write!(out, r#"<metadata name="Application">planecut {}</metadata><resources>"#, env!("CARGO_PKG_VERSION"))?;
-    let library = Library::of(parts, |name| if name.is_empty() { "material".to_owned() } else { name.to_owned() });
+    let (library, places) =
+        Library::of(parts, |name| if name.is_empty() { "material".to_owned() } else { name.to_owned() });
     if !library.materials().is_empty() {
         write!(out, r#"<basematerials id="{MATERIALS}">"#)?;
         for (name, material) in library.materials() {
@@ -77,7 +78,7 @@ fn write_model(parts: &[Part<'_>], options: &ExportOptions, out: &mut dyn Write)
     }
     let solids = || (0..parts.len()).filter(|number| !parts[*number].mesh.triangles.is_empty());
     for number in solids() {
-        write_object(parts, number, &library, options.scale, out)?;
+        write_object(parts, number, (&library, &places[number]), options.scale, out)?;
     }
     out.write_all(b"</resources><build>")?;
     for number in solids() {
@@ -89,12 +90,12 @@ fn write_model(parts: &[Part<'_>], options: &ExportOptions, out: &mut dyn Write)
 fn write_object(
     parts: &[Part<'_>],
     number: usize,
-    library: &Library<'_>,
+    (library, places): (&Library, &[u32]),
     scale: f64,
     out: &mut dyn Write,
 ) -> io::Result<()> {
     let mesh = parts[number].mesh;
-    let material = |triangle: usize| library.place(number, mesh.faces[mesh.triangle_faces[triangle] as usize].material);
+    let material = |triangle: usize| places[mesh.faces[mesh.triangle_faces[triangle] as usize].material.0 as usize];
     // the one of most triangles need not be said again
     let mut counts = vec![0_usize; library.materials().len()];
     (0..mesh.triangles.len()).for_each(|triangle| counts[material(triangle) as usize] += 1);

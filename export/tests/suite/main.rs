@@ -7,3 +7,4 @@ mod full_disk;
 mod gltf;
 mod model_file;
 mod obj_stl;
+mod pieces;

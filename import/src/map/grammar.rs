@@ -1,4 +1,4 @@
-//! From tokens to entities: the syntax of a map, and the planes, but no meaning of names yet.
+//! From tokens to the pieces of entities: the syntax of a map, and the planes, but no meaning of names yet.
 
 use std::borrow::Cow;
 
@@ -10,29 +10,40 @@ use winnow::stream::Location;
 use winnow::token::any;
 
 use super::decimal::Decimal;
-use super::error::{Found, SyntaxError};
+use super::error::{Found, Opening, SyntaxError};
 use super::plane::{self, PlaneError, Point};
 use super::texture::Alignment;
 use super::token::{Input, Parsed, is_delimiter, name, number, peek, punctuation, quoted, word};
 
-/// An entity, or a brush that stands outside any.
-#[derive(Debug, Default)]
-pub(super) struct Entity<'a> {
-    /// Whether this is only a brush, or a primitive, outside any entity.
-    pub(super) is_bare: bool,
-    /// The last value of `classname`.
-    pub(super) classname: Option<Cow<'a, [u8]>>,
-    /// The last value of `origin` that is three numbers.
-    origin: Option<Point>,
-    pub(super) brushes: Vec<Brush<'a>>,
-    pub(super) left_out: Vec<LeftOut>,
+/// A piece of a map.
+#[derive(Debug)]
+pub(super) enum Event<'a> {
+    /// An entity begins, with a brace at this offset.
+    Begins(usize),
+    /// A key of the entity, its offset, and its value.
+    Key { offset: usize, key: Cow<'a, [u8]>, value: Cow<'a, [u8]> },
+    /// A brush of the entity, or another primitive.
+    Primitive(Primitive<'a>),
+    /// The same outside any entity.
+    Bare(Primitive<'a>),
+    /// The entity ends.
+    Ends,
+}
+
+/// What stands in braces of its own.
+#[derive(Debug)]
+pub(super) enum Primitive<'a> {
+    Brush(Brush<'a>),
+    LeftOut(LeftOut),
 }
 
 /// A brush.
 #[derive(Debug)]
 pub(super) struct Brush<'a> {
     /// Offset of its opening brace.
-    pub(super) offset: usize,
+    offset: usize,
+    /// Its line, once lines were [counted](Self::count_lines).
+    pub(super) line: u32,
     pub(super) faces: Vec<Face<'a>>,
 }
 
@@ -40,7 +51,9 @@ pub(super) struct Brush<'a> {
 #[derive(Debug)]
 pub(super) struct Face<'a> {
     /// Offset of its first parenthesis.
-    pub(super) offset: usize,
+    offset: usize,
+    /// Its line, once lines were counted, where its plane is not known to be right.
+    pub(super) line: u32,
     pub(super) plane: Result<HalfSpace, PlaneError>,
     /// The plane as it is stated, where that is by four numbers.
     equation: Option<[Decimal; 4]>,
@@ -60,57 +73,78 @@ pub(super) struct LeftOut {
     pub(super) is_patch: bool,
 }
 
-/// The next entity; `None` at the end of the text.
-pub(super) fn entity<'a>(input: &mut Input<'a>) -> Parsed<Option<Entity<'a>>> {
+/// The next piece of a map, of an entity that has begun or outside any; `None` at the end of the text. An error may point to the
+/// [`Entity`](Opening::Entity) that has begun.
+pub(super) fn event<'a>(input: &mut Input<'a>, is_inside: bool) -> Parsed<Option<Event<'a>>> {
+    if is_inside { inside(input).map(Some) } else { outside(input) }
+}
+
+fn outside<'a>(input: &mut Input<'a>) -> Parsed<Option<Event<'a>>> {
     version(input)?;
     if peek(input)?.is_none() {
         return Ok(None);
     }
     let opened = open_brace(input)?;
-    let mut entity = Entity::default();
     if peek(input)?.is_some_and(|byte| byte == b'(' || byte.is_ascii_alphabetic()) {
-        entity.is_bare = true;
-        brush_or_primitive(input, opened, &mut entity)?;
-        return Ok(Some(entity));
+        return primitive(input, opened).map(|primitive| Some(Event::Bare(primitive)));
     }
-    loop {
-        match peek(input)? {
-            Some(b'"') => {
-                let (key, value) = (quoted, quoted).parse_next(input)?;
-                match &*key {
-                    b"classname" => entity.classname = Some(value),
-                    b"origin" => entity.origin = point_of(&value).or(entity.origin),
-                    _ => {}
-                }
-            }
-            Some(b'{') => {
-                let opened = open_brace(input)?;
-                brush_or_primitive(input, opened, &mut entity)?;
-            }
-            _ => {
-                close_brace(input, opened, "a key in quotes, `{` or `}`")?;
-                entity.put_in_place();
-                return Ok(Some(entity));
-            }
+    Ok(Some(Event::Begins(opened)))
+}
+
+fn inside<'a>(input: &mut Input<'a>) -> Parsed<Event<'a>> {
+    match peek(input)? {
+        Some(b'"') => {
+            let offset = input.current_token_start();
+            let (key, value) = (quoted, quoted).parse_next(input)?;
+            Ok(Event::Key { offset, key, value })
+        }
+        Some(b'{') => {
+            let opened = open_brace(input)?;
+            primitive(input, opened).map(Event::Primitive)
+        }
+        _ => {
+            close_brace(input, Opening::Entity, "a key in quotes, `{` or `}`")?;
+            Ok(Event::Ends)
         }
     }
 }
 
-impl Entity<'_> {
-    /// Moves what Doom 3 states relative to the origin of its entity: planes of four numbers, and textures on them. The world has no origin.
-    fn put_in_place(&mut self) {
-        let Some(origin) = self.origin.filter(|_| self.classname.as_deref() != Some(b"worldspawn")) else { return };
-        for face in self.brushes.iter_mut().flat_map(|brush| &mut brush.faces) {
+impl Brush<'_> {
+    /// Counts the lines that are asked for: its own, and those of faces whose planes may be wrong.
+    pub(super) fn count_lines(&mut self, line_of: impl Fn(usize) -> u32) {
+        self.line = line_of(self.offset);
+        for face in self.faces.iter_mut().filter(|face| face.plane.is_err() || face.equation.is_some()) {
+            face.line = line_of(face.offset);
+        }
+    }
+
+    /// Whether a plane is stated by four numbers, which Doom 3 counts from the origin of the entity.
+    pub(super) fn has_equations(&self) -> bool {
+        self.faces.iter().any(|face| face.equation.is_some())
+    }
+
+    /// Moves what is stated relative to the origin of the entity: planes of four numbers, and textures on them.
+    pub(super) fn put_at(&mut self, origin: &Point) {
+        for face in &mut self.faces {
             if let Some(equation) = &face.equation {
-                face.plane = plane::half_space_of(equation, &origin);
+                face.plane = plane::half_space_of(equation, origin);
                 face.origin = DVec3::from_array(origin.map(Decimal::to_f64));
             }
         }
     }
+
+    /// The brush with texts of its own.
+    pub(super) fn into_owned(self) -> Brush<'static> {
+        let owned = |face: Face<'_>| Face { texture: Cow::Owned(face.texture.into_owned()), ..face };
+        Brush { offset: self.offset, line: self.line, faces: self.faces.into_iter().map(owned).collect() }
+    }
 }
 
+/// Where nothing else is said: the origin of space.
+pub(super) const NOWHERE: Point = [Decimal::Exact { mantissa: 0, places: 0 }; 3];
+
 /// Three numbers between blanks.
-fn point_of(text: &[u8]) -> Option<Point> {
+pub(super) fn point_of(text: &[u8]) -> Option<Point> {
     let mut numbers = text.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty()).map(Decimal::parse);
     let point = [numbers.next()??, numbers.next()??, numbers.next()??];
     numbers.next().is_none().then_some(point)
@@ -132,15 +166,15 @@ fn open_brace(input: &mut Input<'_>) -> Parsed<usize> {
 }
 
 /// Takes `}`; an error says `expected` and where the brace was opened.
-fn close_brace(input: &mut Input<'_>, opened: usize, expected: &'static str) -> Parsed<()> {
+fn close_brace(input: &mut Input<'_>, opened: Opening, expected: &'static str) -> Parsed<()> {
     punctuation(b'}', expected).parse_next(input).map_err(|error| SyntaxError { opened: Some(opened), ..error })
 }
 
 /// What follows the opening brace of a brush, its closing brace included.
-fn brush_or_primitive<'a>(input: &mut Input<'a>, opened: usize, entity: &mut Entity<'a>) -> Parsed<()> {
+fn primitive<'a>(input: &mut Input<'a>, opened: usize) -> Parsed<Primitive<'a>> {
+    let brush = |faces| Primitive::Brush(Brush { offset: opened, line: 0, faces });
     if !peek(input)?.is_some_and(|byte| byte.is_ascii_alphabetic()) {
-        entity.brushes.push(Brush { offset: opened, faces: faces(input, opened, Form::Points)? });
-        return Ok(());
+        return faces(input, opened, Form::Points).map(brush);
     }
     let offset = input.current_token_start();
     let keyword = word(input)?;
@@ -151,15 +185,16 @@ fn brush_or_primitive<'a>(input: &mut Input<'a>, opened: usize, entity: &mut Ent
     } else {
         None
     };
-    if let Some(form) = form {
+    let primitive = if let Some(form) = form {
         let inner = open_brace(input)?;
-        entity.brushes.push(Brush { offset: opened, faces: faces(input, inner, form)? });
+        brush(faces(input, inner, form)?)
     } else {
         skip_block(input)?;
         let is_patch = keyword.get(..5).is_some_and(|start| start.eq_ignore_ascii_case(b"patch"));
-        entity.left_out.push(LeftOut { offset, is_patch });
-    }
-    close_brace(input, opened, "`}`")
+        Primitive::LeftOut(LeftOut { offset, is_patch })
+    };
+    close_brace(input, Opening::At(opened), "`}`")?;
+    Ok(primitive)
 }
 
 /// Skips a block in braces, whatever it holds. Counts braces instead of recursing: depth costs nothing.
@@ -168,7 +203,7 @@ fn skip_block(input: &mut Input<'_>) -> Parsed<()> {
     let mut depth = 1_usize;
     while depth > 0 {
         match peek(input)? {
-            None => return close_brace(input, opened, "`}`"),
+            None => return close_brace(input, Opening::At(opened), "`}`"),
             Some(b'"') => quoted.void().parse_next(input)?,
             Some(byte) if is_delimiter(byte) => {
                 any.void().parse_next(input)?;
@@ -201,7 +236,7 @@ fn faces<'a>(input: &mut Input<'a>, opened: usize, form: Form) -> Parsed<Vec<Fac
     while peek(input)? == Some(b'(') {
         faces.push(face(input, form)?);
     }
-    close_brace(input, opened, "`(` or `}`")?;
+    close_brace(input, Opening::At(opened), "`(` or `}`")?;
     Ok(faces)
 }
 
@@ -227,7 +262,7 @@ fn face<'a>(input: &mut Input<'a>, form: Form) -> Parsed<Face<'a>> {
             Alignment::Plain { shift: DVec2::new(x, y), degrees, scale: DVec2::new(wide, high) }
         }
     };
-    Ok(Face { offset, plane, equation, texture, alignment, origin: DVec3::ZERO })
+    Ok(Face { offset, line: 0, plane, equation, texture, alignment, origin: DVec3::ZERO })
 }
 
 /// The plane of a face, and the four numbers that state it, where they do.
@@ -236,8 +271,7 @@ type StatedPlane = (Result<HalfSpace, PlaneError>, Option<[Decimal; 4]>);
 fn plane_of_face(input: &mut Input<'_>, form: Form) -> Parsed<StatedPlane> {
     if form == Form::EquationAndMatrix {
         let equation = quadruple(input)?;
-        let nowhere = [Decimal::Exact { mantissa: 0, places: 0 }; 3];
-        return Ok((plane::half_space_of(&equation, &nowhere), Some(equation)));
+        return Ok((plane::half_space_of(&equation, &NOWHERE), Some(equation)));
     }
     let points: [Point; 3] = (triple, triple, triple).map(<[Point; 3]>::from).parse_next(input)?;
     Ok((plane::half_space(&points), None))

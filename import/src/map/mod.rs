@@ -15,29 +15,38 @@
 //! | `brushDef3` | the same; four numbers `a b c d` state the half-space `a x + b y + c z + d ≤ 0`, relative to the entity's `origin` |
 //!
 //! Comments begin with `//` or `;`. Patches and other primitives are left out, with a warning. The stages, each in its own file: bytes → tokens
-//! (`token`), tokens → entities with planes (`grammar`, `decimal`, `plane`), entities → model (`build`).
+//! (`token`), tokens → pieces of entities, with planes (`grammar`, `decimal`, `plane`), pieces → brushes (`entity`, `build`). A map that is
+//! read as a stream goes through them one window of its text after another (`stream`, `window`).
 //!
 //! Sources: the parsers of id Software's `qbsp`, of ericw-tools and of TrenchBroom, and the maps made with them.
 
 mod build;
 mod decimal;
+mod entity;
 mod error;
 mod glob;
 mod grammar;
 mod plane;
+mod stream;
 mod texture;
 mod token;
+mod window;
 
-use planecut_csg::{Model, TextureAxes};
+use std::convert::Infallible;
+
+use planecut_csg::{Material, Model, TextureAxes, Tree};
 use serde::{Deserialize, Serialize};
 use winnow::stream::LocatingSlice;
 
 pub use error::MapError;
+pub use stream::stream_map;
 
 use crate::Warning;
 use crate::lines::LineTable;
 use crate::source::without_byte_order_mark;
-use build::Builder;
+use build::{Builder, Built};
+use entity::Collector;
+use error::Surroundings;
 
 /// Which brushes of a map to leave aside.
 ///
@@ -78,7 +87,32 @@ pub struct MapImport {
     pub patches_left_out: usize,
     /// Primitives of other kinds left out (`terrainDef`, `meshDef`, …).
     pub primitives_left_out: usize,
-    /// What was left out, one warning for each kind, naming the first line.
+    /// What was left out, one warning for each kind, naming the first thousand lines.
+    pub warnings: Vec<Warning>,
+}
+
+/// What a map held whose brushes were handed on.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct MapSummary {
+    /// The materials of all faces: brushes name them by their places here.
+    pub materials: Vec<Material>,
+    /// Brushes that were handed on.
+    pub brushes: usize,
+    /// As [`MapImport::entities`].
+    pub entities: usize,
+    /// As [`MapImport::brushes_read`].
+    pub brushes_read: usize,
+    /// As [`MapImport::brushes_skipped`].
+    pub brushes_skipped: usize,
+    /// As [`MapImport::brushes_left_out`].
+    pub brushes_left_out: usize,
+    /// As [`MapImport::faces_left_out`].
+    pub faces_left_out: usize,
+    /// As [`MapImport::patches_left_out`].
+    pub patches_left_out: usize,
+    /// As [`MapImport::primitives_left_out`].
+    pub primitives_left_out: usize,
+    /// As [`MapImport::warnings`].
     pub warnings: Vec<Warning>,
 }
 
@@ -96,10 +130,39 @@ pub struct MapImport {
 pub fn read_map(text: &[u8], name: &str, options: &MapOptions) -> Result<MapImport, MapError> {
     let text = without_byte_order_mark(text);
     let lines = LineTable::new(text);
-    let mut builder = Builder::new(name, &lines, options);
+    let line_of = |offset| lines.line_of(offset);
+    let mut collector = Collector::new(Builder::new(name, options), true);
+    let (mut brushes, mut brush_lines, mut textures) = (Vec::new(), Vec::new(), Vec::new());
+    let mut send = |built: Built| -> Result<(), Infallible> {
+        brushes.push(built.brush);
+        brush_lines.push(built.line);
+        textures.push(built.textures);
+        Ok(())
+    };
     let mut input = LocatingSlice::new(text);
-    while let Some(entity) = grammar::entity(&mut input).map_err(|error| error.locate(name, text, &lines))? {
-        builder.add_entity(&entity)?;
+    loop {
+        match grammar::event(&mut input, collector.is_inside()) {
+            Ok(None) => break,
+            Ok(Some(event)) => collector.take(event, line_of, |brush| brush, &mut send).map_err(|e| e.into_input())?,
+            Err(error) => {
+                let entity_line = collector.entity_line();
+                let located = error.locate(&Surroundings { name, text, line_of, line_before: 1, entity_line });
+                return Err(collector.earlier_error().unwrap_or(located));
+            }
+        }
     }
-    builder.finish()
+    let summary = collector.into_builder().finish()?;
+    let tree = Tree::union_of(brushes).with_source_lines(brush_lines);
+    Ok(MapImport {
+        model: Model { materials: summary.materials, tree },
+        textures,
+        entities: summary.entities,
+        brushes_read: summary.brushes_read,
+        brushes_skipped: summary.brushes_skipped,
+        brushes_left_out: summary.brushes_left_out,
+        faces_left_out: summary.faces_left_out,
+        patches_left_out: summary.patches_left_out,
+        primitives_left_out: summary.primitives_left_out,
+        warnings: summary.warnings,
+    })
 }

@@ -49,9 +49,12 @@ pub(super) fn is_delimiter(byte: u8) -> bool {
     is_blank(byte) || matches!(byte, b'(' | b')' | b'[' | b']' | b'{' | b'}' | b'"')
 }
 
-/// Skips white space and comments, which begin with `//` or, as QuArK writes them, with `;`.
+/// What comments begin with: `//` or, as QuArK writes them, `;`.
+pub(super) const COMMENTS: &[&[u8]] = &[b"//", b";"];
+
+/// Skips white space and comments.
 fn blank(input: &mut Input<'_>) -> Parsed<()> {
-    skip(input, &[b"//", b";"])
+    skip(input, COMMENTS)
 }
 
 /// Skips white space and comments that begin with one of `marks`.
@@ -76,10 +79,13 @@ pub(super) fn punctuation<'a>(byte: u8, expected: &'static str) -> impl Parser<I
     (blank, literal(byte)).void().context(expected)
 }
 
+/// What is expected where a number stands.
+pub(super) const NUMBER: &str = "a finite decimal number";
+
 /// A number, by [`Decimal::parse`].
 pub(super) fn number(input: &mut Input<'_>) -> Parsed<Decimal> {
     blank(input)?;
-    take_till(1.., is_delimiter).verify_map(Decimal::parse).context("a finite decimal number").parse_next(input)
+    take_till(1.., is_delimiter).verify_map(Decimal::parse).context(NUMBER).parse_next(input)
 }
 
 /// The name of a primitive.

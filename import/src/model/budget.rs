@@ -8,7 +8,7 @@ use super::json::Entry;
 use crate::source::{at_most, planes_of};
 
 /// Most nodes that are evaluated, those in parts counting each time: a bound on work that leaves no brush behind.
-const MAX_STEPS: u64 = 1 << 26;
+pub(super) const MAX_STEPS: u64 = 1 << 26;
 
 /// What is there at the moment.
 #[derive(Debug)]
@@ -23,7 +23,7 @@ pub(super) struct Budget {
 }
 
 /// Brushes and planes of something; triangles of closed meshes count as planes.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Size {
     pub(super) brushes: usize,
     pub(super) planes: usize,
@@ -33,6 +33,11 @@ impl Size {
     /// That of a tree.
     pub(super) fn of(tree: &Tree) -> Self {
         Self { brushes: tree.brushes().len(), planes: planes_of(tree) }
+    }
+
+    /// The size of both.
+    pub(super) fn and(self, other: Self) -> Self {
+        Self { brushes: self.brushes + other.brushes, planes: self.planes + other.planes }
     }
 
     /// A multiple of it.
@@ -87,7 +92,11 @@ impl Budget {
 
     /// Counts a tree that is gone.
     pub(super) fn remove(&mut self, tree: &Tree) {
-        let size = Size::of(tree);
+        self.release(Size::of(tree));
+    }
+
+    /// Counts something that is gone.
+    pub(super) fn release(&mut self, size: Size) {
         self.brushes = self.brushes.saturating_sub(size.brushes);
         self.planes = self.planes.saturating_sub(size.planes);
     }

@@ -88,6 +88,21 @@ pub(super) struct Fault {
 /// Most stages of the reader end so.
 pub(super) type Checked<T> = Result<T, Fault>;
 
+/// Why evaluation stopped.
+#[derive(Debug)]
+pub(super) enum Stop<E> {
+    /// A value that is not what it should be.
+    Fault(Fault),
+    /// What takes the pieces refused one.
+    Sink(E),
+}
+
+impl<E> From<Fault> for Stop<E> {
+    fn from(fault: Fault) -> Self {
+        Self::Fault(fault)
+    }
+}
+
 impl Fault {
     /// A fault of a value, in words.
     pub(super) fn new(entry: Entry, found: impl Into<String>, expected: impl Into<String>) -> Self {

@@ -46,20 +46,34 @@ pub(super) fn fill(tree: &mut Tree, materials: &mut Vec<Material>) {
     if tree.brushes().iter().flat_map(Brush::materials).all(|material| material != NO_MATERIAL) {
         return;
     }
-    let known = materials.iter().position(|material| material.name == DEFAULT);
-    let number = known.unwrap_or_else(|| {
+    let number = number_of_default(materials);
+    if number.0 as usize == materials.len() {
         materials.push(Material::named(DEFAULT));
-        materials.len() - 1
-    });
-    set_missing(tree, MaterialId(number as u32));
+    }
+    set_missing(tree, number);
+}
+
+/// The number of the default material; that of the next one where there is none of this name.
+pub(super) fn number_of_default(materials: &[Material]) -> MaterialId {
+    let known = materials.iter().position(|material| material.name == DEFAULT);
+    MaterialId(known.unwrap_or(materials.len()) as u32)
 }
 
 /// Gives faces without a material this one.
-pub(super) fn set_missing(tree: &mut Tree, material: MaterialId) {
-    let materials = tree.brushes_mut().iter_mut().flat_map(Brush::materials_mut);
-    for own in materials.filter(|own| **own == NO_MATERIAL) {
+fn set_missing(tree: &mut Tree, material: MaterialId) {
+    tree.brushes_mut().iter_mut().for_each(|brush| {
+        set_missing_of(brush, material);
+    });
+}
+
+/// Gives faces of a brush without a material this one; whether there were any.
+pub(super) fn set_missing_of(brush: &mut Brush, material: MaterialId) -> bool {
+    let mut any = false;
+    for own in brush.materials_mut().filter(|own| **own == NO_MATERIAL) {
         *own = material;
+        any = true;
     }
+    any
 }
 
 /// One warning for each material that nodes name and the file does not define.

@@ -34,6 +34,11 @@ impl<'n> Meshes<'n> {
         Self { folder, textures, names, read: FxHashMap::default(), materials: Vec::new() }
     }
 
+    /// The materials, so far, that are numbered after those of the model.
+    pub(super) fn materials(&self) -> &[Material] {
+        &self.materials
+    }
+
     /// The materials that are numbered after those of the model.
     pub(super) fn into_materials(self) -> Vec<Material> {
         self.materials

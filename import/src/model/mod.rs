@@ -2,7 +2,8 @@
 //!
 //! The format is described in `docs/model-file.md` and, as a JSON Schema, in `docs/model.schema.json`. The stages, each in
 //! its own file: text → flat list of values with their places (`json`), values → names and expressions (`names`, `check`,
-//! `form`, `keys`, `expression`), values → bodies (`values`, `parameters`, `body`, `meshes`, `inline_mesh`), NODEs → one tree (`evaluate`, `copies`). No stage is
+//! `form`, `keys`, `expression`), values → bodies (`values`, `parameters`, `body`, `meshes`, `inline_mesh`), NODEs → one tree, or its
+//! pieces one by one (`evaluate`, `copies`); `prepare` goes through all before that. No stage is
 //! recursive, so a file can be nested as deep as [`MAX_DEPTH`] on any stack.
 
 mod body;
@@ -21,26 +22,23 @@ mod meshes;
 mod names;
 mod order;
 mod parameters;
+mod prepare;
 mod values;
 
+use std::convert::Infallible;
 use std::path::PathBuf;
 
-use planecut_csg::Model;
+use planecut_csg::{Material, Model, TreeSink};
 use serde::{Deserialize, Serialize};
 
 pub use error::ModelError;
 
 use crate::Warning;
-use crate::lines::LineTable;
-use crate::source::{DEFAULT_MAX_PIECES, at_most, shorten, without_byte_order_mark};
-use check::{Checker, Findings, Use};
-use error::{Checked, Fault};
-use evaluate::{Evaluated, Evaluator};
-use json::{Document, Entry, Kind};
-use meshes::Meshes;
-use names::Names;
-use order::{describe_circle, order};
-use parameters::{Definitions, numbers_of};
+use crate::source::DEFAULT_MAX_PIECES;
+use crate::stream::StreamError;
+use error::Stop;
+use evaluate::{Evaluated, Evaluator, Spine};
+use prepare::{Prepared, with_prepared};
 
 pub use crate::source::MAX_TEXT;
 
@@ -48,6 +46,8 @@ pub use crate::source::MAX_TEXT;
 pub const MAX_DEPTH: u32 = 10_000;
 /// Most brushes of a model, copies of instances counted, whatever [`ModelOptions::max_pieces`] is: 4,194,304.
 pub const MAX_BRUSHES: usize = 1 << 22;
+/// Most brushes of a model that is handed on brush by brush, whatever [`ModelOptions::max_pieces`] is: 2^40.
+pub const MAX_STREAMED: u64 = 1 << 40;
 /// Most planes of a model, copies of instances counted: 33,554,432.
 pub const MAX_PLANES: usize = 1 << 25;
 
@@ -58,7 +58,7 @@ pub struct ModelOptions {
     /// Values that replace those of parameters of the file, by name; others that depend on them follow.
     pub parameters: Vec<(String, f64)>,
     /// Most brushes of the model, copies of instances counted, and most corners of all outlines that are made on the way;
-    /// [`DEFAULT_MAX_PIECES`] unless it is set, at most [`MAX_BRUSHES`].
+    /// [`DEFAULT_MAX_PIECES`] unless it is set, at most [`MAX_BRUSHES`], or [`MAX_STREAMED`] where brushes are handed on by [`stream_model`].
     pub max_pieces: usize,
     /// Where mesh files that the model names are looked for; the current folder by default.
     pub folder: PathBuf,
@@ -80,6 +80,19 @@ pub struct ModelImport {
     /// The values of the parameters, in the order of the file.
     pub parameters: Vec<(String, f64)>,
     /// What is doubtful.
+    pub warnings: Vec<Warning>,
+}
+
+/// What a model file held whose brushes were handed on.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ModelSummary {
+    /// Brushes that were handed on.
+    pub brushes: u64,
+    /// The materials of all faces: brushes name them by their places here.
+    pub materials: Vec<Material>,
+    /// As [`ModelImport::parameters`].
+    pub parameters: Vec<(String, f64)>,
+    /// As [`ModelImport::warnings`].
     pub warnings: Vec<Warning>,
 }
 
@@ -108,114 +121,62 @@ pub struct ModelImport {
 /// [`ModelError`], with line and path, where the text is no JSON, not of the form that the format asks for, or says
 /// something that cannot be made.
 pub fn read_model(text: &[u8], name: &str, options: &ModelOptions) -> Result<ModelImport, ModelError> {
-    if text.len() > MAX_TEXT {
-        return Err(ModelError::TooLong { name: name.to_owned(), bytes: text.len() });
-    }
-    let text = decode(without_byte_order_mark(text), name)?;
-    let lines = LineTable::new(text.as_bytes());
-    let document = json::parse(text).map_err(|fault| ModelError::Syntax {
-        name: name.to_owned(),
-        line: lines.line_of(fault.offset),
-        path: fault.path,
-        found: fault.found,
-        expected: fault.expected.to_owned(),
-    })?;
     let limit = options.max_pieces.min(MAX_BRUSHES);
-    let located = |fault: Fault| fault.locate(name, &document, &lines);
-    let root = model_of(&document).map_err(located)?;
-    let mut names = Names::read(&document).map_err(located)?;
-    let set = numbers_of(&options.parameters, &names, name)?;
-    let findings = Checker::new(&document, &names, limit).run(root).map_err(located)?;
-    let order = order_of_definitions(&names, &findings.uses).map_err(located)?;
-    refuse_too_many(&findings, &order, root, limit).map_err(located)?;
-    let warnings = materials::warn_of_unknown(&document, &lines, &findings.unknown_materials);
-    for entry in &findings.unknown_materials {
-        names.material(&document.text(*entry));
-    }
-    let definitions = Definitions::new(&document, &findings.expressions, &names).map_err(located)?;
-    let environment = definitions.environment(&set).map_err(located)?;
-    let mut materials = materials::read(&names, &definitions.values(&environment)).map_err(located)?;
-    let parameters = names.parameters.names.iter().cloned().zip(environment.values.iter().copied()).collect();
-    let meshes = Meshes::new(&options.folder, options.textures, &names);
-    let evaluator = Evaluator::new(&definitions, &names, &lines, &findings.uses, limit, meshes);
-    let Evaluated { mut tree, materials: of_meshes, warnings: more } =
-        evaluator.run(root, environment).map_err(located)?;
-    materials.extend(of_meshes);
-    materials::fill(&mut tree, &mut materials);
-    let warnings = warnings.into_iter().chain(more).collect();
-    Ok(ModelImport { model: Model { materials, tree }, parameters, warnings })
+    let evaluated = with_prepared(text, name, options, limit, |prepared| -> Result<_, Stop<Infallible>> {
+        let Prepared { names, lines, findings, root, environment, mut materials, meshes, .. } = prepared;
+        let evaluator = Evaluator::new(prepared.definitions, names, lines, &findings.uses, limit, meshes);
+        let Evaluated { mut tree, materials: of_meshes, warnings } = evaluator.run(root, environment)?;
+        materials.extend(of_meshes);
+        materials::fill(&mut tree, &mut materials);
+        Ok((Model { materials, tree }, warnings))
+    });
+    let (model, described) = evaluated.map_err(StreamError::into_input)?;
+    Ok(ModelImport { model, parameters: described.parameters, warnings: described.warnings })
 }
 
-/// The keys of the outermost object.
-const ROOT_KEYS: [&str; 6] = ["planecut", "model", "materials", "parameters", "parts", "outlines"];
-/// The version of the format.
-const VERSION: f64 = 1.0;
-
-fn decode<'a>(text: &'a [u8], name: &str) -> Result<&'a str, ModelError> {
-    std::str::from_utf8(text).map_err(|error| {
-        let offset = error.valid_up_to();
-        ModelError::Syntax {
-            name: name.to_owned(),
-            line: LineTable::new(text).line_of(offset),
-            path: "$".to_owned(),
-            found: format!("the byte {:#04x} at offset {offset}", text[offset]),
-            expected: "text in UTF-8".to_owned(),
+/// Reads a model file and hands its brushes to a sink one by one, in the order and with the names, materials and lines that [`read_model`] gives them.
+///
+/// Operations and copies around which there are only operations, copies and uses of parts are sent as they stand, copies one after another and each
+/// set within a union: what they expand to is never in memory. What is below (bodies, hulls, sums) is made as by `read_model`, and held while it is
+/// sent, or while copies of it are. The tree means the same solid as that of `read_model`, which writes a union within a union as one.
+///
+/// [`ModelOptions::max_pieces`] is the most brushes that are sent, up to [`MAX_STREAMED`]. What is held has no more than [`MAX_BRUSHES`] brushes and
+/// [`MAX_PLANES`] planes. Where the model uses mesh files and defines no material called `default`, nothing is sent before all files are read.
+///
+/// ```
+/// use planecut_csg::TreeBuilder;
+/// use planecut_import::model::{ModelOptions, stream_model};
+///
+/// let text = br#"{"planecut": 1, "model": {
+///   "array": {"of": {"box": {"min": [0, 0, 0], "max": [1, 1, 1]}}, "count": [10, 10, 10], "step": [2, 2, 2]}
+/// }}"#;
+/// let mut builder = TreeBuilder::default();
+/// let summary = stream_model(text, "boxes.json", &ModelOptions::default(), &mut builder).unwrap();
+/// assert_eq!((summary.brushes, builder.finish().brushes().len()), (1000, 1000));
+/// ```
+///
+/// # Errors
+/// [`StreamError::Input`] as `read_model`, [`StreamError::Sink`] where the sink does not take a piece. The sink may have taken pieces before either.
+pub fn stream_model<S: TreeSink>(
+    text: &[u8],
+    name: &str,
+    options: &ModelOptions,
+    sink: &mut S,
+) -> Result<ModelSummary, StreamError<ModelError, S::Error>> {
+    let limit = (options.max_pieces as u64).min(MAX_STREAMED);
+    let streamed = with_prepared(text, name, options, limit as usize, |prepared| {
+        let Prepared { names, lines, findings, root, environment, mut materials, meshes, .. } = prepared;
+        let held = options.max_pieces.min(MAX_BRUSHES);
+        let evaluator = Evaluator::new(prepared.definitions, names, lines, &findings.uses, held, meshes);
+        let default = (!findings.has_mesh_files || names.defines_material(materials::DEFAULT))
+            .then(|| materials::number_of_default(&materials));
+        let streamed = Spine::new(evaluator, sink, limit, default, &materials).run(root, environment)?;
+        materials.extend(streamed.materials);
+        if streamed.uses_default && materials::number_of_default(&materials).0 as usize == materials.len() {
+            materials.push(Material::named(materials::DEFAULT));
         }
-    })
-}
-
-/// The model's NODE; the version and the keys of the outermost object are right.
-fn model_of(document: &Document<'_>) -> Checked<Entry> {
-    let root = document.root();
-    if document.kind(root) != Kind::Object {
-        return document.refuse(root, "an object with the keys planecut and model");
-    }
-    let missing = |key: &str| Err(Fault::new(root, document.describe(root), format!("the key `{key}` as well")));
-    match document.member(root, "planecut") {
-        None => return missing("planecut"),
-        Some(version) if document.kind(version) != Kind::Number(VERSION) => {
-            return document.refuse(version, format!("{VERSION}, the version of the format"));
-        }
-        Some(_) => {}
-    }
-    for (key, value) in document.members(root) {
-        let key = document.text(key);
-        if !ROOT_KEYS.contains(&&*key) {
-            let found = format!("the key `{}`", shorten(&key));
-            return Err(Fault::new(value, found, format!("one of {}", ROOT_KEYS.join(", "))));
-        }
-    }
-    document.member(root, "model").map_or_else(|| missing("model"), Ok)
-}
-
-/// The numbers of the definitions, each after all that it uses.
-fn order_of_definitions(names: &Names, uses: &[Use]) -> Checked<Vec<usize>> {
-    let mut needs = vec![Vec::new(); names.vertices()];
-    for Use { user, used, .. } in uses {
-        needs[*user].push(*used);
-    }
-    order(&needs).map_err(|circle| {
-        let next = circle.get(1).unwrap_or(&circle[0]);
-        let place = uses.iter().find(|each| (each.user, each.used) == (circle[0], *next));
-        let entry = place.map_or(Entry::ROOT, |each| each.entry);
-        let found = format!("a circle: {}", describe_circle(&circle, |vertex| names.vertex_name(vertex)));
-        Fault::new(entry, found, "definitions that do not use themselves")
-    })
-}
-
-/// Refuses a model that has too many brushes by its text alone, before the first of them is made.
-fn refuse_too_many(findings: &Findings, order: &[usize], model: Entry, limit: usize) -> Checked<()> {
-    let mut totals = findings.brushes.clone();
-    let mut uses: Vec<&Use> = findings.uses.iter().collect();
-    uses.sort_by_key(|each| each.user);
-    for definition in order {
-        let first = uses.partition_point(|each| each.user < *definition);
-        let own = uses[first..].iter().take_while(|each| each.user == *definition);
-        totals[*definition] += own.map(|each| each.copies * totals[each.used]).sum::<f64>();
-    }
-    if totals[0] <= limit as f64 {
-        return Ok(());
-    }
-    let found = format!("{} or more brushes in all", totals[0]);
-    Err(Fault::new(findings.too_many.unwrap_or(model), found, at_most(limit)))
+        Ok(((streamed.brushes, materials), streamed.warnings))
+    });
+    let ((brushes, materials), described) = streamed?;
+    Ok(ModelSummary { brushes, materials, parameters: described.parameters, warnings: described.warnings })
 }

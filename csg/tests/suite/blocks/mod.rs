@@ -43,8 +43,9 @@ fn measure(meshes: &[Mesh], materials: usize) -> (f64, Vec<f64>) {
 
 /// Compares a model in blocks with the same at once; gives how many blocks there were.
 fn compare(model: &Model, brushes: usize) -> usize {
-    let mut meshes = Vec::new();
+    let (mut meshes, mut area) = (Vec::new(), 0.0);
     let all = evaluate_in_blocks(model, BlockOptions { brushes }, |block| {
+        area += block.solid.area;
         for at in &block.mesh.positions {
             assert!(at.cmpge(block.min).all() && at.cmple(block.max).all());
         }
@@ -61,6 +62,7 @@ fn compare(model: &Model, brushes: usize) -> usize {
     let tolerance = 1e-9 * (1.0 + whole.solid.volume.abs() + whole.solid.area);
     assert!((all.volume - whole.solid.volume).abs() < tolerance);
     assert!((volume - whole.solid.volume).abs() < tolerance);
+    assert!((area - whole.solid.area).abs() < tolerance, "{area} {}", whole.solid.area);
     assert!(areas.iter().zip(&expected).all(|(a, b)| (a - b).abs() < tolerance), "{areas:?} {expected:?}");
     meshes.len()
 }

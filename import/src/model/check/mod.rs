@@ -28,6 +28,8 @@ pub(in crate::model) struct Findings {
     pub(in crate::model) too_many: Option<Entry>,
     /// Names of materials that the file does not define.
     pub(in crate::model) unknown_materials: Vec<Entry>,
+    /// Whether there is a mesh in a file.
+    pub(in crate::model) has_mesh_files: bool,
 }
 
 /// A use of a part or an outline; definitions have numbers, the model itself being 0.

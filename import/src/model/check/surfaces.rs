@@ -9,12 +9,18 @@ impl Checker<'_, '_> {
     /// The name of a mesh file, or an object with it, or with triangles.
     pub(super) fn mesh(&mut self, entry: Entry) -> Checked<()> {
         match self.document.kind(entry) {
-            Kind::Text => Ok(()),
+            Kind::Text => {
+                self.findings.has_mesh_files = true;
+                Ok(())
+            }
             Kind::Object => {
                 self.object(entry, mesh_fields(self.document, entry))?;
                 match self.document.member(entry, "triangles") {
                     Some(triangles) => self.a_material_for_each(entry, triangles, "triangles"),
-                    None => Ok(()),
+                    None => {
+                        self.findings.has_mesh_files = true;
+                        Ok(())
+                    }
                 }
             }
             _ => self.document.refuse(

@@ -5,6 +5,10 @@
 //! itself (copies, hulls, sums, sections) a node starts in a frame of its own, and its result is put in place afterwards.
 
 mod outline;
+mod plan;
+mod spine;
+
+pub(super) use spine::Spine;
 
 use std::borrow::Cow;
 use std::num::NonZeroU32;
@@ -13,7 +17,7 @@ use planecut_csg::{Brush, Material, MaterialId, Operation, Transform, Tree};
 use planecut_shapes::outline::Outline;
 use planecut_shapes::polyhedron::convex_tree;
 use planecut_shapes::{ShapeError, shaping};
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::Warning;
 use crate::lines::LineTable;
@@ -21,13 +25,13 @@ use crate::model::MAX_DEPTH;
 use crate::model::body::Maker;
 use crate::model::budget::{Budget, Size};
 use crate::model::check::Use;
-use crate::model::copies::{count_of_copies, places};
+use crate::model::copies::{Places, count_of_copies, places};
 use crate::model::error::{Checked, Fault};
 use crate::model::form::kind_of;
 use crate::model::inline_mesh::{count_of_triangles, inline_mesh};
 use crate::model::json::Entry;
 use crate::model::keys::{NODE_EXTRAS, NODE_KINDS};
-use crate::model::materials::{NO_MATERIAL, set_missing};
+use crate::model::materials::{NO_MATERIAL, set_missing_of};
 use crate::model::meshes::Meshes;
 use crate::model::names::Names;
 use crate::model::parameters::{Definitions, Environment};
@@ -89,6 +93,8 @@ pub(super) struct Evaluator<'v, 'a> {
     /// How many environments there were.
     environments: u32,
     warnings: Vec<Warning>,
+    /// The nodes, by environment, of which it was said that they are flat: a part may be evaluated as a tree and on the spine.
+    flat: FxHashSet<(Entry, u32)>,
     meshes: Meshes<'v>,
 }
 
@@ -128,6 +134,7 @@ impl<'v, 'a> Evaluator<'v, 'a> {
             budget: Budget::new(limit),
             environments: 0,
             warnings: Vec::new(),
+            flat: FxHashSet::default(),
             meshes,
         }
     }
@@ -137,12 +144,17 @@ impl<'v, 'a> Evaluator<'v, 'a> {
     /// # Errors
     /// [`Fault`] of the first value that cannot be made.
     pub(super) fn run(mut self, node: Entry, environment: Environment) -> Checked<Evaluated> {
-        self.tasks.push(Task::Node(Context::frame(node, environment, 0)));
+        let tree = self.tree_of(Context::frame(node, environment, 0))?;
+        Ok(Evaluated { tree, materials: self.meshes.into_materials(), warnings: self.warnings })
+    }
+
+    /// The tree of one node, while there is nothing else to be done.
+    fn tree_of(&mut self, context: Context) -> Checked<Tree> {
+        self.tasks.push(Task::Node(context));
         while let Some(task) = self.tasks.pop() {
             self.carry_out(task)?;
         }
-        let tree = self.trees.pop().unwrap_or_default();
-        Ok(Evaluated { tree, materials: self.meshes.into_materials(), warnings: self.warnings })
+        Ok(self.trees.pop().unwrap_or_default())
     }
 
     fn carry_out(&mut self, task: Task) -> Checked<()> {
@@ -310,14 +322,8 @@ impl<'v, 'a> Evaluator<'v, 'a> {
     }
 
     fn use_of_part(&mut self, context: &Context, value: Entry) -> Checked<()> {
-        let document = self.definitions.document;
-        let part = self.names.parts.by_name.get(&*document.text(value)).copied().unwrap_or(0);
+        let (part, environment) = self.part_of(context, value)?;
         let entry = self.names.parts.entries[part as usize];
-        let mut environment = context.environment.clone();
-        if let Some(with) = document.member(context.node, "with") {
-            self.environments += 1;
-            environment = self.definitions.within(&environment, with, self.environments)?;
-        }
         if let Some(tree) = self.kept.get(&(part, environment.number)) {
             self.budget.add(context.node, tree)?;
             let placed = self.put(context, tree.clone())?;
@@ -334,6 +340,15 @@ impl<'v, 'a> Evaluator<'v, 'a> {
         Ok(())
     }
 
+    /// The number of a part that a node uses, and the values of parameters within.
+    fn part_of(&mut self, context: &Context, value: Entry) -> Checked<(u32, Environment)> {
+        let document = self.definitions.document;
+        let part = self.names.parts.by_name.get(&*document.text(value)).copied().unwrap_or(0);
+        let Some(with) = document.member(context.node, "with") else { return Ok((part, context.environment.clone())) };
+        self.environments += 1;
+        Ok((part, self.definitions.within(&context.environment, with, self.environments)?))
+    }
+
     fn copies(&mut self, context: &Context, kind: &str, value: Entry) -> Checked<()> {
         let tree = self.used_up(1).pop().unwrap_or_default();
         let maker = Maker { values: self.definitions.values(&context.environment), value, material: context.material };
@@ -344,11 +359,9 @@ impl<'v, 'a> Evaluator<'v, 'a> {
             self.trees.push(tree);
             return Ok(());
         }
-        let place = |map: Checked<Transform>| {
-            let map = maker.values.accept(value, map?.then(&context.map))?;
-            self.put(&Context { map, ..context.clone() }, tree.clone())
-        };
-        let copies = places(&maker, kind)?.map(place).collect::<Checked<Vec<Tree>>>()?;
+        let places = places(&maker, kind)?;
+        let place = |place| self.put(&self.place_of(context, value, &places, place)?, tree.clone());
+        let copies = (0..places.count()).map(place).collect::<Checked<Vec<Tree>>>()?;
         let all = Tree::union(copies);
         self.budget.add(context.node, &all)?;
         self.trees.push(all);
@@ -370,7 +383,8 @@ impl<'v, 'a> Evaluator<'v, 'a> {
             }
             Ok(tree)
         })?;
-        if key == "points" && self.trees.last().is_some_and(|tree| tree.brushes().is_empty()) {
+        let is_flat = key == "points" && self.trees.last().is_some_and(|tree| tree.brushes().is_empty());
+        if is_flat && self.flat.insert((context.node, context.environment.number)) {
             let message = "the hull of the points has no interior: they lie on a plane".to_owned();
             self.warnings.push(Warning::note(line, message));
         }
@@ -415,17 +429,32 @@ impl<'v, 'a> Evaluator<'v, 'a> {
     }
 
     /// A tree where its node wants it: moved, and with material and name where it has none.
-    fn put(&self, context: &Context, tree: Tree) -> Checked<Tree> {
-        let moved = if context.map == Transform::identity() { Ok(tree) } else { tree.transformed(&context.map) };
-        let mut tree =
+    fn put(&self, context: &Context, mut tree: Tree) -> Checked<Tree> {
+        for brush in tree.brushes_mut() {
+            *brush = self.put_brush(context, std::mem::take(brush))?;
+        }
+        Ok(tree)
+    }
+
+    /// The same for a brush.
+    fn put_brush(&self, context: &Context, brush: Brush) -> Checked<Brush> {
+        let moved = if context.map == Transform::identity() { Ok(brush) } else { brush.transformed(&context.map) };
+        let mut brush =
             moved.map_err(|error| Fault::new(context.node, error.to_string(), "a body of less extreme coordinates"))?;
         if context.material != NO_MATERIAL {
-            set_missing(&mut tree, context.material);
+            set_missing_of(&mut brush, context.material);
         }
-        match context.name {
-            Some(name) => Ok(tree.with_name(&self.definitions.document.text(name))),
-            None => Ok(tree),
+        if let (Some(name), None) = (context.name, &brush.name) {
+            brush.name = Some(self.definitions.document.text(name).into_owned());
         }
+        Ok(brush)
+    }
+
+    /// What a copy inherits in one of its places.
+    fn place_of(&self, context: &Context, value: Entry, places: &Places, place: u64) -> Checked<Context> {
+        let values = self.definitions.values(&context.environment);
+        let map = values.accept(value, places.at(&values, place)?.then(&context.map))?;
+        Ok(Context { map, ..context.clone() })
     }
 
     fn line(&self, entry: Entry) -> u32 {

@@ -8,4 +8,5 @@ mod inline_meshes;
 mod limits;
 mod meshes;
 mod schema;
+mod stream;
 mod support;
