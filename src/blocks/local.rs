@@ -81,5 +81,6 @@ fn evaluate_one(plan: &BlockPlan, block: usize) -> Result<(), BlocksError> {
 /// Whether a file is the piece of a block.
 fn is_piece_of(path: &Path, block: &[u8]) -> bool {
     let Ok(file) = File::open(path) else { return false };
-    piece::header(&mut BufReader::new(file)).is_ok_and(|header| header.key == key_of(block))
+    let mut file = BufReader::with_capacity(1 << 18, file);
+    piece::header(&mut file).is_ok_and(|header| header.key == key_of(block) && header.is_followed_by(&mut file))
 }

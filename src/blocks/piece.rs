@@ -34,6 +34,23 @@ pub(super) struct PieceHeader {
     /// All signs that were asked for, those that took integers, and those that took big ones.
     pub(super) signs: [u64; 3],
     pub(super) seams: [SeamDigest; 6],
+    /// SHA-256 of the mesh and the seams that follow.
+    contents: String,
+}
+
+impl PieceHeader {
+    /// Whether what follows the header is what it was.
+    pub(super) fn is_followed_by(&self, contents: &mut impl Read) -> bool {
+        let mut hash = Sha256::new();
+        let mut buffer = [0; 1 << 16];
+        loop {
+            match contents.read(&mut buffer) {
+                Ok(0) => return hexadecimal(&hash.finalize()) == self.contents,
+                Ok(length) => hash.update(&buffer[..length]),
+                Err(_) => return false,
+            }
+        }
+    }
 }
 
 /// The edges on a side of a block: equal for neighbours that fit together, and for no others.
@@ -71,6 +88,15 @@ fn hexadecimal(bytes: &[u8]) -> String {
 /// A block as bytes.
 pub(super) fn encode(block: &Block, place: BlockPlace, key: String) -> io::Result<Vec<u8>> {
     let mesh = &block.mesh;
+    let mut contents = Bytes(Vec::with_capacity(24 * mesh.positions.len() + 16 * mesh.triangles.len()));
+    mesh.positions.iter().for_each(|position| contents.point(*position));
+    mesh.triangles.iter().flatten().for_each(|vertex| contents.u32(*vertex));
+    mesh.triangle_faces.iter().for_each(|face| contents.u32(*face));
+    for face in &mesh.faces {
+        contents.point(face.normal);
+        contents.u32(face.material.0);
+    }
+    block.seams.0.iter().flatten().flatten().for_each(|point| contents.point(*point));
     let [mesh_volume, x, y, z] = enclosed(mesh, block.min);
     let header = PieceHeader {
         key,
@@ -87,19 +113,12 @@ pub(super) fn encode(block: &Block, place: BlockPlace, key: String) -> io::Resul
         noise: (block.noise.collapsed as u64, block.noise.thickest),
         signs: [block.signs.total, block.signs.small_int, block.signs.big],
         seams: std::array::from_fn(|side| SeamDigest::of(&block.seams.0[side])),
+        contents: hexadecimal(&Sha256::digest(&contents.0)),
     };
     let mut to = Bytes::default();
     to.0.extend(MAGIC);
     to.text(&serde_json::to_vec(&header)?);
-    to.0.reserve(24 * mesh.positions.len() + 16 * mesh.triangles.len() + 28 * mesh.faces.len());
-    mesh.positions.iter().for_each(|position| to.point(*position));
-    mesh.triangles.iter().flatten().for_each(|vertex| to.u32(*vertex));
-    mesh.triangle_faces.iter().for_each(|face| to.u32(*face));
-    for face in &mesh.faces {
-        to.point(face.normal);
-        to.u32(face.material.0);
-    }
-    block.seams.0.iter().flatten().flatten().for_each(|point| to.point(*point));
+    to.0.append(&mut contents.0);
     Ok(to.0)
 }
 

@@ -23,9 +23,9 @@ pub(crate) struct ReadingArgs {
     #[arg(long)]
     pub(crate) allow_loss: bool,
     /// Maximum number of convex pieces of a model or tree, and of corners of its outlines, 1 to 4194304: what has more is refused
-    /// before it is made
-    #[arg(long, value_name = "N", default_value_t = DEFAULT_MAX_PIECES, value_parser = parse_pieces)]
-    max_pieces: usize,
+    /// before it is made [default: 1048576; none for a model file with --blocks]
+    #[arg(long, value_name = "N", value_parser = parse_pieces)]
+    max_pieces: Option<usize>,
     /// Whether there is no such limit, as nothing is held of what is made.
     #[arg(skip)]
     is_streamed: bool,
@@ -57,7 +57,7 @@ impl ReadingArgs {
     pub(crate) fn model_options(&self, input: &Input) -> ModelOptions {
         let (parameters, folder) = (self.model.set.clone(), folder_of(input));
         let streamed = usize::try_from(MAX_STREAMED).unwrap_or(usize::MAX);
-        let max_pieces = if self.is_streamed { streamed } else { self.max_pieces };
+        let max_pieces = self.max_pieces.unwrap_or(if self.is_streamed { streamed } else { DEFAULT_MAX_PIECES });
         ModelOptions { parameters, max_pieces, folder, textures: self.keeps_textures }
     }
 
@@ -73,7 +73,7 @@ impl ReadingArgs {
             folder: folder_of(input),
             keep_going,
             keep_touching,
-            max_pieces: self.max_pieces,
+            max_pieces: self.max_pieces.unwrap_or(DEFAULT_MAX_PIECES),
             textures: self.keeps_textures,
         }
     }

@@ -84,9 +84,9 @@ pub struct TileOptions {
 }
 
 impl Default for TileOptions {
-    /// 50,000 triangles and 2,000 tiles in one JSON file: below half a megabyte.
+    /// 50,000 triangles, and 500 tiles in one JSON file: about a tenth of a megabyte.
     fn default() -> Self {
-        Self { triangles: 50_000, tiles_per_file: 2_000, export: ExportOptions::default() }
+        Self { triangles: 50_000, tiles_per_file: 500, export: ExportOptions::default() }
     }
 }
 

@@ -3,6 +3,7 @@
 
 mod assets;
 mod batch;
+mod blocks;
 mod check;
 mod coarsen;
 mod colliders;

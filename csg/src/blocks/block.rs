@@ -77,7 +77,7 @@ impl BlockBuilder {
         materials.push(Material::default());
         let (tree, polarities) = tree.finish();
         let model = Model { materials, tree };
-        let others = OtherBrushes { size, polarities: Some(&polarities) };
+        let others = OtherBrushes { size, polarities: Some(&polarities), walls: Some(wall) };
         let evaluation = evaluate_among(&model, UnboundedBrushes::Keep, &BuiltBodies::default(), others)?;
         let Evaluation { mut mesh, mut solid, noise, signs, .. } = evaluation;
         let triangles = mesh.triangles.len();

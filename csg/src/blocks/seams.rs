@@ -39,7 +39,8 @@ impl SeamEdges {
             let axis = normal.abs().max_position();
             let side = 2 * axis + usize::from(normal[axis] > 0.0);
             let [a, b, c] = mesh.triangles[triangle].map(|vertex| mesh.positions[vertex as usize]);
-            for (from, to) in [(a, b), (b, c), (c, a)] {
+            // an edge whose ends are one point once they are rounded goes nowhere
+            for (from, to) in [(a, b), (b, c), (c, a)].into_iter().filter(|(from, to)| from != to) {
                 let is_forward = key(from) <= key(to);
                 let (first, last) = if is_forward { (from, to) } else { (to, from) };
                 let ends = edges.entry([key(first), key(last)]).or_insert(Ends { first, last, sides: [0; 6] });

@@ -9,7 +9,7 @@ use planecut_kernel::sign::Row;
 use rustc_hash::FxHashSet;
 
 use crate::base::{WEIGHTS, hash_of, sortable};
-use crate::plane_table::{Snapped, first_side, is_exact, key, unit};
+use crate::plane_table::{Snapped, first_side, is_exact, unit};
 use crate::tolerances::SNAP_TOLERANCE;
 
 /// The sum of the weights times the tolerance, and room for rounding.
@@ -28,7 +28,7 @@ pub struct PlaneSurvey {
     has_noise: bool,
 }
 
-/// The place of a plane on a line, and a number that it shares with planes that are exactly the same.
+/// The place of a plane on a line, and a number that it shares with planes that are exactly the same and stated at the same scale, but for powers of two.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct PlaneMark {
     /// The place, in the order of these numbers.
@@ -60,7 +60,10 @@ impl PlaneSurvey {
     pub fn marks(&self, half_space: &HalfSpace) -> impl Iterator<Item = PlaneMark> + use<> {
         let row = first_side(&Row::new(half_space)).0;
         let unit = unit(&row);
-        let plane = hash_of(&key(&row));
+        // different planes can have equal ratios: noise may be lost in a division
+        let largest = row.coefficients()[..3].iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
+        let power = f64::from_bits(largest.to_bits() >> 52 << 52);
+        let plane = hash_of(&row.coefficients().map(|value| (value / power).to_bits()));
         let number = self.number(unit);
         let other = (unit[0] <= SNAP_TOLERANCE).then(|| self.number(unit.map(|v| -v)));
         [Some(number), other].into_iter().flatten().map(move |number| PlaneMark { place: sortable(number), plane })
@@ -178,4 +181,62 @@ pub(super) fn snapped_among<'a>(
     let mut finder = NearPlaneFinder::new(survey, ranges);
     half_spaces.for_each(|half_space| finder.note(half_space));
     finder.finish()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use planecut_kernel::DVec3;
+
+    fn half_space(normal: [f64; 3], offset: f64) -> HalfSpace {
+        HalfSpace::new(DVec3::from_array(normal), offset).expect("a plane")
+    }
+
+    fn snapped(planes: &[HalfSpace]) -> SnappedPlanes {
+        let mut survey = PlaneSurvey::default();
+        planes.iter().for_each(|plane| survey.note(plane));
+        snapped_among(survey, planes.iter())
+    }
+
+    #[test]
+    fn planes_whose_ratios_are_equal_are_told_apart() {
+        // seed of a search for planes that differ in one bit and have the same quotients
+        let mut found = 0;
+        for k in 1..400_u32 {
+            let x = 0.7 + 1e-3 * f64::from(k);
+            let planes = [x, x.next_up()].map(|x| half_space([x, 0.5 * x + 0.1, 0.3], 2.0));
+            let rows = planes.map(|plane| first_side(&Row::new(&plane)).0);
+            if rows[0].ratios() == rows[1].ratios() && !rows[0].is_same_plane(&rows[1]) {
+                found += 1;
+            }
+            let snapped = snapped(&planes);
+            assert_eq!(snapped.of_plane(&planes[0]), snapped.of_plane(&planes[1]), "{planes:?}");
+        }
+        println!("{found} pairs with equal ratios");
+        for k in 1..400_u32 {
+            let x = 1.0 + 1e-3 * f64::from(k);
+            // only the offset differs, by less than the quotient can hold
+            let planes = [1.0, 1.0_f64.next_up()].map(|offset| half_space([x, 0.3, 0.7 * x], offset));
+            let rows = planes.map(|plane| first_side(&Row::new(&plane)).0);
+            found += usize::from(rows[0].ratios() == rows[1].ratios());
+            let snapped = snapped(&planes);
+            assert_eq!(snapped.of_plane(&planes[0]), snapped.of_plane(&planes[1]), "{planes:?}");
+        }
+        assert!(found > 0);
+    }
+
+    #[test]
+    fn a_plane_that_noise_has_turned_over_is_found() {
+        let planes = [half_space([1e-17, 0.6, 0.8], 1.0), half_space([-1e-17, 0.6, 0.8], 1.0)];
+        let snapped = snapped(&planes);
+        assert_eq!(snapped.of_plane(&planes[0]), snapped.of_plane(&planes[1]));
+        assert_eq!(snapped.count(), 1);
+    }
+
+    #[test]
+    fn planes_of_short_integers_are_meant_as_they_are() {
+        let planes =
+            [half_space([3.0, 4.0, 0.0], 1.0), half_space([6.0, 8.0, 0.0], 2.0), half_space([3.0, 4.0, 0.0], 1.5)];
+        assert_eq!(snapped(&planes).count(), 0);
+    }
 }

@@ -158,7 +158,7 @@ pub fn evaluate_built(
 ) -> Result<Evaluation, EvaluateError> {
     let convex = model.tree.brushes().iter().filter(|brush| !brush.is_mesh());
     let size = smallest_size(convex.map(Brush::half_spaces));
-    evaluate_among(model, unbounded, built, OtherBrushes { size, polarities: None })
+    evaluate_among(model, unbounded, built, OtherBrushes::alone(size))
 }
 
 /// What the evaluation of some brushes of a model follows from the others, which are not there.
@@ -168,9 +168,16 @@ pub(crate) struct OtherBrushes<'a> {
     pub(crate) size: f64,
     /// For each leaf the polarity of all that equal it, also of those that are not there; where nothing is given, all are there.
     pub(crate) polarities: Option<&'a [Polarity]>,
+    /// The material of the walls between these brushes and the others.
+    pub(crate) walls: Option<MaterialId>,
 }
 
 impl OtherBrushes<'_> {
+    /// There are none, and the smallest brush has this size.
+    fn alone(size: f64) -> Self {
+        Self { size, polarities: None, walls: None }
+    }
+
     /// Kinds of leaves, of which those are no longer equal that are told apart by others.
     fn kinds(&self, mut kinds: Vec<LeafId>) -> Vec<LeafId> {
         let Some(polarities) = self.polarities else { return kinds };
@@ -234,7 +241,8 @@ pub(crate) fn evaluate_among(
     };
     signs += counted;
     let (evaluated, welding) = (begin.elapsed(), Clock::start());
-    let Welded { mesh, solid, noise, signs: counted, triangulation } = weld(&table, &edges, &rank, &model.materials)?;
+    let Welded { mesh, solid, noise, signs: counted, triangulation } =
+        weld(&table, &edges, &rank, &model.materials, others.walls)?;
     signs += counted;
     let times = StageTimes {
         evaluate: evaluated,
@@ -265,7 +273,7 @@ pub fn mesh_of_union(
     materials: &[Material],
 ) -> Result<(Mesh, SolidMeasures), WeldError> {
     let (edges, _) = boundary_of_union(table, bodies, ranks);
-    let Welded { mesh, solid, .. } = weld(table, &edges, ranks, materials)?;
+    let Welded { mesh, solid, .. } = weld(table, &edges, ranks, materials, None)?;
     Ok((mesh, solid))
 }
 

@@ -19,7 +19,7 @@ use crate::body::{
 use crate::expression::Expression;
 use crate::ids::{Id, LeafId, number32};
 use crate::mesh::{Mesh, Noise, proven};
-use crate::model::{BrushFace, Model};
+use crate::model::{BrushFace, MaterialId, Model};
 use crate::plane_table::{PlaneId, PlaneTable, curve_number};
 use crate::weld::{Welded, weld};
 
@@ -53,7 +53,7 @@ pub(super) fn evaluate_scattered(
     let groups = Groups::of(&extents, &expression, &expression.repeated_leaves(&kinds));
     let polarities = others.polarities(&expression, &kinds);
     drop(kinds);
-    let scene = Scattered { model, built, table: &table, planes: &planes };
+    let scene = Scattered { model, built, table: &table, planes: &planes, walls: others.walls };
     let evaluated = begin.elapsed();
 
     let welding = Clock::start();
@@ -84,7 +84,7 @@ pub(super) fn evaluate_scattered(
             scene.leaves(&leaves, &mut signs).boundary_edges(&table, (&expression, &polarities), &rank);
         signs += counted;
         let Welded { mesh, solid: measures, noise, signs: counted, triangulation } =
-            weld(&table, &edges, &rank, &model.materials)?;
+            weld(&table, &edges, &rank, &model.materials, scene.walls)?;
         signs += counted;
         triangulate += triangulation;
         solid.add(&mesh, &Totals::of(&measures), noise);
@@ -109,6 +109,8 @@ struct Scattered<'a> {
     built: &'a BuiltBodies,
     table: &'a PlaneTable,
     planes: &'a [Vec<PlaneId>],
+    /// The material of walls of a block.
+    walls: Option<MaterialId>,
 }
 
 /// The mesh of some bodies that touch nothing.
@@ -131,7 +133,7 @@ impl Scattered<'_> {
         let mut rest = Vec::new();
         let bodies = leaves.iter().filter_map(|leaf| self.body(*leaf, builder).map(|body| (*leaf, body)));
         let mut mesh = mesh_of(self.table, bodies, &mut rest);
-        match proven(std::mem::take(&mut mesh.mesh), &mesh.totals.measures()) {
+        match proven(std::mem::take(&mut mesh.mesh), &mesh.totals.measures(), self.walls) {
             Ok((proven, noise)) => {
                 mesh.mesh = proven;
                 Alone { mesh, noise, rest }

@@ -8,7 +8,8 @@ use planecut_kernel::{DVec3, HalfSpace};
 
 fn scattered(model: &Model) -> Option<Evaluation> {
     let size = smallest_size(model.tree.brushes().iter().map(Brush::half_spaces));
-    evaluate_scattered(model, UnboundedBrushes::Keep, &BuiltBodies::default(), size).expect("a solid")
+    evaluate_scattered(model, UnboundedBrushes::Keep, &BuiltBodies::default(), OtherBrushes::alone(size))
+        .expect("a solid")
 }
 
 /// Its triangles by what they are, whatever their order and the numbers of their vertices.

@@ -12,14 +12,15 @@ use super::Mesh;
 use super::noise::{Noise, noise_edges};
 use crate::base::DisjointSets;
 use crate::closed_mesh::connectivity::{HalfEdges, NO_TWIN, next};
+use crate::model::MaterialId;
 
 /// No half-edge or vertex yet.
 const NONE: u32 = u32::MAX;
 
 /// Collapses what is joined by edges that are rounding noise, changing the topology where it must: tunnels, gaps, bridges and bubbles
-/// that thin go. A closed, oriented 2-manifold stays one; of any other mesh it gives back nothing.
-pub(super) fn collapse_thin(mesh: &mut Mesh, noise: &mut Noise) -> Option<()> {
-    let Some(place) = places(mesh) else { return Some(()) };
+/// that thin go. A closed, oriented 2-manifold stays one; of any other mesh it gives back nothing. What is at walls stays.
+pub(super) fn collapse_thin(mesh: &mut Mesh, walls: Option<MaterialId>, noise: &mut Noise) -> Option<()> {
+    let Some(place) = places(mesh, walls) else { return Some(()) };
     for (at, place) in mesh.positions.iter().zip(&place) {
         let moved = at.distance(mesh.positions[*place as usize]);
         noise.add(usize::from(moved > 0.0), moved);
@@ -65,8 +66,8 @@ pub(super) fn collapse_thin(mesh: &mut Mesh, noise: &mut Noise) -> Option<()> {
 }
 
 /// For each vertex the least one that edges of noise join it with; nothing where there are no such edges.
-fn places(mesh: &Mesh) -> Option<Vec<u32>> {
-    let edges = noise_edges(mesh);
+fn places(mesh: &Mesh, walls: Option<MaterialId>) -> Option<Vec<u32>> {
+    let edges = noise_edges(mesh, walls);
     let mut sets = DisjointSets::new(mesh.positions.len());
     edges.iter().for_each(|edge| sets.join(edge.ends[0], edge.ends[1]));
     (!edges.is_empty()).then(|| (0..number32(mesh.positions.len())).map(|v| sets.root(v)).collect())

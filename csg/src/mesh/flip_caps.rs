@@ -10,10 +10,11 @@ use planecut_parallel::prelude::*;
 use super::Mesh;
 use super::noise::noise_height;
 use crate::closed_mesh::connectivity::{HalfEdges, NO_TWIN, next, previous};
+use crate::model::MaterialId;
 
 /// Flips away triangles whose height is rounding noise, where that makes no edge that is there already. Faces that lose all their
-/// triangles are dropped. Nothing of a mesh that is not closed.
-pub(super) fn flip_caps(mesh: &mut Mesh) -> Option<()> {
+/// triangles are dropped. Nothing of a mesh that is not closed. Triangles on walls stay.
+pub(super) fn flip_caps(mesh: &mut Mesh, walls: Option<MaterialId>) -> Option<()> {
     let mut caps = flat_triangles(mesh);
     if caps.is_empty() {
         return Some(());
@@ -25,7 +26,15 @@ pub(super) fn flip_caps(mesh: &mut Mesh) -> Option<()> {
     // a flip can make a cap of the neighbour only where that was one; so few rounds do
     for _ in 0..8 {
         let before = caps.len();
-        caps.retain(|cap| long_side(mesh, *cap).is_some_and(|side| !flip(mesh, &mut twins, 3 * *cap + side)));
+        caps.retain(|cap| {
+            long_side(mesh, *cap).is_some_and(|side| {
+                let side = 3 * *cap + side;
+                let is_on_wall =
+                    |h: u32| Some(mesh.faces[mesh.triangle_faces[(h / 3) as usize] as usize].material) == walls;
+                walls.is_some() && (is_on_wall(side) || is_on_wall(twins[side as usize]))
+                    || !flip(mesh, &mut twins, side)
+            })
+        });
         if caps.len() == before || caps.is_empty() {
             break;
         }

@@ -13,6 +13,7 @@ use super::collapse::collapse_thin;
 use super::contract::contract_noise;
 use super::flip_caps::{flat_triangles, flip_caps, is_flat};
 use crate::ids::number32;
+use crate::model::MaterialId;
 use crate::tolerances::CONTRACTION;
 
 /// An edge that is short enough to be noise.
@@ -29,8 +30,16 @@ pub(super) fn largest_coordinate(points: impl Iterator<Item = DVec3>) -> f64 {
     points.map(|point| point.abs().max_element()).fold(0.0, f64::max)
 }
 
+/// The vertices of faces on the walls of a block, of a material of their own: what is at walls stays as it is, noise or not, so that the block beside
+/// it has the same there.
+pub(super) fn vertices_on_walls(mesh: &Mesh, walls: Option<MaterialId>) -> FxHashSet<u32> {
+    let is_on_wall = |face: &u32| Some(mesh.faces[*face as usize].material) == walls;
+    let on_walls = mesh.triangles.iter().zip(&mesh.triangle_faces).filter(|(_, face)| is_on_wall(face));
+    on_walls.flat_map(|(triangle, _)| *triangle).collect()
+}
+
 /// The edges that are noise, shortest first.
-pub(super) fn noise_edges(mesh: &Mesh) -> Vec<NoiseEdge> {
+pub(super) fn noise_edges(mesh: &Mesh, walls: Option<MaterialId>) -> Vec<NoiseEdge> {
     let length = |[a, b]: [u32; 2]| mesh.positions[a as usize].distance(mesh.positions[b as usize]);
     let longest = CONTRACTION * largest_coordinate(mesh.positions.iter().copied());
     let sides = |triangle: &[u32; 3]| {
@@ -39,7 +48,11 @@ pub(super) fn noise_edges(mesh: &Mesh) -> Vec<NoiseEdge> {
     };
     let is_short = |ends: &[u32; 2]| length(*ends) <= longest;
     let all = mesh.triangles.par_iter().with_min_len(4096);
-    let short: Vec<[u32; 2]> = all.flat_map_iter(|triangle| sides(triangle).filter(is_short)).collect();
+    let mut short: Vec<[u32; 2]> = all.flat_map_iter(|triangle| sides(triangle).filter(is_short)).collect();
+    if !short.is_empty() && walls.is_some() {
+        let fixed = vertices_on_walls(mesh, walls);
+        short.retain(|ends| !ends.iter().any(|end| fixed.contains(end)));
+    }
     if short.is_empty() {
         return Vec::new();
     }
@@ -127,16 +140,16 @@ pub(super) fn noise_height(corners: [DVec3; 3]) -> f64 {
 }
 
 /// A mesh without the rounding noise of another that the weld made, and how much that was; nothing where there is none, or where the mesh
-/// is not closed.
-pub(crate) fn without_noise(mesh: &Mesh) -> Option<(Mesh, Noise)> {
-    let edges = noise_edges(mesh);
+/// is not closed. What is at faces of the material of walls stays as it is.
+pub(crate) fn without_noise(mesh: &Mesh, walls: Option<MaterialId>) -> Option<(Mesh, Noise)> {
+    let edges = noise_edges(mesh, walls);
     let caps = flat_triangles(mesh);
     if edges.is_empty() && caps.is_empty() {
         return None;
     }
     let (mut cleared, mut noise) = (mesh.clone(), Noise::default());
     contract_noise(&mut cleared, &edges, &mesh.positions, &mut noise);
-    collapse_thin(&mut cleared, &mut noise)?;
-    flip_caps(&mut cleared)?;
+    collapse_thin(&mut cleared, walls, &mut noise)?;
+    flip_caps(&mut cleared, walls)?;
     Some((cleared, noise))
 }

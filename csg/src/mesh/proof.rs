@@ -9,6 +9,7 @@ use planecut_parallel::prelude::*;
 use super::noise::largest_coordinate;
 use super::{Mesh, Noise, SolidMeasures, without_noise};
 use crate::closed_mesh::connectivity::HalfEdges;
+use crate::model::MaterialId;
 use crate::tolerances::PROOF;
 
 /// Triangles that are summed one after the other, so that sums do not depend on the number of threads.
@@ -65,9 +66,10 @@ impl Sums {
     }
 }
 
-/// A mesh without rounding noise, or, where that would damage it, with it; proven to be the boundary of a solid.
-pub(crate) fn proven(mesh: Mesh, solid: &SolidMeasures) -> Result<(Mesh, Noise), Flaw> {
-    if let Some((cleared, noise)) = without_noise(&mesh)
+/// A mesh without rounding noise, or, where that would damage it, with it; proven to be the boundary of a solid. Noise stays at faces of the material of
+/// walls, where there is one.
+pub(crate) fn proven(mesh: Mesh, solid: &SolidMeasures, walls: Option<MaterialId>) -> Result<(Mesh, Noise), Flaw> {
+    if let Some((cleared, noise)) = without_noise(&mesh, walls)
         && prove_cleared(&cleared, solid, &mesh, noise).is_ok()
     {
         return Ok((cleared, noise));

@@ -146,12 +146,13 @@ struct Regions {
     ranks: Vec<u32>,
 }
 
-/// Welds boundary edges into a mesh; `rank` orders materials by name.
+/// Welds boundary edges into a mesh; `rank` orders materials by name, and noise stays at faces of the material of walls, where there is one.
 pub(crate) fn weld(
     table: &PlaneTable,
     edges: &[BoundaryEdge],
     rank: &[u32],
     materials: &[Material],
+    walls: Option<MaterialId>,
 ) -> Result<Welded, WeldError> {
     let (regions, points, pieces, mut signs) = half_edges(table, edges, rank)?;
     let (nested, counted) = nest(table, &regions, &points, &pieces)?;
@@ -165,7 +166,7 @@ pub(crate) fn weld(
     signs += counted;
     manifold::split_repeated_edges(&mut mesh, &mut labels, |piece| pieces[piece.index()].twin);
     let solid = nested.solid;
-    let (mesh, noise) = proven(mesh, &solid)?;
+    let (mesh, noise) = proven(mesh, &solid, walls)?;
     Ok(Welded { mesh, solid, noise, signs, triangulation: begin.elapsed() })
 }
 
