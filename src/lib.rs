@@ -21,6 +21,8 @@
 //! | [`coarsening`] | the same of solids, meshes and hulls, as others read the cells |
 //! | [`expression`] | solids as operations on solids, evaluated when somebody asks |
 //! | [`reading`], [`triangles`] | solids of any file's bytes, and of triangles that a program has |
+//! | `blocks` | models larger than memory, block by block, here or on many machines (feature `blocks`, on unless turned off) |
+//! | `tiles` | 3D Tiles of them, with coarser levels of proven error (feature `blocks`) |
 //! | `picture` | pictures of meshes and cells (feature `picture`, on unless turned off) |
 //! | `cli` | the `planecut` program, for others that carry it (feature `cli`, on unless turned off) |
 //!

@@ -33,6 +33,7 @@ mod stl;
 mod stored;
 mod surface;
 mod threemf;
+mod write_pieces;
 mod xml;
 
 pub use brushes::{BrushFormat, write_brushes};
@@ -47,8 +48,9 @@ pub use physics::{
     Collider, Cuboid, Engine, EngineLimits, MassProperties, PhysicsFile, PhysicsFormat, PrincipalInertia, RigidBody,
     physics_files,
 };
-pub use pieces::{MeshPieces, PiecesWritten, write_pieces};
+pub use pieces::MeshPieces;
 pub use stored::stored_positions;
+pub use write_pieces::{PiecesWritten, write_pieces};
 
 /// The example of the README, run as a test.
 #[cfg(doctest)]

@@ -11,6 +11,7 @@ pub mod model;
 pub mod scad;
 mod source;
 pub mod stream;
+mod stream_error;
 mod warning;
 
 pub use source::DEFAULT_MAX_PIECES;

@@ -13,7 +13,7 @@ Lengths are in the units of the caller, z is up, axes are right-handed, and tria
 owns; arrays that come in are copied. Long calls release the interpreter's lock and can be interrupted with Ctrl-C.
 """
 
-from . import batch, compat
+from . import batch, blocks, compat
 from ._planecut import (
     Buffers,
     Cell,
@@ -70,6 +70,7 @@ __all__ = [
     "View",
     "__version__",
     "batch",
+    "blocks",
     "box",
     "coarsen",
     "compat",

@@ -101,7 +101,7 @@ pub(crate) fn save_solid(node: &Arc<Node>, path: &Path, options: &str) -> Outcom
 }
 
 /// Says what was noticed, by Python's warnings; what is lost is an error unless that is allowed.
-fn warn(py: Python<'_>, name: &str, warnings: &[Warning], allow_loss: bool) -> PyResult<()> {
+pub(crate) fn warn(py: Python<'_>, name: &str, warnings: &[Warning], allow_loss: bool) -> PyResult<()> {
     if let Some(lost) = warnings.iter().find(|warning| warning.left_out > 0 && !allow_loss) {
         let line = (lost.line > 0).then_some(lost.line as usize);
         let at = line.map_or_else(String::new, |line| format!(":{line}"));
@@ -137,13 +137,7 @@ fn load(
     close: f64,
     parameters: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Solid> {
-    let mut values: Vec<(String, f64)> = Vec::new();
-    for (name, value) in parameters.into_iter().flatten() {
-        let name: String = name.extract()?;
-        let value: f64 =
-            value.extract().map_err(|_| refuse(format!("{name}: found what is no number, expected one")))?;
-        values.push((name, value));
-    }
+    let values = values_of(parameters)?;
     let solid = SolidOptions { rule: winding_of(winding)?, close: not_negative("close", close)?, textures: false };
     let folder = path.parent().map(Path::to_owned).unwrap_or_default();
     let options = ReadOptions { parameters: values, folder, solid };
@@ -151,6 +145,18 @@ fn load(
     let (model, warnings) = Job::default().run(py, move || read(&path, &options))?;
     warn(py, &name, &warnings, allow_loss)?;
     Ok(Solid::of(Node::of_model(model)))
+}
+
+/// Values for parameters of a model file.
+pub(crate) fn values_of(parameters: Option<&Bound<'_, PyDict>>) -> PyResult<Vec<(String, f64)>> {
+    let mut values: Vec<(String, f64)> = Vec::new();
+    for (name, value) in parameters.into_iter().flatten() {
+        let name: String = name.extract()?;
+        let value: f64 =
+            value.extract().map_err(|_| refuse(format!("{name}: found what is no number, expected one")))?;
+        values.push((name, value));
+    }
+    Ok(values)
 }
 
 pub(crate) fn winding_of(name: &str) -> PyResult<WindingRule> {
@@ -171,22 +177,26 @@ fn not_negative(name: &str, value: f64) -> PyResult<f64> {
     }
 }
 
-fn read(path: &Path, options: &ReadOptions) -> Outcome<(Model, Vec<Warning>)> {
-    let name = path.display().to_string();
+/// What a file is, by the ending of its name.
+pub(crate) fn kind_of(path: &Path) -> Outcome<FileKind> {
     let ending = path.extension().unwrap_or_default().to_string_lossy();
-    let Some(kind) = FileKind::from_extension(&ending) else {
-        return Err(at(path, format!("found a file of another kind, expected {ENDINGS}")));
-    };
+    let kind = FileKind::from_extension(&ending);
+    kind.ok_or_else(|| at(path, format!("found a file of another kind, expected {ENDINGS}")))
+}
+
+/// The model of a file, and what was noticed.
+pub(crate) fn read(path: &Path, options: &ReadOptions) -> Outcome<(Model, Vec<Warning>)> {
+    let name = path.display().to_string();
+    let kind = kind_of(path)?;
     let limit = if matches!(kind, FileKind::Mesh(_)) { MAX_MESH } else { MAX_TEXT as u64 };
     let bytes = read_file(path, limit).map_err(|error| at(path, error))?;
-    let failed = |error: ReadError| Failure {
-        message: error.to_string(),
-        path: Some(name.clone()),
-        line: error.line().map(|line| line as usize),
-        json_path: error.json_path().map(str::to_owned),
-        ..Failure::default()
-    };
-    reading::read(&bytes, kind, &name, options).map_err(failed)
+    reading::read(&bytes, kind, &name, options).map_err(|error| unread(path, &error))
+}
+
+/// Why a file was not read.
+pub(crate) fn unread(path: &Path, error: &ReadError) -> Failure {
+    let line = error.line().map(|line| line as usize);
+    Failure { line, json_path: error.json_path().map(str::to_owned), ..said(path, error) }
 }
 
 /// The boundary of a solid as a closed mesh.

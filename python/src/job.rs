@@ -26,6 +26,7 @@ pub(crate) struct Job {
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
     is_short: bool,
+    is_counted: bool,
 }
 
 impl Job {
@@ -40,13 +41,18 @@ impl Job {
         if progress.as_ref().is_some_and(|progress| !progress.bind(py).is_callable()) {
             return Err(refuse("progress: found what cannot be called, expected a function of done and total"));
         }
-        Ok(Self { threads, progress, is_short: false })
+        Ok(Self { threads, progress, ..Self::default() })
     }
 
     /// The same for work that surely takes far less than anybody waits: it costs no thread of its own.
     pub(crate) fn short_if(self, is_short: bool) -> Self {
         let is_short = is_short && self.threads.is_none() && self.progress.is_none();
         Self { is_short, ..self }
+    }
+
+    /// The same for work that knows all of its steps: these are told as they are.
+    pub(crate) fn counted(self) -> Self {
+        Self { is_counted: true, ..self }
     }
 
     /// Does the work.
@@ -62,12 +68,24 @@ impl Job {
         if self.is_short {
             return Ok(py.detach(|| on_threads_of_process(work))?);
         }
+        self.run_watched(py, move |_| work())
+    }
+
+    /// The same for work that has threads of its own, which are to know the watch.
+    ///
+    /// # Errors
+    /// As [`run`](Self::run).
+    pub(crate) fn run_watched<T: Send + 'static>(
+        self,
+        py: Python<'_>,
+        work: impl FnOnce(&Arc<Watch>) -> Outcome<T> + Send + 'static,
+    ) -> PyResult<T> {
         let watch = Watch::new();
         let (sender, mut receiver) = mpsc::channel();
         let (threads, own) = (self.threads, Arc::clone(&watch));
         let begin = move || {
             let outcome =
-                new_pool(threads, Some(&own)).and_then(|pool| pool.install(|| watched(&own, || caught(work))));
+                new_pool(threads, Some(&own)).and_then(|pool| pool.install(|| watched(&own, || caught(|| work(&own)))));
             // nobody waits any more after an interrupt
             let _ = sender.send(outcome);
         };
@@ -103,12 +121,16 @@ impl Job {
     /// Calls the function for progress where there is news.
     fn tell(&self, py: Python<'_>, now: (usize, usize), told: &mut Told, is_end: bool) -> PyResult<()> {
         let Some(progress) = &self.progress else { return Ok(()) };
-        let done = if is_end { Told::TOTAL } else { told.next(now) };
+        let (done, total) = match self.is_counted {
+            // threads tell it in any order
+            true => (if is_end { now.1 } else { told.done.max(now.0) }, now.1),
+            false => (if is_end { Told::TOTAL } else { told.next(now) }, Told::TOTAL),
+        };
         if done == told.done {
             return Ok(());
         }
         told.done = done;
-        progress.call1(py, (done, Told::TOTAL)).map(|_| ())
+        progress.call1(py, (done, total)).map(|_| ())
     }
 }
 

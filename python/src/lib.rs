@@ -5,6 +5,7 @@
 #![deny(missing_docs)]
 
 mod arrays;
+mod blocks;
 mod cells;
 mod coarsen;
 mod command;
@@ -28,6 +29,7 @@ fn _planecut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     errors::register(module)?;
     shapes::register(module)?;
     files::register(module)?;
+    blocks::register(module)?;
     coarsen::register(module)?;
     command::register(module)?;
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;

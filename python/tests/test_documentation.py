@@ -19,7 +19,7 @@ from planecut import _planecut
 PACKAGE = Path(pc.__file__).parent
 STUB = PACKAGE / "_planecut.pyi"
 ARRAYS_IN = {"ArrayLike", "_Outline", "_Hull", "_MeshObject"}
-MODULES = [pc, pc.batch, pc.compat, _planecut]
+MODULES = [pc, pc.batch, pc.blocks, pc.compat, _planecut]
 
 REFERS = "as by `Solid.render`"
 """Says where the rest of a docstring is."""
@@ -142,7 +142,7 @@ def test_classes_say_that_they_are_of_the_package():
 
 
 def test_all_that_is_of_rust_is_public_or_used():
-    assert set(_planecut.__all__) - set(pc.__all__) == {"run_command"}
+    assert set(_planecut.__all__) - set(pc.__all__) - set(pc.blocks.__all__) == {"run_command"}
     assert set(dir(pc)) >= set(pc.__all__)
 
 
@@ -248,12 +248,20 @@ if piece is not None and piece != "unbounded":
     assert_type(piece, pc.Cell)
 assert_type(live.change.removed, list[int])
 assert_type(live.pick([0, 0, 0], [1, 0, 0]), tuple[int, float] | None)
+plan = pc.blocks.plan((s for _ in range(3)), Path("blocks"), brushes=100)
+plan = pc.blocks.plan("model.json", "blocks", allow_loss=True, width=60)
+assert_type(plan.blocks[0].place, tuple[int, int, int])
+pieces = plan.evaluate("ray", workers=4, address="auto", progress=lambda done, total: None)
+assert_type(pieces, pc.blocks.Pieces)
+assert_type(list(pieces), list[pc.Mesh])
+pieces.save("x.glb", scale=2.0)
+assert_type(pc.blocks.evaluate_block(plan.blocks[0].path.read_bytes()), bytes)
 try:
     pc.from_mesh([[0, 0, 0]], [[0, 0, 0]])
 except pc.PlanecutError as error:
     assert_type(error.line, int | None)
 '''
-MISUSE = ["a | 3", "s.mesh(2)", "s.volume()", "pc.coarsen(3)", "edit.add_brush(a, role='paint')", "edit.dissolve(0)", "edit.wrap([0], 'glue')", "edit.remove_brush(node)", "live.tree[0]['name']", "s.render(style='pretty')", "hulls.excess = 1.0", "pc.Solid(1)"]
+MISUSE = ["a | 3", "s.mesh(2)", "s.volume()", "pc.coarsen(3)", "edit.add_brush(a, role='paint')", "edit.dissolve(0)", "edit.wrap([0], 'glue')", "edit.remove_brush(node)", "live.tree[0]['name']", "s.render(style='pretty')", "hulls.excess = 1.0", "pc.Solid(1)", "plan.evaluate('spark')", "pc.blocks.plan([3], 'blocks')"]
 
 
 @needs_mypy

@@ -50,10 +50,9 @@ impl PlanBuilder {
     /// still are what their blocks say.
     ///
     /// # Errors
-    /// [`BlocksError::Io`].
+    /// [`BlocksError::Occupied`] where something else is in the folder: nothing of others is removed; [`BlocksError::Io`].
     pub fn create(folder: &Path, options: BlockOptions) -> Result<Self, BlocksError> {
-        fs::create_dir_all(folder).map_err(BlocksError::io(folder))?;
-        BlockPlan::remove(folder)?;
+        BlockPlan::prepare(folder)?;
         Ok(Self {
             folder: folder.to_owned(),
             options,
@@ -151,6 +150,7 @@ impl PlanBuilder {
         let plan = BlockPlan::new(self.folder, self.options, grid, self.survey.size(), model, materials);
         let plan = scatter(&spool, plan, &snapped, &shared)?;
         fs::remove_file(&spool.path).map_err(BlocksError::io(&spool.path))?;
+        plan.remove_other_pieces()?;
         plan.save()?;
         Ok(plan)
     }

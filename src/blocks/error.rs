@@ -20,6 +20,12 @@ pub enum BlocksError {
         /// What the system says.
         source: io::Error,
     },
+    /// Something else is where a plan is to be.
+    #[error("found {} which is no folder of blocks of planecut, expected one, or an empty folder: nothing is overwritten", path.display())]
+    Occupied {
+        /// The folder.
+        path: PathBuf,
+    },
     /// A brush is not bounded, or a closed mesh.
     #[error("{source}")]
     Brush {

@@ -1,8 +1,5 @@
 //! All blocks of a plan on this machine.
 
-use std::fs::{self, File};
-use std::io::BufReader;
-use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::thread;
@@ -12,7 +9,6 @@ use rayon::ThreadPoolBuilder;
 
 use super::error::BlocksError;
 use super::evaluate::evaluate_block;
-use super::piece::{self, key_of};
 use super::pieces::Pieces;
 use super::plan::BlockPlan;
 
@@ -66,21 +62,10 @@ pub fn evaluate_all(
 
 /// Makes the piece of a block where it is not there.
 fn evaluate_one(plan: &BlockPlan, block: usize) -> Result<(), BlocksError> {
-    let (from, to) = (plan.block_path(block), plan.piece_path(block));
-    let bytes = fs::read(&from).map_err(BlocksError::io(&from))?;
-    if is_piece_of(&to, &bytes) {
-        return Ok(());
-    }
+    let Some(bytes) = plan.missing(block)? else { return Ok(()) };
     let piece = evaluate_block(&bytes).map_err(|error| match error {
-        BlocksError::Damaged { expected, .. } => BlocksError::Damaged { path: from, expected },
+        BlocksError::Damaged { expected, .. } => BlocksError::Damaged { path: plan.block_path(block), expected },
         error => error,
     })?;
-    Ok(write_atomic(&to, &piece)?)
-}
-
-/// Whether a file is the piece of a block.
-fn is_piece_of(path: &Path, block: &[u8]) -> bool {
-    let Ok(file) = File::open(path) else { return false };
-    let mut file = BufReader::with_capacity(1 << 18, file);
-    piece::header(&mut file).is_ok_and(|header| header.key == key_of(block) && header.is_followed_by(&mut file))
+    Ok(write_atomic(plan.piece_path(block), &piece)?)
 }

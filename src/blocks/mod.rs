@@ -6,8 +6,8 @@
 //!
 //! Memory holds one block for each thread, the walls, and what is small beside the model: planes that noise makes different, and brushes that both add and take.
 //!
-//! Way of a model through this folder: [`build`] → [`spool`] (all brushes in a file, with [`sorted`] numbers of them) → [`scatter`] (the files of
-//! blocks, [`plan`]) → [`evaluate`] ([`piece`]) → [`pieces`].
+//! Way of a model through this folder: `build` → `spool` (all brushes in a file, with `sorted` numbers of them) → `scatter` (the files of
+//! blocks, `plan`) → `evaluate` (`piece`) → `pieces`.
 //!
 //! ```
 //! use planecut::blocks::{BlockPlan, PlanBuilder, evaluate_all};

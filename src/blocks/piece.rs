@@ -40,7 +40,7 @@ pub(super) struct PieceHeader {
 
 impl PieceHeader {
     /// Whether what follows the header is what it was.
-    pub(super) fn is_followed_by(&self, contents: &mut impl Read) -> bool {
+    fn is_followed_by(&self, contents: &mut impl Read) -> bool {
         let mut hash = Sha256::new();
         let mut buffer = [0; 1 << 16];
         loop {
@@ -79,6 +79,11 @@ impl SeamDigest {
 /// The key of the piece of a block.
 pub(super) fn key_of(block: &[u8]) -> String {
     format!("{} {}", env!("CARGO_PKG_VERSION"), hexadecimal(&Sha256::digest(block)))
+}
+
+/// Whether what is read is the piece of a block, all of it.
+pub(super) fn is_piece_of(from: &mut impl Read, block: &[u8]) -> bool {
+    header(from).is_ok_and(|header| header.key == key_of(block) && header.is_followed_by(from))
 }
 
 fn hexadecimal(bytes: &[u8]) -> String {

@@ -5,7 +5,7 @@ use std::io::{self, BufReader, Read};
 use std::path::PathBuf;
 
 use planecut_csg::stages::CompensatedSum;
-use planecut_csg::{BlockPlace, Material, Mesh, Noise, SeamEdges, SolidMeasures, unmatched_edges};
+use planecut_csg::{BlockPlace, Material, Mesh, Noise, SeamEdge, SeamEdges, SolidMeasures, unmatched_edges};
 use planecut_export::MeshPieces;
 use planecut_kernel::DVec3;
 use planecut_kernel::sign::Counts;
@@ -68,11 +68,9 @@ impl Pieces {
                 }
                 let other = neighbour.map_or(&nothing, |neighbour| &self.pieces[neighbour].1.seams[side ^ 1]);
                 if header.seams[side] != *other {
-                    let edges = |piece: Option<usize>, side: usize| -> Result<_, BlocksError> {
-                        Ok(piece.map_or_else(
-                            || Ok(Vec::new()),
-                            |piece| self.read(piece).map(|(_, mut seams)| std::mem::take(&mut seams.0[side])),
-                        )?)
+                    let edges = |piece: Option<usize>, side: usize| -> Result<Vec<SeamEdge>, BlocksError> {
+                        let Some(piece) = piece else { return Ok(Vec::new()) };
+                        self.read(piece).map(|(_, mut seams)| std::mem::take(&mut seams.0[side]))
                     };
                     let edges = unmatched_edges(&edges(Some(number), side)?, &edges(neighbour, side ^ 1)?);
                     let (first, second) = if is_larger { (header.place, place) } else { (place, header.place) };

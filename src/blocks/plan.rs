@@ -1,20 +1,26 @@
 //! A plan in its folder.
 
-use std::fs;
-use std::io::ErrorKind;
+use std::fs::{self, File};
+use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
 use planecut_csg::{BlockGrid, BlockOptions, BlockPlace, Material};
 use planecut_export::write_atomic;
+use rustc_hash::FxHashSet;
 use serde::{Deserialize, Serialize};
 
 use super::error::BlocksError;
+use super::piece::is_piece_of;
 
 /// The name of a plan in its folder.
 const NAME: &str = "plan.json";
 /// The folders of blocks and of pieces.
 const BLOCKS: &str = "blocks";
 const PIECES: &str = "pieces";
+/// A file that says whose folder it is.
+const MARKER: &str = "planecut-blocks.txt";
+const MARKED: &str =
+    "Blocks of a model and their meshes, made by planecut. What is in this folder is replaced by the next plan.\n";
 
 /// What a model holds.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
@@ -100,21 +106,73 @@ impl BlockPlan {
         Ok(write_atomic(&path, &text)?)
     }
 
-    /// Removes the plan of a folder and its blocks, and leaves its pieces.
-    pub(super) fn remove(folder: &Path) -> Result<(), BlocksError> {
-        let absent = |error: &std::io::Error| error.kind() == ErrorKind::NotFound;
-        let path = folder.join(NAME);
-        fs::remove_file(&path)
-            .or_else(|error| if absent(&error) { Ok(()) } else { Err(error) })
-            .map_err(BlocksError::io(&path))?;
-        let path = folder.join(BLOCKS);
-        fs::remove_dir_all(&path)
-            .or_else(|error| if absent(&error) { Ok(()) } else { Err(error) })
-            .map_err(BlocksError::io(&path))?;
-        for path in [path, folder.join(PIECES)] {
+    /// Makes a folder ready for a plan: an earlier plan is removed with its blocks, its pieces stay.
+    ///
+    /// # Errors
+    /// [`BlocksError::Occupied`] where something else is in the folder, [`BlocksError::Io`].
+    pub(super) fn prepare(folder: &Path) -> Result<(), BlocksError> {
+        fs::create_dir_all(folder).map_err(BlocksError::io(folder))?;
+        let marker = folder.join(MARKER);
+        let is_own = marker.is_file();
+        for entry in fs::read_dir(folder).map_err(BlocksError::io(folder))? {
+            let path = entry.map_err(BlocksError::io(folder))?.path();
+            if !is_own {
+                return Err(BlocksError::Occupied { path: folder.to_owned() });
+            }
+            let name = path.file_name().unwrap_or_default();
+            let removed = match name == BLOCKS {
+                true => fs::remove_dir_all(&path),
+                false if name == MARKER || name == PIECES => continue,
+                // what an earlier plan has left that was interrupted
+                false => fs::remove_file(&path),
+            };
+            removed.map_err(BlocksError::io(&path))?;
+        }
+        fs::write(&marker, MARKED).map_err(BlocksError::io(&marker))?;
+        for path in [BLOCKS, PIECES].map(|name| folder.join(name)) {
             fs::create_dir_all(&path).map_err(BlocksError::io(&path))?;
         }
         Ok(())
+    }
+
+    /// Removes the pieces of earlier plans that are of no block.
+    pub(super) fn remove_other_pieces(&self) -> Result<(), BlocksError> {
+        let own: FxHashSet<PathBuf> = (0..self.blocks.len()).map(|block| self.piece_path(block)).collect();
+        let folder = self.folder.join(PIECES);
+        for entry in fs::read_dir(&folder).map_err(BlocksError::io(&folder))? {
+            let path = entry.map_err(BlocksError::io(&folder))?.path();
+            if !own.contains(&path) {
+                fs::remove_file(&path).map_err(BlocksError::io(&path))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The bytes of a block whose piece is not there, or is not that of the block: what [`evaluate_block`](super::evaluate_block) takes. Nothing where
+    /// the piece is there.
+    ///
+    /// # Errors
+    /// [`BlocksError::Io`].
+    pub fn missing(&self, block: usize) -> Result<Option<Vec<u8>>, BlocksError> {
+        let (from, to) = (self.block_path(block), self.piece_path(block));
+        let bytes = fs::read(&from).map_err(BlocksError::io(&from))?;
+        let is_there =
+            File::open(to).is_ok_and(|file| is_piece_of(&mut BufReader::with_capacity(1 << 18, file), &bytes));
+        Ok((!is_there).then_some(bytes))
+    }
+
+    /// Takes the piece of a block that was evaluated elsewhere.
+    ///
+    /// # Errors
+    /// [`BlocksError::Damaged`] for bytes that are something else; [`BlocksError::Io`], [`BlocksError::Export`].
+    pub fn store(&self, block: usize, piece: &[u8]) -> Result<(), BlocksError> {
+        let (from, to) = (self.block_path(block), self.piece_path(block));
+        let bytes = fs::read(&from).map_err(BlocksError::io(&from))?;
+        if !is_piece_of(&mut &*piece, &bytes) {
+            let expected = concat!("the piece of this block, of planecut ", env!("CARGO_PKG_VERSION"));
+            return Err(BlocksError::Damaged { path: to, expected });
+        }
+        Ok(write_atomic(&to, piece)?)
     }
 
     /// The blocks, in the order of their places.

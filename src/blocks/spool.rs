@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use planecut_csg::stages::Bounds;
 use planecut_csg::{Brush, BrushFace, BrushPlace, MaterialId, Operation, Polarity};
 use planecut_kernel::HalfSpace;
+use planecut_parallel::job::check;
 
 use super::bytes::{self, Bytes};
 use super::error::BlocksError;
@@ -131,6 +132,8 @@ impl Spool {
         let file = File::open(&self.path).map_err(BlocksError::io(&self.path))?;
         let mut file = BufReader::with_capacity(BUFFER, file);
         while !file.fill_buf().map_err(BlocksError::io(&self.path))?.is_empty() {
+            // the work may be ended from outside
+            check();
             take(piece(&mut file).map_err(BlocksError::io(&self.path))?)?;
         }
         Ok(())

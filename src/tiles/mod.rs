@@ -23,7 +23,7 @@
 //! # Why neighbours fit together
 //!
 //! The boundary of a tile's triangles as a chain lies on its walls, and it is the opposite of those of its neighbours there. An image of a chain's boundary
-//! is the boundary of its image, so images fit together where both sides map the vertices of this boundary alike ([`cluster`] does so), whatever
+//! is the boundary of its image, so images fit together where both sides map the vertices of this boundary alike (`cluster` does so), whatever
 //! happens within. Prisms and octahedra are closed and change nothing about it. Of this the tiles of one height are sure: they close as the model does. Where a viewer shows
 //! tiles of two heights side by side, they are apart by at most the sum of their errors, which is what it takes for small.
 

@@ -231,6 +231,7 @@ fn what_cannot_be_done_in_blocks_is_one_error() {
         ("build gone.json -o a.glb --blocks", 2, "gone.json"),
         ("build gone.map -o a.glb --blocks", 2, "gone.map"),
         ("build box.json --tiles taken", 1, "taken"),
+        ("build box.json -o a.glb --blocks --work-dir taken", 1, "taken which is no folder of blocks"),
     ] {
         let run = run(folder.path(), args);
         run.expect_error(status, words);

@@ -69,10 +69,8 @@ impl Mesh {
     pub(crate) fn drop_unused_positions(&mut self) {
         let mut new = vec![u32::MAX; self.positions.len()];
         self.triangles.iter().flatten().for_each(|vertex| new[*vertex as usize] = 0);
-        let mut count = 0;
-        for number in new.iter_mut().filter(|number| **number == 0) {
-            *number = count;
-            count += 1;
+        for (count, number) in new.iter_mut().filter(|number| **number == 0).enumerate() {
+            *number = number32(count);
         }
         let mut old = 0;
         self.positions.retain(|_| {

@@ -8,7 +8,7 @@ mod numbers;
 mod piece;
 mod seams;
 
-use std::io::{self, Write};
+use std::io;
 
 use glam::DVec3;
 use planecut_csg::Mesh;
@@ -17,8 +17,8 @@ pub(crate) use numbers::{Numbering, Numbers};
 pub(crate) use piece::Piece;
 
 use self::seams::{Joined, Seams};
+use crate::ExportError;
 use crate::part::check_mesh;
-use crate::{ExportError, ExportOptions, Format, gltf, obj, ply, stl};
 
 /// Meshes that together are one closed surface, read one at a time, as often as a writer asks.
 ///
@@ -47,68 +47,6 @@ pub trait MeshPieces {
     fn temporary_file(&self) -> io::Result<std::fs::File> {
         tempfile::tempfile()
     }
-}
-
-/// What [`write_pieces`] has seen.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[non_exhaustive]
-pub struct PiecesWritten {
-    /// How many pieces there are.
-    pub pieces: usize,
-    /// Vertices of the surface; what several pieces share is counted once.
-    pub vertices: u64,
-    /// Triangles, before any of them go that single precision cannot hold. Those that name a vertex twice are left out.
-    pub triangles: u64,
-    /// Edges at which a piece is open and no other goes on: 0 where all of them together are watertight.
-    pub open_edges: u64,
-}
-
-/// Writes pieces of a surface as one file, in memory for a few of them at a time and for the edges at which they meet.
-///
-/// | | |
-/// |---|---|
-/// | OBJ | an object for each piece; vertices at which pieces meet stand in the file once, so that its indices are watertight |
-/// | PLY | the same as one list, unless normals or texture coordinates are asked for: these split vertices |
-/// | STL | one list of triangles; positions at which pieces meet are equal |
-/// | glTF | a mesh node for each piece, on one grid: where pieces meet, translation and position have the same sum to the last bit |
-/// | 3MF | not written: each of its objects must be closed |
-///
-/// The grid of glTF is as fine as single precision (or 16 bits, quantized) at the farthest corner of the largest piece: a step of it is at most
-/// 2⁻²³ (2⁻¹⁴) of how far that reaches from the middle. Nearer to the middle of a piece, and in pieces that are smaller, files of parts are more precise.
-/// `EXT_mesh_manifold` is said of closed pieces alone.
-///
-/// Where a piece touches itself at an open edge, what belongs together is found by the edges, not by positions. Smooth normals, texture coordinates and
-/// tangents follow from each piece by itself. Pieces are read two to four times. glTF is written to a temporary file first
-/// ([`MeshPieces::temporary_file`]), so `out` gets nothing before it is known that the file is not too large; for other formats the survey tells.
-///
-/// # Errors
-/// As for [`write_parts`](crate::write_parts); [`ExportError::NotInPieces`] for 3MF; [`ExportError::ReadPiece`] and [`ExportError::ChangedPiece`] where
-/// a piece cannot be read as it was.
-pub fn write_pieces(
-    pieces: &dyn MeshPieces,
-    format: Format,
-    options: &ExportOptions,
-    out: &mut dyn Write,
-) -> Result<PiecesWritten, ExportError> {
-    options.check()?;
-    if format == Format::ThreeMf {
-        return Err(ExportError::NotInPieces { extension: format.extension() });
-    }
-    let pieces = Pieces::survey(pieces)?;
-    match format {
-        Format::Glb => gltf::write_glb_pieces(&pieces, options, out)?,
-        Format::Gltf => gltf::write_gltf_pieces(&pieces, options, out)?,
-        Format::Obj => obj::write_obj_pieces(&pieces, options, out)?,
-        Format::Stl => stl::write_stl_pieces(&pieces, options, out)?,
-        Format::Ply => ply::write_ply_pieces(&pieces, options, out)?,
-        Format::ThreeMf => {}
-    }
-    Ok(PiecesWritten {
-        pieces: pieces.count(),
-        vertices: pieces.vertices(),
-        triangles: pieces.triangles(),
-        open_edges: pieces.joined.open_edges,
-    })
 }
 
 /// What is known of a piece after the survey.
@@ -140,7 +78,8 @@ pub(crate) struct Pieces<'a> {
 }
 
 impl<'a> Pieces<'a> {
-    fn survey(source: &'a dyn MeshPieces) -> Result<Self, ExportError> {
+    /// Reads each once and finds which open edges belong together.
+    pub(crate) fn survey(source: &'a dyn MeshPieces) -> Result<Self, ExportError> {
         let (mut known, mut seams) = (Vec::new(), Seams::default());
         for number in 0..source.count() {
             let piece = read(source, number)?;
@@ -173,6 +112,11 @@ impl<'a> Pieces<'a> {
     /// Vertices of all; those that are shared are counted once.
     pub(crate) fn vertices(&self) -> u64 {
         self.known.iter().map(|known| known.vertices as u64).sum::<u64>() - self.joined.repeated()
+    }
+
+    /// Edges at which a piece is open and no other goes on.
+    pub(crate) fn open_edges(&self) -> u64 {
+        self.joined.open_edges
     }
 
     /// Triangles of all.

@@ -13,7 +13,7 @@ use super::grammar;
 use super::plane::PlaneError;
 use super::{MapOptions, MapSummary};
 use crate::Warning;
-use crate::stream::StreamError;
+use crate::stream_error::StreamError;
 
 /// Builds the brushes of one map.
 pub(super) struct Builder<'a> {

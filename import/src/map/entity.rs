@@ -8,7 +8,7 @@ use super::error::MapError;
 use super::grammar::{Brush, Event, NOWHERE, Primitive, point_of};
 use super::plane::Point;
 use crate::source::shorten;
-use crate::stream::StreamError;
+use crate::stream_error::StreamError;
 
 /// An entity that has begun.
 #[derive(Debug, Default)]

@@ -12,7 +12,7 @@ use super::grammar::{self, Brush};
 use super::window::Window;
 use super::{MapOptions, MapSummary};
 use crate::source::MAX_TEXT;
-use crate::stream::StreamError;
+use crate::stream_error::StreamError;
 
 /// Bytes of text in memory: 4 MiB.
 const WINDOW: usize = 1 << 22;

@@ -35,7 +35,7 @@ pub use error::ModelError;
 
 use crate::Warning;
 use crate::source::DEFAULT_MAX_PIECES;
-use crate::stream::StreamError;
+use crate::stream_error::StreamError;
 use error::Stop;
 use evaluate::{Evaluated, Evaluator, Spine};
 use prepare::{Prepared, with_prepared};

@@ -14,7 +14,7 @@ use super::{MAX_TEXT, ModelOptions};
 use crate::Warning;
 use crate::lines::LineTable;
 use crate::source::{at_most, shorten, without_byte_order_mark};
-use crate::stream::StreamError;
+use crate::stream_error::StreamError;
 
 /// A text that was checked, ready for evaluation.
 pub(super) struct Prepared<'v, 'a> {
