@@ -10,7 +10,7 @@ use planecut_csg::{
 };
 
 use super::error::BlocksError;
-use super::plan::{BlockPlan, ModelCounts};
+use super::plan::{BlockPlan, ModelCounts, SPOOL};
 use super::scatter::scatter;
 use super::sorted::Sorter;
 use super::spool::{Leaf, Piece, Spool, SpoolWriter};
@@ -57,7 +57,7 @@ impl PlanBuilder {
             folder: folder.to_owned(),
             options,
             leaves_out_unbounded: false,
-            spool: SpoolWriter::create(&folder.join("brushes"))?,
+            spool: SpoolWriter::create(&folder.join(SPOOL))?,
             waiting: Vec::new(),
             brushes: Vec::new(),
             survey: BlockSurvey::default(),

@@ -17,6 +17,9 @@ const NAME: &str = "plan.json";
 /// The folders of blocks and of pieces.
 const BLOCKS: &str = "blocks";
 const PIECES: &str = "pieces";
+/// The file of all brushes, and what names of sorted ones begin with: gone once a plan is made.
+pub(super) const SPOOL: &str = "brushes";
+pub(super) const SORTED: &str = "sorted-";
 /// A file that says whose folder it is.
 const MARKER: &str = "planecut-blocks.txt";
 const MARKED: &str =
@@ -119,14 +122,13 @@ impl BlockPlan {
             if !is_own {
                 return Err(BlocksError::Occupied { path: folder.to_owned() });
             }
-            let name = path.file_name().unwrap_or_default();
-            let removed = match name == BLOCKS {
-                true => fs::remove_dir_all(&path),
-                false if name == MARKER || name == PIECES => continue,
-                // what an earlier plan has left that was interrupted
-                false => fs::remove_file(&path),
-            };
-            removed.map_err(BlocksError::io(&path))?;
+            let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            if name == BLOCKS {
+                fs::remove_dir_all(&path).map_err(BlocksError::io(&path))?;
+            } else if [NAME, SPOOL].contains(&&*name) || name.starts_with(SORTED) {
+                // some of it is what a plan has left that was interrupted; what others have put there stays
+                fs::remove_file(&path).map_err(BlocksError::io(&path))?;
+            }
         }
         fs::write(&marker, MARKED).map_err(BlocksError::io(&marker))?;
         for path in [BLOCKS, PIECES].map(|name| folder.join(name)) {

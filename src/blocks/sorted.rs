@@ -10,6 +10,7 @@ use planecut_parallel::prelude::*;
 
 use super::bytes;
 use super::error::BlocksError;
+use super::plan::SORTED;
 
 /// Pairs of a run: 32 MB.
 const RUN: usize = 1 << 21;
@@ -40,7 +41,7 @@ impl Sorter {
     fn spill(&mut self) -> Result<(), BlocksError> {
         self.pairs.par_sort_unstable();
         self.pairs.dedup();
-        let path = self.folder.join(format!("sorted-{}", self.runs.len()));
+        let path = self.folder.join(format!("{SORTED}{}", self.runs.len()));
         let write = || {
             let mut file = BufWriter::with_capacity(1 << 20, File::create(&path)?);
             for (first, second) in &self.pairs {
