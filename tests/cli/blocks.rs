@@ -6,7 +6,7 @@ use std::path::Path;
 use planecut_testkit::data::data;
 use serde_json::{Value, json};
 
-use crate::support::{Run, agree, command, everything_in, finish, folder, keep, planecut, run_with};
+use crate::support::{Run, agree, command, everything_in, files_below, finish, folder, keep, planecut, run_with};
 
 /// Towers in rows, with a hall cut through all of them.
 const CITY: &str = r#"{"planecut": 1, "materials": {"stone": {"color": [0.5, 0.5, 0.45]}, "brick": {}}, "model": {"difference": [
@@ -130,25 +130,6 @@ fn the_same_bytes_come_of_any_number_of_threads() {
     let [one, three] = ["one", "three"].map(|name| files_below(&folder.path().join(name)));
     assert!(one.len() > 10, "{}", one.len());
     assert_eq!(one, three);
-}
-
-/// All files below a folder, by their paths from there, with their bytes.
-fn files_below(folder: &Path) -> Vec<(String, Vec<u8>)> {
-    let mut found = Vec::new();
-    let mut open = vec![folder.to_owned()];
-    while let Some(next) = open.pop() {
-        for entry in fs::read_dir(next).expect("a folder") {
-            let path = entry.expect("an entry").path();
-            if path.is_dir() {
-                open.push(path);
-            } else {
-                let name = path.strip_prefix(folder).expect("below it").display().to_string();
-                found.push((name, fs::read(&path).expect("a file")));
-            }
-        }
-    }
-    found.sort();
-    found
 }
 
 #[test]

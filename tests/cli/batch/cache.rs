@@ -6,7 +6,8 @@ use std::path::PathBuf;
 use serde_json::{Value, json};
 
 use super::CUBE;
-use super::support::{Batch, files_below};
+use super::support::Batch;
+use crate::support::files_below;
 use crate::support::finish;
 
 fn boxes(count: usize) -> Vec<Value> {

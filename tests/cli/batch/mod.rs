@@ -11,8 +11,8 @@ use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
-use crate::support::{command, finish, folder, planecut};
-use support::{Batch, files_below};
+use crate::support::{command, files_below, finish, folder, planecut};
+use support::Batch;
 
 #[test]
 fn every_job_gives_the_bytes_of_its_command() {

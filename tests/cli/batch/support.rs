@@ -57,21 +57,3 @@ impl Batch {
         text.lines().filter_map(|line| serde_json::from_str(line).ok()).collect()
     }
 }
-
-/// All files below a folder with their content, by name.
-pub(super) fn files_below(folder: &Path) -> Vec<(String, Vec<u8>)> {
-    let (mut files, mut folders) = (Vec::new(), vec![folder.to_owned()]);
-    while let Some(next) = folders.pop() {
-        for entry in fs::read_dir(next).expect("a folder") {
-            let path = entry.expect("an entry").path();
-            if path.is_dir() {
-                folders.push(path);
-            } else {
-                let name = path.strip_prefix(folder).expect("below").display().to_string();
-                files.push((name, fs::read(&path).expect("read")));
-            }
-        }
-    }
-    files.sort();
-    files
-}
