@@ -43,7 +43,7 @@ pub use blocks::{
     Block, BlockBuilder, BlockGrid, BlockNode, BlockOperation, BlockOptions, BlockPlace, BlockSides, BlockSurvey,
     BlocksError, BlocksSummary, BrushPlace, FirstOperand, NearPlaneFinder, NearRanges, PlaneMark, PlaneSurvey,
     PolarityStack, SeamEdge, SeamEdges, SharedBrushes, SnappedPlanes, TreeScatter, UnboundedBrush, brush_mark,
-    evaluate_in_blocks, unmatched_edges,
+    evaluate_in_blocks, uncancelled_edges, unmatched_edges,
 };
 pub use body::BuiltBodies;
 pub use closed_mesh::{ClosedMesh, ClosedMeshError, WindingRule};

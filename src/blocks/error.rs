@@ -66,6 +66,12 @@ pub enum BlocksError {
         /// How many edges.
         edges: usize,
     },
+    /// Blocks do not fit together around a line in which two walls cross: a bug in planecut.
+    #[error("blocks do not fit together where walls cross: {edges} edges there have no like")]
+    Crossing {
+        /// How many edges.
+        edges: usize,
+    },
     /// A mesh is not written.
     #[error(transparent)]
     Export(#[from] ExportError),

@@ -34,6 +34,8 @@ pub(super) struct PieceHeader {
     /// All signs that were asked for, those that took integers, and those that took big ones.
     pub(super) signs: [u64; 3],
     pub(super) seams: [SeamDigest; 6],
+    /// The edges on lines in which walls cross.
+    pub(super) crossings: Vec<SeamEdge>,
     /// SHA-256 of the mesh and the seams that follow.
     contents: String,
 }
@@ -101,7 +103,7 @@ pub(super) fn encode(block: &Block, place: BlockPlace, key: String) -> io::Resul
         contents.point(face.normal);
         contents.u32(face.material.0);
     }
-    block.seams.0.iter().flatten().flatten().for_each(|point| contents.point(*point));
+    block.seams.sides.iter().flatten().flatten().for_each(|point| contents.point(*point));
     let [mesh_volume, x, y, z] = enclosed(mesh, block.min);
     let header = PieceHeader {
         key,
@@ -117,7 +119,8 @@ pub(super) fn encode(block: &Block, place: BlockPlace, key: String) -> io::Resul
         mesh_area: DVec3::new(x, y, z),
         noise: (block.noise.collapsed as u64, block.noise.thickest),
         signs: [block.signs.total, block.signs.small_int, block.signs.big],
-        seams: std::array::from_fn(|side| SeamDigest::of(&block.seams.0[side])),
+        seams: std::array::from_fn(|side| SeamDigest::of(&block.seams.sides[side])),
+        crossings: block.seams.crossings.clone(),
         contents: hexadecimal(&Sha256::digest(&contents.0)),
     };
     let mut to = Bytes::default();
@@ -158,8 +161,8 @@ pub(super) fn contents(header: &PieceHeader, from: &mut impl Read) -> io::Result
     mesh.triangle_faces = read_all(header.triangles, || bytes::u32(from))?;
     let mut face = || Ok(MeshFace { normal: bytes::point(from)?, material: MaterialId(bytes::u32(from)?) });
     mesh.faces = read_all(header.faces, &mut face)?;
-    let mut seams = SeamEdges::default();
-    for (edges, digest) in seams.0.iter_mut().zip(&header.seams) {
+    let mut seams = SeamEdges { crossings: header.crossings.clone(), ..SeamEdges::default() };
+    for (edges, digest) in seams.sides.iter_mut().zip(&header.seams) {
         *edges = read_all(digest.edges, || Ok([bytes::point(from)?, bytes::point(from)?]))?;
     }
     let is_right = mesh.triangles.iter().flatten().all(|vertex| (*vertex as usize) < mesh.positions.len())

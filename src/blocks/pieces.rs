@@ -5,7 +5,9 @@ use std::io::{self, BufReader, Read};
 use std::path::PathBuf;
 
 use planecut_csg::stages::CompensatedSum;
-use planecut_csg::{BlockPlace, Material, Mesh, Noise, SeamEdge, SeamEdges, SolidMeasures, unmatched_edges};
+use planecut_csg::{
+    BlockPlace, Material, Mesh, Noise, SeamEdge, SeamEdges, SolidMeasures, uncancelled_edges, unmatched_edges,
+};
 use planecut_export::MeshPieces;
 use planecut_kernel::DVec3;
 use planecut_kernel::sign::Counts;
@@ -53,6 +55,10 @@ impl Pieces {
 
     /// Compares the edges on both sides of each wall.
     fn prove_seams(&self) -> Result<(), BlocksError> {
+        let edges = uncancelled_edges(self.pieces.iter().flat_map(|(_, header)| &header.crossings));
+        if edges > 0 {
+            return Err(BlocksError::Crossing { edges });
+        }
         let numbers: FxHashMap<BlockPlace, usize> =
             self.pieces.iter().enumerate().map(|(number, (_, header))| (header.place, number)).collect();
         let nothing = SeamDigest::none();
@@ -70,7 +76,7 @@ impl Pieces {
                 if header.seams[side] != *other {
                     let edges = |piece: Option<usize>, side: usize| -> Result<Vec<SeamEdge>, BlocksError> {
                         let Some(piece) = piece else { return Ok(Vec::new()) };
-                        self.read(piece).map(|(_, mut seams)| std::mem::take(&mut seams.0[side]))
+                        self.read(piece).map(|(_, mut seams)| std::mem::take(&mut seams.sides[side]))
                     };
                     let edges = unmatched_edges(&edges(Some(number), side)?, &edges(neighbour, side ^ 1)?);
                     let (first, second) = if is_larger { (header.place, place) } else { (place, header.place) };

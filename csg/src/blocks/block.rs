@@ -81,7 +81,7 @@ impl BlockBuilder {
         let evaluation = evaluate_among(&model, UnboundedBrushes::Keep, &BuiltBodies::default(), others)?;
         let Evaluation { mut mesh, mut solid, noise, signs, .. } = evaluation;
         let triangles = mesh.triangles.len();
-        let seams = SeamEdges::part(&mut mesh, wall);
+        let seams = SeamEdges::part(&mut mesh, wall, &bounds);
         mesh.materials = model.materials;
         mesh.materials.pop();
         if mesh.triangles.len() < triangles {

@@ -6,9 +6,17 @@ use rustc_hash::FxHashMap;
 
 use crate::base::Bounds;
 use crate::model::{Brush, BrushFace, MaterialId};
+use crate::tolerances::SNAP_TOLERANCE;
 
-/// Walls lie at odd multiples of a step so short that no grid of a few thousand steps has planes or corners there.
+/// Walls lie between multiples of a step so short that no grid of a few thousand steps has planes or corners there.
 const STEPS: f64 = (1 << 18) as f64;
+
+/// The shortest step, relative to the largest coordinate: many times the tolerance of planes that are nearly the same.
+const LEAST_STEP: f64 = 4096.0 * SNAP_TOLERANCE;
+
+/// Where between them, across each axis: fractions without a simple ratio, so that a plane along a diagonal of such a grid does not go
+/// through the line in which two walls cross.
+const FRACTIONS: [f64; 3] = [521.0 / 1024.0, 365.0 / 1024.0, 619.0 / 1024.0];
 
 /// No more walls are put across an axis.
 const MOST_WALLS: usize = 2047;
@@ -31,7 +39,9 @@ impl BlockGrid {
     /// Walls between which lie at most `most` of some points within a box, where walls can part them.
     pub(super) fn new(all: &Bounds, points: &[DVec3], most: usize) -> Self {
         let mut grid = Self { walls: [0, 1, 2].map(|axis| vec![all.min[axis], all.max[axis]]) };
-        let steps = (all.max - all.min).to_array().map(|extent| (extent / STEPS).log2().floor().exp2());
+        // far from the origin a wall next to a plane would be taken for it
+        let least = (LEAST_STEP * all.min.abs().max(all.max.abs()).max_element()).log2().ceil().exp2();
+        let steps = (all.max - all.min).to_array().map(|extent| (extent / STEPS).log2().floor().exp2().max(least));
         while let Some((axis, wall)) = grid.next_wall(points, most, steps) {
             let at = grid.walls[axis].partition_point(|other| *other < wall);
             grid.walls[axis].insert(at, wall);
@@ -57,7 +67,7 @@ impl BlockGrid {
             let mut along: Vec<f64> = within.map(|point| point[axis]).collect();
             let half = along.len() / 2;
             let (_, median, _) = along.select_nth_unstable_by(half, f64::total_cmp);
-            let wall = ((*median / steps[axis]).floor() + 0.5) * steps[axis];
+            let wall = ((*median / steps[axis]).floor() + FRACTIONS[axis]) * steps[axis];
             let parts = along.iter().any(|at| *at < wall) && along.iter().any(|at| *at > wall);
             (parts && block.min[axis] < wall && wall < block.max[axis]).then_some((axis, wall))
         })

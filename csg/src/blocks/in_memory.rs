@@ -9,7 +9,7 @@ use super::block::{Block, BlockBuilder};
 use super::grid::{BlockGrid, BlockPlace, BlockSides};
 use super::polarity::{PolarityStack, SharedBrushes, brush_mark};
 use super::scatter::{BlockNode, TreeScatter};
-use super::seams::{SeamEdge, SeamEdges, unmatched_edges};
+use super::seams::{SeamEdge, SeamEdges, uncancelled_edges, unmatched_edges};
 use super::snapping::snapped_among;
 use super::survey::{BlockSurvey, BrushPlace};
 use super::{BlockOptions, UnboundedBrush};
@@ -117,7 +117,8 @@ pub fn evaluate_in_blocks<E>(
         summary.open_edges += seams.meet(place, &block.seams);
         take(block).map_err(BlocksError::Taker)?;
     }
-    summary.open_edges += seams.0.into_values().map(|edges| edges.len()).sum::<usize>();
+    summary.open_edges += seams.sides.into_values().map(|edges| edges.len()).sum::<usize>();
+    summary.open_edges += uncancelled_edges(&seams.crossings);
     Ok(summary)
 }
 
@@ -170,22 +171,28 @@ fn told_blocks(
     told
 }
 
-/// The edges on walls of which the other side has not come yet, by the block of larger coordinates and the axis that its wall is across.
+/// The edges on walls of which the other side has not come yet.
 #[derive(Default)]
-struct WaitingSeams(FxHashMap<(BlockPlace, usize), Vec<SeamEdge>>);
+struct WaitingSeams {
+    /// By the block of larger coordinates and the axis that its wall is across.
+    sides: FxHashMap<(BlockPlace, usize), Vec<SeamEdge>>,
+    /// Where walls cross, of all blocks: there are hardly any.
+    crossings: Vec<SeamEdge>,
+}
 
 impl WaitingSeams {
     /// Compares the edges of a block with those of the blocks before it; gives how many have no like.
     fn meet(&mut self, place: BlockPlace, seams: &SeamEdges) -> usize {
         let mut unmatched = 0;
+        self.crossings.extend_from_slice(&seams.crossings);
         for axis in 0..3 {
-            let before = self.0.remove(&(place, axis)).unwrap_or_default();
+            let before = self.sides.remove(&(place, axis)).unwrap_or_default();
             unmatched += unmatched_edges(&before, seams.side(axis, false));
             let after = seams.side(axis, true);
             if !after.is_empty() {
                 let mut next = place;
                 next[axis] += 1;
-                self.0.insert((next, axis), after.to_vec());
+                self.sides.insert((next, axis), after.to_vec());
             }
         }
         unmatched

@@ -27,7 +27,7 @@ pub use grid::{BlockGrid, BlockPlace, BlockSides};
 pub use in_memory::{BlocksError, BlocksSummary, evaluate_in_blocks};
 pub use polarity::{PolarityStack, SharedBrushes, brush_mark};
 pub use scatter::{BlockNode, BlockOperation, FirstOperand, TreeScatter};
-pub use seams::{SeamEdge, SeamEdges, unmatched_edges};
+pub use seams::{SeamEdge, SeamEdges, uncancelled_edges, unmatched_edges};
 pub use snapping::{NearPlaneFinder, NearRanges, PlaneMark, PlaneSurvey, SnappedPlanes};
 pub use survey::{BlockSurvey, BrushPlace};
 

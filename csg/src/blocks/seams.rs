@@ -3,28 +3,33 @@
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
-use crate::base::sortable;
+use crate::base::{Bounds, sortable};
 use crate::mesh::Mesh;
 use crate::model::MaterialId;
 
 /// An edge from one point to another.
 pub type SeamEdge = [DVec3; 2];
 
-/// The edges in which the mesh of a block ends on its walls, by side (as [`BlockSides`](super::BlockSides) counts them). They are sorted, and directed as in the
-/// block of larger coordinates, so that two neighbours fit together exactly where their lists are equal.
+/// The edges in which the mesh of a block ends on its walls.
 #[derive(Debug, Clone, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct SeamEdges(pub [Vec<SeamEdge>; 6]);
+pub struct SeamEdges {
+    /// By side (as [`BlockSides`](super::BlockSides) counts them). They are sorted, and directed as in the block of larger coordinates, so that two
+    /// neighbours fit together exactly where their lists are equal.
+    pub sides: [Vec<SeamEdge>; 6],
+    /// Those on a line in which two walls cross, where a face goes through it: it goes on in any of the blocks around the line. They are sorted, and directed
+    /// as in the mesh of the block: what is there of all blocks must cancel.
+    pub crossings: Vec<SeamEdge>,
+}
 
 impl SeamEdges {
     /// The side of a block across an axis: that of larger coordinates, or of smaller ones.
     #[must_use]
     pub fn side(&self, axis: usize, is_larger: bool) -> &[SeamEdge] {
-        &self.0[2 * axis + usize::from(is_larger)]
+        &self.sides[2 * axis + usize::from(is_larger)]
     }
 
-    /// Drops the faces on walls from a mesh and gives the edges in which what is left ends there.
-    pub(super) fn part(mesh: &mut Mesh, wall: MaterialId) -> Self {
+    /// Drops the faces on walls from the mesh of a block and gives the edges in which what is left ends there.
+    pub(super) fn part(mesh: &mut Mesh, wall: MaterialId, block: &Bounds) -> Self {
         let mut seams = Self::default();
         let is_wall: Vec<bool> = mesh.faces.iter().map(|face| face.material == wall).collect();
         if !is_wall.contains(&true) {
@@ -51,14 +56,24 @@ impl SeamEdges {
             if sides.iter().sum::<i32>() == 0 {
                 continue;
             }
+            let is_on_wall = |axis: &usize| {
+                first[*axis] == last[*axis] && [block.min, block.max].iter().any(|end| end[*axis] == first[*axis])
+            };
+            if (0..3).filter(is_on_wall).count() > 1 {
+                let count: i32 = sides.iter().sum();
+                let edge = if count < 0 { [first, last] } else { [last, first] };
+                seams.crossings.extend(std::iter::repeat_n(edge, count.unsigned_abs() as usize));
+                continue;
+            }
             for (side, count) in sides.into_iter().enumerate().filter(|(_, count)| *count != 0) {
                 // as a triangle that is kept goes along it, and turned over on one of each two sides that meet
                 let is_forward = (count < 0) == (side % 2 == 0);
                 let edge = if is_forward { [first, last] } else { [last, first] };
-                seams.0[side].extend(std::iter::repeat_n(edge, count.unsigned_abs() as usize));
+                seams.sides[side].extend(std::iter::repeat_n(edge, count.unsigned_abs() as usize));
             }
         }
-        seams.0.iter_mut().for_each(|edges| edges.sort_unstable_by_key(|edge| edge.map(key)));
+        let lists = seams.sides.iter_mut().chain([&mut seams.crossings]);
+        lists.for_each(|edges| edges.sort_unstable_by_key(|edge| edge.map(key)));
         mesh.triangle_faces = kept.iter().map(|triangle| mesh.triangle_faces[*triangle]).collect();
         mesh.triangles = kept.iter().map(|triangle| mesh.triangles[*triangle]).collect();
         mesh.drop_empty_faces();
@@ -76,6 +91,18 @@ struct Ends {
 
 fn key(at: DVec3) -> [u64; 3] {
     (at + 0.0).to_array().map(sortable)
+}
+
+/// How many of some edges are left where those of opposite directions cancel.
+#[must_use]
+pub fn uncancelled_edges<'a>(edges: impl IntoIterator<Item = &'a SeamEdge>) -> usize {
+    let mut counts: FxHashMap<[[u64; 3]; 2], i32> = FxHashMap::default();
+    for [from, to] in edges {
+        let is_forward = key(*from) <= key(*to);
+        let ends = if is_forward { [key(*from), key(*to)] } else { [key(*to), key(*from)] };
+        *counts.entry(ends).or_default() += if is_forward { 1 } else { -1 };
+    }
+    counts.into_values().map(|count| count.unsigned_abs() as usize).sum()
 }
 
 /// Number of edges that are in one of two sorted lists alone.

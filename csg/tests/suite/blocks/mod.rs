@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 use planecut_csg::{
-    BlockOptions, BlocksError, Brush, EvaluateError, Material, MaterialId, Mesh, Model, Transform, Tree,
+    BlockOptions, BlocksError, Brush, BrushFace, EvaluateError, Material, MaterialId, Mesh, Model, Transform, Tree,
     UnboundedBrush, evaluate, evaluate_in_blocks,
 };
 use planecut_kernel::HalfSpace;
@@ -205,12 +205,12 @@ fn brushes_that_are_equal_in_one_block_alone_are_told_apart_there() {
 
 #[test]
 fn blocks_fit_where_edges_are_as_short_as_noise() {
-    // a millimetre in coordinates of a planet: points where planes meet are no better than a share of an edge
+    // centimetres in the coordinates of a map of a country: what is shorter than 5e-6 there is noise
     let mut noise = 0;
     for seed in 0..6 {
         let rng = &mut Rng::spread(seed);
-        let away = Transform::translation(DVec3::splat(9e7)).unwrap();
-        let map = Transform::scale(DVec3::splat(1e-3)).unwrap().then(&away).unwrap();
+        let away = Transform::translation(DVec3::splat(5e6)).unwrap();
+        let map = Transform::scale(DVec3::splat(1e-2)).unwrap().then(&away).unwrap();
         let tree = Tree::union_of(brushes(rng, 60)).transformed(&map).unwrap();
         let model = Model { materials: materials(), tree };
         let all = evaluate_in_blocks(&model, BlockOptions { brushes: 6 }, |block| {
@@ -221,4 +221,47 @@ fn blocks_fit_where_edges_are_as_short_as_noise() {
         assert_eq!((all.blocks > 8, all.open_edges), (true, 0), "seed {seed}");
     }
     assert!(noise > 0);
+}
+
+#[test]
+fn faces_through_the_line_in_which_two_walls_cross_go_on_in_any_block_around_it() {
+    // a slab along a diagonal through each line in which walls cross, one at a time: most leave the walls where they were
+    let mut crossings = 0;
+    for seed in 0..2 {
+        let others = brushes(&mut Rng::spread(70 + seed), 60);
+        let [across_x, across_y] = walls_of(&others);
+        for (x, y) in across_x[1..].iter().flat_map(|x| across_y[1..].iter().map(move |y| (*x, *y))) {
+            for slope in [1.0, -1.0, 0.5] {
+                let normal = DVec3::new(1.0, slope, 0.0);
+                let at = normal.dot(DVec3::new(x, y, 0.0));
+                let slab = [HalfSpace::new(normal, at).unwrap(), HalfSpace::new(-normal, 0.25 - at).unwrap()];
+                let mut brush = Brush::cuboid(DVec3::new(0.0, 0.0, 1.0), DVec3::new(12.0, 5.0, 1.75), MaterialId(1));
+                brush.faces.extend(slab.map(|half_space| BrushFace { half_space, material: MaterialId(1) }));
+                let tree = Tree::union_of(others.iter().cloned().chain([brush]).collect());
+                let model = Model { materials: materials(), tree };
+                let all = evaluate_in_blocks(&model, BlockOptions { brushes: 6 }, |block| {
+                    crossings += block.seams.crossings.len();
+                    Ok::<(), ()>(())
+                });
+                assert_eq!(all.unwrap().open_edges, 0, "seed {seed}: {x} {y} {slope}");
+            }
+        }
+    }
+    assert!(crossings > 10, "{crossings}");
+}
+
+/// The coordinates of the walls across x and y of a union in blocks.
+fn walls_of(brushes: &[Brush]) -> [Vec<f64>; 2] {
+    let model = Model { materials: materials(), tree: Tree::union_of(brushes.to_vec()) };
+    let mut walls = [Vec::new(), Vec::new()];
+    evaluate_in_blocks(&model, BlockOptions { brushes: 6 }, |block| {
+        walls.iter_mut().enumerate().for_each(|(axis, walls)| walls.push(block.min[axis]));
+        Ok::<(), ()>(())
+    })
+    .unwrap();
+    for walls in &mut walls {
+        walls.sort_by(f64::total_cmp);
+        walls.dedup();
+    }
+    walls
 }
