@@ -2,30 +2,11 @@
 //! the whole process.
 #![cfg(target_os = "linux")]
 
-use std::io::{self, Write};
+mod peak_memory;
 
 use planecut_export::{ExportOptions, Format, Part, write_parts};
 
-/// Counts bytes and forgets them.
-struct Counter(u64);
-
-impl Write for Counter {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.0 += bytes.len() as u64;
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        Ok(())
-    }
-}
-
-/// The most memory that this process ever had, in bytes.
-fn peak() -> Option<u64> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
-    line.split_whitespace().nth(1)?.parse::<u64>().ok().map(|kilobytes| 1024 * kilobytes)
-}
+use peak_memory::{Counter, peak};
 
 #[test]
 fn a_million_triangles_take_less_than_three_times_their_file() {

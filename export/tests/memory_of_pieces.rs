@@ -2,12 +2,16 @@
 //! the whole process.
 #![cfg(target_os = "linux")]
 
+mod peak_memory;
+
 use std::f64::consts::TAU;
-use std::io::{self, Write};
+use std::io;
 
 use glam::DVec3;
 use planecut_csg::{Material, MaterialId, Mesh, MeshFace};
 use planecut_export::{ExportOptions, Format, MeshPieces, write_pieces};
+
+use peak_memory::{Counter, peak};
 
 /// Sides of the bar, and rows of squares on each side of a piece: 5,000 triangles.
 const SIDES: u32 = 50;
@@ -61,27 +65,6 @@ impl MeshPieces for Bar {
         mesh.faces = (0..SIDES + 2).map(|face| MeshFace { normal: normal(face), material: MaterialId(0) }).collect();
         Ok(mesh)
     }
-}
-
-/// Counts bytes and forgets them.
-struct Counter(u64);
-
-impl Write for Counter {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.0 += bytes.len() as u64;
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        Ok(())
-    }
-}
-
-/// The most memory that this process ever had, in bytes.
-fn peak() -> Option<u64> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
-    line.split_whitespace().nth(1)?.parse::<u64>().ok().map(|kilobytes| 1024 * kilobytes)
 }
 
 /// All triangles would take 240 MB as a mesh, and as much again in files.

@@ -27,8 +27,7 @@ pub(super) const OPERATION: u8 = 1;
 pub(super) const END: u8 = 2;
 
 /// The numbers of what a first operand is.
-pub(super) const FIRSTS: [FirstOperand; 4] =
-    [FirstOperand::Here, FirstOperand::Empty, FirstOperand::Full, FirstOperand::None];
+pub(super) const FIRSTS: [FirstOperand; 3] = [FirstOperand::Here, FirstOperand::Empty, FirstOperand::Full];
 
 /// A block while it is told what there is.
 #[derive(Default)]

@@ -49,7 +49,7 @@ pub struct BlockBuilder {
 }
 
 impl BlockBuilder {
-    /// A block of a box ([`BlockGrid::bounds`](super::BlockGrid::bounds)), in a model of so many materials.
+    /// A block of a box ([`BlockGrid::bounds`](super::BlockGrid::bounds)), in a model with this number of materials.
     #[must_use]
     pub fn new(bounds: Bounds, materials: usize) -> Self {
         Self { tree: BlockTree::default(), bounds, wall: MaterialId(number32(materials)) }

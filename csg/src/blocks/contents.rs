@@ -29,12 +29,12 @@ impl BlockTree {
         self.nodes.push(TreeNode::Leaf);
     }
 
-    /// Adds an operation on the results that came last; `None` where there are not so many.
+    /// Adds an operation on the results that came last; `None` where there are fewer.
     pub(super) fn operation(&mut self, told: &BlockOperation) -> Option<()> {
         let first = self.results.len().checked_sub(told.here as usize)?;
         let mut operands = self.results.split_off(first);
         match told.first {
-            FirstOperand::Here | FirstOperand::None => {}
+            FirstOperand::Here => {}
             FirstOperand::Empty => operands.insert(0, None),
             FirstOperand::Full => {
                 // before the others: which operand is the first counts

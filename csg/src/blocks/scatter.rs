@@ -44,8 +44,6 @@ pub enum FirstOperand {
     Empty,
     /// Everything.
     Full,
-    /// There is no operand.
-    None,
 }
 
 /// Follows a tree that goes by, and says what each block is told of it.

@@ -46,21 +46,20 @@ impl SeamEdges {
             let [a, b, c] = mesh.triangles[triangle].map(|vertex| mesh.positions[vertex as usize]);
             // an edge whose ends are one point once they are rounded goes nowhere
             for (from, to) in [(a, b), (b, c), (c, a)].into_iter().filter(|(from, to)| from != to) {
-                let is_forward = key(from) <= key(to);
-                let (first, last) = if is_forward { (from, to) } else { (to, from) };
-                let ends = edges.entry([key(first), key(last)]).or_insert(Ends { first, last, sides: [0; 6] });
-                ends.sides[side] += if is_forward { 1 } else { -1 };
+                let (ends, way) = undirected(&[from, to]);
+                let (first, last) = if way > 0 { (from, to) } else { (to, from) };
+                edges.entry(ends).or_insert(Ends { first, last, sides: [0; 6] }).sides[side] += way;
             }
         }
         for Ends { first, last, sides } in edges.into_values() {
-            if sides.iter().sum::<i32>() == 0 {
+            let count: i32 = sides.iter().sum();
+            if count == 0 {
                 continue;
             }
             let is_on_wall = |axis: &usize| {
                 first[*axis] == last[*axis] && [block.min, block.max].iter().any(|end| end[*axis] == first[*axis])
             };
             if (0..3).filter(is_on_wall).count() > 1 {
-                let count: i32 = sides.iter().sum();
                 let edge = if count < 0 { [first, last] } else { [last, first] };
                 seams.crossings.extend(std::iter::repeat_n(edge, count.unsigned_abs() as usize));
                 continue;
@@ -93,14 +92,19 @@ fn key(at: DVec3) -> [u64; 3] {
     (at + 0.0).to_array().map(sortable)
 }
 
+/// The ends of an edge, the lesser one first, and whether it goes from that (1) or to it (-1).
+fn undirected([from, to]: &SeamEdge) -> ([[u64; 3]; 2], i32) {
+    let (from, to) = (key(*from), key(*to));
+    if from <= to { ([from, to], 1) } else { ([to, from], -1) }
+}
+
 /// How many of some edges are left where those of opposite directions cancel.
 #[must_use]
 pub fn uncancelled_edges<'a>(edges: impl IntoIterator<Item = &'a SeamEdge>) -> usize {
     let mut counts: FxHashMap<[[u64; 3]; 2], i32> = FxHashMap::default();
-    for [from, to] in edges {
-        let is_forward = key(*from) <= key(*to);
-        let ends = if is_forward { [key(*from), key(*to)] } else { [key(*to), key(*from)] };
-        *counts.entry(ends).or_default() += if is_forward { 1 } else { -1 };
+    for edge in edges {
+        let (ends, way) = undirected(edge);
+        *counts.entry(ends).or_default() += way;
     }
     counts.into_values().map(|count| count.unsigned_abs() as usize).sum()
 }

@@ -112,7 +112,7 @@ impl BlockSurvey {
     /// Where walls go.
     #[must_use]
     pub fn grid(&self, options: BlockOptions) -> BlockGrid {
-        // of as many brushes the sample has so many
+        // the number of middles that the sample has of as many brushes
         let of_sample = options.brushes.max(1) as u64 >> self.sample.shift;
         BlockGrid::new(&self.bounds, &self.sample.middles, usize::try_from(of_sample.max(1)).unwrap_or(usize::MAX))
     }

@@ -147,7 +147,7 @@ impl Shape {
         &self.bounds
     }
 
-    /// Those of its first planes, of which there are so many, that have no face.
+    /// The numbers of the first `planes` planes that have no face.
     pub(super) fn without_face(&self, planes: usize) -> Vec<u32> {
         if self.faces.len() == planes {
             return Vec::new();

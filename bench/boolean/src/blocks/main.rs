@@ -1,6 +1,6 @@
 //! Models larger than memory: boxes that come one after another and are kept nowhere, planned, evaluated block by block and proven to fit.
 //!
-//! `blocks N KIND THREADS FOLDER [BRUSHES]`: N random boxes, `aligned` or `rotated`, on a number of threads, in blocks of so many brushes; FOLDER takes what
+//! `blocks N KIND THREADS FOLDER [BRUSHES]`: N random boxes, `aligned` or `rotated`, on THREADS threads, in blocks of about BRUSHES brushes; FOLDER takes what
 //! is written on the way. Prints a line of JSON: seconds after the last box, with the plan, and in all, and the largest memory of the process (Linux).
 
 use std::path::Path;
