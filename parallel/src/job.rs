@@ -74,6 +74,12 @@ pub fn watched<T>(watch: &Arc<Watch>, work: impl FnOnce() -> T) -> T {
     work()
 }
 
+/// The watch of the current thread.
+#[cfg(feature = "threads")]
+pub(crate) fn current() -> Option<Arc<Watch>> {
+    CURRENT.with_borrow(Clone::clone)
+}
+
 /// Ends the work by unwinding with [`Stopped`], without a message, where its watch says so.
 pub fn check() {
     let is_stopped = |watch: &Arc<Watch>| watch.is_stopped.load(Ordering::Relaxed);

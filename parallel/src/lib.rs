@@ -1,7 +1,7 @@
 //! Loops over many elements: on all processor cores by `rayon` with feature `threads`, on the calling thread without it.
 //!
 //! The names are rayon's, and what is given back is the same: results in the order of the elements. Of rayon's methods those are here that
-//! planecut's crates call; where one is missing, the build without `threads` says so. [`join`] and [`map_parts`] are for short work as well, that is over before another thread is awake.
+//! planecut's crates call; where one is missing, the build without `threads` says so. [`join`] and [`map_parts`] are for short work as well, that is over before another thread is awake; [`in_pool`] is for work of many loops.
 //!
 //! ```
 //! use planecut_parallel::prelude::*;
@@ -20,12 +20,12 @@ mod one_thread;
 mod parts;
 
 #[cfg(feature = "threads")]
-pub use parts::{join, map_parts};
+pub use parts::{in_pool, join, map_parts};
 #[cfg(feature = "threads")]
 pub use rayon::{current_num_threads, prelude};
 
 #[cfg(not(feature = "threads"))]
-pub use one_thread::{current_num_threads, join, map_parts, prelude};
+pub use one_thread::{current_num_threads, in_pool, join, map_parts, prelude};
 
 #[cfg(test)]
 mod tests;

@@ -10,6 +10,11 @@ pub const fn current_num_threads() -> usize {
     1
 }
 
+/// The result of work.
+pub fn in_pool<R>(work: impl FnOnce() -> R) -> R {
+    work()
+}
+
 /// The results of two functions.
 pub fn join<A, B>(first: impl FnOnce() -> A, second: impl FnOnce() -> B) -> (A, B) {
     let first = first();

@@ -6,6 +6,22 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
+use crate::job;
+
+/// The result of work that is done by a thread of the pool, so that its loops and joins begin without waiting for one to awake; where the calling thread is one,
+/// it does the work itself. What watches the calling thread watches the work.
+pub fn in_pool<R: Send>(work: impl FnOnce() -> R + Send) -> R {
+    if rayon::current_thread_index().is_some() {
+        return work();
+    }
+    let watch = job::current();
+    let work = || match watch {
+        Some(watch) => job::watched(&watch, work),
+        None => work(),
+    };
+    rayon::scope(|_| work())
+}
+
 /// The results of two functions, of which the calling thread does the first one.
 pub fn join<A, B: Send>(first: impl FnOnce() -> A, second: impl FnOnce() -> B + Send) -> (A, B) {
     if rayon::current_num_threads() == 1 {

@@ -54,6 +54,24 @@ fn parts_keep_their_order() {
 }
 
 #[test]
+fn work_in_the_pool_is_watched_as_its_caller() {
+    use crate::job::{Stopped, Watch, check, progress, watched};
+
+    let watch = Watch::new();
+    let sum = watched(&watch, || {
+        crate::in_pool(|| {
+            progress(3, 7);
+            crate::in_pool(|| crate::map_parts(10, |k| k).into_iter().sum::<usize>())
+        })
+    });
+    assert_eq!((sum, watch.progress()), (45, (3, 7)));
+    watch.stop();
+    let ended = std::panic::catch_unwind(|| watched(&watch, || crate::in_pool(check)));
+    assert!(ended.unwrap_err().is::<Stopped>());
+    crate::in_pool(check);
+}
+
+#[test]
 fn a_part_that_panics_ends_the_work() {
     let outcome = std::panic::catch_unwind(|| crate::map_parts(100, |part| assert!(part != 60, "this one")));
     assert_eq!(outcome.unwrap_err().downcast_ref(), Some(&"this one"));

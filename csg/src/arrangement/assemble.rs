@@ -55,7 +55,7 @@ impl Arranged<'_> {
         sums.push(of_cut);
         let solid = total(&sums).solid(middle, &bounds);
         if may_be_noise(&part.mesh) {
-            let (mesh, noise) = proven(mesh, &solid, None)?;
+            let (mesh, noise) = proven(mesh, &solid, None, false)?;
             return Ok((mesh, solid, noise));
         }
         prove_part(&part.mesh, middle, [of_cut.six_volume.value() / 6.0, of_cut.area.value()], solid.area)?;

@@ -1,9 +1,11 @@
 //! Work shared out among threads in chunks, with a count of the signs that it asked for.
 
+use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use planecut_kernel::sign::Counts;
 use planecut_parallel::job;
+use planecut_parallel::prelude::*;
 
 /// Chunks for each thread, so that none waits long for the last one.
 const PER_THREAD: usize = 8;
@@ -29,23 +31,51 @@ pub(crate) fn map_weighed_chunks<T: Sync, R: Send>(
     size: impl Fn(&T) -> usize,
     work: impl Fn(&[T]) -> R + Sync,
 ) -> (Vec<R>, Counts) {
-    let all: usize = items.iter().map(&size).sum();
-    let enough = (all / (PER_THREAD * planecut_parallel::current_num_threads())).max(least);
-    let mut sum = 0;
-    // a chunk ends where the sum of sizes passes what is enough
-    let ends = (1..=items.len()).filter(|end| {
-        sum += size(&items[end - 1]);
-        sum >= enough && std::mem::take(&mut sum) > 0
-    });
-    let mut chunks = Vec::new();
-    let mut start = 0;
-    for end in ends {
-        chunks.push(&items[start..end]);
-        start = end;
-    }
-    chunks.extend(Some(&items[start..]).filter(|rest| !rest.is_empty()));
+    let runs = weighed_runs(items.len(), least, |k| size(&items[k]));
+    let chunks: Vec<&[T]> = runs.into_iter().map(|run| &items[run]).collect();
     let stage = Stage::new(chunks.len());
     in_order(planecut_parallel::map_parts(chunks.len(), |k| stage.counted(|| work(chunks[k]))))
+}
+
+/// Runs of items of different sizes, for threads to share: each but the last is at least of size `least`, the sizes of its items added.
+pub(crate) fn weighed_runs(count: usize, least: usize, size: impl Fn(usize) -> usize) -> Vec<Range<usize>> {
+    let all: usize = (0..count).map(&size).sum();
+    let enough = (all / (PER_THREAD * planecut_parallel::current_num_threads())).max(least);
+    let (mut start, mut sum) = (0, 0);
+    let mut runs = Vec::new();
+    for k in 0..count {
+        sum += size(k);
+        if sum >= enough && sum > 0 {
+            runs.push(start..k + 1);
+            (start, sum) = (k + 1, 0);
+        }
+    }
+    runs.extend((start < count).then_some(start..count));
+    runs
+}
+
+/// Parts of a slice that follow one another, of some lengths.
+pub(crate) fn split_by<T>(mut slice: &mut [T], lengths: impl Iterator<Item = usize>) -> Vec<&mut [T]> {
+    let part = |length: usize| {
+        let (part, rest) = std::mem::take(&mut slice).split_at_mut(length);
+        slice = rest;
+        part
+    };
+    lengths.map(part).collect()
+}
+
+/// The elements of some parts one after another, each made from that of the part, in parallel.
+pub(crate) fn concat<'a, S: Sync + 'a, T: Copy + Default + Send>(
+    parts: usize,
+    part: impl Fn(usize) -> &'a [S] + Sync,
+    make: impl Fn(usize, &S) -> T + Sync,
+) -> Vec<T> {
+    let mut all = vec![T::default(); (0..parts).map(|k| part(k).len()).sum()];
+    let slices = split_by(&mut all, (0..parts).map(|k| part(k).len()));
+    slices.into_par_iter().enumerate().for_each(|(k, slice)| {
+        slice.iter_mut().zip(part(k)).for_each(|(to, from)| *to = make(k, from));
+    });
+    all
 }
 
 /// Chunks that are worked on, for whoever watches.

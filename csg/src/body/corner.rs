@@ -6,6 +6,7 @@ use planecut_kernel::sign::{Homogeneous, Sign};
 
 use crate::base::Bounds;
 use crate::ids::{BodyId, CornerId, Id};
+use crate::plane_table::{PlaneId, PlaneTable};
 
 /// Three products and three sums, each rounded, and more.
 const PLANE_VALUE_BOUND: f64 = 8.0 * f64::EPSILON;
@@ -27,6 +28,11 @@ impl PlaneFilter {
         Self { normal, offset, reach: normal.abs().element_sum(), room: PLANE_VALUE_BOUND * offset.abs() }
     }
 
+    /// The components of the normal, the offset, the sum of the normal's magnitudes, and room for the rounding of the offset.
+    pub(crate) fn numbers(&self) -> [f64; 6] {
+        [self.normal.x, self.normal.y, self.normal.z, self.offset, self.reach, self.room]
+    }
+
     /// On which side of the plane a corner certainly is; zero where that is not certain.
     pub(crate) fn side(&self, corner: &Corner) -> Sign {
         let value = self.normal.dot(corner.at) - self.offset;
@@ -41,11 +47,9 @@ impl PlaneFilter {
     }
 }
 
-/// A corner of a polygon.
+/// A meeting point of three planes that are known where it is used: what it lies beside is told by them where plain numbers leave it open.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Corner {
-    /// For asking sides.
-    pub(crate) point: Homogeneous,
     /// Where it is, rounded a few times.
     pub(crate) at: DVec3,
     /// How far off each coordinate may be, with room for the rounding of a dot product with the coordinates; infinite where
@@ -63,7 +67,7 @@ impl Corner {
     /// No corner of a body.
     pub(crate) const NEW: CornerId = CornerId::NONE;
 
-    pub(crate) fn new(point: Homogeneous) -> Self {
+    pub(crate) fn new(point: &Homogeneous) -> Self {
         let [x, y, z, w] = point.value;
         let at = DVec3::new(x, y, z) / w;
         let permanent = DVec3::new(point.permanent[0], point.permanent[1], point.permanent[2]);
@@ -73,7 +77,19 @@ impl Corner {
             at.is_finite() && error.is_finite() && point.permanent[3] * (16.0 * f64::EPSILON) <= 0.5 * w.abs();
         let error =
             if is_known { error.max_element() + PLANE_VALUE_BOUND * at.abs().max_element() } else { f64::INFINITY };
-        Self { point, at, error, within: Self::NOWHERE, number: Self::NEW }
+        Self { at, error, within: Self::NOWHERE, number: Self::NEW }
+    }
+
+    /// On which side of a plane it lies; `planes` are those that meet in it, right-handed.
+    #[inline]
+    pub(crate) fn side(&self, table: &PlaneTable, planes: [PlaneId; 3], plane: PlaneId) -> Sign {
+        if planes.iter().any(|other| other.index() == plane.index()) {
+            return Sign::Zero;
+        }
+        match PlaneFilter::new(table.half_space(plane)).side(self) {
+            Sign::Zero => exact_side(table, planes, plane),
+            certain => certain,
+        }
     }
 
     /// Whether its coordinates are right to ten digits; the bound for their error is far larger than the error.
@@ -84,12 +100,19 @@ impl Corner {
     }
 }
 
+/// On which side of a plane the meeting point of three others lies.
+#[cold]
+#[inline(never)]
+fn exact_side(table: &PlaneTable, planes: [PlaneId; 3], plane: PlaneId) -> Sign {
+    table.side(planes, &table.homogeneous(planes), plane)
+}
+
 impl Bounds {
     /// The box grown so that it surely holds a meeting point.
     #[inline]
     #[must_use]
     pub fn with_point(self, point: &Homogeneous) -> Self {
-        self.with_corner(&Corner::new(*point))
+        self.with_corner(&Corner::new(point))
     }
 
     /// The box grown so that it surely holds a corner.

@@ -17,7 +17,7 @@ mod shape;
 use std::sync::{Arc, OnceLock};
 
 use planecut_kernel::sign::Sign;
-use planecut_kernel::{IncrementalPolytope, PlaneIdx};
+use planecut_kernel::{DVec3, IncrementalPolytope, PlaneIdx};
 
 use crate::base::Bounds;
 use crate::ids::{BodyFaceId, Id};
@@ -133,6 +133,16 @@ impl Body {
     #[inline]
     pub(crate) fn corner_count(&self) -> usize {
         self.corners.different.len()
+    }
+
+    /// A corner that lies far in a direction, though not always the farthest one.
+    pub(crate) fn corner_toward(&self, table: &PlaneTable, direction: DVec3) -> &Corner {
+        let farthest = |corner: &&Corner, other: &&Corner| corner.at.dot(direction).total_cmp(&other.at.dot(direction));
+        let farthest = match self.polar_dual(table) {
+            Some(dual) => self.corners(&self.faces[dual.face_toward(direction).index()]).max_by(farthest),
+            None => self.all_corners().iter().max_by(farthest),
+        };
+        farthest.expect("a body has corners")
     }
 
     /// Whether all of some corners surely lie beyond one of its planes.

@@ -8,7 +8,7 @@
 
 use std::sync::OnceLock;
 
-use planecut_kernel::sign::{Row, Sign};
+use planecut_kernel::sign::{Homogeneous, Row, Sign};
 use planecut_kernel::{HalfSpace, PlaneIdx};
 
 use super::Shape;
@@ -58,6 +58,10 @@ impl Pattern {
     }
 }
 
+fn meet([a, b, c]: [&Row; 3]) -> Homogeneous {
+    Homogeneous::meet(a, b, c)
+}
+
 /// The normal of a plane.
 fn normal(row: &Row) -> [f64; 3] {
     let [x, y, z, _] = *row.coefficients();
@@ -102,15 +106,16 @@ impl Structure {
     fn shape<'a>(&self, plane: impl Fn(usize) -> (&'a Row, &'a HalfSpace)) -> Option<Shape> {
         let row = |idx: &PlaneIdx| plane(idx.0).0;
         let mut corners = Corners { different: Vec::with_capacity(self.corners.len()), ..Corners::default() };
-        for planes in &self.corners {
-            corners.add(planes.each_ref().map(row));
-        }
+        let points: Vec<Homogeneous> = self.corners.iter().map(|planes| meet(planes.each_ref().map(row))).collect();
         let is_long = |(corner, end): &(CornerId, PlaneIdx)| {
             let planes = self.corners[corner.index()].each_ref().map(row);
-            corners.different[corner.index()].point.side_of(planes, row(end)) == Sign::Negative
+            points[corner.index()].side_of(planes, row(end)) == Sign::Negative
         };
         if !self.lengths.iter().all(is_long) {
             return None;
+        }
+        for point in &points {
+            corners.add_point(point);
         }
         corners.numbers.clone_from(&self.numbers);
         corners.edges.clone_from(&self.edges);

@@ -81,7 +81,7 @@ impl Runs {
 /// Where a point lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Place {
-    /// Strictly inside of all planes; this face is the nearest.
+    /// Strictly inside of all planes but one that it is known to lie on; this face is the nearest.
     Inside(BodyFaceId),
     /// Strictly outside of the plane of this face.
     Outside(BodyFaceId),
@@ -150,8 +150,12 @@ impl PolarDual {
 
     /// A face from which the climb to a point is short.
     pub(crate) fn seed(&self, point: &Corner) -> BodyFaceId {
-        let from_center = point.at - self.center;
-        self.seeds[from_center.is_negative_bitmask() as usize]
+        self.face_toward(point.at - self.center)
+    }
+
+    /// The face in the middle of the octant of a direction.
+    pub(super) fn face_toward(&self, direction: DVec3) -> BodyFaceId {
+        self.seeds[direction.is_negative_bitmask() as usize]
     }
 
     /// Where a point lies, climbing from a face.
@@ -163,6 +167,27 @@ impl PolarDual {
             Place::Unknown
         } else if value > 1.0 + room {
             Place::Outside(face)
+        } else if value < 1.0 - room {
+            Place::Inside(face)
+        } else {
+            Place::Near(face)
+        }
+    }
+
+    /// Where a point lies that is on the plane of a face: within the face unless beyond a neighbour, and so within the body.
+    pub(crate) fn place_on(&self, point: &Corner, face: BodyFaceId) -> Place {
+        let (at, room) = self.relative(point);
+        let (mut farthest, mut value) = (face, f64::NEG_INFINITY);
+        self.for_each_neighbour(face, at, 1.0 - 2.0 * room, |next, other| {
+            if other > value {
+                (farthest, value) = (next, other);
+            }
+        });
+        let room = room * value.max(1.0);
+        if room >= 0.25 || value.is_nan() {
+            Place::Unknown
+        } else if value > 1.0 + room {
+            Place::Outside(farthest)
         } else if value < 1.0 - room {
             Place::Inside(face)
         } else {

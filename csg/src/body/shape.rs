@@ -47,8 +47,13 @@ pub(super) struct Corners {
 impl Corners {
     /// Adds the meeting point of three planes.
     pub(super) fn add(&mut self, [a, b, c]: [&Row; 3]) -> CornerId {
+        self.add_point(&Homogeneous::meet(a, b, c))
+    }
+
+    /// Adds a point.
+    pub(super) fn add_point(&mut self, point: &Homogeneous) -> CornerId {
         let number = CornerId::from_index(self.different.len());
-        self.different.push(Corner { number, ..Corner::new(Homogeneous::meet(a, b, c)) });
+        self.different.push(Corner { number, ..Corner::new(point) });
         number
     }
 

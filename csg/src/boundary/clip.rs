@@ -1,11 +1,16 @@
 //! What a body covers of a polygon on a face of another.
 
+use std::ops::Range;
+
+use planecut_kernel::DVec3;
 use planecut_kernel::sign::Sign;
 
 use super::Scene;
+use super::corner_sides::CornerSides;
 use super::section::{Clip, Polygon};
-use crate::body::{BodyFace, Corner, Place, PolarDual};
+use crate::body::{Body, BodyFace, Corner, Place, PlaneFilter, PolarDual};
 use crate::ids::{BodyFaceId, BodyId, Id, NearId};
+use crate::plane_table::PlaneId;
 
 /// For more pairs of a corner and a body near nothing is kept.
 const MOST: usize = 1 << 20;
@@ -21,7 +26,15 @@ pub(super) struct Clipper {
     corners: usize,
     /// Where each of these corners lies in each body near: a corner is seen from several faces.
     known: Vec<Found>,
+    /// Beside which planes of bodies near they lie, and which these are for each: all of a body of few faces, some of one of many.
+    sides: CornerSides,
+    planes: Vec<Range<usize>>,
+    /// The planes that cut a polygon.
+    cuts: Vec<PlaneId>,
 }
+
+/// How many corners are placed in a body of many faces to find planes beyond which many others lie.
+const GUESSES: usize = 4;
 
 /// A body that clips polygons on a face of another.
 #[derive(Clone, Copy)]
@@ -34,30 +47,137 @@ pub(super) struct Cutter<'a> {
 }
 
 impl Clipper {
-    /// Begins with the faces of another body: the number of its corners, and of the bodies near it.
-    pub(super) fn begin(&mut self, corners: usize, near: usize) {
-        self.corners = if corners.saturating_mul(near) <= MOST { corners } else { 0 };
+    /// Begins with the faces of another body, which is the first one near itself.
+    pub(super) fn begin(&mut self, scene: &Scene<'_>, body: BodyId) {
+        let solid = scene.body(body);
+        self.corners = solid.corner_count();
         self.last.clear();
-        self.last.resize(near, BodyFaceId::NONE);
         self.known.clear();
+        self.sides.begin(solid.all_corners());
+        self.planes.clear();
+    }
+
+    /// Adds a body that may touch the one whose faces are clipped; false where a plane of either is surely between them, and nothing is added.
+    pub(super) fn add_near(&mut self, scene: &Scene<'_>, body: BodyId, other: BodyId) -> bool {
+        let (own, solid) = (scene.body(body), scene.body(other));
+        let first = self.sides.planes();
+        if self.sides.is_empty() {
+            self.push_near(first..first);
+            return true;
+        }
+        let (is_apart, is_within) = match scene.polar_dual(other) {
+            Some(dual) => self.add_some_planes(scene, own, solid, dual),
+            None => {
+                let is_apart = solid.faces.iter().any(|face| self.sides.add_plane(scene.table.half_space(face.plane)));
+                (is_apart, !is_apart && self.sides.is_one_inside(first))
+            }
+        };
+        if is_apart || !is_within && is_apart_by_own_planes(scene, body, solid) {
+            self.sides.forget_from(first);
+            return false;
+        }
+        self.push_near(first..self.sides.planes());
+        true
+    }
+
+    /// Adds the body itself to those near it.
+    pub(super) fn add_itself(&mut self) {
+        let end = self.sides.planes();
+        self.push_near(end..end);
+    }
+
+    fn push_near(&mut self, planes: Range<usize>) {
+        self.last.push(BodyFaceId::NONE);
+        self.planes.push(planes);
+    }
+
+    /// Adds some planes of a body of many faces: those beyond which corners of the own body lie that are beyond none of those before. Tells whether all of them
+    /// surely lie beyond one, and whether one surely lies within the body.
+    fn add_some_planes(&mut self, scene: &Scene<'_>, own: &Body, other: &Body, dual: &PolarDual) -> (bool, bool) {
+        let mut corner = own.corner_toward(scene.table, other.bounds.center() - own.bounds.center());
+        let mut from = dual.seed(corner);
+        self.sides.begin_search();
+        let mut is_within = false;
+        for guess in 0..GUESSES {
+            match dual.place(corner, from) {
+                Place::Outside(face) => {
+                    if self.sides.add_plane(scene.table.half_space(other.faces[face.index()].plane)) {
+                        return (true, false);
+                    }
+                    from = face;
+                    self.sides.drop_outside();
+                }
+                Place::Inside(face) | Place::Near(face) => {
+                    is_within = true;
+                    from = face;
+                    self.sides.drop_corner(corner.number);
+                }
+                Place::Unknown => break,
+            }
+            // those that follow one another are near each other
+            let Some(next) = self.sides.left(guess % 2 == 0) else { break };
+            corner = &own.all_corners()[next.index()];
+        }
+        (false, is_within)
     }
 
     /// What a body covers of a polygon within a face. `out` is that part where it is [`Clip::Part`], else of no meaning.
     pub(super) fn clip(&mut self, cutter: Cutter<'_>, polygon: &Polygon, out: &mut Polygon) -> Clip {
         match cutter.scene.polar_dual(cutter.body) {
             Some(dual) => self.clip_by_dual(cutter, dual, polygon, out),
-            None => {
-                out.copy_from(polygon);
-                self.clip_by_all(cutter, out)
-            }
+            None => self.clip_by_few(cutter, polygon, out),
         }
     }
 
-    /// Whether a body of many faces is quickly seen to hold a polygon within a face. What it holds need not be clipped by
+    /// Takes a polygon on a face of the body to be clipped.
+    pub(super) fn look_at(&mut self, polygon: &Polygon) {
+        self.sides.look_at(polygon);
+    }
+
+    /// Whether the polygon that is looked at is known to lie beyond a plane of a body near.
+    pub(super) fn is_known_outside(&self, place: NearId) -> bool {
+        self.planes[place.index()].clone().any(|plane| self.sides.is_known_outside(plane))
+    }
+
+    /// Whether a body is quickly seen to hold a polygon within a face, the one that is looked at. What it holds need not be clipped by
     /// others.
     pub(super) fn surely_holds(&mut self, cutter: Cutter<'_>, polygon: &Polygon) -> bool {
-        let Some(dual) = cutter.scene.polar_dual(cutter.body) else { return false };
+        let Some(dual) = cutter.scene.polar_dual(cutter.body) else {
+            return !self.sides.is_empty() && self.sides.are_known_inside(self.planes[cutter.place.index()].clone());
+        };
         (0..polygon.corners.len()).all(|i| matches!(self.place(cutter, dual, polygon, i), Found::Inside(_)))
+    }
+
+    /// By the planes of a body of few faces: those on both sides of which corners lie. The polygon is the one that is looked at.
+    fn clip_by_few(&mut self, cutter: Cutter<'_>, polygon: &Polygon, out: &mut Polygon) -> Clip {
+        let Cutter { scene, face, body, place } = cutter;
+        if self.sides.is_empty() {
+            out.copy_from(polygon);
+            return self.clip_by_all(cutter, out);
+        }
+        let planes = self.planes[place.index()].clone();
+        self.cuts.clear();
+        for (number, other) in planes.zip(&scene.body(body).faces) {
+            if other.plane.index() == face.plane.index() {
+                continue;
+            }
+            let spread = self.sides.spread(scene.table, (polygon, face.plane), (number, other.plane));
+            match (spread.inside, spread.outside) {
+                (false, true) => return Clip::Nothing,
+                (true, true) => self.cuts.push(other.plane),
+                (_, false) => {}
+            }
+        }
+        if self.cuts.is_empty() {
+            return Clip::Whole;
+        }
+        out.copy_from(polygon);
+        for cut in &self.cuts {
+            if out.clip(scene.table, face.plane, *cut, &mut self.spare) == Clip::Nothing {
+                return Clip::Nothing;
+            }
+        }
+        Clip::Part
     }
 
     /// By the planes of all faces.
@@ -110,7 +230,13 @@ impl Clipper {
             let next = loop {
                 let Some(k) = out.corners.iter().position(|corner| corner.within != body) else { break None };
                 i = k;
-                match self.place(cutter, dual, out, i) {
+                let is_on_cut = [i, i + 1].iter().any(|k| out.edges[k % out.edges.len()] == cut);
+                let found = if is_on_cut {
+                    self.exact_place(cutter, dual, out, i, dual.place_on(&out.corners[i], beyond))
+                } else {
+                    self.place(cutter, dual, out, i)
+                };
+                match found {
                     Found::Inside(_) => out.corners[i].within = body,
                     Found::Beyond(other) => break Some(other),
                     Found::Unknown => {
@@ -130,7 +256,7 @@ impl Clipper {
     /// Where a corner lies, exactly where numbers do not tell.
     fn place(&mut self, cutter: Cutter<'_>, dual: &PolarDual, polygon: &Polygon, i: usize) -> Found {
         let number = polygon.corners[i].number.index();
-        let found = if number >= self.corners {
+        let found = if number >= self.corners || self.corners.saturating_mul(self.last.len()) > MOST {
             self.find(cutter, dual, polygon, i)
         } else {
             if self.known.is_empty() {
@@ -167,10 +293,23 @@ impl Clipper {
     }
 
     fn find(&mut self, cutter: Cutter<'_>, dual: &PolarDual, polygon: &Polygon, i: usize) -> Found {
-        let Cutter { scene, face, body, place } = cutter;
         let corner = &polygon.corners[i];
-        let last = self.last[place.index()];
-        match dual.place(corner, if last == BodyFaceId::NONE { dual.seed(corner) } else { last }) {
+        let last = self.last[cutter.place.index()];
+        let place = dual.place(corner, if last == BodyFaceId::NONE { dual.seed(corner) } else { last });
+        self.exact_place(cutter, dual, polygon, i, place)
+    }
+
+    /// Where a corner lies, of which it is known as well as numbers tell.
+    fn exact_place(
+        &mut self,
+        Cutter { scene, face, body, .. }: Cutter<'_>,
+        dual: &PolarDual,
+        polygon: &Polygon,
+        i: usize,
+        place: Place,
+    ) -> Found {
+        let corner = &polygon.corners[i];
+        match place {
             Place::Inside(nearest) => Found::Inside(nearest),
             Place::Outside(other) => Found::Beyond(other),
             Place::Near(other) => {
@@ -179,11 +318,30 @@ impl Clipper {
                 let faces = &scene.body(body).faces;
                 let is_beyond = |other: &BodyFaceId| {
                     let plane = faces[other.index()].plane;
-                    scene.table.side(planes, &corner.point, plane) == Sign::Positive
+                    corner.side(scene.table, planes, plane) == Sign::Positive
                 };
                 self.near.iter().copied().find(is_beyond).map_or(Found::Inside(other), Found::Beyond)
             }
             Place::Unknown => Found::Unknown,
+        }
+    }
+}
+
+/// Whether a plane of a body is found beyond which all corners of another surely lie.
+fn is_apart_by_own_planes(scene: &Scene<'_>, body: BodyId, other: &Body) -> bool {
+    let own = scene.body(body);
+    match scene.polar_dual(body) {
+        // planes across an axis are faces of the boxes, which touch
+        None => own.faces.iter().any(|face| {
+            let half_space = scene.table.half_space(face.plane);
+            let is_across_axis = half_space.normal().cmpne(DVec3::ZERO).bitmask().count_ones() == 1;
+            let filter = PlaneFilter::new(half_space);
+            !is_across_axis && other.all_corners().iter().all(|corner| filter.side(corner) == Sign::Positive)
+        }),
+        Some(dual) => {
+            let corner = other.corner_toward(scene.table, own.bounds.center() - other.bounds.center());
+            let Place::Outside(face) = dual.place(corner, dual.seed(corner)) else { return false };
+            other.all_corners().iter().all(|corner| dual.is_beyond(corner, face))
         }
     }
 }

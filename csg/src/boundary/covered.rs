@@ -53,6 +53,7 @@ impl CoverWorker {
         let Cutter { scene, face, .. } = cutter;
         let table = scene.table;
         let mut change = EdgeChange::default();
+        clipper.look_at(region);
         match clipper.clip(cutter, region, &mut self.section) {
             Clip::Nothing => return Some(change),
             Clip::Whole => {

@@ -43,6 +43,10 @@ pub(super) struct Section {
 /// Emits the boundary edges of faces, reusing its buffers.
 pub(crate) struct FaceWorker<'a> {
     scene: &'a Scene<'a>,
+    /// The body whose faces are worked on.
+    body: BodyId,
+    /// The bodies that may touch it, itself among them, ascending.
+    near: Vec<BodyId>,
     restriction: Restriction,
     bodies: Vec<BodyId>,
     /// The places of these among the bodies near.
@@ -70,6 +74,8 @@ impl<'a> FaceWorker<'a> {
     pub(crate) fn new(scene: &'a Scene<'a>) -> Self {
         Self {
             scene,
+            body: BodyId::NONE,
+            near: Vec::new(),
             restriction: Restriction::default(),
             bodies: Vec::new(),
             places: Vec::new(),
@@ -91,19 +97,29 @@ impl<'a> FaceWorker<'a> {
         }
     }
 
-    /// Begins with the faces of another body; `near` is the number of bodies near it.
-    pub(crate) fn begin(&mut self, body: BodyId, near: usize) {
-        self.clipper.begin(self.scene.body(body).corner_count(), near);
+    /// Begins with the faces of another body; `near` are the bodies whose boxes touch its own, by number, itself among them.
+    pub(crate) fn begin(&mut self, body: BodyId, near: impl IntoIterator<Item = BodyId>) {
+        self.body = body;
+        self.near.clear();
+        self.clipper.begin(self.scene, body);
+        for other in near {
+            if other == body {
+                self.clipper.add_itself();
+            } else if !self.clipper.add_near(self.scene, body, other) {
+                continue;
+            }
+            self.near.push(other);
+        }
     }
 
-    /// Emits the boundary of what face `face` of body `body` is of the boundary; `near` are the bodies whose boxes touch it,
-    /// by number, its own among them.
-    pub(crate) fn emit(&mut self, body: BodyId, face: BodyFaceId, near: &[BodyId], out: &mut Vec<BoundaryEdge>) {
-        let scene = self.scene;
+    /// Emits the boundary of what a face of the body is of the boundary.
+    pub(crate) fn emit(&mut self, face: BodyFaceId, out: &mut Vec<BoundaryEdge>) {
+        let (scene, body) = (self.scene, self.body);
         let solid = scene.body(body);
         let this = &solid.faces[face.index()];
-        let own = self.gather(body, this, near);
         self.region.set(solid.edges(this), solid.corners(this));
+        self.clipper.look_at(&self.region);
+        let own = self.gather(this);
         if let Some(operation) = scene.one_level
             && !scene.is_plane_shared(this)
         {
@@ -160,15 +176,17 @@ impl<'a> FaceWorker<'a> {
     /// How the edges known on a face of a body change where another body covers what lies in it; as [`CoverWorker::change`].
     pub(crate) fn cover_known(
         &mut self,
-        [body, by]: [BodyId; 2],
+        by: BodyId,
         face: BodyFaceId,
         known: &[KnownEdge],
         rounded: impl Fn(EdgeId) -> [DVec3; 2],
     ) -> Option<EdgeChange> {
-        let solid = self.scene.body(body);
+        // a body that is apart covers nothing
+        let Ok(place) = self.near.binary_search(&by) else { return Some(EdgeChange::default()) };
+        let solid = self.scene.body(self.body);
         let face = &solid.faces[face.index()];
         self.region.set(solid.edges(face), solid.corners(face));
-        let cutter = Cutter { scene: self.scene, face, body: by, place: NearId::from_index(0) };
+        let cutter = Cutter { scene: self.scene, face, body: by, place: NearId::from_index(place) };
         self.cover.change(&mut self.clipper, cutter, &self.region, known, rounded)
     }
 
@@ -220,7 +238,10 @@ impl<'a> FaceWorker<'a> {
         let cutter = self.cutter(face, by);
         match self.clipper.clip(cutter, &self.region, &mut self.part) {
             Clip::Nothing => return false,
-            Clip::Part => std::mem::swap(&mut self.region, &mut self.part),
+            Clip::Part => {
+                std::mem::swap(&mut self.region, &mut self.part);
+                self.clipper.look_at(&self.region);
+            }
             Clip::Whole => {}
         }
         true
@@ -247,22 +268,24 @@ impl<'a> FaceWorker<'a> {
     }
 
     /// Finds the bodies that may reach the face, and their leaves; gives the place of its own body.
-    fn gather(&mut self, body: BodyId, face: &BodyFace, near: &[BodyId]) -> KeptLeafId {
-        let scene = self.scene;
+    fn gather(&mut self, face: &BodyFace) -> KeptLeafId {
+        let (scene, body) = (self.scene, self.body);
         let half_space = scene.table.half_space(face.plane);
         let (normal, offset) = (half_space.normal(), half_space.offset());
-        let reaches = |other: BodyId| {
+        let reaches = |place: NearId, other: BodyId| {
             let bounds = &scene.body(other).bounds;
-            bounds.may_share_area(&face.bounds) && !misses(bounds, normal, offset)
+            bounds.may_share_area(&face.bounds)
+                && !self.clipper.is_known_outside(place)
+                && !misses(bounds, normal, offset)
         };
         self.bodies.clear();
         self.places.clear();
         let mut own = None;
-        for (place, &other) in NearId::all(near.len()).zip(near) {
+        for (place, &other) in NearId::all(self.near.len()).zip(&self.near) {
             if other == body {
                 own = Some(KeptLeafId::from_index(self.bodies.len()));
             }
-            if other == body || reaches(other) {
+            if other == body || reaches(place, other) {
                 self.bodies.push(other);
                 self.places.push(place);
             }

@@ -10,6 +10,7 @@
 
 mod clip;
 mod contact;
+mod corner_sides;
 mod covered;
 mod face;
 mod ownership;
@@ -150,15 +151,13 @@ pub(crate) fn boundary_edges(scene: &Scene<'_>) -> (Vec<BoundaryEdge>, Counts) {
     let (parts, counts) = map_chunks(&in_order, 1, |chunk| {
         let mut edges = Vec::new();
         let mut worker = FaceWorker::new(scene);
-        let (mut found, mut near) = (Vec::new(), Vec::new());
+        let mut found = Vec::new();
         for body in chunk.iter().map(body_of) {
             let solid = scene.body(body);
             boxes.find(|other| other.may_share_area(&solid.bounds), &mut found);
-            near.clear();
-            near.extend(found.iter().map(body_of));
-            worker.begin(body, near.len());
+            worker.begin(body, found.iter().map(body_of));
             for face in BodyFaceId::all(solid.faces.len()) {
-                worker.emit(body, face, &near, &mut edges);
+                worker.emit(face, &mut edges);
             }
         }
         edges

@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use planecut_kernel::sign::{Homogeneous, Sign};
+use planecut_kernel::sign::Sign;
 
 use super::BoundaryEdge;
 use crate::base::Bounds;
@@ -55,7 +55,7 @@ impl Polygon {
         for i in 0..n {
             let corner = &self.corners[i];
             let side = match filter.side(corner) {
-                Sign::Zero => table.side(self.corner(plane, i), &corner.point, cut),
+                Sign::Zero => corner.side(table, self.corner(plane, i), cut),
                 certain => certain,
             };
             match side {
@@ -89,8 +89,8 @@ impl Polygon {
         let (leaving, entering) = (self.edges[(last + 1) % n], self.edges[first]);
         spare.edges.extend([self.edges[last], leaving, cut]);
         spare.corners.push(self.corners[last]);
-        spare.corners.push(Corner::new(table.homogeneous([plane, leaving, cut])));
-        spare.corners.push(Corner::new(table.homogeneous([plane, cut, entering])));
+        spare.corners.push(Corner::new(&table.homogeneous([plane, leaving, cut])));
+        spare.corners.push(Corner::new(&table.homogeneous([plane, cut, entering])));
         std::mem::swap(self, spare);
         Clip::Part
     }
@@ -137,8 +137,8 @@ impl Inside {
 pub(super) struct Piece {
     pub(super) start: PlaneId,
     pub(super) end: PlaneId,
-    pub(super) start_point: Homogeneous,
-    pub(super) end_point: Homogeneous,
+    pub(super) start_point: Corner,
+    pub(super) end_point: Corner,
 }
 
 impl Piece {
@@ -146,12 +146,7 @@ impl Piece {
     pub(super) fn of_edge(Polygon { edges, corners }: &Polygon, i: usize) -> Self {
         let n = edges.len();
         let (before, after) = ((i + n - 1) % n, (i + 1) % n);
-        Self {
-            start: edges[before],
-            end: edges[after],
-            start_point: corners[before].point,
-            end_point: corners[i].point,
-        }
+        Self { start: edges[before], end: edges[after], start_point: corners[before], end_point: corners[i] }
     }
 
     /// All of a boundary edge, whose ends may be named by either side of a plane.
@@ -159,16 +154,16 @@ impl Piece {
         let line = Line { plane: face, edge };
         let start = if line.looks_ahead(table, start) { start.flipped() } else { start };
         let end = if line.looks_ahead(table, end) { end } else { end.flipped() };
-        let (start_point, end_point) = (table.homogeneous(line.start(start)), table.homogeneous(line.end(end)));
+        let [start_point, end_point] = [line.start(start), line.end(end)].map(|planes| meet(table, planes));
         Self { start, end, start_point, end_point }
     }
 
     pub(super) fn start_side(&self, table: &PlaneTable, line: Line, plane: PlaneId) -> Sign {
-        table.side(line.start(self.start), &self.start_point, plane)
+        self.start_point.side(table, line.start(self.start), plane)
     }
 
     pub(super) fn end_side(&self, table: &PlaneTable, line: Line, plane: PlaneId) -> Sign {
-        table.side(line.end(self.end), &self.end_point, plane)
+        self.end_point.side(table, line.end(self.end), plane)
     }
 
     /// The same seen along the line the other way.
@@ -177,7 +172,7 @@ impl Piece {
     }
 
     pub(super) fn bounds(&self) -> Bounds {
-        Bounds::EMPTY.with_point(&self.start_point).with_point(&self.end_point)
+        Bounds::EMPTY.with_corner(&self.start_point).with_corner(&self.end_point)
     }
 }
 
@@ -194,7 +189,7 @@ pub(super) struct Meeting {
     pub(super) plane: PlaneId,
     /// Whether the normal of the plane looks back along the line, as that of the plane at which a piece starts.
     pub(super) looks_back: bool,
-    pub(super) point: Homogeneous,
+    pub(super) point: Corner,
 }
 
 /// How a convex polygon covers a piece of a line.
@@ -225,12 +220,12 @@ impl Line {
 
     /// Where a plane meets the line, of which it is known how it looks.
     pub(super) fn meeting(self, table: &PlaneTable, plane: PlaneId, looks_back: bool) -> Meeting {
-        Meeting { plane, looks_back, point: table.homogeneous(self.planes_at(plane, looks_back)) }
+        Meeting { plane, looks_back, point: meet(table, self.planes_at(plane, looks_back)) }
     }
 
     /// On which side of a plane a point of the line lies.
     pub(super) fn side(self, table: &PlaneTable, at: &Meeting, plane: PlaneId) -> Sign {
-        table.side(self.planes_at(at.plane, at.looks_back), &at.point, plane)
+        at.point.side(table, self.planes_at(at.plane, at.looks_back), plane)
     }
 
     /// The exact order of two points along the line.
@@ -277,14 +272,14 @@ impl Line {
                         return Cover::Apart;
                     }
                     part.start = edge;
-                    part.start_point = table.homogeneous(self.start(edge));
+                    part.start_point = meet(table, self.start(edge));
                 }
                 (false, true) => {
                     if start == Sign::Zero {
                         return Cover::Apart;
                     }
                     part.end = edge;
-                    part.end_point = table.homogeneous(self.end(edge));
+                    part.end_point = meet(table, self.end(edge));
                 }
             }
         }
@@ -347,8 +342,13 @@ impl Line {
     }
 
     /// Where the start of a cover becomes the end of what is left before it (or its end the start of what is left after).
-    fn turned(self, table: &PlaneTable, plane: PlaneId, is_end: bool) -> Homogeneous {
+    fn turned(self, table: &PlaneTable, plane: PlaneId, is_end: bool) -> Corner {
         let planes = if is_end { self.end(plane.flipped()) } else { self.start(plane.flipped()) };
-        table.homogeneous(planes)
+        meet(table, planes)
     }
+}
+
+/// Where three planes meet.
+fn meet(table: &PlaneTable, planes: [PlaneId; 3]) -> Corner {
+    Corner::new(&table.homogeneous(planes))
 }

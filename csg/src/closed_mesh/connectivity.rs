@@ -30,6 +30,37 @@ pub fn previous(half_edge: u32) -> u32 {
     if half_edge.is_multiple_of(3) { half_edge + 2 } else { half_edge - 1 }
 }
 
+/// The other ends of the half-edges at a vertex: of those that leave it, and of those that come to it.
+#[derive(Default)]
+struct Ends {
+    leaving: Vec<u32>,
+    coming: Vec<u32>,
+}
+
+impl Ends {
+    /// Whether each half-edge at a vertex has a twin. As many come to it as leave it: it is enough that all of these end differently, and
+    /// that of those each begins where one of these ends.
+    fn are_paired(&mut self, half_edges: &HalfEdges<'_>, vertex: u32) -> bool {
+        self.leaving.clear();
+        self.coming.clear();
+        for half_edge in half_edges.leaving(vertex) {
+            let [_, to, from] = half_edges.turned(*half_edge);
+            self.leaving.push(to);
+            self.coming.push(from);
+        }
+        if self.leaving.len() > FEW {
+            self.leaving.sort_unstable();
+            self.coming.sort_unstable();
+            let are_different = self.leaving.windows(2).all(|pair| pair[0] != pair[1]);
+            // an edge from a vertex to itself is nobody's twin
+            return are_different && self.leaving == self.coming && self.leaving.binary_search(&vertex).is_err();
+        }
+        let count = |ends: &[u32], end: u32| ends.iter().map(|other| u32::from(*other == end)).sum::<u32>();
+        let is_paired = |end: &u32| *end != vertex && count(&self.leaving, *end) == 1 && count(&self.coming, *end) == 1;
+        self.leaving.iter().all(is_paired)
+    }
+}
+
 /// The half-edges of triangles, listed by the vertex that they start at.
 #[derive(Debug)]
 pub struct HalfEdges<'a> {
@@ -59,6 +90,17 @@ impl<'a> HalfEdges<'a> {
     #[must_use]
     pub fn to(&self, half_edge: u32) -> u32 {
         self.from(next(half_edge))
+    }
+
+    /// The corners of a half-edge's triangle, from its start on.
+    #[inline]
+    fn turned(&self, half_edge: u32) -> [u32; 3] {
+        let [a, b, c] = self.triangles[(half_edge / 3) as usize];
+        match half_edge % 3 {
+            0 => [a, b, c],
+            1 => [b, c, a],
+            _ => [c, a, b],
+        }
     }
 
     /// The half-edges that start at a vertex, in ascending order.
@@ -111,33 +153,12 @@ impl<'a> HalfEdges<'a> {
     pub fn are_all_paired(&self) -> bool {
         let chunks: Vec<u32> = (0..self.vertices()).step_by(VERTICES_OF_CHUNK as usize).collect();
         let of_chunk = |first: &u32| {
-            let mut uses: Vec<(u32, u32)> = Vec::new();
             let end = self.vertices().min(first.saturating_add(VERTICES_OF_CHUNK));
-            (*first..end).all(|vertex| self.uses_at(vertex, &mut uses).all(|along| self.paired(along).is_some()))
+            let mut ends = Ends::default();
+            (*first..end).all(|vertex| ends.are_paired(self, vertex))
         };
         let are_paired: Vec<bool> = chunks.par_iter().map(of_chunk).collect();
-        // an edge from a vertex to itself is nobody's twin
-        let is_loop = |[a, b, c]: &[u32; 3]| a == b || b == c || c == a;
-        are_paired.into_iter().all(|are| are) && !self.triangles.iter().any(is_loop)
-    }
-
-    /// The half-edges between a vertex and larger ones, each with that one, by edge; each edge is looked at from its smaller vertex.
-    fn uses_at<'b>(&self, vertex: u32, uses: &'b mut Vec<(u32, u32)>) -> impl Iterator<Item = &'b [(u32, u32)]> {
-        // what comes to a vertex comes before what leaves it
-        let out = self.leaving(vertex).iter().map(|&half_edge| (self.to(half_edge), half_edge));
-        let back = self.leaving(vertex).iter().map(|&half_edge| previous(half_edge)).map(|h| (self.from(h), h));
-        uses.clear();
-        uses.extend(out.chain(back).filter(|(other, _)| *other > vertex));
-        uses.sort_unstable();
-        uses.chunk_by(|p, q| p.0 == q.0)
-    }
-
-    /// The half-edges along an edge where they are two that run opposite ways.
-    fn paired(&self, along: &[(u32, u32)]) -> Option<[u32; 2]> {
-        match *along {
-            [(_, one), (_, other)] if self.from(one) != self.from(other) => Some([one, other]),
-            _ => None,
-        }
+        are_paired.into_iter().all(|are| are)
     }
 
     /// The edges `a < b` along which more than one half-edge runs from `a` to `b`, in ascending order.

@@ -194,8 +194,26 @@ impl OtherBrushes<'_> {
     }
 }
 
+/// Number of planes from which a model is worth waiting for a thread of the pool.
+const MANY_PLANES: usize = 256;
+
 /// The same among other brushes.
 pub(crate) fn evaluate_among(
+    model: &Model,
+    unbounded: UnboundedBrushes,
+    built: &BuiltBodies,
+    others: OtherBrushes<'_>,
+) -> Result<Evaluation, EvaluateError> {
+    let evaluate = || evaluate_here(model, unbounded, built, others);
+    let brushes = model.tree.brushes();
+    let is_large = brushes.iter().any(Brush::is_mesh)
+        || brushes.len() >= MANY_PLANES
+        || brushes.iter().map(|brush| brush.faces.len()).sum::<usize>() >= MANY_PLANES;
+    if is_large { planecut_parallel::in_pool(evaluate) } else { evaluate() }
+}
+
+/// The same on the calling thread, and others where there are more parts.
+fn evaluate_here(
     model: &Model,
     unbounded: UnboundedBrushes,
     built: &BuiltBodies,

@@ -133,7 +133,7 @@ impl Scattered<'_> {
         let mut rest = Vec::new();
         let bodies = leaves.iter().filter_map(|leaf| self.body(*leaf, builder).map(|body| (*leaf, body)));
         let mut mesh = mesh_of(self.table, bodies, &mut rest);
-        match proven(std::mem::take(&mut mesh.mesh), &mesh.totals.measures(), self.walls) {
+        match proven(std::mem::take(&mut mesh.mesh), &mesh.totals.measures(), self.walls, false) {
             Ok((proven, noise)) => {
                 mesh.mesh = proven;
                 Alone { mesh, noise, rest }

@@ -203,22 +203,22 @@ impl LiveModel {
                 let places = near[range.clone()].iter().map(|member| place[member.operand.index()]);
                 near_here.extend(places.filter(|place| *place != BodyId::NONE));
                 if own != BodyId::NONE {
-                    worker.begin(own, near_here.len());
+                    worker.begin(own, near_here.iter().copied());
                 }
                 for (entry, _) in &faces[of_group.clone()] {
                     let known = &self.operand(*number).edges[entry.face.index()];
                     let ends = |edge| self.welded.ends(edge);
                     edges.clear();
                     if own != BodyId::NONE && !matches!(way, Way::Covered(_)) {
-                        worker.emit(own, entry.face, &near_here, &mut edges);
+                        worker.emit(entry.face, &mut edges);
                         edges.sort_unstable();
                     }
                     let change = match way {
                         Way::Whole => Some(EdgeChange::between(known, &edges)),
                         Way::Within(bounds) => EdgeChange::within(bounds, table, known, ends, &edges),
-                        Way::Covered(by) => match [own, place[by.index()]] {
-                            both if both.contains(&BodyId::NONE) => None,
-                            both => worker.cover_known(both, entry.face, known, ends),
+                        Way::Covered(by) => match place[by.index()] {
+                            by if [own, by].contains(&BodyId::NONE) => None,
+                            by => worker.cover_known(by, entry.face, known, ends),
                         },
                     };
                     match change {

@@ -8,6 +8,7 @@
 use crate::ids::number32;
 use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
+use smallvec::SmallVec;
 
 use super::Mesh;
 use super::noise::{Noise, NoiseEdge};
@@ -153,14 +154,21 @@ impl Contraction {
 
     /// The link condition: exactly two triangles share the edge, and their tips are all the neighbours that both ends have.
     fn keeps_topology(&self, mesh: &Mesh, a: u32, b: u32) -> bool {
-        let around = |v: u32| -> FxHashSet<u32> {
+        let shared = self.triangles_at(b).iter().filter(|t| mesh.triangles[**t as usize].contains(&a)).count();
+        if shared != 2 {
+            return false;
+        }
+        let around = |v: u32| -> SmallVec<[u32; 32]> {
             let corners = self.triangles_at(v).iter().flat_map(|t| mesh.triangles[*t as usize]);
-            corners.filter(|other| *other != v).collect()
+            let mut around: SmallVec<[u32; 32]> = corners.filter(|other| *other != v).collect();
+            around.sort_unstable();
+            around.dedup();
+            around
         };
         let (at_a, at_b) = (around(a), around(b));
-        let shared = self.triangles_at(b).iter().filter(|t| mesh.triangles[**t as usize].contains(&a)).count();
+        let common = at_a.iter().filter(|vertex| at_b.binary_search(vertex).is_ok()).count();
         // a tetrahedron would fold flat
-        shared == 2 && at_a.intersection(&at_b).count() == 2 && at_a.len() + at_b.len() > 6
+        common == 2 && at_a.len() + at_b.len() > 6
     }
 
     /// Drops what is no longer used and renumbers the rest.

@@ -5,6 +5,7 @@
 //! the neighbour across it takes the corner in between, and no point moves.
 
 use crate::ids::number32;
+use glam::DVec3;
 use planecut_parallel::prelude::*;
 
 use super::Mesh;
@@ -50,12 +51,15 @@ pub(super) fn flip_caps(mesh: &mut Mesh, walls: Option<MaterialId>) -> Option<()
 /// The triangles whose height is noise.
 pub(super) fn flat_triangles(mesh: &Mesh) -> Vec<u32> {
     let all = (0..number32(mesh.triangles.len())).into_par_iter().with_min_len(2048);
-    all.filter(|t| is_flat(mesh, *t)).collect()
+    all.filter(|t| is_flat(corners(mesh, *t))).collect()
+}
+
+fn corners(mesh: &Mesh, triangle: u32) -> [DVec3; 3] {
+    mesh.triangles[triangle as usize].map(|v| mesh.positions[v as usize])
 }
 
 /// Whether the height of a triangle is noise.
-pub(super) fn is_flat(mesh: &Mesh, triangle: u32) -> bool {
-    let corners = mesh.triangles[triangle as usize].map(|v| mesh.positions[v as usize]);
+pub(super) fn is_flat(corners: [DVec3; 3]) -> bool {
     let (height, [a, b, c]) = (noise_height(corners), corners);
     let (p, q) = (b - a, c - a);
     let longest = p.length_squared().max(q.length_squared()).max((c - b).length_squared());
@@ -64,10 +68,10 @@ pub(super) fn is_flat(mesh: &Mesh, triangle: u32) -> bool {
 
 /// The side that holds the third corner between its ends, where a triangle is a cap.
 fn long_side(mesh: &Mesh, triangle: u32) -> Option<u32> {
-    let at = mesh.triangles[triangle as usize].map(|v| mesh.positions[v as usize]);
+    let at = corners(mesh, triangle);
     let length = |k: usize| at[k].distance(at[(k + 1) % 3]);
     let side = (0..3).max_by(|a, b| length(*a).total_cmp(&length(*b)))?;
-    is_flat(mesh, triangle).then_some(number32(side))
+    is_flat(at).then_some(number32(side))
 }
 
 /// Flips a side of a cap, whose two new triangles belong to the face of its neighbour. Gives whether it could.

@@ -12,7 +12,6 @@ use super::Mesh;
 use super::collapse::collapse_thin;
 use super::contract::contract_noise;
 use super::flip_caps::{flat_triangles, flip_caps, is_flat};
-use crate::ids::number32;
 use crate::model::MaterialId;
 use crate::tolerances::CONTRACTION;
 
@@ -38,10 +37,15 @@ pub(super) fn vertices_on_walls(mesh: &Mesh, walls: Option<MaterialId>) -> FxHas
     on_walls.flat_map(|(triangle, _)| *triangle).collect()
 }
 
+/// The length of the longest edge of a mesh that may be noise.
+pub(super) fn longest_noise(mesh: &Mesh) -> f64 {
+    CONTRACTION * largest_coordinate(mesh.positions.iter().copied())
+}
+
 /// The edges that are noise, shortest first.
 pub(super) fn noise_edges(mesh: &Mesh, walls: Option<MaterialId>) -> Vec<NoiseEdge> {
     let length = |[a, b]: [u32; 2]| mesh.positions[a as usize].distance(mesh.positions[b as usize]);
-    let longest = CONTRACTION * largest_coordinate(mesh.positions.iter().copied());
+    let longest = longest_noise(mesh);
     let sides = |triangle: &[u32; 3]| {
         let [a, b, c] = *triangle;
         [[a, b], [b, c], [c, a]].into_iter().filter(|[a, b]| a < b)
@@ -72,13 +76,14 @@ struct FaceSizes {
 
 impl FaceSizes {
     fn around(mesh: &Mesh, edges: &[[u32; 2]]) -> Self {
-        let ends: FxHashSet<u32> = edges.iter().flatten().copied().collect();
+        let mut is_end = vec![false; mesh.positions.len()];
+        edges.iter().flatten().for_each(|end| is_end[*end as usize] = true);
         let mut sizes = vec![0.0_f64; mesh.faces.len()];
         let mut faces: FxHashMap<u32, Vec<u32>> = FxHashMap::default();
         for (triangle, &face) in mesh.triangles.iter().zip(&mesh.triangle_faces) {
             let size = &mut sizes[face as usize];
             *size = size.max(largest_coordinate(triangle.iter().map(|v| mesh.positions[*v as usize])));
-            for vertex in triangle.iter().filter(|v| ends.contains(v)) {
+            for vertex in triangle.iter().filter(|v| is_end[**v as usize]) {
                 faces.entry(*vertex).or_default().push(face);
             }
         }
@@ -125,13 +130,13 @@ impl Noise {
 
 /// Whether a triangle of a part of a mesh may be noise, or have an edge that is.
 pub(crate) fn may_be_noise(part: &Mesh) -> bool {
-    let longest = CONTRACTION * largest_coordinate(part.positions.iter().copied());
-    let is_suspicious = |triangle: u32| {
-        let [a, b, c] = part.triangles[triangle as usize].map(|v| part.positions[v as usize]);
+    let longest = longest_noise(part);
+    let is_suspicious = |triangle: &[u32; 3]| {
+        let [a, b, c] = triangle.map(|v| part.positions[v as usize]);
         let shortest = a.distance_squared(b).min(b.distance_squared(c)).min(c.distance_squared(a));
-        shortest.sqrt() <= longest || is_flat(part, triangle)
+        shortest.sqrt() <= longest || is_flat([a, b, c])
     };
-    (0..number32(part.triangles.len())).into_par_iter().with_min_len(4096).any(is_suspicious)
+    part.triangles.par_iter().with_min_len(4096).any(is_suspicious)
 }
 
 /// The height up to which a triangle is noise, by its own coordinates.

@@ -6,7 +6,8 @@
 use glam::DVec3;
 use planecut_parallel::prelude::*;
 
-use super::noise::largest_coordinate;
+use super::flip_caps::is_flat;
+use super::noise::{largest_coordinate, longest_noise};
 use super::{Mesh, Noise, SolidMeasures, without_noise};
 use crate::closed_mesh::connectivity::HalfEdges;
 use crate::model::MaterialId;
@@ -37,6 +38,8 @@ struct Sums {
     cubes: f64,
     /// The largest amount by which a triangle that faces against its face exceeds what rounding explains; 0 where none does.
     folded: f64,
+    /// Whether a triangle may be rounding noise, or have a side that is.
+    may_be_noise: bool,
 }
 
 impl Sums {
@@ -47,6 +50,7 @@ impl Sums {
             perimeter: self.perimeter + other.perimeter,
             cubes: self.cubes + other.cubes,
             folded: self.folded.max(other.folded),
+            may_be_noise: self.may_be_noise || other.may_be_noise,
         }
     }
 }
@@ -67,37 +71,52 @@ impl Sums {
 }
 
 /// A mesh without rounding noise, or, where that would damage it, with it; proven to be the boundary of a solid. Noise stays at faces of the material of
-/// walls, where there is one.
-pub(crate) fn proven(mesh: Mesh, solid: &SolidMeasures, walls: Option<MaterialId>) -> Result<(Mesh, Noise), Flaw> {
-    if let Some((cleared, noise)) = without_noise(&mesh, walls)
+/// walls, where there is one. `is_closed` tells that all edges are known to be used once each way.
+pub(crate) fn proven(
+    mesh: Mesh,
+    solid: &SolidMeasures,
+    walls: Option<MaterialId>,
+    is_closed: bool,
+) -> Result<(Mesh, Noise), Flaw> {
+    let (middle, off) = middle_and_rounding(solid);
+    let sums = sums_of(&mesh, middle, off);
+    // mostly nothing is
+    if sums.may_be_noise
+        && let Some((cleared, noise)) = without_noise(&mesh, walls)
         && prove_cleared(&cleared, solid, &mesh, noise).is_ok()
     {
         return Ok((cleared, noise));
     }
-    prove(&mesh, solid)?;
+    if !is_closed && !is_each_edge_paired(&mesh) {
+        return Err(Flaw::Open);
+    }
+    sums.agree_with([solid.volume, solid.area], solid.area, &sums, off)?;
     Ok((mesh, Noise::default()))
 }
 
-/// Checks a mesh as the weld made it against the solid whose boundary it is to be.
-fn prove(mesh: &Mesh, solid: &SolidMeasures) -> Result<(), Flaw> {
-    prove_cleared(mesh, solid, mesh, Noise::default())
+/// Whether every edge of a mesh is used once each way.
+pub(crate) fn is_each_edge_paired(mesh: &Mesh) -> bool {
+    HalfEdges::new(mesh.positions.len(), &mesh.triangles).are_all_paired()
+}
+
+/// The middle of a solid, and how far a vertex of it may be from where it is exactly.
+fn middle_and_rounding(solid: &SolidMeasures) -> (DVec3, f64) {
+    (0.5 * (solid.min + solid.max), f64::EPSILON * largest_coordinate([solid.min, solid.max].into_iter()))
 }
 
 /// Checks a mesh from which noise was removed, and which was another one before.
 fn prove_cleared(mesh: &Mesh, solid: &SolidMeasures, before: &Mesh, noise: Noise) -> Result<(), Flaw> {
-    let coordinate = solid.min.abs().max(solid.max.abs()).max_element();
-    if noise.thickest > PROOF * coordinate {
+    if noise.thickest > PROOF * largest_coordinate([solid.min, solid.max].into_iter()) {
         return Err(Flaw::Measures);
     }
-    if !HalfEdges::new(mesh.positions.len(), &mesh.triangles).are_all_paired() {
+    if !is_each_edge_paired(mesh) {
         return Err(Flaw::Open);
     }
-    // how far a vertex may be from where it is exactly
-    let off = f64::EPSILON * coordinate + noise.thickest;
-    let middle = 0.5 * (solid.min + solid.max);
+    let (middle, rounding) = middle_and_rounding(solid);
+    let off = rounding + noise.thickest;
     let sums = sums_of(mesh, middle, off);
     // of what is gone, too
-    let moved = if noise == Noise::default() { sums } else { sums_of(before, middle, off) };
+    let moved = sums_of(before, middle, off);
     sums.agree_with([solid.volume, solid.area], solid.area, &moved, off)
 }
 
@@ -109,25 +128,39 @@ pub(crate) fn prove_part(part: &Mesh, middle: DVec3, measures: [f64; 2], area_of
 }
 
 fn sums_of(mesh: &Mesh, middle: DVec3, off: f64) -> Sums {
-    let of_triangle = |(triangle, face): (&[u32; 3], &u32)| {
-        let [a, b, c] = triangle.map(|v| mesh.positions[v as usize] - middle);
-        let (ab, ac) = (b - a, c - a);
-        let normal = ab.cross(ac);
-        let sides = [ab.length(), ac.length(), (c - b).length()];
-        let perimeter = sides[0] + sides[1] + sides[2];
-        let longest = sides[0].max(sides[1]).max(sides[2]);
-        let against = -normal.dot(mesh.faces[*face as usize].normal);
-        Sums {
-            six_volume: a.dot(normal),
-            twice_area: normal.length(),
-            perimeter,
-            cubes: a.length() * longest * longest,
-            folded: against - 8.0 * off * perimeter,
-        }
-    };
     let chunks = mesh.triangles.par_chunks(CHUNK).zip(mesh.triangle_faces.par_chunks(CHUNK));
+    let longest_noise = longest_noise(mesh);
     let of_chunk = |(triangles, faces): (&[[u32; 3]], &[u32])| {
+        let of_triangle = |(triangle, face): (&[u32; 3], &u32)| {
+            of_triangle(mesh, *triangle, *face as usize, [off, longest_noise], middle)
+        };
         triangles.iter().zip(faces).map(of_triangle).fold(Sums::default(), Sums::and)
     };
     chunks.map(of_chunk).collect::<Vec<Sums>>().into_iter().fold(Sums::default(), Sums::and)
+}
+
+/// The part of one triangle in the sums, seen from a point near the middle of the solid.
+fn of_triangle(mesh: &Mesh, triangle: [u32; 3], face: usize, [off, longest_noise]: [f64; 2], middle: DVec3) -> Sums {
+    let corners = triangle.map(|v| mesh.positions[v as usize]);
+    let [a, b, c] = corners.map(|corner| corner - middle);
+    let (ab, ac) = (b - a, c - a);
+    let normal = ab.cross(ac);
+    let squares = [ab.length_squared(), ac.length_squared(), (c - b).length_squared()];
+    let sides = squares.map(f64::sqrt);
+    let perimeter = sides[0] + sides[1] + sides[2];
+    let longest = squares[0].max(squares[1]).max(squares[2]);
+    let against = -normal.dot(mesh.faces[face].normal);
+    let twice_area = normal.length();
+    // differences are rounded otherwise where noise is removed: what may be noise there is surely found with twice the length
+    let shortest = sides[0].min(sides[1]).min(sides[2]);
+    let largest_height = 2.0 * longest_noise;
+    let is_flat = || twice_area * twice_area <= largest_height * largest_height * longest && is_flat(corners);
+    Sums {
+        six_volume: a.dot(normal),
+        twice_area,
+        perimeter,
+        cubes: a.length() * longest,
+        folded: against - 8.0 * off * perimeter,
+        may_be_noise: shortest <= 2.0 * longest_noise || is_flat(),
+    }
 }

@@ -94,6 +94,9 @@ pub(super) fn pieces(
             let members = starts[line.index()] as usize..starts[line.index() + 1] as usize;
             group.clear();
             group.extend(by_line[members].iter().map(|k| edges[k.index()]));
+            if worker.pair_alone(&group, &mut pieces) {
+                continue;
+            }
             surviving.runs.clear();
             let slits = surviving.slits.len();
             worker.cancel(&mut group, &mut surviving)?;
@@ -119,6 +122,18 @@ impl<'a> LineWorker<'a> {
         let (stops, at_interval, around) = (Stops::default(), Vec::new(), Vec::new());
         let (sweep, slits) = (Sweep::default(), SlitFinder::default());
         Self { table, points, lines, planes, sweep, slits, stops, at_interval, around }
+    }
+
+    /// Pairs the edges of one line where they are no more than two, of different regions and with the same ends; tells whether that was so.
+    fn pair_alone(&self, edges: &[Run], out: &mut Vec<HalfEdge>) -> bool {
+        let [a, b] = edges else { return false };
+        if a.region == b.region || (a.from, a.to) != (b.to, b.from) {
+            return false;
+        }
+        let [a, b] = if a.region < b.region { [a, b] } else { [b, a] };
+        let first = HalfEdgeId::from_index(out.len());
+        out.extend([HalfEdge::of(a, first.plus(1)), HalfEdge::of(b, first)]);
+        true
     }
 
     /// Adds what survives of the edges of one line.

@@ -8,7 +8,7 @@ use planecut_parallel::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::points::Points;
-use crate::base::{WEIGHTS, intern, map_chunks};
+use crate::base::{WEIGHTS, intern, map_chunks, sortable};
 use crate::boundary::BoundaryEdge;
 use crate::ids::{Id, LineId, NameId, PointId};
 use crate::plane_table::{PlaneId, PlaneTable};
@@ -54,19 +54,20 @@ fn number(table: &PlaneTable, pairs: &[u64]) -> (Vec<Line>, Vec<LineId>, Counts)
     };
     let (found, mut counts) = map_chunks(pairs, 256, |pairs| pairs.iter().map(line).collect::<Vec<_>>());
     let found: Vec<(Line, Mark)> = found.into_iter().flatten().collect();
-    let mut order: Vec<(Mark, NameId)> =
-        found.iter().zip(NameId::all(found.len())).map(|((_, mark), k)| (*mark, k)).collect();
-    order.par_sort_unstable_by(|p, q| p.0.compare(&q.0).then(p.1.cmp(&q.1)));
+    let place = |(k, (_, mark)): (usize, &(Line, Mark))| (mark.low, NameId::from_index(k));
+    let mut order: Vec<(u64, NameId)> = found.par_iter().enumerate().with_min_len(1024).map(place).collect();
+    order.par_sort_unstable();
     // of lines that may be equal, the first in the order given; most are alone
     let mut first: Vec<NameId> = NameId::all(found.len()).collect();
     let axes = AxisPlanes::default();
     // runs of lines that may be equal
-    let mut runs: Vec<&[(Mark, NameId)]> = Vec::new();
+    let mut runs: Vec<&[(u64, NameId)]> = Vec::new();
+    let high = |place: usize| found[order[place].1.index()].1.high;
     let mut start = 0;
     while start < order.len() {
-        let (mut end, mut reach) = (start + 1, order[start].0.high());
-        while end < order.len() && order[end].0.axis == order[start].0.axis && order[end].0.low() <= reach {
-            reach = reach.max(order[end].0.high());
+        let (mut end, mut reach) = (start + 1, high(start));
+        while end < order.len() && order[end].0 <= reach {
+            reach = reach.max(high(end));
             end += 1;
         }
         if end - start > 1 {
@@ -120,25 +121,19 @@ fn find_equal(
     }
 }
 
-/// A number that equal lines share up to an error, and lines that differ hardly ever.
+/// A range of numbers: those of equal lines overlap, and of lines that differ hardly any do.
 #[derive(Debug, Clone, Copy)]
 struct Mark {
-    axis: usize,
-    value: f64,
-    error: f64,
+    low: u64,
+    high: u64,
 }
 
 impl Mark {
-    fn compare(&self, other: &Self) -> Ordering {
-        self.axis.cmp(&other.axis).then(self.low().total_cmp(&other.low()))
-    }
-
-    fn low(&self) -> f64 {
-        self.value - self.error
-    }
-
-    fn high(&self) -> f64 {
-        self.value + self.error
+    /// That around a value; ranges of lines of different axes never overlap.
+    fn new(axis: usize, value: f64, error: f64) -> Self {
+        // the last two bits make room for the axis: without them the lower end is lower, and the upper one is made higher
+        let number = |value: f64| (axis as u64) << 62 | sortable(value) >> 2;
+        Self { low: number(value - error), high: number(value + error) + 1 }
     }
 }
 
@@ -235,7 +230,7 @@ impl AxisPlanes {
 
 fn mark(table: &PlaneTable, line: &Line) -> Mark {
     let (value, error) = rounded_mark(table, line).unwrap_or_else(|| exact_mark(table, line));
-    Mark { axis: line.axis, value, error }
+    Mark::new(line.axis, value, error)
 }
 
 /// From the determinants of the planes' columns in plain numbers, where these are well conditioned: each is off by less than

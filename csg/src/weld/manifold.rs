@@ -4,32 +4,40 @@
 //! with four faces by itself. Two different edges can still join the same two vertices, and a diagonal can coincide with
 //! an edge: the second copy then gets a midpoint.
 
-use crate::ids::number32;
+use std::sync::atomic::{AtomicU32, Ordering};
+
+use planecut_parallel::prelude::*;
 use rustc_hash::FxHashSet;
 
 use super::cancel::HalfEdge;
 use crate::closed_mesh::connectivity::HalfEdges;
-use crate::ids::{HalfEdgeId, Id, PointId, VertexId};
+use crate::ids::{HalfEdgeId, Id, PointId, VertexId, number32};
 use crate::mesh::Mesh;
 
-/// The vertex at the start of each half-edge; and for each vertex the point it lies on.
+/// The vertex at the start of each half-edge; and for each vertex the point it lies on. Vertices are numbered by the first of their half-edges.
 pub(super) fn vertices(pieces: &[HalfEdge], following: &[HalfEdgeId]) -> (Vec<VertexId>, Vec<PointId>) {
-    let mut vertex = vec![VertexId::NONE; pieces.len()];
-    let mut point = Vec::new();
-    for start in 0..pieces.len() {
-        let mut piece = start;
-        if vertex[piece] != VertexId::NONE {
-            continue;
-        }
-        let number = VertexId::from_index(point.len());
-        // Around the fan: the twin ends at the corner's point, and its follower starts there.
-        while vertex[piece] == VertexId::NONE {
-            vertex[piece] = number;
-            piece = following[pieces[piece].twin.index()].index();
-        }
-        point.push(pieces[start].from);
-    }
-    (vertex, point)
+    let all = HalfEdgeId::all(pieces.len());
+    // around the fan: the twin ends at the corner's point, and its follower starts there
+    let around = |first: HalfEdgeId| {
+        let next = move |piece: &HalfEdgeId| {
+            Some(following[pieces[piece.index()].twin.index()]).filter(|piece| *piece != first)
+        };
+        std::iter::successors(Some(first), next)
+    };
+    let is_first = |piece: usize| {
+        let piece = HalfEdgeId::from_index(piece);
+        around(piece).skip(1).all(|other| other > piece)
+    };
+    let firsts: Vec<bool> = (0..pieces.len()).into_par_iter().with_min_len(4096).map(is_first).collect();
+    let firsts: Vec<HalfEdgeId> = all.zip(firsts).filter(|(_, is_first)| *is_first).map(|(piece, _)| piece).collect();
+    let vertex: Vec<AtomicU32> = pieces.par_iter().with_min_len(4096).map(|_| AtomicU32::new(0)).collect();
+    firsts.par_iter().enumerate().with_min_len(1024).for_each(|(number, first)| {
+        let number = VertexId::from_index(number).number();
+        around(*first).for_each(|piece| vertex[piece.index()].store(number, Ordering::Relaxed));
+    });
+    let number = |vertex: AtomicU32| VertexId::from_index(vertex.into_inner() as usize);
+    let vertex = vertex.into_par_iter().with_min_len(4096).map(number).collect();
+    (vertex, firsts.into_par_iter().with_min_len(4096).map(|first| pieces[first.index()].from).collect())
 }
 
 /// The half-edge behind each side of each triangle; [`Id::NONE`] for a diagonal.

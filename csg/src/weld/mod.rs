@@ -18,6 +18,7 @@ mod around;
 mod cancel;
 mod crossings;
 mod delaunay;
+mod filled_faces;
 mod large_face;
 mod lines;
 mod live;
@@ -27,34 +28,35 @@ mod measure;
 mod nest;
 mod pinches;
 mod points;
+mod region_corners;
+mod regions;
 mod slits;
 mod stops;
 pub(crate) mod triangulate;
 
-use crate::ids::number32;
 use std::ops::Range;
 use std::time::Duration;
 
-use planecut_kernel::DVec3;
 use planecut_kernel::sign::Counts;
 use planecut_parallel::prelude::*;
 use thiserror::Error;
 
-use crate::base::{Clock, by_group, map_chunks};
+use crate::base::{Clock, by_group, map_weighed_chunks};
 use crate::boundary::BoundaryEdge;
-use crate::ids::{EdgeId, HalfEdgeId, Id, PointId, RegionId, VertexId};
-use crate::mesh::{Flaw, Mesh, MeshFace, Noise, SolidMeasures, proven};
+use crate::ids::{EdgeId, HalfEdgeId, Id, PointId, RegionId};
+use crate::mesh::{Flaw, Mesh, Noise, SolidMeasures, is_each_edge_paired, proven};
 use crate::model::{Material, MaterialId};
-use crate::plane_table::{PlaneId, PlaneTable};
+use crate::plane_table::PlaneTable;
 use cancel::{HalfEdge, Pieces, Run};
-use large_face::{FaceEdge, LargeFace};
+use filled_faces::filled_faces;
 pub(crate) use live::LiveWeld;
 pub(crate) use live::WeldedFace;
 use manifold::Labels;
 pub(crate) use nest::Projection;
 use nest::{Faces, Nester};
 use points::Points;
-use triangulate::{Triangles, Triangulator, WeldPoints};
+use region_corners::RegionCorners;
+use regions::{RegionPieces, Regions};
 
 /// The boundary does not close: a bug in this crate, never the user's mistake. Points are numbers of the weld.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
@@ -138,14 +140,6 @@ pub(crate) struct Welded {
     pub(crate) triangulation: Duration,
 }
 
-/// The regions of the boundary: oriented planes with a material.
-struct Regions {
-    planes: Vec<PlaneId>,
-    materials: Vec<MaterialId>,
-    /// The places of the materials by name.
-    ranks: Vec<u32>,
-}
-
 /// Welds boundary edges into a mesh; `rank` orders materials by name, and noise stays at faces of the material of walls, where there is one.
 pub(crate) fn weld(
     table: &PlaneTable,
@@ -154,66 +148,26 @@ pub(crate) fn weld(
     materials: &[Material],
     walls: Option<MaterialId>,
 ) -> Result<Welded, WeldError> {
-    let (regions, points, pieces, mut signs) = half_edges(table, edges, rank)?;
-    let (nested, counted) = nest(table, &regions, &points, &pieces)?;
+    let (regions, points, sorted, mut signs) = half_edges(table, edges, rank)?;
+    let (nested, counted) = nest(table, &regions, &points, &sorted)?;
     signs += counted;
+    let pieces = sorted.pieces;
     let (vertex, point) = manifold::vertices(&pieces, &nested.following);
 
     let begin = Clock::start();
-    let positions = point.par_iter().with_min_len(4096).map(|p| points.positions[p.index()]).collect();
-    let mut mesh = Mesh { positions, materials: materials.to_vec(), ..Mesh::default() };
-    let (mut labels, counted) = triangulate_faces(table, &regions, &points, &pieces, &nested.faces, &vertex, &mut mesh);
+    let (filled, counted) = filled_faces(table, &regions, &points, &pieces, &nested.faces, &vertex);
     signs += counted;
-    manifold::split_repeated_edges(&mut mesh, &mut labels, |piece| pieces[piece.index()].twin);
+    let mut mesh = filled_faces::mesh_of(&filled, materials);
+    mesh.positions = point.par_iter().with_min_len(4096).map(|p| points.positions[p.index()]).collect();
+    // an edge that is there twice is not paired
+    let is_closed = is_each_edge_paired(&mesh);
+    if !is_closed {
+        let mut labels: Labels = filled.iter().flat_map(|filled| &filled.labels).copied().collect();
+        manifold::split_repeated_edges(&mut mesh, &mut labels, |piece| pieces[piece.index()].twin);
+    }
     let solid = nested.solid;
-    let (mesh, noise) = proven(mesh, &solid, walls)?;
+    let (mesh, noise) = proven(mesh, &solid, walls, is_closed)?;
     Ok(Welded { mesh, solid, noise, signs, triangulation: begin.elapsed() })
-}
-
-impl Regions {
-    /// The regions, and the number of the region of each edge.
-    fn number(edges: &[BoundaryEdge], rank: &[u32]) -> (Self, Vec<RegionId>) {
-        let key = |edge: &BoundaryEdge| (edge.face, rank[edge.material.0 as usize], edge.material);
-        // the edges of a face follow one another
-        let same_face = || edges.chunk_by(|a, b| (a.face, a.material) == (b.face, b.material));
-        let mut keys: Vec<(PlaneId, u32, MaterialId)> = same_face().map(|edges| key(&edges[0])).collect();
-        keys.sort_unstable();
-        keys.dedup();
-        let mut numbers = Vec::with_capacity(edges.len());
-        for edges in same_face() {
-            let number = keys.binary_search(&key(&edges[0])).expect("the region of each edge is among the keys");
-            let number = RegionId::from_index(number);
-            numbers.extend(std::iter::repeat_n(number, edges.len()));
-        }
-        let regions = Self {
-            planes: keys.iter().map(|k| k.0).collect(),
-            materials: keys.iter().map(|k| k.2).collect(),
-            ranks: keys.iter().map(|k| k.1).collect(),
-        };
-        (regions, numbers)
-    }
-
-    /// Puts regions in an order that depends on the boundary alone, not on the bodies that it came from: by the first of
-    /// their points, their planes and materials.
-    fn sort(&mut self, table: &PlaneTable, pieces: &mut [HalfEdge]) {
-        let mut first = vec![PointId::NONE; self.planes.len()];
-        for piece in pieces.iter() {
-            let first = &mut first[piece.region.index()];
-            *first = piece.from.min(*first);
-        }
-        let regions = RegionId::all(first.len());
-        let mut order: Vec<(PointId, RegionId)> = first.into_iter().zip(regions.clone()).collect();
-        let further = |region: RegionId| (table.order(self.planes[region.index()]), self.ranks[region.index()]);
-        order.par_sort_unstable_by(|p, q| p.0.cmp(&q.0).then_with(|| further(p.1).cmp(&further(q.1))));
-        let mut number = vec![RegionId::NONE; order.len()];
-        for (new, (_, old)) in regions.zip(&order) {
-            number[old.index()] = new;
-        }
-        self.planes = order.iter().map(|(_, old)| self.planes[old.index()]).collect();
-        self.materials = order.iter().map(|(_, old)| self.materials[old.index()]).collect();
-        self.ranks = order.iter().map(|(_, old)| self.ranks[old.index()]).collect();
-        pieces.iter_mut().for_each(|piece| piece.region = number[piece.region.index()]);
-    }
 }
 
 /// Numbers regions, points and lines, cancels what is opposite, and cuts and pairs what is left; half-edges are sorted by
@@ -222,7 +176,7 @@ fn half_edges(
     table: &PlaneTable,
     edges: &[BoundaryEdge],
     rank: &[u32],
-) -> Result<(Regions, Points, Vec<HalfEdge>, Counts), WeldError> {
+) -> Result<(Regions, Points, RegionPieces, Counts), WeldError> {
     // each has parts for one thread, during which the others go on
     let ((mut points, ends, mut signs), ((mut regions, of_edge), (lines, of_pair, counted))) = planecut_parallel::join(
         || Points::identify(table, edges),
@@ -246,35 +200,13 @@ fn half_edges(
         pieces = crossings::pieces(table, &mut points, &lines, &regions.planes, &runs, &by_line)?;
     }
     regions.sort(table, &mut pieces);
-    let mut sorted = order_by_region(&pieces, regions.planes.len());
-    let (pinches, counted) = pinches::find(table, &points, &sorted);
+    let (mut sorted, pinches, counted) = RegionPieces::sort(table, &points, &regions.planes, &pieces);
     signs += counted;
     if !pinches.is_empty() {
         cancel::cut_further(table, &points, &lines, &pinches, &mut pieces);
-        sorted = order_by_region(&pieces, regions.planes.len());
+        sorted = RegionPieces::sort(table, &points, &regions.planes, &pieces).0;
     }
     Ok((regions, points, sorted, signs))
-}
-
-/// Sorts half-edges by region and place, keeping the pairs.
-fn order_by_region(pieces: &[HalfEdge], regions: usize) -> Vec<HalfEdge> {
-    let (_, mut order) = by_group(regions, pieces.iter().map(|piece| piece.region.index()), HalfEdgeId::from_index);
-    let region = |k: &HalfEdgeId| pieces[k.index()].region;
-    order.par_chunk_by_mut(|a, b| region(a) == region(b)).for_each(|members| {
-        members.sort_unstable_by_key(|k| {
-            let piece = &pieces[k.index()];
-            (piece.from, piece.to)
-        });
-    });
-    let mut place = vec![HalfEdgeId::NONE; pieces.len()];
-    for (new, old) in HalfEdgeId::all(order.len()).zip(&order) {
-        place[old.index()] = new;
-    }
-    let piece = |old: HalfEdgeId| {
-        let piece = pieces[old.index()];
-        HalfEdge { twin: place[piece.twin.index()], ..piece }
-    };
-    order.into_par_iter().with_min_len(4096).map(piece).collect()
 }
 
 /// Half-edges chained to loops, these nested to faces.
@@ -289,7 +221,7 @@ fn nest(
     table: &PlaneTable,
     regions: &Regions,
     points: &Points,
-    pieces: &[HalfEdge],
+    RegionPieces { pieces, ranges }: &RegionPieces,
 ) -> Result<(Nested, Counts), WeldError> {
     let mut nested =
         Nested { following: Vec::with_capacity(pieces.len()), faces: Vec::new(), solid: SolidMeasures::default() };
@@ -298,15 +230,15 @@ fn nest(
     }
     let extent = measure::extent(&points.positions, pieces);
     let middle = 0.5 * (extent.0 + extent.1);
-    let by_region = regions_of(pieces);
-    let (parts, counts) = map_chunks(&by_region, 16, |chunk| -> Result<_, WeldError> {
-        let mut nester = Nester::new(table, points);
+    let (parts, counts) = map_weighed_chunks(ranges, 512, Range::len, |chunk| -> Result<_, WeldError> {
+        let (mut nester, mut corners) = (Nester::new(table, points), RegionCorners::default());
         let (mut following, mut faces, mut measures) = (Vec::new(), Faces::default(), Vec::new());
         for range in chunk {
             let (region, start) = (&pieces[range.clone()], range.start);
             let plane = regions.planes[region[0].region.index()];
             let done = following.len();
-            let first = |point: PointId| region.partition_point(|piece| piece.from < point);
+            corners.set(region);
+            let first = |point: PointId| corners.first_at(point).unwrap_or(region.len());
             loops::follow(table, plane, region, start, first, &mut following)?;
             nester.add_faces(plane, region, start, &following[done..], &mut faces)?;
         }
@@ -322,84 +254,4 @@ fn nest(
     }
     nested.solid = measure::sum(measures.iter(), extent);
     Ok((nested, counts))
-}
-
-/// Where the half-edges of each region begin and end.
-fn regions_of(pieces: &[HalfEdge]) -> Vec<Range<usize>> {
-    let mut end = 0;
-    let region = |members: &[HalfEdge]| {
-        let start = end;
-        end += members.len();
-        start..end
-    };
-    pieces.chunk_by(|a, b| a.region == b.region).map(region).collect()
-}
-
-/// The triangles of some faces.
-struct FilledFaces {
-    vertices: Vec<[u32; 3]>,
-    labels: Labels,
-    /// The region of each face, and where its triangles end.
-    ends: Vec<(RegionId, u32)>,
-}
-
-/// Fills the triangles and faces of a mesh, in parallel over faces; gives the half-edge behind each side.
-fn triangulate_faces(
-    table: &PlaneTable,
-    regions: &Regions,
-    points: &Points,
-    pieces: &[HalfEdge],
-    faces: &[Faces],
-    vertex: &[VertexId],
-    mesh: &mut Mesh,
-) -> (Labels, Counts) {
-    let (parts, counts) = map_chunks(faces, 1, |chunk| {
-        let exact = WeldPoints { table, points };
-        let mut triangulator = Triangulator::new(&exact);
-        let (mut filled, mut edges): (Vec<FilledFaces>, Vec<FaceEdge>) = (Vec::new(), Vec::new());
-        for faces in chunk {
-            let (mut triangles, mut ends) = (Triangles::default(), Vec::new());
-            for face in faces.iter() {
-                let normal = table.half_space(regions.planes[face.region.index()]).normal();
-                let projection = Projection::new(normal);
-                edges.clear();
-                edges.extend(face.loops().flatten().map(|k| pieces[k.index()].edge_of_face(*k)));
-                let at = |point: PointId| projection.of(points.positions[point.index()]);
-                match LargeFace::of_many(&edges, at) {
-                    Some(large) => large.list(&mut triangles),
-                    None => {
-                        triangulator.begin(projection);
-                        for pieces_of_loop in face.loops() {
-                            triangulator.add_loop(pieces_of_loop.iter().map(|k| points.corner(*k, &pieces[k.index()])));
-                        }
-                        triangulator.triangulate(&mut triangles);
-                    }
-                }
-                ends.push((face.region, number32(triangles.corners.len())));
-            }
-            let corner = |piece: HalfEdgeId| vertex[piece.index()].number();
-            let vertices = triangles.corners.iter().map(|corners| corners.map(corner)).collect();
-            filled.push(FilledFaces { vertices, labels: triangles.labels, ends });
-        }
-        filled
-    });
-    let parts = || parts.iter().flatten();
-    let count = parts().map(|filled| filled.vertices.len()).sum();
-    mesh.triangles.reserve_exact(count);
-    mesh.triangle_faces.reserve_exact(count);
-    let mut labels = Labels::with_capacity(count);
-    for FilledFaces { vertices, labels: of_sides, ends } in parts() {
-        let mut start = 0;
-        for &(region, end) in ends {
-            let face = mesh.faces.len();
-            let normal: DVec3 = table.half_space(regions.planes[region.index()]).normal();
-            let scaled = normal / normal.abs().max_element();
-            mesh.faces.push(MeshFace { normal: scaled.normalize(), material: regions.materials[region.index()] });
-            mesh.triangle_faces.extend(std::iter::repeat_n(number32(face), (end - start) as usize));
-            start = end;
-        }
-        mesh.triangles.extend_from_slice(vertices);
-        labels.extend_from_slice(of_sides);
-    }
-    (labels, counts)
 }

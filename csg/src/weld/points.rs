@@ -49,13 +49,23 @@ impl Points {
             keys.iter().map(|key| Named::of(table, planes(*key))).collect::<Vec<_>>()
         });
         let named: Vec<Named> = named.into_iter().flatten().collect();
-        let place = |(k, point): (usize, &Named)| (place(point.position), NameId::from_index(k));
-        let mut sorted: Vec<(Place, NameId)> = named.par_iter().enumerate().with_min_len(1024).map(place).collect();
+        let place = |(k, point): (usize, &Named)| (curve_number(point.position), NameId::from_index(k));
+        let mut sorted: Vec<(u64, NameId)> = named.par_iter().enumerate().with_min_len(1024).map(place).collect();
         sorted.par_sort_unstable();
-        let alike: Vec<&[(Place, NameId)]> = sorted.chunk_by(|a, b| a.0 == b.0).collect();
-        let (parts, joining) = map_chunks(&alike, 512, |chunk| {
-            let mut joined = Vec::with_capacity(chunk.len());
-            chunk.iter().for_each(|alike| join_equal(table, &named, alike, &mut joined));
+        let close: Vec<&[(u64, NameId)]> = sorted.chunk_by(|a, b| a.0 == b.0).collect();
+        let (parts, joining) = map_chunks(&close, 512, |chunk| {
+            let (mut joined, mut places) = (Vec::with_capacity(chunk.len()), Vec::new());
+            for close in chunk {
+                if let [(_, only)] = close {
+                    joined.push((*only, true));
+                    continue;
+                }
+                places.clear();
+                places.extend(close.iter().map(|(_, k)| (coordinates(named[k.index()].position), *k)));
+                places.sort_unstable();
+                let alike = places.chunk_by(|a, b| a.0 == b.0);
+                alike.for_each(|alike| join_equal(table, &named, alike, &mut joined));
+            }
             joined
         });
         counts += joining;
@@ -187,12 +197,17 @@ fn exact_coordinates(table: &PlaneTable, planes: [PlaneId; 3], position: DVec3) 
 
 /// The order of points whose coordinates, rounded, differ.
 fn place(position: DVec3) -> Place {
-    (curve_number(position), position.to_array().map(sortable))
+    (curve_number(position), coordinates(position))
+}
+
+/// Coordinates in the order of numbers.
+fn coordinates(position: DVec3) -> [u64; 3] {
+    position.to_array().map(sortable)
 }
 
 /// Adds points that round alike in their exact order, each with those that are equal to it; tells of each whether it is the first
 /// of these.
-fn join_equal(table: &PlaneTable, named: &[Named], alike: &[(Place, NameId)], joined: &mut Vec<(NameId, bool)>) {
+fn join_equal(table: &PlaneTable, named: &[Named], alike: &[([u64; 3], NameId)], joined: &mut Vec<(NameId, bool)>) {
     if let [(_, one)] = alike {
         joined.push((*one, true));
         return;

@@ -5,6 +5,7 @@
 //! coordinates can propose (hash, sort) while signs decide.
 
 mod line;
+mod refine;
 mod turn;
 
 use std::cmp::Ordering;
@@ -32,7 +33,8 @@ pub fn meet(a: &Row, b: &Row, c: &Row) -> Option<DVec3> {
         let [x, y, z, w] = fast.value;
         return (w != 0.0).then(|| DVec3::new(x / w + 0.0, y / w + 0.0, z / w + 0.0));
     }
-    meet_double_double(a, b, c, &fast.permanent).or_else(|| meet_exact(a, b, c))
+    let refined = refine::refined([a, b, c], &fast).map(DVec3::from_array);
+    refined.or_else(|| meet_double_double(a, b, c, &fast.permanent)).or_else(|| meet_exact(a, b, c))
 }
 
 /// `None` where some coordinate cannot be rounded with certainty.

@@ -1,0 +1,219 @@
+//! On which sides of the planes of other bodies the corners of a body lie: each corner is seen from several faces, and four are told at once.
+
+use std::ops::Range;
+
+use planecut_kernel::HalfSpace;
+use planecut_kernel::sign::Sign;
+use wide::f64x4;
+
+use super::section::Polygon;
+use crate::body::{Corner, PlaneFilter};
+use crate::ids::{CornerId, Id};
+use crate::plane_table::{PlaneId, PlaneTable};
+
+/// Of bodies with more corners nothing is told here.
+const MOST: usize = 1024;
+
+/// Corners that are told at once.
+const LANES: usize = 4;
+/// Corners of a word.
+const BITS: usize = u64::BITS as usize;
+
+/// The corners of one body, and on which sides of some planes they are.
+#[derive(Debug, Default)]
+pub(super) struct CornerSides {
+    /// Coordinates and errors of [`LANES`] corners each; the last of them are there several times.
+    corners: Vec<[f64x4; 4]>,
+    count: usize,
+    /// How many words there are for each plane.
+    words: usize,
+    sides: Vec<Sides>,
+    /// Corners that are looked for.
+    left: Vec<u64>,
+    /// The corners of the polygon that is looked at, as far as they are corners of the body.
+    polygon: Vec<u64>,
+    /// The places of those of its corners that cutting made.
+    cut: Vec<usize>,
+}
+
+/// The sides of a word of corners; what is in none of the three is not known.
+#[derive(Debug, Clone, Copy, Default)]
+struct Sides {
+    inside: u64,
+    on: u64,
+    outside: u64,
+}
+
+/// Whether some corners of a polygon lie strictly inside of a plane, and some strictly outside.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) struct Spread {
+    pub(super) inside: bool,
+    pub(super) outside: bool,
+}
+
+impl CornerSides {
+    /// Begins with the corners of another body.
+    pub(super) fn begin(&mut self, corners: &[Corner]) {
+        self.corners.clear();
+        self.sides.clear();
+        // of more corners it would be much to look at all for every plane
+        let corners = if corners.len() <= MOST { corners } else { &[] };
+        self.count = corners.len();
+        self.words = corners.len().div_ceil(BITS);
+        self.corners.extend(corners.chunks(LANES).map(|some| {
+            let lanes = |of: fn(&Corner) -> f64| f64x4::new([0, 1, 2, 3].map(|k| of(&some[k.min(some.len() - 1)])));
+            [lanes(|c| c.at.x), lanes(|c| c.at.y), lanes(|c| c.at.z), lanes(|c| c.error)]
+        }));
+    }
+
+    /// Adds a plane as far as plain numbers tell; whether all corners are strictly outside of it.
+    pub(super) fn add_plane(&mut self, half_space: &HalfSpace) -> bool {
+        let filter = PlaneFilter::new(half_space);
+        let mut are_all_outside = true;
+        for (word, corners) in self.corners.chunks(BITS / LANES).enumerate() {
+            let mut sides = Sides::default();
+            for (place, corners) in corners.iter().enumerate() {
+                let (value, bound) = filter.values(corners);
+                sides.outside |= u64::from(value.simd_gt(bound).to_bitmask()) << (LANES * place);
+                sides.inside |= u64::from(value.simd_lt(-bound).to_bitmask()) << (LANES * place);
+            }
+            let all = all_bits(self.count - word * BITS);
+            sides.outside &= all;
+            sides.inside &= all;
+            are_all_outside &= sides.outside == all;
+            self.sides.push(sides);
+        }
+        are_all_outside
+    }
+
+    /// Whether a corner is known to lie strictly inside of all planes from one on.
+    pub(super) fn is_one_inside(&self, first: usize) -> bool {
+        let sides = &self.sides[first * self.words..];
+        (0..self.words).any(|word| sides.chunks(self.words).fold(u64::MAX, |all, plane| all & plane[word].inside) != 0)
+    }
+
+    /// How many planes were added.
+    pub(super) fn planes(&self) -> usize {
+        self.sides.len() / self.words.max(1)
+    }
+
+    /// Forgets the planes from one on.
+    pub(super) fn forget_from(&mut self, plane: usize) {
+        self.sides.truncate(plane * self.words);
+    }
+
+    /// Begins to look for corners that are beyond none of the planes that are added from now on.
+    pub(super) fn begin_search(&mut self) {
+        self.left.clear();
+        self.left.extend((0..self.words).map(|word| all_bits(self.count - word * BITS)));
+    }
+
+    /// Drops those beyond the plane that was added last from the corners looked for.
+    pub(super) fn drop_outside(&mut self) {
+        let last = &self.sides[self.sides.len() - self.words..];
+        self.left.iter_mut().zip(last).for_each(|(left, sides)| *left &= !sides.outside);
+    }
+
+    /// Drops a corner from those looked for.
+    pub(super) fn drop_corner(&mut self, corner: CornerId) {
+        self.left[corner.index() / BITS] &= !(1 << (corner.index() % BITS));
+    }
+
+    /// The first of the corners looked for, or the last.
+    pub(super) fn left(&self, is_first: bool) -> Option<CornerId> {
+        let mut some = self.left.iter().enumerate().filter(|(_, bits)| **bits != 0);
+        let (word, bits) = if is_first { some.next()? } else { some.next_back()? };
+        let bit = if is_first { bits.trailing_zeros() } else { bits.ilog2() };
+        Some(CornerId::from_index(word * BITS + bit as usize))
+    }
+
+    /// Takes a polygon on a face of the body to be looked at.
+    pub(super) fn look_at(&mut self, polygon: &Polygon) {
+        self.polygon.clear();
+        self.polygon.resize(self.words, 0);
+        self.cut.clear();
+        for (place, corner) in polygon.corners.iter().enumerate() {
+            if corner.number.index() >= self.count {
+                self.cut.push(place);
+            } else {
+                let number = corner.number.index();
+                self.polygon[number / BITS] |= 1 << (number % BITS);
+            }
+        }
+    }
+
+    /// Whether there are no corners to be told of.
+    pub(super) fn is_empty(&self) -> bool {
+        self.count == 0
+    }
+
+    /// Whether the polygon is known to lie strictly inside of some planes.
+    pub(super) fn are_known_inside(&self, mut planes: Range<usize>) -> bool {
+        let holds = |(bits, sides): (&u64, &Sides)| bits & !sides.inside == 0;
+        self.cut.is_empty() && planes.all(|plane| self.polygon.iter().zip(self.of_plane(plane)).all(holds))
+    }
+
+    /// Whether the polygon is known to lie strictly outside of a plane.
+    pub(super) fn is_known_outside(&self, plane: usize) -> bool {
+        let is_outside = |(bits, sides): (&u64, &Sides)| bits & !sides.outside == 0;
+        self.cut.is_empty() && self.polygon.iter().zip(self.of_plane(plane)).all(is_outside)
+    }
+
+    fn of_plane(&self, plane: usize) -> &[Sides] {
+        &self.sides[plane * self.words..(plane + 1) * self.words]
+    }
+
+    /// How the corners of the polygon, which lies on a plane of a table, are spread about another; `number` is that of the plane among those added. Exact; whether there are more
+    /// of either side is not looked for.
+    pub(super) fn spread(
+        &mut self,
+        table: &PlaneTable,
+        (polygon, plane): (&Polygon, PlaneId),
+        (number, cut): (usize, PlaneId),
+    ) -> Spread {
+        let mut spread = Spread::default();
+        let sides = &mut self.sides[number * self.words..(number + 1) * self.words];
+        for (word, (bits, sides)) in self.polygon.iter().zip(sides).enumerate() {
+            let mut unknown = bits & !(sides.inside | sides.on | sides.outside);
+            while unknown != 0 {
+                let bit = unknown & unknown.wrapping_neg();
+                let corner = CornerId::from_index(word * BITS + bit.trailing_zeros() as usize);
+                let place = polygon.corners.iter().position(|other| other.number == corner);
+                let place = place.expect("a corner of the polygon");
+                match polygon.corners[place].side(table, polygon.corner(plane, place), cut) {
+                    Sign::Negative => sides.inside |= bit,
+                    Sign::Zero => sides.on |= bit,
+                    Sign::Positive => sides.outside |= bit,
+                }
+                unknown &= !bit;
+            }
+            spread.inside |= bits & sides.inside != 0;
+            spread.outside |= bits & sides.outside != 0;
+        }
+        for place in &self.cut {
+            if spread.inside && spread.outside {
+                break;
+            }
+            match polygon.corners[*place].side(table, polygon.corner(plane, *place), cut) {
+                Sign::Negative => spread.inside = true,
+                Sign::Zero => {}
+                Sign::Positive => spread.outside = true,
+            }
+        }
+        spread
+    }
+}
+
+/// The bits of the first of some corners that are in one word.
+fn all_bits(corners: usize) -> u64 {
+    if corners >= BITS { u64::MAX } else { (1 << corners) - 1 }
+}
+
+impl PlaneFilter {
+    /// Values of the plane's equation at four corners, and bounds for their errors.
+    #[inline]
+    fn values(&self, [x, y, z, error]: &[f64x4; 4]) -> (f64x4, f64x4) {
+        let [a, b, c, offset, reach, room] = self.numbers().map(f64x4::splat);
+        (a * *x + b * *y + c * *z - offset, reach * *error + room)
+    }
+}

@@ -1,0 +1,88 @@
+//! The triangles of all faces, and the mesh that they make.
+
+use planecut_kernel::DVec3;
+use planecut_kernel::sign::Counts;
+
+use super::cancel::HalfEdge;
+use super::large_face::{FaceEdge, LargeFace};
+use super::manifold::Labels;
+use super::nest::{Faces, Projection};
+use super::points::Points;
+use super::regions::Regions;
+use super::triangulate::{Triangles, Triangulator, WeldPoints};
+use crate::base::{concat, map_chunks};
+use crate::ids::{HalfEdgeId, Id, PointId, RegionId, VertexId, number32};
+use crate::mesh::{Mesh, MeshFace};
+use crate::model::Material;
+use crate::plane_table::PlaneTable;
+
+/// The triangles of some faces.
+pub(super) struct FilledFaces {
+    /// The vertices of each triangle.
+    triangles: Vec<[u32; 3]>,
+    /// The half-edge behind each side.
+    pub(super) labels: Labels,
+    faces: Vec<MeshFace>,
+    /// For each triangle the place of its face among these.
+    triangle_faces: Vec<u32>,
+}
+
+/// Fills faces with triangles, in parallel.
+pub(super) fn filled_faces(
+    table: &PlaneTable,
+    regions: &Regions,
+    points: &Points,
+    pieces: &[HalfEdge],
+    faces: &[Faces],
+    vertex: &[VertexId],
+) -> (Vec<FilledFaces>, Counts) {
+    let (parts, counts) = map_chunks(faces, 1, |chunk| {
+        let exact = WeldPoints { table, points };
+        let mut triangulator = Triangulator::new(&exact);
+        let (mut edges, mut triangles): (Vec<FaceEdge>, _) = (Vec::new(), Triangles::default());
+        let (mut mesh_faces, mut triangle_faces) = (Vec::new(), Vec::new());
+        for face in chunk.iter().flat_map(Faces::iter) {
+            let normal = table.half_space(regions.planes[face.region.index()]).normal();
+            let projection = Projection::new(normal);
+            edges.clear();
+            edges.extend(face.loops().flatten().map(|k| pieces[k.index()].edge_of_face(*k)));
+            let at = |point: PointId| projection.of(points.positions[point.index()]);
+            match LargeFace::of_many(&edges, at) {
+                Some(large) => large.list(&mut triangles),
+                None => {
+                    triangulator.begin(projection);
+                    for pieces_of_loop in face.loops() {
+                        triangulator.add_loop(pieces_of_loop.iter().map(|k| points.corner(*k, &pieces[k.index()])));
+                    }
+                    triangulator.triangulate(&mut triangles);
+                }
+            }
+            triangle_faces.resize(triangles.corners.len(), number32(mesh_faces.len()));
+            mesh_faces.push(mesh_face(regions, face.region, normal));
+        }
+        let corner = |piece: HalfEdgeId| vertex[piece.index()].number();
+        let Triangles { corners, labels } = triangles;
+        let triangles = corners.iter().map(|corners| corners.map(corner)).collect();
+        FilledFaces { triangles, labels, faces: mesh_faces, triangle_faces }
+    });
+    (parts, counts)
+}
+
+fn mesh_face(regions: &Regions, region: RegionId, normal: DVec3) -> MeshFace {
+    let scaled = normal / normal.abs().max_element();
+    MeshFace { normal: scaled.normalize(), material: regions.materials[region.index()] }
+}
+
+/// The mesh of faces, without positions.
+pub(super) fn mesh_of(parts: &[FilledFaces], materials: &[Material]) -> Mesh {
+    let mut faces = Vec::with_capacity(parts.iter().map(|part| part.faces.len()).sum());
+    let mut first = Vec::with_capacity(parts.len());
+    for part in parts {
+        first.push(number32(faces.len()));
+        faces.extend_from_slice(&part.faces);
+    }
+    let of_part = |part: usize| &parts[part];
+    let triangles = concat(parts.len(), |part| &of_part(part).triangles, |_, triangle| *triangle);
+    let triangle_faces = concat(parts.len(), |part| &of_part(part).triangle_faces, |part, face| first[part] + *face);
+    Mesh { triangles, triangle_faces, faces, materials: materials.to_vec(), ..Mesh::default() }
+}
