@@ -217,3 +217,78 @@ impl PlaneFilter {
         (a * *x + b * *y + c * *z - offset, reach * *error + room)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use planecut_kernel::DVec3;
+
+    use super::*;
+    use crate::body::{Body, build_bodies};
+    use crate::model::{Brush, MaterialId};
+
+    /// A prism of many sides, so that its corners take several words; on a grid, so that corners often lie on planes.
+    fn prism(sides: u32, middle: DVec3) -> Brush {
+        let side = |k: u32| {
+            let (y, x) = (std::f64::consts::TAU * f64::from(k) / f64::from(sides)).sin_cos();
+            let normal = DVec3::new((64.0 * x).round(), (64.0 * y).round(), 0.0);
+            HalfSpace::new(normal, 64.0 + normal.dot(middle)).expect("a plane")
+        };
+        let caps = [1.0, -1.0].map(|z| HalfSpace::new(DVec3::Z * z, 1.0 + z * middle.z).expect("a plane"));
+        Brush::from_half_spaces((0..sides).map(side).chain(caps), MaterialId(0))
+    }
+
+    /// The side of each corner as the planes of the corner tell it.
+    fn exact_sides(table: &PlaneTable, body: &Body, cut: PlaneId) -> Vec<Sign> {
+        let mut sides = vec![Sign::Zero; body.corner_count()];
+        for face in &body.faces {
+            let mut polygon = Polygon::default();
+            polygon.set(body.edges(face), body.corners(face));
+            for (place, corner) in polygon.corners.iter().enumerate() {
+                let planes = polygon.corner(face.plane, place);
+                sides[corner.number.index()] = table.side(planes, &table.homogeneous(planes), cut);
+            }
+        }
+        sides
+    }
+
+    #[test]
+    fn sides_are_those_of_the_planes_of_each_corner() {
+        let mut told = [0; 3];
+        for (sides, step) in [(4, 1.0), (6, 0.5), (40, 0.25), (96, 1.0 / 3.0)] {
+            let brushes: Vec<Brush> = (0..6).map(|k| prism(sides, DVec3::splat(step * f64::from(k)))).collect();
+            let built = build_bodies(&brushes);
+            let bodies: Vec<Body> = built.bodies.into_iter().filter_map(|body| body.bounded()).collect();
+            assert_eq!(bodies.len(), 6);
+            let mut corners = CornerSides::default();
+            for (body, other) in bodies.iter().flat_map(|body| bodies.iter().map(move |other| (body, other))) {
+                corners.begin(body.all_corners());
+                let mut exact = Vec::new();
+                for (number, face) in other.faces.iter().enumerate() {
+                    let are_outside = corners.add_plane(built.table.half_space(face.plane));
+                    exact.push(exact_sides(&built.table, body, face.plane));
+                    assert!(!are_outside || exact[number].iter().all(|side| *side == Sign::Positive));
+                }
+                let is_inside = |k: usize| exact.iter().all(|sides| sides[k] == Sign::Negative);
+                assert!(!corners.is_one_inside(0) || (0..body.corner_count()).any(is_inside));
+                for face in &body.faces {
+                    let mut polygon = Polygon::default();
+                    polygon.set(body.edges(face), body.corners(face));
+                    corners.look_at(&polygon);
+                    for (number, cut) in other.faces.iter().enumerate() {
+                        let is =
+                            |side| polygon.corners.iter().any(|corner| exact[number][corner.number.index()] == side);
+                        if corners.is_known_outside(number) {
+                            assert!(!is(Sign::Negative) && !is(Sign::Zero));
+                        }
+                        let spread = corners.spread(&built.table, (&polygon, face.plane), (number, cut.plane));
+                        assert_eq!((spread.inside, spread.outside), (is(Sign::Negative), is(Sign::Positive)));
+                        told[0] += usize::from(is(Sign::Zero));
+                        told[1] += usize::from(spread.inside && spread.outside);
+                        told[2] += usize::from(corners.is_known_outside(number));
+                    }
+                }
+            }
+        }
+        assert!(told.iter().all(|count| *count > 100), "on planes, across, beyond: {told:?}");
+    }
+}

@@ -121,7 +121,7 @@ impl<'a> FaceWorker<'a> {
         self.clipper.look_at(&self.region);
         let own = self.gather(this);
         if let Some(operation) = scene.one_level
-            && !scene.is_plane_shared(this)
+            && (operation == OneLevel::Union || !scene.is_plane_shared(this))
         {
             if let Some(facing) = self.sort_out_one_level(own, this, operation)
                 && self.cover_region(this)
@@ -209,25 +209,28 @@ impl<'a> FaceWorker<'a> {
         true
     }
 
-    /// What [`sort_out`](Self::sort_out) finds where the tree has one level and no other face lies on the plane; and which
+    /// What [`sort_out`](Self::sort_out) finds in a union, or where the tree has one level and no other face lies on the plane; and which
     /// boundary the face is, where it is any.
+    ///
+    /// In a union a body covers what lies in it, and what its face covers on the plane: there the solid goes on where it faces the other way, and where it faces
+    /// the same way the first of both emits the boundary.
     fn sort_out_one_level(&mut self, own: KeptLeafId, face: &'a BodyFace, operation: OneLevel) -> Option<Facing> {
         self.covering.clear();
+        let turn = self.scene.turn(self.body, face);
         let is_tool = operation == OneLevel::Difference && self.leaves[own.index()].index() != 0;
         let mut is_in_first = !is_tool;
         for leaf in KeptLeafId::all(self.bodies.len()) {
             if leaf == own {
                 continue;
             }
-            let (body, place) = (self.bodies[leaf.index()], self.places[leaf.index()]);
-            let across = Reaching { body, place, leaf, contact: Contact::Across, turn: self.scene.turn(body, face) };
+            let reaching = self.reaching(leaf, face);
             if is_tool && self.leaves[leaf.index()].index() == 0 {
-                if !self.require(face, &across) {
+                if !self.require(face, &reaching) {
                     return None;
                 }
                 is_in_first = true;
-            } else {
-                self.covering.push(across);
+            } else if reaching.contact != Contact::SameWay || reaching.turn < turn {
+                self.covering.push(reaching);
             }
         }
         is_in_first.then_some(if is_tool { Facing::In } else { Facing::Out })

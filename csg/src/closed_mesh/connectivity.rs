@@ -213,4 +213,38 @@ mod tests {
         assert_eq!(HalfEdges::new(4, &doubled).repeated(), all);
         assert_eq!(HalfEdges::new(4, &TETRAHEDRON).repeated(), []);
     }
+
+    /// Counts each directed edge of triangles in a map.
+    fn is_each_edge_there_once_each_way(triangles: &[[u32; 3]]) -> bool {
+        let mut count = std::collections::BTreeMap::new();
+        for [a, b, c] in triangles {
+            for edge in [(a, b), (b, c), (c, a)] {
+                *count.entry(edge).or_insert(0) += 1;
+            }
+        }
+        count.iter().all(|((a, b), uses)| *uses == 1 && a != b && count.get(&(*b, *a)) == Some(&1))
+    }
+
+    #[test]
+    fn fans_of_any_size_are_paired_unless_a_corner_is_another() {
+        let mut damaged = 0;
+        for sides in [3, 4, 10, FEW as u32, FEW as u32 + 1, 40] {
+            // two fans, from two tips around one ring
+            let next = |k: u32| (k + 1) % sides;
+            let up = (0..sides).map(|k| [k, next(k), sides]);
+            let triangles: Vec<[u32; 3]> = up.chain((0..sides).map(|k| [next(k), k, sides + 1])).collect();
+            let is_paired = |triangles: &[[u32; 3]]| HalfEdges::new(sides as usize + 2, triangles).are_all_paired();
+            assert!(is_paired(&triangles) && is_each_edge_there_once_each_way(&triangles));
+            for (place, corner) in (0..triangles.len()).flat_map(|place| [0, 1, 2].map(|corner| (place, corner))) {
+                for other in 0..sides + 2 {
+                    let mut changed = triangles.clone();
+                    changed[place][corner] = other;
+                    let expected = is_each_edge_there_once_each_way(&changed);
+                    assert_eq!(is_paired(&changed), expected, "{changed:?}");
+                    damaged += usize::from(!expected);
+                }
+            }
+        }
+        assert!(damaged > 1000);
+    }
 }

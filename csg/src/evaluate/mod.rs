@@ -258,9 +258,10 @@ fn evaluate_here(
         Some(outer) => leaves.boundary_within(&table, &outer, (model.tree.nodes(), polarities), &rank)?,
     };
     signs += counted;
+    drop((leaves, planes));
     let (evaluated, welding) = (begin.elapsed(), Clock::start());
     let Welded { mesh, solid, noise, signs: counted, triangulation } =
-        weld(&table, &edges, &rank, &model.materials, others.walls)?;
+        weld(&table, edges, &rank, &model.materials, others.walls)?;
     signs += counted;
     let times = StageTimes {
         evaluate: evaluated,
@@ -291,7 +292,7 @@ pub fn mesh_of_union(
     materials: &[Material],
 ) -> Result<(Mesh, SolidMeasures), WeldError> {
     let (edges, _) = boundary_of_union(table, bodies, ranks);
-    let Welded { mesh, solid, .. } = weld(table, &edges, ranks, materials, None)?;
+    let Welded { mesh, solid, .. } = weld(table, edges, ranks, materials, None)?;
     Ok((mesh, solid))
 }
 
@@ -329,9 +330,9 @@ impl Leaves {
         boundary_edges(&Scene::new(table, &self.bodies, &self.leaf_of_body, tree, rank))
     }
 
-    /// The boundary of the tree cut by the outer box, which it must not reach.
+    /// The boundary of the tree cut by the outer box, which it must not reach; the box is one of the bodies afterwards.
     fn boundary_within(
-        mut self,
+        &mut self,
         table: &PlaneTable,
         outer: &OuterBox,
         (nodes, mut polarities): (&[TreeNode], Vec<Polarity>),

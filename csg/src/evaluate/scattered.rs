@@ -69,7 +69,7 @@ pub(super) fn evaluate_scattered(
         });
         signs += counted;
         for Alone { mesh, noise, rest } in parts.into_iter().flatten() {
-            solid.add(&mesh.mesh, &mesh.totals, noise);
+            solid.add(mesh.mesh, &mesh.totals, noise);
             others.extend(rest.into_iter().map(|leaf| vec![leaf]));
         }
     }
@@ -84,10 +84,10 @@ pub(super) fn evaluate_scattered(
             scene.leaves(&leaves, &mut signs).boundary_edges(&table, (&expression, &polarities), &rank);
         signs += counted;
         let Welded { mesh, solid: measures, noise, signs: counted, triangulation } =
-            weld(&table, &edges, &rank, &model.materials, scene.walls)?;
+            weld(&table, edges, &rank, &model.materials, scene.walls)?;
         signs += counted;
         triangulate += triangulation;
-        solid.add(&mesh, &Totals::of(&measures), noise);
+        solid.add(mesh, &Totals::of(&measures), noise);
     }
     let times = StageTimes { evaluate: evaluated, weld: welding.elapsed().saturating_sub(triangulate), triangulate };
     let Solid { mesh, totals, noise } = solid;
@@ -250,7 +250,15 @@ impl Solid {
         Self { mesh, totals: Totals::default(), noise: Noise::default() }
     }
 
-    fn add(&mut self, part: &Mesh, totals: &Totals, noise: Noise) {
+    fn add(&mut self, part: Mesh, totals: &Totals, noise: Noise) {
+        self.totals.add(totals);
+        self.noise.collapsed += noise.collapsed;
+        self.noise.thickest = self.noise.thickest.max(noise.thickest);
+        if self.mesh.positions.is_empty() {
+            // mostly nearly everything hangs together: it is not kept twice
+            self.mesh = Mesh { materials: std::mem::take(&mut self.mesh.materials), ..part };
+            return;
+        }
         let (vertex, face) = (number32(self.mesh.positions.len()), number32(self.mesh.faces.len()));
         self.mesh.positions.extend_from_slice(&part.positions);
         self.mesh.triangles.extend(part.triangles.iter().map(|corners| corners.map(|corner| vertex + corner)));
@@ -258,9 +266,6 @@ impl Solid {
         self.mesh.faces.extend_from_slice(&part.faces);
         // numbers of vertices and faces must fit
         number32(self.mesh.positions.len());
-        self.totals.add(totals);
-        self.noise.collapsed += noise.collapsed;
-        self.noise.thickest = self.noise.thickest.max(noise.thickest);
     }
 }
 

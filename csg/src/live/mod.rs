@@ -345,7 +345,7 @@ impl LiveModel {
         let operands = self.operands.iter().flatten();
         let edges: Vec<BoundaryEdge> =
             operands.flat_map(|operand| &operand.edges).flatten().map(|edge| edge.0).collect();
-        Ok(weld(&self.planes.table, &edges, &self.rank, &self.materials, None)?.mesh)
+        Ok(weld(&self.planes.table, edges, &self.rank, &self.materials, None)?.mesh)
     }
 
     fn number(&self, id: BrushId) -> Result<OperandId, EditError> {

@@ -143,7 +143,7 @@ pub(crate) struct Welded {
 /// Welds boundary edges into a mesh; `rank` orders materials by name, and noise stays at faces of the material of walls, where there is one.
 pub(crate) fn weld(
     table: &PlaneTable,
-    edges: &[BoundaryEdge],
+    edges: Vec<BoundaryEdge>,
     rank: &[u32],
     materials: &[Material],
     walls: Option<MaterialId>,
@@ -151,7 +151,7 @@ pub(crate) fn weld(
     let (regions, points, sorted, mut signs) = half_edges(table, edges, rank)?;
     let (nested, counted) = nest(table, &regions, &points, &sorted)?;
     signs += counted;
-    let pieces = sorted.pieces;
+    let RegionPieces { pieces, .. } = sorted;
     let (vertex, point) = manifold::vertices(&pieces, &nested.following);
 
     let begin = Clock::start();
@@ -166,6 +166,7 @@ pub(crate) fn weld(
         manifold::split_repeated_edges(&mut mesh, &mut labels, |piece| pieces[piece.index()].twin);
     }
     let solid = nested.solid;
+    drop((filled, nested, pieces, vertex, points));
     let (mesh, noise) = proven(mesh, &solid, walls, is_closed)?;
     Ok(Welded { mesh, solid, noise, signs, triangulation: begin.elapsed() })
 }
@@ -174,13 +175,13 @@ pub(crate) fn weld(
 /// region and place.
 fn half_edges(
     table: &PlaneTable,
-    edges: &[BoundaryEdge],
+    edges: Vec<BoundaryEdge>,
     rank: &[u32],
 ) -> Result<(Regions, Points, RegionPieces, Counts), WeldError> {
     // each has parts for one thread, during which the others go on
     let ((mut points, ends, mut signs), ((mut regions, of_edge), (lines, of_pair, counted))) = planecut_parallel::join(
-        || Points::identify(table, edges),
-        || planecut_parallel::join(|| Regions::number(edges, rank), || lines::identify(table, edges)),
+        || Points::identify(table, &edges),
+        || planecut_parallel::join(|| Regions::number(&edges, rank), || lines::identify(table, &edges)),
     );
     signs += counted;
     let run = |(k, edge): (usize, &BoundaryEdge)| Run {
@@ -192,19 +193,23 @@ fn half_edges(
         forward: lines[of_pair[k].index()].is_along(table, edge.face, edge.edge),
     };
     let runs: Vec<Run> = edges.par_iter().enumerate().with_min_len(1024).map(run).collect();
+    // each of these is as large as the mesh of a large model
+    drop((edges, ends, of_edge));
     let by_line = by_group(lines.len(), of_pair.iter().map(|line| line.index()), EdgeId::from_index);
+    drop(of_pair);
     let (Pieces { mut pieces, slits, passed }, counted) =
         cancel::pieces(table, &points, &lines, &regions.planes, &runs, &by_line)?;
     signs += counted;
     if !slits.is_empty() || crossings::any(&passed) {
         pieces = crossings::pieces(table, &mut points, &lines, &regions.planes, &runs, &by_line)?;
     }
+    drop((runs, by_line));
     regions.sort(table, &mut pieces);
-    let (mut sorted, pinches, counted) = RegionPieces::sort(table, &points, &regions.planes, &pieces);
+    let (mut sorted, pinches, counted) = RegionPieces::with_pinches(table, &points, &regions.planes, &pieces);
     signs += counted;
     if !pinches.is_empty() {
         cancel::cut_further(table, &points, &lines, &pinches, &mut pieces);
-        sorted = RegionPieces::sort(table, &points, &regions.planes, &pieces).0;
+        sorted = RegionPieces::sort(table, &points, &regions.planes, &pieces);
     }
     Ok((regions, points, sorted, signs))
 }

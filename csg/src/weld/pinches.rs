@@ -218,7 +218,7 @@ mod tests {
         let built = build_bodies(&brushes);
         let bodies: Vec<_> = built.bodies.into_iter().filter_map(|body| body.bounded()).collect();
         let (edges, _) = boundary_of_union(&built.table, &bodies, &[0]);
-        let (regions, points, sorted, _) = half_edges(&built.table, &edges, &[0]).expect("closed");
+        let (regions, points, sorted, _) = half_edges(&built.table, edges, &[0]).expect("closed");
         let mut finder = PinchFinder::new(&built.table, &points);
         for range in sorted.ranges {
             let region = &sorted.pieces[range];

@@ -3,6 +3,7 @@
 //! Coordinates are correctly rounded, so equal points have equal coordinates: the coordinates propose, signs decide.
 
 use std::cmp::Ordering;
+use std::hash::Hash;
 
 use planecut_kernel::sign::{Counts, Sign};
 use planecut_kernel::{DVec3, compare_exactly};
@@ -31,6 +32,9 @@ type Place = (u64, [u64; 3]);
 /// The indices of three planes in ascending order, packed.
 pub(super) type Triple = (u64, u32);
 
+/// Number of bits of three numbers that fit into a word.
+const SHORT_BITS: u32 = 21;
+
 /// A point that three planes name, before equal ones are joined.
 pub(super) struct Named {
     pub(super) planes: [PlaneId; 3],
@@ -41,10 +45,26 @@ pub(super) struct Named {
 impl Points {
     /// Numbers the ends of edges by position; gives the numbers of both ends of each edge, in order.
     pub(super) fn identify(table: &PlaneTable, edges: &[BoundaryEdge]) -> (Self, Vec<[PointId; 2]>, Counts) {
+        // a key of one word where the numbers of three planes fit into it
+        if table.len() <= 1 << SHORT_BITS {
+            let first = |key: &u64| (key >> (2 * SHORT_BITS)) as usize;
+            Self::identify_by(table, edges, |triple| short(key(triple)), first, |key| planes(long(key)))
+        } else {
+            Self::identify_by(table, edges, key, |key| (key.0 >> 32) as usize, planes)
+        }
+    }
+
+    /// The same by keys of triples of planes; `first` gives the smallest plane of each.
+    fn identify_by<K: Copy + Eq + Hash + Send + Sync>(
+        table: &PlaneTable,
+        edges: &[BoundaryEdge],
+        key: impl Fn([PlaneId; 3]) -> K + Sync,
+        first: impl Fn(&K) -> usize + Sync,
+        planes: impl Fn(K) -> [PlaneId; 3] + Sync,
+    ) -> (Self, Vec<[PointId; 2]>, Counts) {
         let ends = |edge: &BoundaryEdge| [edge.start, edge.end].map(|end| key([edge.face, edge.edge, end]));
-        let keys: Vec<[Triple; 2]> = edges.par_iter().with_min_len(1024).map(ends).collect();
-        let (different, of_triple) =
-            intern(keys.as_flattened(), table.len(), |key| (key.0 >> 32) as usize, NameId::from_index);
+        let keys: Vec<[K; 2]> = edges.par_iter().with_min_len(1024).map(ends).collect();
+        let (different, of_triple) = intern(keys.as_flattened(), table.len(), first, NameId::from_index);
         let (named, mut counts) = map_chunks(&different, 256, |keys| {
             keys.iter().map(|key| Named::of(table, planes(*key))).collect::<Vec<_>>()
         });
@@ -236,6 +256,18 @@ pub(super) fn key(triple: [PlaneId; 3]) -> Triple {
     (u64::from(a) << 32 | u64::from(b), c)
 }
 
+/// A key in one word, of planes whose numbers have at most [`SHORT_BITS`] bits.
+fn short((ab, c): Triple) -> u64 {
+    (ab >> 32) << (2 * SHORT_BITS) | (ab & 0xFFFF_FFFF) << SHORT_BITS | u64::from(c)
+}
+
+/// The key of a word.
+#[expect(clippy::cast_possible_truncation, reason = "numbers of few bits are taken apart")]
+fn long(key: u64) -> Triple {
+    const LAST: u64 = (1 << SHORT_BITS) - 1;
+    ((key >> (2 * SHORT_BITS)) << 32 | key >> SHORT_BITS & LAST, (key & LAST) as u32)
+}
+
 /// The planes of a key, unsided.
 #[expect(clippy::cast_possible_truncation, reason = "two numbers of 32 bits are taken apart")]
 pub(super) fn planes((ab, c): Triple) -> [PlaneId; 3] {
@@ -270,4 +302,22 @@ fn holds_exactly(table: &PlaneTable, plane: PlaneId, position: DVec3) -> bool {
     row.integer_bits().is_some_and(|bits| bits < BITS)
         && position.to_array().into_iter().all(is_short)
         && x * position.x + y * position.y + z * position.z == d
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{SHORT_BITS, Triple, key, long, planes, short};
+    use crate::plane_table::PlaneId;
+
+    #[test]
+    fn short_keys_are_those_of_the_same_planes() {
+        let last = (1 << SHORT_BITS) - 1;
+        for indices in [[0, 1, 2], [7, 5, 6], [last, 0, last - 1], [last, last, last]] {
+            let long_key: Triple = key(indices.map(PlaneId::of_index));
+            assert_eq!(long(short(long_key)), long_key);
+            let mut sorted = indices;
+            sorted.sort_unstable();
+            assert_eq!(planes(long_key), sorted.map(PlaneId::of_index));
+        }
+    }
 }

@@ -81,12 +81,27 @@ pub(super) struct RegionPieces {
 }
 
 impl RegionPieces {
-    /// Sorts half-edges by region and place, keeping the pairs; and finds where corners lie inside edges of their region, by line.
-    pub(super) fn sort(
+    /// Sorts half-edges by region and place, keeping the pairs.
+    pub(super) fn sort(table: &PlaneTable, points: &Points, planes: &[PlaneId], pieces: &[HalfEdge]) -> Self {
+        Self::sort_and_search(table, points, planes, pieces, false).0
+    }
+
+    /// The same, and where corners lie inside edges of their region, by line.
+    pub(super) fn with_pinches(
         table: &PlaneTable,
         points: &Points,
         planes: &[PlaneId],
         pieces: &[HalfEdge],
+    ) -> (Self, Vec<PointOnLine>, Counts) {
+        Self::sort_and_search(table, points, planes, pieces, true)
+    }
+
+    fn sort_and_search(
+        table: &PlaneTable,
+        points: &Points,
+        planes: &[PlaneId],
+        pieces: &[HalfEdge],
+        searches: bool,
     ) -> (Self, Vec<PointOnLine>, Counts) {
         let (starts, mut order) =
             by_group(planes.len(), pieces.iter().map(|piece| piece.region.index()), HalfEdgeId::from_index);
@@ -111,7 +126,9 @@ impl RegionPieces {
                     place[old.index()].store(HalfEdgeId::from_index(new).number(), Ordering::Relaxed);
                 }
                 let region = &sorted[own];
-                finder.search(region, planes[region[0].region.index()]);
+                if searches {
+                    finder.search(region, planes[region[0].region.index()]);
+                }
             }
             finder.found
         };

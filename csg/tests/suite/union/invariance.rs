@@ -1,7 +1,7 @@
 //! What must not change the outcome, bit for bit: order, threads, repetition, what lies inside, walls between touching parts.
 
 use glam::DVec3;
-use planecut_csg::{Brush, BuiltBodies, Evaluation, Model, UnboundedBrushes, evaluate, evaluate_built};
+use planecut_csg::{Brush, BuiltBodies, Evaluation, MaterialId, Model, UnboundedBrushes, evaluate, evaluate_built};
 use planecut_testkit::generate::{
     general_scene, kindred_scene, placed, sloped_brush, sloped_scene, split, with_materials, with_noise,
 };
@@ -200,4 +200,20 @@ fn a_box_cut_along_a_slope_is_one_box() {
     let parts = evaluate_soundly(&model(parts.to_vec())).expect("a sound mesh");
     let whole = evaluate_soundly(&model(vec![whole])).expect("a sound mesh");
     same(&parts, &whole, "cut").unwrap();
+}
+
+/// A union is worked out in a way of its own; within an intersection with a box that holds everything it is a tree like others.
+#[test]
+fn a_box_around_a_union_changes_nothing() {
+    let scene = |rng: &mut Rng| {
+        let scene = any_scene(rng);
+        with_materials(rng, scene, 3)
+    };
+    sweep(300, scene, |model| {
+        let expected = evaluate_soundly(model)?;
+        let reach = 8.0 * expected.solid.min.abs().max(expected.solid.max.abs()).max_element() + 1.0;
+        let around = Brush::cuboid(DVec3::splat(-reach), DVec3::splat(reach), MaterialId(0));
+        let within = Model { tree: model.tree.clone() & around.into(), ..model.clone() };
+        same(&evaluate_soundly(&within)?, &expected, "within a box")
+    });
 }
