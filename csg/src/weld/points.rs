@@ -262,7 +262,6 @@ fn short((ab, c): Triple) -> u64 {
 }
 
 /// The key of a word.
-#[expect(clippy::cast_possible_truncation, reason = "numbers of few bits are taken apart")]
 fn long(key: u64) -> Triple {
     const LAST: u64 = (1 << SHORT_BITS) - 1;
     ((key >> (2 * SHORT_BITS)) << 32 | key >> SHORT_BITS & LAST, (key & LAST) as u32)
