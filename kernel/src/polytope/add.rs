@@ -5,6 +5,13 @@ use super::{AddPlaneResult, IncrementalPolytope, VertexIdx, external};
 use crate::half_space::HalfSpace;
 use crate::sign::{OffsetColumn, Probe, Row};
 
+/// How many climbs in a row find that nothing is to be cut before the places of all vertices are found.
+const CLIMBS_BEFORE_PLACES: i32 = 2;
+/// How many climbs are needed in spite of the places before these are given up.
+const CLIMBS_IN_SPITE_OF_PLACES: i32 = 3;
+/// How many climbs follow then before the places are tried again.
+const CLIMBS_WITHOUT_PLACES: i32 = 30;
+
 /// What inserting one plane into the structure did.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Insertion {
@@ -48,23 +55,57 @@ impl IncrementalPolytope {
         self.grow_starts();
         let row = *self.row(plane);
         let probe = Probe::new(&row, OffsetColumn::Finite);
+        let mut known_top = None;
+        if self.vertices.are_places_known() {
+            known_top = self.certain_top(&row);
+            if let Some(top) = known_top
+                && !self.violates(top, plane, &probe)
+            {
+                return self.hide(plane, &row, top);
+            }
+        }
         let start = self.start(&row);
         let mut top = start;
         // a vertex that is cut away is as good a beginning as the extreme one
         if !self.violates(start, plane, &probe) {
-            top = self.climb(&row, start);
+            top = known_top.unwrap_or_else(|| self.climb(&row, start));
             if top == start || !self.violates(top, plane, &probe) {
-                self.note_start(&row, self.vertices.planes(top)[0], top);
-                self.certify(plane, top);
-                return Insertion::Redundant;
+                self.note_climb();
+                return self.hide(plane, &row, top);
             }
         }
+        self.scratch.climbs = self.scratch.climbs.min(0);
         if !self.collect_cut(plane, top, &probe) {
             return Insertion::Empty;
         }
         let face_vertex = self.cut_away(plane);
         self.note_start(&row, plane, face_vertex);
         Insertion::Cut
+    }
+
+    /// Notes that a climb was needed to see that a plane is redundant. After several without a change in between, finding the
+    /// places of all vertices pays, unless the directions are such that the places do not tell.
+    #[inline(always)]
+    fn note_climb(&mut self) {
+        let climbs = &mut self.scratch.climbs;
+        *climbs += 1;
+        if self.vertices.are_places_known() {
+            if *climbs > CLIMBS_IN_SPITE_OF_PLACES {
+                self.vertices.forget_places();
+                *climbs = -CLIMBS_WITHOUT_PLACES;
+            }
+        } else if *climbs == CLIMBS_BEFORE_PLACES {
+            self.vertices.find_places();
+            *climbs = 0;
+        }
+    }
+
+    /// Notes that a plane is redundant, because `top` is the vertex that is extreme in its direction.
+    #[inline(always)]
+    fn hide(&mut self, plane: u32, row: &Row, top: u32) -> Insertion {
+        self.note_start(row, self.vertices.planes(top)[0], top);
+        self.certify(plane, top);
+        Insertion::Redundant
     }
 
     /// Starts the record of what an operation changes.
@@ -76,20 +117,29 @@ impl IncrementalPolytope {
         self.change.moved.clear();
     }
 
-    /// Takes a vertex away: it counts as removed unless the same operation made it.
+    /// Takes vertices away: each counts as removed unless the same operation made it.
     #[inline]
-    pub(super) fn discard_vertex(&mut self, vertex: u32) {
-        let is_fresh = self.vertices.take_fresh(vertex);
-        // without a branch: in a batch, it would be mispredicted half the time
-        let removed = &mut self.change.removed;
-        removed.push(VertexIdx(vertex));
-        removed.truncate(removed.len() - usize::from(is_fresh));
-        self.vertices.remove(vertex);
+    pub(super) fn discard_vertices(&mut self, gone: &[u32]) {
+        let Self { vertices, change, .. } = self;
+        if vertices.steps() == Steps::One {
+            change.removed.extend(gone.iter().copied().map(VertexIdx));
+        } else {
+            for &vertex in gone {
+                let is_fresh = vertices.take_fresh(vertex);
+                // without a branch: in a batch, it would be mispredicted half the time
+                change.removed.push(VertexIdx(vertex));
+                change.removed.truncate(change.removed.len() - usize::from(is_fresh));
+            }
+        }
+        vertices.remove_all(gone);
     }
 
     /// What an operation of several steps changed: vertices that it made and took away again are left out.
     #[inline]
     pub(super) fn finish_change(&mut self) -> &Change {
+        if self.vertices.steps() == Steps::One {
+            return &self.change;
+        }
         let created = &mut self.change.created;
         let mut kept = 0;
         for at in 0..created.len() {

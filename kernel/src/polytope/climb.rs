@@ -27,6 +27,15 @@ impl IncrementalPolytope {
         }
     }
 
+    /// The vertex at which `normal·x` is largest, where the places of the vertices are known and only one vertex is the best for
+    /// certain. A climb ends there, wherever it begins.
+    #[inline(always)]
+    pub(super) fn certain_top(&self, normal: &Row) -> Option<u32> {
+        let seemingly = self.vertices.seemingly_farthest(normal.coefficients())?;
+        let rows = self.vertices.planes(seemingly).map(|plane| self.row(plane));
+        if Ascent::is_top(normal, rows) { Some(seemingly) } else { self.climb_quickly(normal, seemingly).ok() }
+    }
+
     /// Climbs while the filter decides; else the vertex at which it does not.
     fn climb_quickly(&self, normal: &Row, start: u32) -> Result<u32, u32> {
         let (mut ascent, mut slope) = Ascent::begin(normal, self.vertices.planes(start).map(|plane| self.row(plane)));

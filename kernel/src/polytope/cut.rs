@@ -5,15 +5,15 @@
 
 use super::infinity::is_infinity;
 use super::redundant::Orphan;
+use super::remove::RingEdge;
 use super::store::{BEFORE, Link, NEXT, NONE, PlaneState, PlaneStore};
 use super::{IncrementalPolytope, VertexIdx};
-use crate::sign::{Homogeneous, OffsetColumn, Probe, cross};
+use crate::sign::{Corner, Homogeneous, OffsetColumn, Probe, cross};
 
 impl IncrementalPolytope {
-    /// Collects all vertices outside `plane` into the scratch, beginning with `top`, and the edges that leave them,
-    /// counter-clockwise; false where no vertex is left. `probe` is that of the plane.
+    /// Collects all vertices outside `plane` into the scratch, beginning with `top`, and the ring around them, counter-clockwise;
+    /// false where no vertex is left. `probe` is that of the plane.
     pub(super) fn collect_cut(&mut self, plane: u32, top: u32, probe: &Probe) -> bool {
-        self.vertices.begin_visit();
         let Self { planes, vertices, scratch, .. } = self;
         let mut vertices = vertices.slots_mut();
         let (cut, horizon, waiting) = (&mut scratch.cut, &mut scratch.horizon, &mut scratch.waiting);
@@ -29,20 +29,26 @@ impl IncrementalPolytope {
             let vertex = end.vertex();
             if !vertices.is_visited(vertex) {
                 let point = vertices.point(vertex);
-                if planes.is_outside(probe, plane, vertices.is_ideal(vertex), vertices.planes(vertex), point) {
+                if planes.is_outside(probe, plane, vertices.planes(vertex), point) {
                     vertices.set_visited(vertex);
                     cut.push(vertex);
                     waiting.push(Link::new(vertex, BEFORE[end.index()]));
                     edge = Link::new(vertex, NEXT[end.index()]);
                     continue;
                 }
-                horizon.push(edge);
+                let plane = vertices.planes(edge.vertex())[NEXT[edge.index()]];
+                horizon.push(RingEdge { plane, end });
             }
             match waiting.pop() {
                 Some(next) => edge = next,
-                None => return !horizon.is_empty(),
+                None => break,
             }
         }
+        if horizon.is_empty() {
+            self.vertices.end_visit(&self.scratch.cut);
+            return false;
+        }
+        true
     }
 
     /// Replaces the collected vertices by the face of `plane`; gives one of its vertices.
@@ -55,45 +61,45 @@ impl IncrementalPolytope {
         if self.scratch.horizon.len() != cut.len() + 2 {
             self.hide_orphans(plane, &cut);
         }
-        for &vertex in &cut {
-            self.discard_vertex(vertex);
-        }
+        self.discard_vertices(&cut);
         self.scratch.cut = cut;
-        let face_vertex = self.change.created[first].0;
-        self.planes.set_face(plane, face_vertex);
+        let corners = &self.change.created[first..];
+        let [face_vertex, opposite] = [0, corners.len() / 2].map(|k| corners[k].0);
+        self.planes.set_new_face(plane, [face_vertex, opposite]);
         face_vertex
     }
 
     /// Makes the vertices of the face of `plane`, one on each edge of the ring, in the slots claimed from `first` on.
     fn make_face(&mut self, plane: u32, first: usize) {
         let fresh = &self.change.created[first..];
-        let horizon = &self.scratch.horizon;
-        let planes = &mut self.planes;
+        let horizon = &self.scratch.horizon[..fresh.len()];
+        let planes = &self.planes;
         let mut vertices = self.vertices.slots_mut();
-        // The cut vertex (a, p, q) moves to where its edge p, q meets the plane, and q is p for the next.
-        let first_plane = vertices.planes(horizon[0].vertex())[NEXT[horizon[0].index()]];
-        let n = *planes.row(plane);
-        let mut row_p = *planes.row(first_plane);
-        let mut n_p = cross(&n, &row_p);
+        let n = planes.row(plane);
+        // Where the edge on p and q meets the plane; q is p for the next.
+        let RingEdge { plane: mut p, end: mut kept } = horizon[0];
+        let mut row_p = planes.row(p);
+        let mut n_p = cross(n, row_p);
         let mut previous = fresh[fresh.len() - 1].0;
-        let following = fresh[1..].iter().chain(&fresh[..1]);
-        for ((edge, &VertexIdx(slot)), &VertexIdx(following)) in horizon.iter().zip(fresh).zip(following) {
-            let (around, k) = (vertices.planes(edge.vertex()), edge.index());
-            let (p, q) = (around[NEXT[k]], around[BEFORE[k]]);
-            let row_q = *planes.row(q);
-            let n_q = cross(&n, &row_q);
-            let is_ideal = is_infinity(p) || is_infinity(q) || is_infinity(plane);
-            let point = if is_ideal {
-                ideal_point(planes, [plane, p, q])
-            } else {
-                Homogeneous::corner(&n, [&row_p, &row_q], &n_p, &n_q)
-            };
-            let kept = vertices.other_end(*edge);
+        let mut slot = fresh[0].0;
+        for at in 1..=fresh.len() {
+            let at = if at == fresh.len() { 0 } else { at };
+            let (RingEdge { plane: q, end: kept_next }, VertexIdx(following)) = (horizon[at], fresh[at]);
+            let row_q = planes.row(q);
+            let n_q = cross(n, row_q);
             let links = [kept, Link::new(following, 2), Link::new(previous, 1)];
-            vertices.put(slot, [plane, p, q], links, is_ideal, point);
+            if is_infinity(p.min(q).min(plane)) {
+                vertices.put(slot, [plane, p, q], links, ideal_point(planes, [plane, p, q]));
+            } else {
+                let point = Homogeneous::corner(n, [row_p, row_q], &n_p, &n_q);
+                vertices.put(slot, [plane, p, q], links, Corner::new(&point, OffsetColumn::Finite));
+            }
             vertices.set_other_end(kept, Link::new(slot, 0));
-            planes.set_face(p, slot);
-            (previous, row_p, n_p) = (slot, row_q, n_q);
+            (p, kept, row_p, n_p) = (q, kept_next, row_q, n_q);
+            (previous, slot) = (slot, following);
+        }
+        for (edge, &VertexIdx(slot)) in horizon.iter().zip(fresh) {
+            self.planes.set_face(edge.plane, slot);
         }
     }
 
@@ -114,7 +120,7 @@ impl IncrementalPolytope {
 
 #[cold]
 #[inline(never)]
-fn ideal_point(planes: &PlaneStore, meeting: [u32; 3]) -> Homogeneous {
+fn ideal_point(planes: &PlaneStore, meeting: [u32; 3]) -> Corner {
     let [a, b, c] = meeting.map(|plane| planes.row(plane));
-    Homogeneous::quick(a, b, c, OffsetColumn::Infinite)
+    Corner::new(&Homogeneous::quick(a, b, c, OffsetColumn::Infinite), OffsetColumn::Infinite)
 }

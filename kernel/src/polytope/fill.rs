@@ -9,7 +9,7 @@
 use super::remove::RingEdge;
 use super::store::Link;
 use super::{IncrementalPolytope, VertexIdx};
-use crate::sign::{Homogeneous, Sign, orient3};
+use crate::sign::{Corner, Sign, orient3};
 
 /// Candidates looked at for each plane of the ring and each doubling of its length: beyond them the parts are uneven. Even
 /// parts need one.
@@ -67,9 +67,9 @@ impl IncrementalPolytope {
     }
 
     /// Which of the planes between the ends of a part the edge between the ends leaves first, and the meeting point.
-    fn first_left(&self, ring: &[RingEdge], part: OpenPart) -> Option<(u32, [u32; 3], Homogeneous)> {
+    fn first_left(&self, ring: &[RingEdge], part: OpenPart) -> Option<(u32, [u32; 3], Corner)> {
         let (a, b) = (ring[part.first as usize].plane, ring[part.last as usize].plane);
-        let mut found: Option<(u32, [u32; 3], Homogeneous)> = None;
+        let mut found: Option<(u32, [u32; 3], Corner)> = None;
         for at in part.first + 1..part.last {
             let planes = [a, ring[at as usize].plane, b];
             match &found {

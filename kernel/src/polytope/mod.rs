@@ -54,7 +54,7 @@ pub use validate::{InvariantError, TopologyError, Validation, ValidationError};
 pub use view::{Edge, EdgeIdx, EdgeKind, Face, FacetEdge, Vertex};
 
 use crate::half_space::HalfSpace;
-use crate::sign::Homogeneous;
+use crate::sign::Corner;
 use redundant::Certificates;
 use store::{Change, Link, NONE, PlaneState, PlaneStore, VertexStore};
 
@@ -198,8 +198,10 @@ pub struct IncrementalPolytope {
 struct Scratch {
     /// Vertices to be cut away, in breadth-first order.
     cut: Vec<u32>,
-    /// The edges that leave them, named from the cut end.
-    horizon: Vec<Link>,
+    /// The ring around them.
+    horizon: Vec<remove::RingEdge>,
+    /// The vertices on the border of a patch, each as the end off its one leaving plane.
+    border: Vec<Link>,
     /// Edges along which the search for such vertices has still to go.
     waiting: Vec<Link>,
     /// The ring of a face that is being removed.
@@ -209,11 +211,13 @@ struct Scratch {
     /// Parts of a ring that are not closed yet.
     open_parts: Vec<fill::OpenPart>,
     /// New positions of the vertices of a face that moves.
-    points: Vec<Homogeneous>,
+    points: Vec<Corner>,
     /// Planes whose certificate a removed plane carried.
     to_examine: Vec<u32>,
     /// Planes that are being removed together.
     leaving: Vec<u32>,
+    /// How many climbs in a row found that nothing is to be cut; negative while the places of the vertices are not to be found.
+    climbs: i32,
     /// How many planes waited to be examined when the infinity planes were last found to need nothing.
     waited: usize,
 }

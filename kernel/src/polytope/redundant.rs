@@ -18,6 +18,9 @@ pub(super) struct Orphan {
     pub(super) hidden_by: u32,
 }
 
+/// In place of a following entry: the certificate is in no list yet.
+const UNLISTED: u32 = NONE - 1;
+
 /// Why one plane is redundant, and its places in the lists of the planes that make it so.
 #[derive(Debug, Clone, Copy)]
 struct Certificate {
@@ -32,6 +35,8 @@ struct Certificate {
 pub(super) struct Certificates {
     entries: Vec<Certificate>,
     free: Vec<u32>,
+    /// Those that are not in the lists yet, the oldest first: only a removal needs the lists.
+    unlisted: Vec<u32>,
     /// Planes that were orphaned since the last removal; entries of planes that are no longer uncertified are stale.
     uncertified: Vec<Orphan>,
 }
@@ -46,6 +51,7 @@ impl Clone for Certificates {
     fn clone_from(&mut self, source: &Self) {
         self.entries.clone_from(&source.entries);
         self.free.clone_from(&source.free);
+        self.unlisted.clone_from(&source.unlisted);
         self.uncertified.clone_from(&source.uncertified);
     }
 }
@@ -55,6 +61,7 @@ impl Certificates {
     pub(super) fn clear(&mut self) {
         self.entries.clear();
         self.free.clear();
+        self.unlisted.clear();
         self.uncertified.clear();
     }
 
@@ -67,7 +74,12 @@ impl Certificates {
         self.entries[certificate as usize].certifiers
     }
 
-    /// The planes on the list that begins at a place.
+    /// Whether a certificate is in the lists of its planes already.
+    pub(super) fn is_listed(&self, certificate: u32) -> bool {
+        self.entries[certificate as usize].next[0] != UNLISTED
+    }
+
+    /// The planes on the list that begins at a place; all certificates must be in the lists.
     pub(super) fn list(&self, first: u32) -> impl Iterator<Item = u32> + '_ {
         std::iter::successors((first != NONE).then_some(first), |place| {
             let following = self.entries[(place >> 2) as usize].next[(place & 3) as usize];
@@ -76,8 +88,10 @@ impl Certificates {
         .map(|place| self.entries[(place >> 2) as usize].plane)
     }
 
-    fn link(&mut self, planes: &mut PlaneStore, plane: u32, certifiers: [u32; 3]) {
-        let entry = Certificate { plane, certifiers, next: [NONE; 3], previous: [NONE; 3] };
+    /// Stores a certificate that is in no list yet.
+    #[inline]
+    fn insert(&mut self, planes: &mut PlaneStore, plane: u32, certifiers: [u32; 3]) {
+        let entry = Certificate { plane, certifiers, next: [UNLISTED; 3], previous: [NONE; 3] };
         let number = if let Some(number) = self.free.pop() {
             self.entries[number as usize] = entry;
             number
@@ -86,7 +100,19 @@ impl Certificates {
             self.entries.len() as u32 - 1
         };
         planes.set_certified(plane, number);
-        for (k, certifier) in certifiers.into_iter().enumerate() {
+        self.unlisted.push(number);
+    }
+
+    /// Puts all certificates into the lists of their planes.
+    fn link_all(&mut self, planes: &mut PlaneStore) {
+        for at in 0..self.unlisted.len() {
+            self.link(planes, self.unlisted[at]);
+        }
+        self.unlisted.clear();
+    }
+
+    fn link(&mut self, planes: &mut PlaneStore, number: u32) {
+        for (k, certifier) in self.entries[number as usize].certifiers.into_iter().enumerate() {
             let place = number << 2 | k as u32;
             let first = planes.carried(certifier);
             planes.set_carried(certifier, place);
@@ -98,6 +124,7 @@ impl Certificates {
     }
 
     fn unlink(&mut self, planes: &mut PlaneStore, number: u32) {
+        self.link_all(planes);
         let Certificate { certifiers, next, previous, .. } = self.entries[number as usize];
         for k in 0..3 {
             if previous[k] == NONE {
@@ -115,8 +142,9 @@ impl Certificates {
 
 impl IncrementalPolytope {
     /// Records that `plane` is redundant because of the planes of `vertex`.
+    #[inline]
     pub(super) fn certify(&mut self, plane: u32, vertex: u32) {
-        self.certificates.link(&mut self.planes, plane, self.vertices.planes(vertex));
+        self.certificates.insert(&mut self.planes, plane, self.vertices.planes(vertex));
     }
 
     /// Takes a redundant plane out of the lists of its certifiers.
@@ -127,7 +155,7 @@ impl IncrementalPolytope {
         self.planes.set_without_face(plane, PlaneState::Uncertified);
     }
 
-    /// Finds the certificates that were put off: a removal needs them.
+    /// Finds the certificates that were put off, and makes the lists complete: a removal needs them.
     pub(super) fn certify_orphans(&mut self) {
         while let Some(Orphan { plane, hidden_by }) = self.certificates.uncertified.pop() {
             if self.planes.state(plane) != PlaneState::Uncertified {
@@ -139,12 +167,14 @@ impl IncrementalPolytope {
             debug_assert!(!self.is_outside(top, plane), "an orphaned plane is redundant");
             self.certify(plane, top);
         }
+        self.certificates.link_all(&mut self.planes);
     }
 
     /// Takes all planes that `certifier` helps to certify out of their lists and puts them into `examine`.
     #[inline]
     pub(super) fn take_certified(&mut self, certifier: u32, examine: &mut Vec<u32>) {
         let known = examine.len();
+        self.certificates.link_all(&mut self.planes);
         if self.planes.carried(certifier) == NONE {
             return;
         }

@@ -42,7 +42,12 @@ impl IncrementalPolytope {
             return;
         }
         let was_empty = self.is_empty();
-        self.detach(plane);
+        self.release_hidden(plane);
+        if self.scratch.to_examine.is_empty() {
+            // nothing that is made now will be taken away again
+            self.vertices.set_steps(Steps::One);
+        }
+        self.take_out(plane);
         self.planes.remove(plane);
         self.examine_again();
         if was_empty {
@@ -53,10 +58,21 @@ impl IncrementalPolytope {
     /// Takes a plane out of the structure and keeps its slot; the planes that it hid wait in the scratch for
     /// [`examine_again`](Self::examine_again).
     pub(super) fn detach(&mut self, plane: u32) {
+        self.release_hidden(plane);
+        self.take_out(plane);
+    }
+
+    /// Puts the planes that a plane hides into the scratch.
+    fn release_hidden(&mut self, plane: u32) {
         self.certify_orphans();
         let mut examine = std::mem::take(&mut self.scratch.to_examine);
         self.take_certified(plane, &mut examine);
         self.scratch.to_examine = examine;
+    }
+
+    /// Takes a plane out of the structure that hides nothing.
+    #[inline]
+    fn take_out(&mut self, plane: u32) {
         if self.planes.has_face(plane) {
             self.open_face(plane);
             self.planes.set_without_face(plane, PlaneState::Uncertified);
@@ -88,9 +104,7 @@ impl IncrementalPolytope {
         ring.clear();
         cut.clear();
         self.walk_ring(plane, &mut ring, &mut cut);
-        for &vertex in &cut {
-            self.discard_vertex(vertex);
-        }
+        self.discard_vertices(&cut);
         self.close_hole(&ring, plane);
         self.scratch.ring = ring;
         self.scratch.cut = cut;
@@ -120,21 +134,41 @@ impl IncrementalPolytope {
         }
     }
 
-    /// Touches what the removal of a face will need, both ways around it at once and as far as most faces are long: far
-    /// fewer waits for memory follow one another then.
+    /// Touches what the removal of a face will need, both ways around it at once from two of its vertices: far fewer waits for
+    /// memory follow one another then.
     #[inline(never)]
     fn fetch_face(&self, plane: u32) {
         let start = self.planes.face_vertex(plane);
-        let mut ends = [(start, self.vertices.index_of(start, plane)); 2];
-        for _ in 0..3 {
-            let [(ahead, i), (behind, j)] = ends;
-            let (next, before) = (self.vertices.link(ahead, NEXT[i]), self.vertices.link(behind, BEFORE[j]));
-            ends = [(next.vertex(), NEXT[next.index()]), (before.vertex(), BEFORE[before.index()])];
-            for (vertex, k) in ends {
-                black_box(self.vertices.point(vertex).value[0]);
-                black_box(self.planes.stamp(self.vertices.planes(vertex)[NEXT[k]]));
-                black_box(self.vertices.planes(self.vertices.link(vertex, k).vertex()));
-            }
+        let other = self.planes.other_face_vertex(plane);
+        let from = |vertex| (vertex, self.vertices.index_of(vertex, plane));
+        let is_apart = other != start && self.vertices.is_on(other, plane);
+        let mut ends = [from(start); 2];
+        self.fetch_corner(ends[0]);
+        if is_apart {
+            let mut ends = [from(other); 2];
+            self.fetch_corner(ends[0]);
+            self.fetch_ahead(&mut ends);
         }
+        for _ in 0..if is_apart { 2 } else { 3 } {
+            self.fetch_ahead(&mut ends);
+        }
+    }
+
+    /// Goes one step along a face, at one end ahead and at the other back.
+    #[inline(always)]
+    fn fetch_ahead(&self, ends: &mut [(u32, usize); 2]) {
+        let [(ahead, i), (behind, j)] = *ends;
+        let (next, before) = (self.vertices.link(ahead, NEXT[i]), self.vertices.link(behind, BEFORE[j]));
+        *ends = [(next.vertex(), NEXT[next.index()]), (before.vertex(), BEFORE[before.index()])];
+        for corner in *ends {
+            self.fetch_corner(corner);
+        }
+    }
+
+    /// Touches what lies beside a corner.
+    #[inline(always)]
+    fn fetch_corner(&self, (vertex, k): (u32, usize)) {
+        black_box(self.planes.row(self.vertices.planes(vertex)[NEXT[k]]).coefficients()[0]);
+        black_box(self.vertices.planes(self.vertices.link(vertex, k).vertex())[0]);
     }
 }

@@ -147,9 +147,7 @@ impl IncrementalPolytope {
             self.release(plane);
         }
         if is_whole {
-            for &vertex in &cut {
-                self.discard_vertex(vertex);
-            }
+            self.discard_vertices(&cut);
             self.close_hole(&ring, start);
             for &plane in &patch {
                 self.planes.set_without_face(plane, PlaneState::Uncertified);
@@ -168,7 +166,7 @@ impl IncrementalPolytope {
     /// Grows a patch over its leaving neighbours, with its vertices and the ring around it; false where its border is not
     /// one simple ring.
     fn grow_patch(&mut self, patch: &mut Vec<u32>, ring: &mut Vec<RingEdge>, cut: &mut Vec<u32>) -> bool {
-        let mut border = std::mem::take(&mut self.scratch.horizon);
+        let mut border = std::mem::take(&mut self.scratch.border);
         ring.clear();
         cut.clear();
         border.clear();
@@ -177,7 +175,10 @@ impl IncrementalPolytope {
         let is_disc = cut.len() + 2 == 2 * patch.len() + border.len();
         // Around two planes, the only edge between them would begin and end in the hole.
         let is_whole = is_collected && is_disc && border.len() > 2 && self.walk_border(&border, ring);
-        self.scratch.horizon = border;
+        self.scratch.border = border;
+        if !is_whole {
+            self.vertices.end_visit(cut);
+        }
         is_whole
     }
 
@@ -197,7 +198,6 @@ impl IncrementalPolytope {
     /// its one leaving plane. Gives up, and gives false, where the border grows with the patch: the leaving faces are
     /// scattered then. What was collected until then is only a part.
     fn collect_patch(&mut self, patch: &mut Vec<u32>, cut: &mut Vec<u32>, border: &mut Vec<Link>) -> bool {
-        self.vertices.begin_visit();
         self.planes.set_leaving(patch[0], Leaving::WithPatch);
         let mut next = 0;
         while let Some(&plane) = patch.get(next) {

@@ -3,7 +3,7 @@
 use super::IncrementalPolytope;
 use super::infinity::is_infinity;
 use super::store::PlaneStore;
-use crate::sign::{Homogeneous, OffsetColumn, Probe, Row, Sign, orient3};
+use crate::sign::{Corner, Homogeneous, OffsetColumn, Probe, Row, Sign, orient3};
 
 impl IncrementalPolytope {
     pub(super) fn row(&self, plane: u32) -> &Row {
@@ -16,9 +16,10 @@ impl IncrementalPolytope {
 
     /// The cached position of a vertex: its part in `M` where an infinity plane takes part, else its constant part.
     #[inline(always)]
-    pub(super) fn meeting_point(&self, planes: [u32; 3]) -> Homogeneous {
+    pub(super) fn meeting_point(&self, planes: [u32; 3]) -> Corner {
         let [a, b, c] = self.rows(planes);
-        Homogeneous::quick(a, b, c, leading_column(planes))
+        let column = leading_column(planes);
+        Corner::new(&Homogeneous::quick(a, b, c, column), column)
     }
 
     /// Whether vertex `vertex` violates plane `plane`.
@@ -31,14 +32,14 @@ impl IncrementalPolytope {
     #[inline(always)]
     pub(super) fn violates(&self, vertex: u32, plane: u32, probe: &Probe) -> bool {
         let (planes, point) = (self.vertices.planes(vertex), self.vertices.point(vertex));
-        self.planes.is_outside(probe, plane, self.vertices.is_ideal(vertex), planes, point)
+        self.planes.is_outside(probe, plane, planes, point)
     }
 
     /// Whether the meeting point of three planes, counter-clockwise seen from outside, violates `plane`.
     #[inline]
-    pub(super) fn is_point_outside(&self, planes: [u32; 3], point: &Homogeneous, plane: u32) -> bool {
+    pub(super) fn is_point_outside(&self, planes: [u32; 3], point: &Corner, plane: u32) -> bool {
         let probe = Probe::new(self.row(plane), OffsetColumn::Finite);
-        self.planes.is_outside(&probe, plane, planes.into_iter().any(is_infinity), planes, point)
+        self.planes.is_outside(&probe, plane, planes, point)
     }
 
     /// Whether four planes meet in one point exactly (or in one ideal point along one line).
@@ -55,15 +56,8 @@ impl IncrementalPolytope {
 impl PlaneStore {
     /// Whether the meeting point of `planes` violates `plane`; `probe` is made from its row for the finite column.
     #[inline(always)]
-    pub(super) fn is_outside(
-        &self,
-        probe: &Probe,
-        plane: u32,
-        is_ideal: bool,
-        planes: [u32; 3],
-        point: &Homogeneous,
-    ) -> bool {
-        if !is_ideal && !is_infinity(plane) {
+    pub(super) fn is_outside(&self, probe: &Probe, plane: u32, planes: [u32; 3], point: &Corner) -> bool {
+        if !point.is_ideal() && !is_infinity(plane) {
             match probe.certain_side(point) {
                 Sign::Positive => return true,
                 Sign::Negative => return false,
@@ -76,7 +70,7 @@ impl PlaneStore {
     /// The same where an infinity plane takes part or the quick filter could not tell.
     #[cold]
     #[inline(never)]
-    fn decide_outside(&self, planes: [u32; 3], point: &Homogeneous, plane: u32) -> bool {
+    fn decide_outside(&self, planes: [u32; 3], point: &Corner, plane: u32) -> bool {
         let column = leading_column(planes);
         if column == OffsetColumn::Finite && is_infinity(plane) {
             return false;

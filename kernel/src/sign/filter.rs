@@ -111,6 +111,18 @@ impl Ascent {
         if slope == Slope::Top && off_r <= bound { (ascent, Slope::Open) } else { (ascent, slope) }
     }
 
+    /// Whether no edge of a vertex leads on for certain, so that every other vertex lies lower.
+    #[inline(always)]
+    pub(crate) fn is_top(n: &Row, [r, p, q]: [&Row; 3]) -> bool {
+        let (n_p, n_q) = (cross(n, p), cross(n, q));
+        let (off_r, off_p, off_q) = (dot(&n_p, q), dot(&n_q, r), -dot(&n_p, r));
+        let [mr, mp, mq] = [r.magnitude(), p.magnitude(), q.magnitude()];
+        let scale = (6.0 * DET3_BOUND) * n.magnitude();
+        let bound = scale * larger(mr * larger(mp, mq), mp * mq);
+        let lower = if off_p < off_q { off_p } else { off_q };
+        (if off_r < lower { off_r } else { lower }) > bound
+    }
+
     /// Across the edge, where plane `r` is new.
     #[inline]
     pub(crate) fn step(&mut self, n: &Row, r: &Row) -> Slope {
@@ -259,43 +271,6 @@ impl Homogeneous {
             return Sign::Zero;
         }
         side_exact(rows, h, column, value, permanent)
-    }
-}
-
-/// A plane that many points are held against.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Probe {
-    normal: [f64; 3],
-    offset: f64,
-    /// Bounds for the two parts of a permanent.
-    bounds: [f64; 2],
-}
-
-impl Probe {
-    /// A plane with its offset in one column.
-    #[inline(always)]
-    pub(crate) fn new(plane: &Row, column: OffsetColumn) -> Self {
-        let [x, y, z, _] = *plane.coefficients();
-        let offset = column.of(plane);
-        let bounds = [DET4_BOUND * (x.abs() + y.abs() + z.abs()), DET4_BOUND * offset.abs()];
-        Self { normal: [x, y, z], offset, bounds }
-    }
-
-    /// The side of the plane that a point made by [`Homogeneous::quick`] is certainly on, for the same column; else zero.
-    #[inline(always)]
-    pub(crate) fn certain_side(&self, point: &Homogeneous) -> Sign {
-        let [x, y, z, w] = point.value;
-        let value = self.normal[0] * x + self.normal[1] * y + self.normal[2] * z - self.offset * w;
-        let bound = self.bounds[0] * point.permanent[0] + self.bounds[1] * point.permanent[3];
-        if value > bound {
-            counts::note_total();
-            Sign::Positive
-        } else if value < -bound {
-            counts::note_total();
-            Sign::Negative
-        } else {
-            Sign::Zero
-        }
     }
 }
 

@@ -27,15 +27,39 @@ const NOT_INTEGER: u8 = u8::MAX;
 
 impl Row {
     /// Prepares the coefficients of a half-space.
+    #[inline]
     #[must_use]
     pub fn new(half_space: &HalfSpace) -> Self {
         let n = half_space.normal();
         // `+ 0.0` turns a negative zero into zero, so that equal rows are equal bit for bit.
         let coefficients = [n.x + 0.0, n.y + 0.0, n.z + 0.0, half_space.offset() + 0.0];
+        // Decimal numbers mostly use the last bits of the mantissa, which no integer below the limit does.
+        let used = coefficients.into_iter().fold(0, |bits, v| bits | v.to_bits());
+        if used & ((1 << (53 - MAX_INTEGER_BITS)) - 1) == 0 {
+            Self::short(coefficients)
+        } else {
+            Self::scaled(coefficients)
+        }
+    }
+
+    /// Prepares coefficients that may be integers.
+    #[inline(never)]
+    fn short(coefficients: [f64; 4]) -> Self {
         match integer_row(coefficients) {
             Some(integers) => Self::from_integers(integers),
-            None => Self::from_scaled(power_of_two_row(coefficients), [NOT_INTEGER; 2]),
+            None => Self::scaled(coefficients),
         }
+    }
+
+    /// Scaled by a power of two so that the largest normal component lies in `[1, 2)`.
+    #[inline(always)]
+    fn scaled(coefficients: [f64; 4]) -> Self {
+        let largest = largest_of_normal(&coefficients);
+        let power = -exponent(largest);
+        debug_assert!(power.abs() <= 1022);
+        let factor = f64::from_bits(((1023 + power) as u64) << 52);
+        let magnitude = above(largest * factor);
+        Self { coefficients: coefficients.map(|v| v * factor), bits: [NOT_INTEGER; 2], at_infinity: false, magnitude }
     }
 
     /// A plane whose offset is the symbolic `M → ∞`; its finite offset is zero.
@@ -46,12 +70,9 @@ impl Row {
     fn from_integers(integers: [i64; 4]) -> Self {
         let length = |v: i64| (64 - v.unsigned_abs().leading_zeros()) as u8;
         let normal = length(integers[0]).max(length(integers[1])).max(length(integers[2]));
-        Self::from_scaled(integers.map(|v| v as f64), [normal, length(integers[3])])
-    }
-
-    fn from_scaled(coefficients: [f64; 4], bits: [u8; 2]) -> Self {
+        let coefficients = integers.map(|v| v as f64);
         let magnitude = above(largest_of_normal(&coefficients));
-        Self { coefficients, bits, at_infinity: false, magnitude }
+        Self { coefficients, bits: [normal, length(integers[3])], at_infinity: false, magnitude }
     }
 
     /// At least the largest magnitude in the normal, and hardly more.
@@ -130,11 +151,6 @@ impl Row {
 
 /// The coefficients as coprime integers below 2⁴⁸, where they are such up to a power of two.
 fn integer_row(coefficients: [f64; 4]) -> Option<[i64; 4]> {
-    // Decimal numbers mostly use the last bits of the mantissa, which no integer below the limit does.
-    let used = coefficients.into_iter().fold(0, |bits, v| bits | v.to_bits());
-    if used & ((1 << (53 - MAX_INTEGER_BITS)) - 1) != 0 {
-        return None;
-    }
     let (mut lowest, mut highest) = (i32::MAX, i32::MIN);
     for v in coefficients.into_iter().filter(|v| *v != 0.0) {
         lowest = lowest.min(lowest_bit(v));
@@ -153,18 +169,14 @@ fn integer_row(coefficients: [f64; 4]) -> Option<[i64; 4]> {
     Some(integers.map(|v| v / divisor))
 }
 
-/// Scaled by a power of two so that the largest normal component lies in `[1, 2)`.
-fn power_of_two_row(coefficients: [f64; 4]) -> [f64; 4] {
-    let power = -exponent(largest_of_normal(&coefficients));
-    coefficients.map(|v| scale(v, power))
-}
-
+#[inline(always)]
 fn largest_of_normal(coefficients: &[f64; 4]) -> f64 {
     let larger = |a: f64, b: f64| if a > b { a } else { b };
     larger(larger(coefficients[0].abs(), coefficients[1].abs()), coefficients[2].abs())
 }
 
 /// A number in single precision that is not below a positive one: the nearest lies at most half a step below.
+#[inline(always)]
 fn above(v: f64) -> f32 {
     f32::from_bits((v as f32).to_bits() + 1)
 }

@@ -100,7 +100,7 @@ impl IncrementalPolytope {
         }
         let planes = self.vertices.planes(top);
         let rows = planes.map(|plane| self.row(plane));
-        if self.vertices.point(top).side(rows, row, OffsetColumn::Infinite) == Sign::Positive {
+        if self.vertices.point(top).homogeneous().side(rows, row, OffsetColumn::Infinite) == Sign::Positive {
             return Support::Unbounded { direction: self.ideal_direction(planes) };
         }
         match self.finite_vertex_at_same_height(row, top) {

@@ -1,8 +1,9 @@
 //! Flat arrays of planes and vertices with free lists: a clone is a few copies of memory.
 //!
-//! A record of a plane is one cache line, a record of a vertex half of one, and a link between vertices names the way
+//! A record of a plane is one cache line, one of a vertex with its position as well, and a link between vertices names the way
 //! back: walking around a face touches one line a vertex and searches nothing.
 
+mod places;
 mod plane;
 mod vertex;
 

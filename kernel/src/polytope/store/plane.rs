@@ -26,11 +26,12 @@ pub(in crate::polytope) enum PlaneState {
 struct PlaneRecord {
     row: Row,
     stamp: u64,
-    /// With a face: one vertex of it. Certified: the number of the certificate. Else [`NONE`].
-    anchor: u32,
+    /// The number of the certificate, where it is certified.
+    certificate: u32,
     /// The first entry of the list of certificates that the plane takes part in.
     carried: u32,
     mark: u32,
+    /// What the plane is where it has no face.
     state: PlaneState,
     leaving: Leaving,
 }
@@ -51,6 +52,10 @@ pub(in crate::polytope) enum Leaving {
 pub(in crate::polytope) struct PlaneStore {
     records: Vec<PlaneRecord>,
     half_spaces: Vec<HalfSpace>,
+    /// For each plane with a face one vertex of it, else [`NONE`]; then the vertex that stood there before, perhaps on the other
+    /// side of the face, perhaps gone. Apart from the records: with very many planes, these few bytes are still at hand where
+    /// the records are not.
+    faces: Vec<[u32; 2]>,
     free: Vec<u32>,
     next_stamp: u64,
 }
@@ -65,6 +70,7 @@ impl Clone for PlaneStore {
     fn clone_from(&mut self, source: &Self) {
         self.records.clone_from(&source.records);
         self.half_spaces.clone_from(&source.half_spaces);
+        self.faces.clone_from(&source.faces);
         self.free.clone_from(&source.free);
         self.next_stamp = source.next_stamp;
     }
@@ -73,10 +79,16 @@ impl Clone for PlaneStore {
 impl PlaneStore {
     /// Empty, with room for some planes.
     pub(in crate::polytope) fn with_capacity(planes: usize) -> Self {
-        Self { records: Vec::with_capacity(planes), half_spaces: Vec::with_capacity(planes), ..Self::default() }
+        Self {
+            records: Vec::with_capacity(planes),
+            half_spaces: Vec::with_capacity(planes),
+            faces: Vec::with_capacity(planes),
+            ..Self::default()
+        }
     }
 
     /// Stores a plane with the next stamp; it is uncertified.
+    #[inline]
     pub(in crate::polytope) fn insert(&mut self, half_space: HalfSpace, row: Row) -> u32 {
         let stamp = self.next_stamp;
         self.next_stamp += 1;
@@ -84,17 +96,21 @@ impl PlaneStore {
     }
 
     /// Stores a plane with a stamp of the caller's.
+    #[inline]
     pub(in crate::polytope) fn insert_with_stamp(&mut self, half_space: HalfSpace, row: Row, stamp: u64) -> u32 {
         let state = PlaneState::Uncertified;
-        let record = PlaneRecord { row, stamp, anchor: NONE, carried: NONE, mark: NONE, state, leaving: Leaving::No };
+        let record =
+            PlaneRecord { row, stamp, certificate: NONE, carried: NONE, mark: NONE, state, leaving: Leaving::No };
         if let Some(slot) = self.free.pop() {
             self.records[slot as usize] = record;
             self.half_spaces[slot as usize] = half_space;
+            self.faces[slot as usize] = [NONE; 2];
             return slot;
         }
         let slot = self.records.len() as u32;
         self.records.push(record);
         self.half_spaces.push(half_space);
+        self.faces.push([NONE; 2]);
         slot
     }
 
@@ -152,6 +168,7 @@ impl PlaneStore {
     pub(in crate::polytope) fn clear(&mut self) {
         self.records.clear();
         self.half_spaces.clear();
+        self.faces.clear();
         self.free.clear();
         self.next_stamp = 0;
     }
@@ -161,7 +178,7 @@ impl PlaneStore {
         let record = &mut self.records[slot as usize];
         record.state = PlaneState::Free;
         record.leaving = Leaving::No;
-        record.anchor = NONE;
+        self.faces[slot as usize][0] = NONE;
         self.free.push(slot);
     }
 
@@ -196,49 +213,59 @@ impl PlaneStore {
 
     #[inline]
     pub(in crate::polytope) fn state(&self, plane: u32) -> PlaneState {
-        self.records[plane as usize].state
+        if self.has_face(plane) { PlaneState::Face } else { self.records[plane as usize].state }
     }
 
     /// Whether a plane has a face in the structure.
     #[inline]
     pub(in crate::polytope) fn has_face(&self, plane: u32) -> bool {
-        self.state(plane) == PlaneState::Face
+        self.face_vertex(plane) != NONE
     }
 
     /// One vertex of a plane's face, [`NONE`] where it has no face.
     #[inline]
     pub(in crate::polytope) fn face_vertex(&self, plane: u32) -> u32 {
-        let record = &self.records[plane as usize];
-        if record.state == PlaneState::Face { record.anchor } else { NONE }
+        self.faces[plane as usize][0]
+    }
+
+    /// What may be another vertex of a plane's face.
+    #[inline]
+    pub(in crate::polytope) fn other_face_vertex(&self, plane: u32) -> u32 {
+        self.faces[plane as usize][1]
     }
 
     /// The number of a plane's certificate, where it is certified.
     pub(in crate::polytope) fn certificate(&self, plane: u32) -> Option<u32> {
-        let record = &self.records[plane as usize];
-        (record.state == PlaneState::Certified).then_some(record.anchor)
+        (self.state(plane) == PlaneState::Certified).then_some(self.records[plane as usize].certificate)
     }
 
     /// The plane has a face, and `vertex` is one of its vertices.
     #[inline]
     pub(in crate::polytope) fn set_face(&mut self, plane: u32, vertex: u32) {
-        let record = &mut self.records[plane as usize];
-        record.state = PlaneState::Face;
-        record.anchor = vertex;
+        let face = &mut self.faces[plane as usize];
+        *face = [vertex, face[0]];
+    }
+
+    /// The plane has a face, and these are two of its vertices; the first is the one that counts.
+    #[inline]
+    pub(in crate::polytope) fn set_new_face(&mut self, plane: u32, vertices: [u32; 2]) {
+        self.faces[plane as usize] = vertices;
     }
 
     /// The plane has no face, and its certificate is number `certificate`.
+    #[inline]
     pub(in crate::polytope) fn set_certified(&mut self, plane: u32, certificate: u32) {
         let record = &mut self.records[plane as usize];
         record.state = PlaneState::Certified;
-        record.anchor = certificate;
+        record.certificate = certificate;
+        self.faces[plane as usize][0] = NONE;
     }
 
     /// The plane has neither face nor certificate.
     pub(in crate::polytope) fn set_without_face(&mut self, plane: u32, state: PlaneState) {
         debug_assert!(matches!(state, PlaneState::Uncertified | PlaneState::Pending));
-        let record = &mut self.records[plane as usize];
-        record.state = state;
-        record.anchor = NONE;
+        self.records[plane as usize].state = state;
+        self.faces[plane as usize][0] = NONE;
     }
 
     #[inline]

@@ -1,8 +1,9 @@
 //! Vertices by slot, and the edges between them.
 
+use super::places::Places;
 use super::{NEXT, NONE};
-use crate::polytope::{VertexIdx, infinity};
-use crate::sign::Homogeneous;
+use crate::polytope::VertexIdx;
+use crate::sign::Corner;
 
 /// One end of an edge: a vertex and the index at which the edge leaves it, which is that of the plane the edge does not
 /// lie on.
@@ -29,42 +30,45 @@ impl Link {
     }
 }
 
+/// One cache line: what a step around a face reads, and what is asked of the vertex that it comes to.
 #[derive(Debug, Clone, Copy)]
-#[repr(align(32))]
-struct VertexRecord {
-    planes: [u32; 3],
+#[repr(align(64))]
+pub(super) struct VertexRecord {
+    pub(super) point: Corner,
+    /// The first is [`NONE`] where the slot is free.
+    pub(super) planes: [u32; 3],
     links: [Link; 3],
-    visited: u32,
-    ideal: bool,
-    fresh: bool,
 }
 
 impl VertexRecord {
-    const FREE: Self = Self { planes: [NONE; 3], links: [Link::NONE; 3], visited: 0, ideal: false, fresh: false };
+    const FREE: Self = Self { point: Corner::NOWHERE, planes: [NONE; 3], links: [Link::NONE; 3] };
 }
 
+/// Mark of a vertex that the operation that runs made.
+const FRESH: u8 = 1;
+/// Mark of a vertex that the current visit came to.
+const VISITED: u8 = 2;
+
 /// Whether an operation can take away vertices that it made itself.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub(in crate::polytope) enum Steps {
     /// It cannot.
+    #[default]
     One,
     /// It can: new vertices are marked until it ends.
     Several,
 }
 
-/// A cached position that fills one cache line.
-#[derive(Debug, Clone, Copy)]
-#[repr(align(64))]
-struct Position(Homogeneous);
-
 /// Vertices by slot.
 #[derive(Debug, Default)]
 pub(in crate::polytope) struct VertexStore {
     records: Vec<VertexRecord>,
-    positions: Vec<Position>,
+    /// Marks of the slots, apart from the records: they are few bytes even where there are very many vertices. A free slot has
+    /// none.
+    marks: Vec<u8>,
+    places: Places,
     free: Vec<u32>,
-    visit: u32,
-    marks_fresh: bool,
+    steps: Steps,
 }
 
 impl Clone for VertexStore {
@@ -76,74 +80,99 @@ impl Clone for VertexStore {
 
     fn clone_from(&mut self, source: &Self) {
         self.records.clone_from(&source.records);
-        self.positions.clone_from(&source.positions);
+        self.marks.clone_from(&source.marks);
+        self.places.forget();
         self.free.clone_from(&source.free);
-        self.visit = source.visit;
     }
 }
 
 impl VertexStore {
     /// Empty, with room for some vertices.
     pub(in crate::polytope) fn with_capacity(vertices: usize) -> Self {
-        Self { records: Vec::with_capacity(vertices), positions: Vec::with_capacity(vertices), ..Self::default() }
+        Self { records: Vec::with_capacity(vertices), marks: Vec::with_capacity(vertices), ..Self::default() }
     }
 
     /// Stores a vertex, its links still open. `planes` are counter-clockwise seen from outside; `point` is the position
     /// for the filter: its constant part, or its part in `M` where an infinity plane takes part.
     #[inline(always)]
-    pub(in crate::polytope) fn insert(&mut self, planes: [u32; 3], point: Homogeneous) -> u32 {
-        let ideal = planes.into_iter().any(infinity::is_infinity);
-        let record = VertexRecord { planes, links: [Link::NONE; 3], visited: 0, ideal, fresh: self.marks_fresh };
+    pub(in crate::polytope) fn insert(&mut self, planes: [u32; 3], point: Corner) -> u32 {
+        let record = VertexRecord { point, planes, links: [Link::NONE; 3] };
+        let mark = self.mark_of_new();
+        self.places.forget();
         if let Some(slot) = self.free.pop() {
             self.records[slot as usize] = record;
-            self.positions[slot as usize] = Position(point);
+            self.marks[slot as usize] = mark;
             return slot;
         }
         let slot = self.records.len() as u32;
         self.records.push(record);
-        self.positions.push(Position(point));
+        self.marks.push(mark);
         slot
     }
 
+    fn mark_of_new(&self) -> u8 {
+        if self.steps == Steps::Several { FRESH } else { 0 }
+    }
+
     /// Takes slots for new vertices, which must be written at once.
+    #[inline]
     pub(in crate::polytope) fn claim(&mut self, count: usize, claimed: &mut Vec<VertexIdx>) {
-        for _ in 0..count {
-            let slot = self.free.pop().unwrap_or_else(|| {
-                self.records.push(VertexRecord::FREE);
-                self.positions.push(Position(Homogeneous::default()));
-                self.records.len() as u32 - 1
-            });
-            claimed.push(VertexIdx(slot));
+        self.places.forget();
+        let reused = count.min(self.free.len());
+        let kept = self.free.len() - reused;
+        claimed.extend(self.free[kept..].iter().rev().map(|slot| VertexIdx(*slot)));
+        self.free.truncate(kept);
+        if reused < count {
+            self.claim_new(count - reused, claimed);
         }
+    }
+
+    #[inline(never)]
+    fn claim_new(&mut self, count: usize, claimed: &mut Vec<VertexIdx>) {
+        let first = self.records.len();
+        self.records.resize(first + count, VertexRecord::FREE);
+        self.marks.resize(first + count, 0);
+        claimed.extend((first as u32..).take(count).map(VertexIdx));
     }
 
     /// The vertices by slot, for a loop that makes and links many.
     #[inline(always)]
     pub(in crate::polytope) fn slots_mut(&mut self) -> VertexSlots<'_> {
-        VertexSlots {
-            records: &mut self.records,
-            positions: &mut self.positions,
-            visit: self.visit,
-            marks_fresh: self.marks_fresh,
-        }
+        let mark_of_new = self.mark_of_new();
+        VertexSlots { records: &mut self.records, marks: &mut self.marks, mark_of_new }
     }
 
     /// Gives a vertex the position that it has after one of its planes moved.
-    pub(in crate::polytope) fn set_point(&mut self, slot: u32, point: Homogeneous) {
-        self.positions[slot as usize] = Position(point);
+    pub(in crate::polytope) fn set_point(&mut self, slot: u32, point: Corner) {
+        self.records[slot as usize].point = point;
+        self.places.forget();
     }
 
     /// Forgets all vertices, keeping the memory.
     pub(in crate::polytope) fn clear(&mut self) {
         self.records.clear();
-        self.positions.clear();
+        self.marks.clear();
+        self.places.forget();
         self.free.clear();
     }
 
     /// Gives a slot back.
     pub(in crate::polytope) fn remove(&mut self, slot: u32) {
         self.records[slot as usize].planes[0] = NONE;
+        self.marks[slot as usize] = 0;
+        self.places.forget();
         self.free.push(slot);
+    }
+
+    /// Gives slots back, the last one to be taken first.
+    #[inline]
+    pub(in crate::polytope) fn remove_all(&mut self, slots: &[u32]) {
+        self.places.forget();
+        for &slot in slots {
+            self.records[slot as usize].planes[0] = NONE;
+            self.marks[slot as usize] = 0;
+        }
+        self.free.extend_from_slice(slots);
     }
 
     /// How many vertices there are.
@@ -181,14 +210,14 @@ impl VertexStore {
     }
 
     #[inline]
-    pub(in crate::polytope) fn point(&self, slot: u32) -> &Homogeneous {
-        &self.positions[slot as usize].0
+    pub(in crate::polytope) fn point(&self, slot: u32) -> &Corner {
+        &self.records[slot as usize].point
     }
 
     /// Whether an infinity plane takes part in a vertex.
     #[inline]
     pub(in crate::polytope) fn is_ideal(&self, slot: u32) -> bool {
-        self.records[slot as usize].ideal
+        self.records[slot as usize].point.is_ideal()
     }
 
     /// The other end of the edge that does not lie on the plane of index `k`.
@@ -218,41 +247,69 @@ impl VertexStore {
     /// Whether the current visit came to a vertex.
     #[inline]
     pub(in crate::polytope) fn is_visited(&self, slot: u32) -> bool {
-        self.records[slot as usize].visited == self.visit
+        self.marks[slot as usize] & VISITED != 0
     }
 
-    /// Notes that the current visit came to a vertex.
+    /// Notes that the current visit came to a vertex. The visit ends with the removal of all vertices that it came to, or with
+    /// [`end_visit`](Self::end_visit).
     #[inline]
     pub(in crate::polytope) fn set_visited(&mut self, slot: u32) {
-        self.records[slot as usize].visited = self.visit;
+        self.marks[slot as usize] |= VISITED;
     }
 
-    /// A new visit, which came to no vertex yet.
-    pub(in crate::polytope) fn begin_visit(&mut self) {
-        if self.visit == u32::MAX {
-            for record in &mut self.records {
-                record.visited = 0;
-            }
-            self.visit = 0;
+    /// Forgets that the current visit came to some vertices.
+    pub(in crate::polytope) fn end_visit(&mut self, slots: &[u32]) {
+        for &slot in slots {
+            self.marks[slot as usize] &= !VISITED;
         }
-        self.visit += 1;
     }
 
     /// Says whether new vertices are marked from now on.
     #[inline]
     pub(in crate::polytope) fn set_steps(&mut self, steps: Steps) {
-        self.marks_fresh = steps == Steps::Several;
+        self.steps = steps;
+    }
+
+    /// Whether new vertices are marked.
+    #[inline]
+    pub(in crate::polytope) fn steps(&self) -> Steps {
+        self.steps
     }
 
     /// Notes that the operation that runs made a vertex.
     pub(in crate::polytope) fn set_fresh(&mut self, slot: u32) {
-        self.records[slot as usize].fresh = true;
+        self.marks[slot as usize] |= FRESH;
     }
 
     /// Whether a vertex was made by the operation that runs; forgets it.
     #[inline]
     pub(in crate::polytope) fn take_fresh(&mut self, slot: u32) -> bool {
-        std::mem::take(&mut self.records[slot as usize].fresh)
+        let mark = &mut self.marks[slot as usize];
+        let is_fresh = *mark & FRESH != 0;
+        *mark &= !FRESH;
+        is_fresh
+    }
+
+    /// Whether [`seemingly_farthest`](Self::seemingly_farthest) answers at once.
+    #[inline(always)]
+    pub(in crate::polytope) fn are_places_known(&self) -> bool {
+        self.places.are_known()
+    }
+
+    /// Finds the places for [`seemingly_farthest`](Self::seemingly_farthest), where there are few vertices.
+    pub(in crate::polytope) fn find_places(&mut self) {
+        self.places.find(&self.records);
+    }
+
+    /// Forgets the places.
+    pub(in crate::polytope) fn forget_places(&mut self) {
+        self.places.forget();
+    }
+
+    /// The vertex that seems to be farthest in a direction; `None` where the places are not known.
+    #[inline(always)]
+    pub(in crate::polytope) fn seemingly_farthest(&self, direction: &[f64; 4]) -> Option<u32> {
+        self.places.farthest(direction)
     }
 
     /// At which index of a vertex a plane stands.
@@ -290,9 +347,8 @@ impl VertexStore {
 /// The vertices of a store by slot: a loop over these keeps them at hand, which one over the store cannot.
 pub(in crate::polytope) struct VertexSlots<'a> {
     records: &'a mut [VertexRecord],
-    positions: &'a mut [Position],
-    visit: u32,
-    marks_fresh: bool,
+    marks: &'a mut [u8],
+    mark_of_new: u8,
 }
 
 impl VertexSlots<'_> {
@@ -309,40 +365,29 @@ impl VertexSlots<'_> {
     }
 
     #[inline(always)]
-    pub(in crate::polytope) fn point(&self, slot: u32) -> &Homogeneous {
-        &self.positions[slot as usize].0
-    }
-
-    /// Whether an infinity plane takes part in a vertex.
-    #[inline(always)]
-    pub(in crate::polytope) fn is_ideal(&self, slot: u32) -> bool {
-        self.records[slot as usize].ideal
+    pub(in crate::polytope) fn point(&self, slot: u32) -> &Corner {
+        &self.records[slot as usize].point
     }
 
     /// Whether the current visit came to a vertex.
     #[inline(always)]
     pub(in crate::polytope) fn is_visited(&self, slot: u32) -> bool {
-        self.records[slot as usize].visited == self.visit
+        self.marks[slot as usize] & VISITED != 0
     }
 
     /// Notes that the current visit came to a vertex.
     #[inline(always)]
     pub(in crate::polytope) fn set_visited(&mut self, slot: u32) {
-        self.records[slot as usize].visited = self.visit;
+        self.marks[slot as usize] |= VISITED;
     }
 
     /// Writes a vertex into a claimed slot.
     #[inline(always)]
-    pub(in crate::polytope) fn put(
-        &mut self,
-        slot: u32,
-        planes: [u32; 3],
-        links: [Link; 3],
-        ideal: bool,
-        point: Homogeneous,
-    ) {
-        self.records[slot as usize] = VertexRecord { planes, links, visited: 0, ideal, fresh: self.marks_fresh };
-        self.positions[slot as usize] = Position(point);
+    pub(in crate::polytope) fn put(&mut self, slot: u32, planes: [u32; 3], links: [Link; 3], point: Corner) {
+        self.records[slot as usize] = VertexRecord { point, planes, links };
+        if self.mark_of_new != 0 {
+            self.marks[slot as usize] = self.mark_of_new;
+        }
     }
 
     /// Says where the edge at an end leads; the other end is to be told as well.

@@ -160,6 +160,6 @@ impl IncrementalPolytope {
         let combination = [orient3(n, b, c), orient3(a, n, c), orient3(a, b, n)];
         !combination.contains(&Sign::Negative)
             && !self.is_point_outside(planes, &self.meeting_point(planes), plane)
-            && planes.iter().all(|p| self.hidden_by(*p).any(|q| q == plane))
+            && (!self.certificates.is_listed(number) || planes.iter().all(|p| self.hidden_by(*p).any(|q| q == plane)))
     }
 }

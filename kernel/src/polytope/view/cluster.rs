@@ -212,7 +212,7 @@ impl<'a> Clusters<'a> {
 
     /// A position from the cache, and bounds of how far the correctly rounded one is from it.
     fn rough_position(&self, slot: u32) -> ([f64; 3], [f64; 3]) {
-        let point = self.polytope.vertices.point(slot);
+        let point = self.polytope.vertices.point(slot).homogeneous();
         let (value, permanent) = (point.value, point.permanent);
         let w = value[3].abs() - POSITION_BOUND * permanent[3];
         if w.is_nan() || w <= 0.5 * value[3].abs() {

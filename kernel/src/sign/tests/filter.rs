@@ -5,9 +5,9 @@ use dashu_ratio::RBig;
 use planecut_oracle::random::Rng;
 
 use super::super::filter::{
-    self, Ascent, DET3_BOUND, DET4_BOUND, Homogeneous, OffsetColumn, Probe, Slope, certain_det3, cross,
+    self, Ascent, DET3_BOUND, DET4_BOUND, Homogeneous, OffsetColumn, Slope, certain_det3, cross,
 };
-use super::super::{Row, Sign};
+use super::super::{Corner, Probe, Row, Sign};
 use super::{DRAWS, dense_rows, exact, magnitude, normal, rows, shifted, sign_of, sum, terms_of_det3};
 
 /// Below `2^-SURE` of the permanent a filter may leave the sign of dense rows open, above it may not.
@@ -115,7 +115,7 @@ fn a_certain_side_is_the_side() {
         let column = [OffsetColumn::Finite, OffsetColumn::Infinite][draw % 2];
         let (planes, h) = with_infinity(&mut rng, column);
         let [a, b, c] = &planes;
-        let found = Probe::new(&h, column).certain_side(&Homogeneous::quick(a, b, c, column));
+        let found = Probe::new(&h, column).certain_side(&Corner::new(&Homogeneous::quick(a, b, c, column), column));
         let truth = sign_of(&Meeting::of(&planes, &h, column).side[0]);
         assert!(found == truth || found == Sign::Zero, "{planes:?} {h:?} {column:?}: {found:?}, exactly {truth:?}");
         assert_eq!(Homogeneous::of(a, b, c, column).side([a, b, c], &h, column), truth, "{planes:?} {h:?} {column:?}");
@@ -140,7 +140,7 @@ fn quick_bounds_fit_dense_rows() {
         if magnitude(value) > shifted(size, SURE) {
             clear += 1;
             assert_eq!(
-                Probe::new(&h, OffsetColumn::Finite).certain_side(&quick),
+                Probe::new(&h, OffsetColumn::Finite).certain_side(&Corner::new(&quick, OffsetColumn::Finite)),
                 sign_of(value),
                 "{a:?} {b:?} {c:?} {h:?}"
             );
