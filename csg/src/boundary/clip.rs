@@ -47,7 +47,7 @@ pub(super) struct Cutter<'a> {
 }
 
 impl Clipper {
-    /// Begins with the faces of another body, which is the first one near itself.
+    /// Begins with the faces of another body; those near it are added then, itself among them.
     pub(super) fn begin(&mut self, scene: &Scene<'_>, body: BodyId) {
         let solid = scene.body(body);
         self.corners = solid.corner_count();
