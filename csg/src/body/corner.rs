@@ -83,9 +83,6 @@ impl Corner {
     /// On which side of a plane it lies; `planes` are those that meet in it, right-handed.
     #[inline]
     pub(crate) fn side(&self, table: &PlaneTable, planes: [PlaneId; 3], plane: PlaneId) -> Sign {
-        if planes.iter().any(|other| other.index() == plane.index()) {
-            return Sign::Zero;
-        }
         match PlaneFilter::new(table.half_space(plane)).side(self) {
             Sign::Zero => exact_side(table, planes, plane),
             certain => certain,
@@ -100,10 +97,13 @@ impl Corner {
     }
 }
 
-/// On which side of a plane the meeting point of three others lies.
+/// On which side of a plane the meeting point of three planes, right-handed, lies: asked for where plain numbers leave it open.
 #[cold]
 #[inline(never)]
-fn exact_side(table: &PlaneTable, planes: [PlaneId; 3], plane: PlaneId) -> Sign {
+pub(crate) fn exact_side(table: &PlaneTable, planes: [PlaneId; 3], plane: PlaneId) -> Sign {
+    if planes.iter().any(|other| other.index() == plane.index()) {
+        return Sign::Zero;
+    }
     table.side(planes, &table.homogeneous(planes), plane)
 }
 

@@ -91,6 +91,22 @@ pub(crate) enum Place {
     Unknown,
 }
 
+impl Place {
+    /// What the largest value of a point tells, with the error of a value of 1: the face that has it, and the one that is nearest where the point is inside.
+    fn of(value: f64, room: f64, [farthest, nearest]: [BodyFaceId; 2]) -> Self {
+        let room = room * value.max(1.0);
+        if room >= 0.25 || value.is_nan() {
+            Self::Unknown
+        } else if value > 1.0 + room {
+            Self::Outside(farthest)
+        } else if value < 1.0 - room {
+            Self::Inside(nearest)
+        } else {
+            Self::Near(nearest)
+        }
+    }
+}
+
 impl PolarDual {
     /// That of a body of many faces which is not too thin for its numbers; of each face the half-space, and which of the edges of the
     /// body it has.
@@ -162,16 +178,7 @@ impl PolarDual {
     pub(crate) fn place(&self, point: &Corner, from: BodyFaceId) -> Place {
         let (at, room) = self.relative(point);
         let (face, value) = self.climb(at, from, room);
-        let room = room * value.max(1.0);
-        if room >= 0.25 || value.is_nan() {
-            Place::Unknown
-        } else if value > 1.0 + room {
-            Place::Outside(face)
-        } else if value < 1.0 - room {
-            Place::Inside(face)
-        } else {
-            Place::Near(face)
-        }
+        Place::of(value, room, [face, face])
     }
 
     /// Where a point lies that is on the plane of a face: within the face unless beyond a neighbour, and so within the body.
@@ -183,16 +190,7 @@ impl PolarDual {
                 (farthest, value) = (next, other);
             }
         });
-        let room = room * value.max(1.0);
-        if room >= 0.25 || value.is_nan() {
-            Place::Unknown
-        } else if value > 1.0 + room {
-            Place::Outside(farthest)
-        } else if value < 1.0 - room {
-            Place::Inside(face)
-        } else {
-            Place::Near(face)
-        }
+        Place::of(value, room, [farthest, face])
     }
 
     /// Whether a point surely lies strictly outside of the plane of a face.

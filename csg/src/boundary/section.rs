@@ -6,7 +6,7 @@ use planecut_kernel::sign::Sign;
 
 use super::BoundaryEdge;
 use crate::base::Bounds;
-use crate::body::{Corner, PlaneFilter};
+use crate::body::{Corner, PlaneFilter, exact_side};
 use crate::plane_table::{PlaneId, PlaneTable};
 
 /// A convex polygon on `plane`: edge `i` lies on the line of `edges[i]`, whose normal points away from the polygon;
@@ -55,7 +55,7 @@ impl Polygon {
         for i in 0..n {
             let corner = &self.corners[i];
             let side = match filter.side(corner) {
-                Sign::Zero => corner.side(table, self.corner(plane, i), cut),
+                Sign::Zero => exact_side(table, self.corner(plane, i), cut),
                 certain => certain,
             };
             match side {
