@@ -15,36 +15,39 @@ pub(crate) const WEIGHTS: [f64; 4] = [0.731_592_653_589, 0.467_182_818_284, 0.61
 
 /// The different keys, and for each key given the place of its like among them.
 ///
-/// Keys are numbered bucket by bucket. `near` tells which keys go together: equal ones have the same number below `bound`,
-/// and those of near numbers are best found near each other. `number_of` gives the number of a key from its place.
+/// Keys are numbered bucket by bucket. `key` gives each from its place, and is asked twice, so that a long list of keys need not be kept. `near`
+/// tells which keys go together: equal ones have the same number below `bound`, and those of near numbers are best found near
+/// each other. `number_of` gives the number of a key from its place.
 pub(crate) fn intern<K: Copy + Eq + Hash + Send + Sync, N: Send>(
-    keys: &[K],
+    keys: usize,
+    key: impl Fn(usize) -> K + Sync,
     bound: usize,
     near: impl Fn(&K) -> usize + Sync,
     number_of: impl Fn(usize) -> N + Sync,
 ) -> (Vec<K>, Vec<N>) {
     // a function of the keys alone, so that the numbers do not depend on the number of threads
-    let count = keys.len().div_ceil(BUCKET);
+    let count = keys.div_ceil(BUCKET);
     if count < 2 {
         let mut bucket = Bucket::default();
-        let numbers = keys.iter().map(|key| number_of(bucket.number(*key) as usize)).collect();
+        let numbers = (0..keys).map(|place| number_of(bucket.number(key(place)) as usize)).collect();
         return (bucket.keys, numbers);
     }
     let width = bound.div_ceil(count).max(1);
-    let bucket_of = |key: &K| number32((near(key) / width).min(count - 1));
-    let of_key: Vec<u32> = keys.par_iter().with_min_len(BUCKET).map(bucket_of).collect();
+    let bucket_of = |place: usize| number32((near(&key(place)) / width).min(count - 1));
+    let of_key: Vec<u32> = (0..keys).into_par_iter().with_min_len(BUCKET).map(bucket_of).collect();
     let (starts, members) = by_group(count, of_key.iter().map(|bucket| *bucket as usize), number32);
-    let numbers: Vec<AtomicU32> = keys.par_iter().with_min_len(BUCKET).map(|_| AtomicU32::new(0)).collect();
+    let numbers: Vec<AtomicU32> = (0..keys).into_par_iter().with_min_len(BUCKET).map(|_| AtomicU32::new(0)).collect();
     let buckets: Vec<Vec<K>> = starts
         .par_windows(2)
         .map(|ends| {
             let mut bucket = Bucket::default();
             for &place in &members[ends[0] as usize..ends[1] as usize] {
-                numbers[place as usize].store(bucket.number(keys[place as usize]), Ordering::Relaxed);
+                numbers[place as usize].store(bucket.number(key(place as usize)), Ordering::Relaxed);
             }
             bucket.keys
         })
         .collect();
+    drop(members);
     let mut first = vec![0; count];
     for k in 1..count {
         first[k] = first[k - 1] + number32(buckets[k - 1].len());
@@ -129,7 +132,7 @@ mod tests {
     fn equal_keys_share_a_number_however_many_there_are() {
         for count in [0, 1, 100, BUCKET as u64 - 1, BUCKET as u64 + 1, 5 * BUCKET as u64 + 3] {
             let keys: Vec<u64> = (0..count).map(|k| k.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 50).collect();
-            let (found, numbers) = intern(&keys, 1 << 14, |key| *key as usize, |place| place);
+            let (found, numbers) = intern(keys.len(), |place| keys[place], 1 << 14, |key| *key as usize, |place| place);
             assert!(keys.iter().zip(&numbers).all(|(key, number)| found[*number] == *key));
             let mut sorted = found.clone();
             sorted.sort_unstable();

@@ -78,6 +78,13 @@ pub(crate) fn concat<'a, S: Sync + 'a, T: Copy + Default + Send>(
     all
 }
 
+/// The elements of some parts one after another; each part is dropped when it is copied, as all of them may be much.
+pub(crate) fn concat_owned<T>(parts: Vec<Vec<T>>) -> Vec<T> {
+    let mut all = Vec::with_capacity(parts.iter().map(Vec::len).sum());
+    parts.into_iter().for_each(|part| all.extend(part));
+    all
+}
+
 /// Chunks that are worked on, for whoever watches.
 struct Stage {
     done: AtomicUsize,

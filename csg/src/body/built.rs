@@ -56,7 +56,8 @@ impl BuiltBodies {
         });
         let mut bodies: FxHashMap<u64, Vec<BuiltBody>> = FxHashMap::default();
         for (brush, built) in brushes.iter().zip(parts.into_iter().flatten()) {
-            let alike = bodies.entry(key(&brush.faces)).or_default();
+            // mostly there is one, and room for more is not kept
+            let alike = bodies.entry(key(&brush.faces)).or_insert_with(|| Vec::with_capacity(1));
             if shape_among(alike, &brush.faces).is_none() {
                 alike.push(built);
             }

@@ -102,6 +102,8 @@ impl Shape {
             corners.planes.push(own);
             ends.push(number32(corners.edges.len()));
         });
+        corners.edges.shrink_to_fit();
+        corners.numbers.shrink_to_fit();
         is_bounded.then(|| Self::measured(&ends, corners, plane))
     }
 

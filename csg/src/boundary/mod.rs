@@ -23,7 +23,7 @@ use std::borrow::Cow;
 
 use planecut_kernel::sign::Counts;
 
-use crate::base::{Boxes, map_chunks};
+use crate::base::{Boxes, concat_owned, map_chunks};
 use crate::body::{Body, BodyFace, PolarDual};
 use crate::expression::{Expression, OneLevel, Polarity};
 use crate::ids::{BodyFaceId, BodyId, Id, LeafId};
@@ -160,10 +160,11 @@ pub(crate) fn boundary_edges(scene: &Scene<'_>) -> (Vec<BoundaryEdge>, Counts) {
                 worker.emit(face, &mut edges);
             }
         }
+        // room for more may be as much again
+        edges.shrink_to_fit();
         edges
     });
-    let edges = parts.concat();
-    (edges, counts)
+    (concat_owned(parts), counts)
 }
 
 /// The boundary edges of the union of bodies.

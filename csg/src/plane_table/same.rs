@@ -52,7 +52,7 @@ pub(super) fn group_exactly(rows: &[Row]) -> (Vec<Row>, Vec<u32>) {
     let keys: Vec<Key> = rows.par_iter().with_min_len(1024).map(key).collect();
     // spread by the low bits of a ratio
     let spread = |key: &Key| ((key.1[0] ^ key.1[1] >> 7 ^ key.1[2] >> 13) & 0xFFFF) as usize;
-    let (different, mut class) = intern(&keys, 1 << 16, spread, number32);
+    let (different, mut class) = intern(keys.len(), |place| keys[place], 1 << 16, spread, number32);
     let mut groups: Vec<Option<Row>> = vec![None; different.len()];
     // groups that share all numbers with one that was there before
     let mut further: FxHashMap<u32, Vec<u32>> = FxHashMap::default();

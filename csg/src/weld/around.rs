@@ -49,7 +49,7 @@ impl AroundLine<'_> {
             if plane.index() == first.index() {
                 return if plane == first { 0 } else { 2 };
             }
-            match self.table.cross_component(first, plane, self.line.axis) {
+            match self.table.cross_component(first, plane, self.line.axis()) {
                 Sign::Positive => 1,
                 Sign::Zero => 2,
                 Sign::Negative => 3,
@@ -57,7 +57,7 @@ impl AroundLine<'_> {
         };
         items.sort_by(|i, j| {
             let (p, q) = (signed(*i), signed(*j));
-            half(p).cmp(&half(q)).then_with(|| match self.table.cross_component(p, q, self.line.axis) {
+            half(p).cmp(&half(q)).then_with(|| match self.table.cross_component(p, q, self.line.axis()) {
                 Sign::Positive => Ordering::Less,
                 Sign::Zero => Ordering::Equal,
                 Sign::Negative => Ordering::Greater,

@@ -48,7 +48,8 @@ pub(super) struct Surviving {
 pub(super) struct Pieces {
     /// Paired half-edges, ordered by line.
     pub(super) pieces: Vec<HalfEdge>,
-    pub(super) slits: Vec<Run>,
+    /// Whether lines with slits are left out.
+    pub(super) is_slit: bool,
     pub(super) passed: Vec<Passed>,
 }
 
@@ -75,7 +76,7 @@ pub(super) struct LineWorker<'a> {
     around: Vec<HalfEdgeId>,
 }
 
-/// Cancels the edges on each line and cuts and pairs what is left; `edges` are listed by line in `by_line`. Lines with slits are left
+/// Cancels the edges on each line and cuts and pairs what is left, in parts; `edges` are listed by line in `by_line`. Lines with slits are left
 /// out: where there are any, [`crossings`](super::crossings) begins again.
 pub(super) fn pieces(
     table: &PlaneTable,
@@ -84,12 +85,13 @@ pub(super) fn pieces(
     planes: &[PlaneId],
     edges: &[Run],
     (starts, by_line): &(Vec<u32>, Vec<EdgeId>),
-) -> Result<(Pieces, Counts), WeldError> {
+) -> Result<(Vec<Pieces>, Counts), WeldError> {
     let numbers: Vec<LineId> = LineId::all(lines.len()).collect();
     let (parts, counts) = map_chunks(&numbers, 256, |numbers| -> Result<Pieces, WeldError> {
         let mut worker = LineWorker::new(table, points, lines, planes);
         let (mut surviving, mut group) = (Surviving::default(), Vec::new());
-        let mut pieces = Vec::with_capacity(numbers.len() * 5);
+        let (first, end) = (numbers[0].index(), numbers[0].index() + numbers.len());
+        let mut pieces = Vec::with_capacity((starts[end] - starts[first]) as usize);
         for line in numbers {
             let members = starts[line.index()] as usize..starts[line.index() + 1] as usize;
             group.clear();
@@ -104,17 +106,19 @@ pub(super) fn pieces(
                 worker.cut(&surviving.runs, &[], &mut pieces, Crossed::No)?;
             }
         }
-        Ok(Pieces { pieces, slits: surviving.slits, passed: surviving.passed })
+        Ok(Pieces { pieces, is_slit: !surviving.slits.is_empty(), passed: surviving.passed })
     });
-    let mut all = Pieces { pieces: Vec::with_capacity(edges.len() + edges.len() / 8), ..Pieces::default() };
+    Ok((parts.into_iter().collect::<Result<_, _>>()?, counts))
+}
+
+/// The half-edges of some parts; each part is dropped when it is copied.
+pub(super) fn joined(parts: Vec<Pieces>) -> Vec<HalfEdge> {
+    let mut all = Vec::with_capacity(parts.iter().map(|part| part.pieces.len()).sum());
     for part in parts {
-        let Pieces { pieces, slits, passed } = part?;
-        let base = all.pieces.len();
-        all.pieces.extend(pieces.into_iter().map(|piece| HalfEdge { twin: piece.twin.plus(base), ..piece }));
-        all.slits.extend(slits);
-        all.passed.extend(passed);
+        let base = all.len();
+        all.extend(part.pieces.into_iter().map(|piece| HalfEdge { twin: piece.twin.plus(base), ..piece }));
     }
-    Ok((all, counts))
+    all
 }
 
 impl<'a> LineWorker<'a> {

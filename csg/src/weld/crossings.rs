@@ -28,9 +28,9 @@ struct Cut {
 }
 
 /// Whether runs of one region cross in a point that several of them pass.
-pub(super) fn any(passed: &[Passed]) -> bool {
+pub(super) fn any<'a>(mut passed: impl Iterator<Item = &'a Passed>) -> bool {
     let mut at_point: FxHashMap<PointOfRegion, LineId> = FxHashMap::default();
-    passed.iter().any(|passed| *at_point.entry(passed.at).or_insert(passed.line) != passed.line)
+    passed.any(|passed| *at_point.entry(passed.at).or_insert(passed.line) != passed.line)
 }
 
 /// The elementary pieces of all lines, where something crosses.

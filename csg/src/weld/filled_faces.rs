@@ -10,7 +10,7 @@ use super::nest::{Faces, Projection};
 use super::points::Points;
 use super::regions::Regions;
 use super::triangulate::{Triangles, Triangulator, WeldPoints};
-use crate::base::{concat, map_chunks};
+use crate::base::{concat, concat_owned, map_chunks};
 use crate::ids::{HalfEdgeId, Id, PointId, RegionId, VertexId, number32};
 use crate::mesh::{Mesh, MeshFace};
 use crate::model::Material;
@@ -21,7 +21,7 @@ pub(super) struct FilledFaces {
     /// The vertices of each triangle.
     triangles: Vec<[u32; 3]>,
     /// The half-edge behind each side.
-    pub(super) labels: Labels,
+    labels: Labels,
     faces: Vec<MeshFace>,
     /// For each triangle the place of its face among these.
     triangle_faces: Vec<u32>,
@@ -73,16 +73,19 @@ fn mesh_face(regions: &Regions, region: RegionId, normal: DVec3) -> MeshFace {
     MeshFace { normal: scaled.normalize(), material: regions.materials[region.index()] }
 }
 
-/// The mesh of faces, without positions.
-pub(super) fn mesh_of(parts: &[FilledFaces], materials: &[Material]) -> Mesh {
-    let mut faces = Vec::with_capacity(parts.iter().map(|part| part.faces.len()).sum());
+/// The mesh of faces, without positions; and what is behind the sides of its triangles, in parts.
+pub(super) fn mesh_of(mut parts: Vec<FilledFaces>, materials: &[Material]) -> (Mesh, Vec<Labels>) {
     let mut first = Vec::with_capacity(parts.len());
-    for part in parts {
-        first.push(number32(faces.len()));
-        faces.extend_from_slice(&part.faces);
+    let mut count = 0;
+    for part in &parts {
+        first.push(number32(count));
+        count += part.faces.len();
     }
-    let of_part = |part: usize| &parts[part];
-    let triangles = concat(parts.len(), |part| &of_part(part).triangles, |_, triangle| *triangle);
-    let triangle_faces = concat(parts.len(), |part| &of_part(part).triangle_faces, |part, face| first[part] + *face);
-    Mesh { triangles, triangle_faces, faces, materials: materials.to_vec(), ..Mesh::default() }
+    // what is copied is dropped: of a large model it is much
+    let faces = concat_owned(parts.iter_mut().map(|part| std::mem::take(&mut part.faces)).collect());
+    let triangles = concat(parts.len(), |part| &parts[part].triangles, |_, triangle| *triangle);
+    parts.iter_mut().for_each(|part| part.triangles = Vec::new());
+    let triangle_faces = concat(parts.len(), |part| &parts[part].triangle_faces, |part, face| first[part] + *face);
+    let mesh = Mesh { triangles, triangle_faces, faces, materials: materials.to_vec(), ..Mesh::default() };
+    (mesh, parts.into_iter().map(|part| part.labels).collect())
 }

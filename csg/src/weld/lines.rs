@@ -8,10 +8,13 @@ use planecut_parallel::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::points::Points;
-use crate::base::{WEIGHTS, intern, map_chunks, sortable};
+use crate::base::{WEIGHTS, concat_owned, intern, map_chunks, sortable};
 use crate::boundary::BoundaryEdge;
 use crate::ids::{Id, LineId, NameId, PointId};
 use crate::plane_table::{PlaneId, PlaneTable};
+
+/// The number of an axis: there are as many lines as a mesh has edges, so that each byte counts.
+type Axis = u8;
 
 /// A geometric line, directed so that the component of its first axis is positive.
 #[derive(Debug, Clone, Copy)]
@@ -19,7 +22,7 @@ pub(super) struct Line {
     /// Two planes through the line, so sided that `nₐ × n_b` is its direction.
     pub(super) planes: [PlaneId; 2],
     /// The first axis along which the line is not constant.
-    pub(super) axis: usize,
+    axis: Axis,
     /// The signs of the components of the direction.
     direction: [Sign; 3],
 }
@@ -29,8 +32,8 @@ pub(super) type Key = (usize, [u64; 4]);
 
 /// Numbers the lines of edges; gives the lines and the number of the line of each edge, in order.
 pub(super) fn identify(table: &PlaneTable, edges: &[BoundaryEdge]) -> (Vec<Line>, Vec<LineId>, Counts) {
-    let keys: Vec<u64> = edges.par_iter().with_min_len(1024).map(pair).collect();
-    let (different, of_pair) = intern(&keys, table.len(), |key| (key >> 32) as usize, NameId::from_index);
+    let key = |edge: usize| pair(&edges[edge]);
+    let (different, of_pair) = intern(edges.len(), key, table.len(), |key| (key >> 32) as usize, NameId::from_index);
     let (lines, of_different, counts) = number(table, &different);
     (lines, of_pair.into_par_iter().with_min_len(1024).map(|k| of_different[k.index()]).collect(), counts)
 }
@@ -52,17 +55,16 @@ fn number(table: &PlaneTable, pairs: &[u64]) -> (Vec<Line>, Vec<LineId>, Counts)
         let line = Line::of(table, *pair);
         (line, mark(table, &line))
     };
-    let (found, mut counts) = map_chunks(pairs, 256, |pairs| pairs.iter().map(line).collect::<Vec<_>>());
-    let found: Vec<(Line, Mark)> = found.into_iter().flatten().collect();
-    let place = |(k, (_, mark)): (usize, &(Line, Mark))| (mark.low, NameId::from_index(k));
-    let mut order: Vec<(u64, NameId)> = found.par_iter().enumerate().with_min_len(1024).map(place).collect();
+    let (parts, mut counts) =
+        map_chunks(pairs, 256, |pairs| pairs.iter().map(line).unzip::<_, _, Vec<Line>, Vec<Mark>>());
+    let (lines, marks): (Vec<_>, Vec<_>) = parts.into_iter().unzip();
+    let (mut lines, marks) = (concat_owned(lines), concat_owned(marks));
+    let place = |(k, mark): (usize, &Mark)| (mark.low, NameId::from_index(k));
+    let mut order: Vec<(u64, NameId)> = marks.par_iter().enumerate().with_min_len(1024).map(place).collect();
     order.par_sort_unstable();
-    // of lines that may be equal, the first in the order given; most are alone
-    let mut first: Vec<NameId> = NameId::all(found.len()).collect();
-    let axes = AxisPlanes::default();
     // runs of lines that may be equal
     let mut runs: Vec<&[(u64, NameId)]> = Vec::new();
-    let high = |place: usize| found[order[place].1.index()].1.high;
+    let high = |place: usize| marks[order[place].1.index()].high;
     let mut start = 0;
     while start < order.len() {
         let (mut end, mut reach) = (start + 1, high(start));
@@ -75,30 +77,36 @@ fn number(table: &PlaneTable, pairs: &[u64]) -> (Vec<Line>, Vec<LineId>, Counts)
         }
         start = end;
     }
+    drop(marks);
+    let axes = AxisPlanes::default();
     let (parts, joining) = map_chunks(&runs, 64, |chunk| {
         let (mut some, mut equal) = (Vec::new(), Vec::new());
         for run in chunk {
             some.clear();
             some.extend(run.iter().map(|(_, k)| *k));
             some.sort_unstable();
-            find_equal(table, &axes, &found, &some, &mut equal);
+            find_equal(table, &axes, &lines, &some, &mut equal);
         }
         equal
     });
+    drop(order);
+    counts += joining;
+    // of lines that are equal, the first in the order given; most are alone
+    let mut first: Vec<NameId> = NameId::all(lines.len()).collect();
     for (line, other) in parts.into_iter().flatten() {
         first[line.index()] = other;
     }
-    counts += joining;
-    let mut lines: Vec<Line> = Vec::with_capacity(found.len());
-    let mut number = vec![LineId::NONE; found.len()];
-    for k in 0..found.len() {
-        if first[k].index() == k {
-            number[k] = LineId::from_index(lines.len());
-            lines.push(found[k].0);
+    let (mut number, mut different) = (Vec::with_capacity(lines.len()), 0);
+    for (k, first) in first.into_iter().enumerate() {
+        if first.index() == k {
+            number.push(LineId::from_index(different));
+            lines[different] = lines[k];
+            different += 1;
         } else {
-            number[k] = number[first[k].index()];
+            number.push(number[first.index()]);
         }
     }
+    lines.truncate(different);
     (lines, number, counts)
 }
 
@@ -106,15 +114,15 @@ fn number(table: &PlaneTable, pairs: &[u64]) -> (Vec<Line>, Vec<LineId>, Counts)
 fn find_equal(
     table: &PlaneTable,
     axes: &AxisPlanes,
-    found: &[(Line, Mark)],
+    lines: &[Line],
     some: &[NameId],
     equal: &mut Vec<(NameId, NameId)>,
 ) {
     let mut by_key: FxHashMap<Key, Vec<NameId>> = FxHashMap::default();
     for k in some {
-        let line = &found[k.index()].0;
+        let line = &lines[k.index()];
         let bucket = by_key.entry(key(table, line)).or_default();
-        match bucket.iter().copied().find(|other| axes.is_same(table, &found[other.index()].0, line)) {
+        match bucket.iter().copied().find(|other| axes.is_same(table, &lines[other.index()], line)) {
             Some(other) => equal.push((*k, other)),
             None => bucket.push(*k),
         }
@@ -143,13 +151,18 @@ impl Line {
     pub(super) fn of(table: &PlaneTable, pair: u64) -> Self {
         let [a, b] = [pair >> 32, pair & 0xFFFF_FFFF].map(|p| PlaneId::of_index(p as u32));
         let direction: [Sign; 3] = std::array::from_fn(|axis| table.cross_component(a, b, axis));
-        let axis =
-            direction.iter().position(|sign| *sign != Sign::Zero).expect("the planes of an edge are not parallel");
-        if direction[axis] == Sign::Positive {
+        let axis = (0..3).find(|axis: &Axis| direction[usize::from(*axis)] != Sign::Zero);
+        let axis = axis.expect("the planes of an edge are not parallel");
+        if direction[usize::from(axis)] == Sign::Positive {
             Self { planes: [a, b], axis, direction }
         } else {
             Self { planes: [b, a], axis, direction: direction.map(Sign::flip) }
         }
+    }
+
+    /// The first axis along which the line is not constant.
+    pub(super) fn axis(&self) -> usize {
+        usize::from(self.axis)
     }
 
     /// Whether `n_a × n_b` of two planes through this line points along it.
@@ -161,12 +174,12 @@ impl Line {
         if (a.index(), b.index()) == (q.index(), p.index()) {
             return (a == q) != (b == p);
         }
-        table.cross_component(a, b, self.axis) == Sign::Positive
+        table.cross_component(a, b, self.axis()) == Sign::Positive
     }
 
     /// The coordinate of a point of the line along which the line rises, correctly rounded: points for which it differs are in that order.
     pub(super) fn height(&self, points: &Points, point: PointId) -> f64 {
-        points.positions[point.index()][self.axis]
+        points.positions[point.index()][self.axis()]
     }
 
     /// The exact order of two points of the line along its direction.
@@ -218,7 +231,7 @@ impl AxisPlanes {
     /// Exactly: both planes of `other` hold the direction and one point of `line`.
     pub(super) fn is_same(&self, table: &PlaneTable, line: &Line, other: &Line) -> bool {
         let [a, b] = line.planes.map(|p| table.row(p));
-        let cut = &self.at_zero[line.axis];
+        let cut = &self.at_zero[line.axis()];
         let point = planecut_kernel::sign::Homogeneous::meet(a, b, cut);
         other.planes.iter().all(|plane| {
             line.planes.iter().any(|p| p.index() == plane.index())
@@ -230,7 +243,7 @@ impl AxisPlanes {
 
 fn mark(table: &PlaneTable, line: &Line) -> Mark {
     let (value, error) = rounded_mark(table, line).unwrap_or_else(|| exact_mark(table, line));
-    Mark::new(line.axis, value, error)
+    Mark::new(line.axis(), value, error)
 }
 
 /// From the determinants of the planes' columns in plain numbers, where these are well conditioned: each is off by less than
@@ -239,7 +252,7 @@ fn rounded_mark(table: &PlaneTable, line: &Line) -> Option<(f64, f64)> {
     const DETERMINANT_BOUND: f64 = 4.0 * f64::EPSILON;
     const WELL: f64 = 1e4;
     let [a, b] = line.planes.map(|plane| table.row(plane).coefficients());
-    let (u, v) = ((line.axis + 1) % 3, (line.axis + 2) % 3);
+    let (u, v) = ((line.axis() + 1) % 3, (line.axis() + 2) % 3);
     let minor = |i: usize, j: usize| {
         let (p, q) = (a[i] * b[j], a[j] * b[i]);
         (p - q, p.abs() + q.abs())
@@ -249,7 +262,7 @@ fn rounded_mark(table: &PlaneTable, line: &Line) -> Option<(f64, f64)> {
         return None;
     }
     let (mut mark, mut error) = (0.0, 0.0);
-    for (weight, (i, j)) in WEIGHTS.iter().zip([(v, line.axis), (line.axis, u), (3, v), (u, 3)]) {
+    for (weight, (i, j)) in WEIGHTS.iter().zip([(v, line.axis()), (line.axis(), u), (3, v), (u, 3)]) {
         let (value, permanent) = minor(i, j);
         let quotient = value / whole;
         mark += weight * quotient;
@@ -267,10 +280,10 @@ fn exact_mark(table: &PlaneTable, line: &Line) -> (f64, f64) {
 
 fn exact_numbers(table: &PlaneTable, line: &Line) -> [f64; 4] {
     let [a, b] = line.planes.map(|plane| table.row(plane));
-    line_coordinates(a, b, line.axis).expect("the line crosses the planes of its axis")
+    line_coordinates(a, b, line.axis()).expect("the line crosses the planes of its axis")
 }
 
 /// What equal lines share.
 pub(super) fn key(table: &PlaneTable, line: &Line) -> Key {
-    (line.axis, exact_numbers(table, line).map(f64::to_bits))
+    (line.axis(), exact_numbers(table, line).map(f64::to_bits))
 }

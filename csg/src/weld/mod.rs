@@ -47,16 +47,18 @@ use crate::ids::{EdgeId, HalfEdgeId, Id, PointId, RegionId};
 use crate::mesh::{Flaw, Mesh, Noise, SolidMeasures, is_each_edge_paired, proven};
 use crate::model::{Material, MaterialId};
 use crate::plane_table::PlaneTable;
-use cancel::{HalfEdge, Pieces, Run};
+use cancel::{HalfEdge, Run};
 use filled_faces::filled_faces;
 pub(crate) use live::LiveWeld;
 pub(crate) use live::WeldedFace;
-use manifold::Labels;
 pub(crate) use nest::Projection;
 use nest::{Faces, Nester};
 use points::Points;
 use region_corners::RegionCorners;
 use regions::{RegionPieces, Regions};
+
+/// Number of boundary edges from which points and lines are numbered one after the other.
+const MANY_EDGES: usize = 1 << 21;
 
 /// The boundary does not close: a bug in this crate, never the user's mistake. Points are numbers of the weld.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
@@ -152,21 +154,25 @@ pub(crate) fn weld(
     let (nested, counted) = nest(table, &regions, &points, &sorted)?;
     signs += counted;
     let RegionPieces { pieces, .. } = sorted;
-    let (vertex, point) = manifold::vertices(&pieces, &nested.following);
+    let Nested { following, faces, solid } = nested;
+    let (vertex, point) = manifold::vertices(&pieces, &following);
+    drop(following);
 
     let begin = Clock::start();
-    let (filled, counted) = filled_faces(table, &regions, &points, &pieces, &nested.faces, &vertex);
+    let (filled, counted) = filled_faces(table, &regions, &points, &pieces, &faces, &vertex);
     signs += counted;
-    let mut mesh = filled_faces::mesh_of(&filled, materials);
+    let twins: Vec<HalfEdgeId> = pieces.par_iter().with_min_len(4096).map(|piece| piece.twin).collect();
+    // of a large model each of these is as large as its mesh
+    drop((faces, vertex, pieces));
+    let (mut mesh, labels) = filled_faces::mesh_of(filled, materials);
     mesh.positions = point.par_iter().with_min_len(4096).map(|p| points.positions[p.index()]).collect();
+    drop((point, points));
     // an edge that is there twice is not paired
     let is_closed = is_each_edge_paired(&mesh);
     if !is_closed {
-        let mut labels: Labels = filled.iter().flat_map(|filled| &filled.labels).copied().collect();
-        manifold::split_repeated_edges(&mut mesh, &mut labels, |piece| pieces[piece.index()].twin);
+        manifold::split_repeated_edges(&mut mesh, &mut labels.concat(), |piece| twins[piece.index()]);
     }
-    let solid = nested.solid;
-    drop((filled, nested, pieces, vertex, points));
+    drop((labels, twins));
     let (mesh, noise) = proven(mesh, &solid, walls, is_closed)?;
     Ok(Welded { mesh, solid, noise, signs, triangulation: begin.elapsed() })
 }
@@ -178,11 +184,15 @@ fn half_edges(
     edges: Vec<BoundaryEdge>,
     rank: &[u32],
 ) -> Result<(Regions, Points, RegionPieces, Counts), WeldError> {
-    // each has parts for one thread, during which the others go on
-    let ((mut points, ends, mut signs), ((mut regions, of_edge), (lines, of_pair, counted))) = planecut_parallel::join(
-        || Points::identify(table, &edges),
-        || planecut_parallel::join(|| Regions::number(&edges, rank), || lines::identify(table, &edges)),
-    );
+    let number_points = || Points::identify(table, &edges);
+    let number_others = || planecut_parallel::join(|| Regions::number(&edges, rank), || lines::identify(table, &edges));
+    // each has parts for one thread, during which the others go on; of very many edges what both take at once would be much memory
+    let (found, others) = if edges.len() < MANY_EDGES {
+        planecut_parallel::join(number_points, number_others)
+    } else {
+        (number_points(), number_others())
+    };
+    let ((mut points, ends, mut signs), ((mut regions, of_edge), (lines, of_pair, counted))) = (found, others);
     signs += counted;
     let run = |(k, edge): (usize, &BoundaryEdge)| Run {
         line: of_pair[k],
@@ -197,13 +207,16 @@ fn half_edges(
     drop((edges, ends, of_edge));
     let by_line = by_group(lines.len(), of_pair.iter().map(|line| line.index()), EdgeId::from_index);
     drop(of_pair);
-    let (Pieces { mut pieces, slits, passed }, counted) =
-        cancel::pieces(table, &points, &lines, &regions.planes, &runs, &by_line)?;
+    let (parts, counted) = cancel::pieces(table, &points, &lines, &regions.planes, &runs, &by_line)?;
     signs += counted;
-    if !slits.is_empty() || crossings::any(&passed) {
-        pieces = crossings::pieces(table, &mut points, &lines, &regions.planes, &runs, &by_line)?;
-    }
-    drop((runs, by_line));
+    let is_crossed =
+        parts.iter().any(|part| part.is_slit) || crossings::any(parts.iter().flat_map(|part| &part.passed));
+    let mut pieces = if is_crossed {
+        crossings::pieces(table, &mut points, &lines, &regions.planes, &runs, &by_line)?
+    } else {
+        drop((runs, by_line));
+        cancel::joined(parts)
+    };
     regions.sort(table, &mut pieces);
     let (mut sorted, pinches, counted) = RegionPieces::with_pinches(table, &points, &regions.planes, &pieces);
     signs += counted;

@@ -11,7 +11,7 @@ use planecut_parallel::prelude::*;
 
 use super::cancel::HalfEdge;
 use super::triangulate::LoopCorner;
-use crate::base::{Bounds, intern, map_chunks, sortable};
+use crate::base::{Bounds, concat_owned, intern, map_chunks, sortable};
 use crate::boundary::BoundaryEdge;
 use crate::ids::{HalfEdgeId, Id, NameId, PointId};
 use crate::plane_table::{PlaneId, PlaneTable, curve_number};
@@ -62,13 +62,16 @@ impl Points {
         first: impl Fn(&K) -> usize + Sync,
         planes: impl Fn(K) -> [PlaneId; 3] + Sync,
     ) -> (Self, Vec<[PointId; 2]>, Counts) {
-        let ends = |edge: &BoundaryEdge| [edge.start, edge.end].map(|end| key([edge.face, edge.edge, end]));
-        let keys: Vec<[K; 2]> = edges.par_iter().with_min_len(1024).map(ends).collect();
-        let (different, of_triple) = intern(keys.as_flattened(), table.len(), first, NameId::from_index);
+        let key_of_end = |end: usize| {
+            let edge = &edges[end / 2];
+            key([edge.face, edge.edge, if end.is_multiple_of(2) { edge.start } else { edge.end }])
+        };
+        let (different, of_triple) = intern(2 * edges.len(), key_of_end, table.len(), first, NameId::from_index);
         let (named, mut counts) = map_chunks(&different, 256, |keys| {
             keys.iter().map(|key| Named::of(table, planes(*key))).collect::<Vec<_>>()
         });
-        let named: Vec<Named> = named.into_iter().flatten().collect();
+        let named: Vec<Named> = concat_owned(named);
+        drop(different);
         let place = |(k, point): (usize, &Named)| (curve_number(point.position), NameId::from_index(k));
         let mut sorted: Vec<(u64, NameId)> = named.par_iter().enumerate().with_min_len(1024).map(place).collect();
         sorted.par_sort_unstable();
@@ -89,7 +92,8 @@ impl Points {
             joined
         });
         counts += joining;
-        let mut points = Self::default();
+        drop(sorted);
+        let mut points = Self::with_capacity(parts.iter().flatten().filter(|(_, is_first)| *is_first).count());
         let mut of_named = vec![PointId::NONE; named.len()];
         let mut number = PointId::NONE;
         for (k, is_first) in parts.into_iter().flatten() {
@@ -98,8 +102,17 @@ impl Points {
             }
             of_named[k.index()] = number;
         }
+        drop(named);
         let number = |ends: &[NameId]| [ends[0], ends[1]].map(|k| of_named[k.index()]);
         (points, of_triple.par_chunks_exact(2).with_min_len(1024).map(number).collect(), counts)
+    }
+
+    fn with_capacity(count: usize) -> Self {
+        Self {
+            planes: Vec::with_capacity(count),
+            positions: Vec::with_capacity(count),
+            exact: Vec::with_capacity(count),
+        }
     }
 
     /// The number of the meeting point of three independent planes, a new one where it is not known yet. Looks at all points.

@@ -1,7 +1,5 @@
 //! Lines by the planes that meet in them, numbered as long as an edge names them.
 
-use planecut_parallel::prelude::*;
-
 use super::names::{Names, find_all};
 use crate::base::{hash_of, intern};
 use crate::boundary::BoundaryEdge;
@@ -41,8 +39,8 @@ impl NamedLines {
         edges: &[BoundaryEdge],
         gained: &mut Vec<PlaneId>,
     ) -> Vec<NameId> {
-        let names: Vec<u64> = edges.par_iter().with_min_len(1024).map(lines::pair).collect();
-        let (different, of_edge) = intern(&names, table.len(), |name| (name >> 32) as usize, |number| number);
+        let (different, of_edge) =
+            intern(edges.len(), |edge| lines::pair(&edges[edge]), table.len(), |name| (name >> 32) as usize, |k| k);
         let marked = |name: &u64| {
             let line = Line::of(table, *name);
             (line, mark_of(table, &line))

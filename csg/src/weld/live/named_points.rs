@@ -3,7 +3,6 @@
 use std::cmp::Ordering;
 
 use planecut_kernel::{DVec3, compare_exactly};
-use planecut_parallel::prelude::*;
 
 use super::names::{Names, find_all};
 use crate::base::{hash_of, intern, map_chunks, sortable};
@@ -52,9 +51,9 @@ impl NamedPoints {
         edges: &[BoundaryEdge],
         gained: &mut Vec<PlaneId>,
     ) -> Vec<[NameId; 2]> {
-        let names: Vec<[points::Triple; 2]> = edges.par_iter().with_min_len(1024).map(names_of).collect();
+        let name = |end: usize| names_of(&edges[end / 2])[end % 2];
         let near = |name: &points::Triple| (name.0 >> 32) as usize;
-        let (different, of_end) = intern(names.as_flattened(), table.len(), near, |number| number);
+        let (different, of_end) = intern(2 * edges.len(), name, table.len(), near, |number| number);
         let found = find_all(&self.names, &different, |name| Named::of(table, points::planes(*name)));
         let new = different.iter().zip(found);
         let numbers: Vec<NameId> =
