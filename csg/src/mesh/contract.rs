@@ -7,7 +7,6 @@
 
 use crate::ids::number32;
 use glam::DVec3;
-use rustc_hash::{FxHashMap, FxHashSet};
 use smallvec::SmallVec;
 
 use super::Mesh;
@@ -24,41 +23,44 @@ pub fn contract_short_edges(mesh: &mut Mesh, length: f64) -> usize {
 ///
 /// A format with coarser coordinates asks for the edges whose ends it would round to one place.
 pub fn contract_edges(mesh: &mut Mesh, is_short: impl Fn(DVec3, DVec3) -> bool) -> usize {
-    let short = short_edges(mesh, &is_short);
-    if short.is_empty() { 0 } else { contract_listed(mesh, short, |_| &is_short).became.len() }
+    let mut short = short_edges(mesh, &is_short);
+    if short.is_empty() {
+        return 0;
+    }
+    let contraction = contract_listed(mesh, &mut short, |ends| *ends, |_, a, b| is_short(a, b));
+    contraction.gone.len()
 }
 
 /// Contracts edges that are rounding noise, in the order given; otherwise as [`contract_short_edges`]. `before` are the positions of the mesh.
-pub(super) fn contract_noise(mesh: &mut Mesh, edges: &[NoiseEdge], before: &[DVec3], noise: &mut Noise) {
+pub(super) fn contract_noise(mesh: &mut Mesh, mut edges: Vec<NoiseEdge>, before: &[DVec3], noise: &mut Noise) {
     if edges.is_empty() {
         return;
     }
-    let bounds: FxHashMap<[u32; 2], f64> = edges.iter().map(|edge| (edge.ends, edge.bound)).collect();
-    let is_noise = |ends: [u32; 2]| {
-        let bound = bounds[&ends];
-        move |a: DVec3, b: DVec3| a.distance(b) <= bound
-    };
-    let contraction = contract_listed(mesh, edges.iter().map(|edge| edge.ends).collect(), is_noise);
-    for gone in contraction.became.keys() {
+    let contraction = contract_listed(mesh, &mut edges, |edge| edge.ends, |edge, a, b| a.distance(b) <= edge.bound);
+    for gone in &contraction.gone {
         noise.add(1, before[*gone as usize].distance(before[contraction.current(*gone) as usize]));
     }
 }
 
 /// Contracts edges as often as one goes, each where what is asked of it holds of the places of its ends.
-fn contract_listed<F: Fn(DVec3, DVec3) -> bool>(
+fn contract_listed<E>(
     mesh: &mut Mesh,
-    mut edges: Vec<[u32; 2]>,
-    is_short: impl Fn([u32; 2]) -> F,
+    edges: &mut Vec<E>,
+    ends: impl Fn(&E) -> [u32; 2],
+    is_short: impl Fn(&E, DVec3, DVec3) -> bool,
 ) -> Contraction {
     let mut contraction = Contraction::new(mesh);
     loop {
         let before = edges.len();
-        edges.retain(|&[a, b]| !contraction.contract(mesh, a, b, is_short([a, b])));
+        edges.retain(|edge| {
+            let [a, b] = ends(edge);
+            !contraction.contract(mesh, a, b, |a, b| is_short(edge, a, b))
+        });
         if edges.len() == before {
             break;
         }
     }
-    if !contraction.became.is_empty() {
+    if !contraction.gone.is_empty() {
         contraction.compact(mesh);
     }
     contraction
@@ -80,16 +82,26 @@ fn short_edges(mesh: &Mesh, is_short: impl Fn(DVec3, DVec3) -> bool) -> Vec<[u32
     short.into_iter().map(|(_, edge)| edge).collect()
 }
 
+/// The triangles at a vertex where they have changed.
+type Changed = SmallVec<[u32; 8]>;
+
+/// A vertex with nothing changed at it.
+const UNCHANGED: u32 = u32::MAX;
+
 /// Edges contracted so far.
 struct Contraction {
-    /// What a contracted vertex became.
-    became: FxHashMap<u32, u32>,
+    /// What each vertex became, itself where it is still there.
+    became: Vec<u32>,
+    /// The vertices that are gone.
+    gone: Vec<u32>,
     /// Where the triangles at each vertex begin, and these, as they were.
     starts: Vec<u32>,
     triangles: Vec<u32>,
+    /// For each vertex its place in the next list, or [`UNCHANGED`].
+    place: Vec<u32>,
     /// The live triangles at vertices where they have changed.
-    changed: FxHashMap<u32, Vec<u32>>,
-    removed: FxHashSet<u32>,
+    changed: Vec<Changed>,
+    is_removed: Vec<bool>,
 }
 
 impl Contraction {
@@ -98,17 +110,19 @@ impl Contraction {
             by_group(mesh.positions.len(), mesh.triangles.iter().flatten().map(|v| *v as usize), number32);
         let triangles = sides.into_iter().map(|side| side / 3).collect();
         Self {
-            became: FxHashMap::default(),
+            became: (0..number32(mesh.positions.len())).collect(),
+            gone: Vec::new(),
             starts,
             triangles,
-            changed: FxHashMap::default(),
-            removed: FxHashSet::default(),
+            place: vec![UNCHANGED; mesh.positions.len()],
+            changed: Vec::new(),
+            is_removed: vec![false; mesh.triangles.len()],
         }
     }
 
     /// The live triangles at a vertex.
     fn triangles_at(&self, vertex: u32) -> &[u32] {
-        self.changed.get(&vertex).map_or_else(|| self.triangles_before(vertex), Vec::as_slice)
+        self.changed.get(self.place[vertex as usize] as usize).map_or_else(|| self.triangles_before(vertex), |all| all)
     }
 
     fn triangles_before(&self, vertex: u32) -> &[u32] {
@@ -116,14 +130,18 @@ impl Contraction {
     }
 
     /// The same, to be changed.
-    fn triangles_mut(&mut self, vertex: u32) -> &mut Vec<u32> {
-        let before = &self.triangles[self.starts[vertex as usize] as usize..self.starts[vertex as usize + 1] as usize];
-        self.changed.entry(vertex).or_insert_with(|| before.to_vec())
+    fn triangles_mut(&mut self, vertex: u32) -> &mut Changed {
+        if self.place[vertex as usize] == UNCHANGED {
+            let before = Changed::from_slice(self.triangles_before(vertex));
+            self.place[vertex as usize] = number32(self.changed.len());
+            self.changed.push(before);
+        }
+        &mut self.changed[self.place[vertex as usize] as usize]
     }
 
     fn current(&self, mut vertex: u32) -> u32 {
-        while let Some(next) = self.became.get(&vertex) {
-            vertex = *next;
+        while self.became[vertex as usize] != vertex {
+            vertex = self.became[vertex as usize];
         }
         vertex
     }
@@ -139,7 +157,7 @@ impl Contraction {
         for t in at_b {
             let triangle = &mut mesh.triangles[t as usize];
             if triangle.contains(&a) {
-                self.removed.insert(t);
+                self.is_removed[t as usize] = true;
                 for v in *triangle {
                     self.triangles_mut(v).retain(|other| *other != t);
                 }
@@ -148,7 +166,8 @@ impl Contraction {
                 self.triangles_mut(a).push(t);
             }
         }
-        self.became.insert(b, a);
+        self.became[b as usize] = a;
+        self.gone.push(b);
         true
     }
 
@@ -173,8 +192,7 @@ impl Contraction {
 
     /// Drops what is no longer used and renumbers the rest.
     fn compact(&self, mesh: &mut Mesh) {
-        let live = |t: &usize| !self.removed.contains(&number32(*t));
-        let kept: Vec<usize> = (0..mesh.triangles.len()).filter(live).collect();
+        let kept: Vec<usize> = (0..mesh.triangles.len()).filter(|t| !self.is_removed[*t]).collect();
         mesh.triangles = kept.iter().map(|t| mesh.triangles[*t]).collect();
         mesh.triangle_faces = kept.iter().map(|t| mesh.triangle_faces[*t]).collect();
         let mut number = vec![u32::MAX; mesh.positions.len()];

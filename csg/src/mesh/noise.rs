@@ -6,12 +6,14 @@
 
 use glam::DVec3;
 use planecut_parallel::prelude::*;
-use rustc_hash::{FxHashMap, FxHashSet};
+use rustc_hash::FxHashSet;
 
 use super::Mesh;
 use super::collapse::collapse_thin;
 use super::contract::contract_noise;
 use super::flip_caps::{flat_triangles, flip_caps, is_flat};
+use crate::base::{by_group, map_chunks};
+use crate::ids::number32;
 use crate::model::MaterialId;
 use crate::tolerances::CONTRACTION;
 
@@ -20,6 +22,7 @@ use crate::tolerances::CONTRACTION;
 pub(super) struct NoiseEdge {
     /// Its vertices, the smaller one first.
     pub(super) ends: [u32; 2],
+    length: f64,
     /// Up to which length it is noise.
     pub(super) bound: f64,
 }
@@ -51,8 +54,8 @@ pub(super) fn noise_edges(mesh: &Mesh, walls: Option<MaterialId>) -> Vec<NoiseEd
         [[a, b], [b, c], [c, a]].into_iter().filter(|[a, b]| a < b)
     };
     let is_short = |ends: &[u32; 2]| length(*ends) <= longest;
-    let all = mesh.triangles.par_iter().with_min_len(4096);
-    let mut short: Vec<[u32; 2]> = all.flat_map_iter(|triangle| sides(triangle).filter(is_short)).collect();
+    let of_chunk = |triangles: &[[u32; 3]]| triangles.iter().flat_map(sides).filter(is_short).collect::<Vec<_>>();
+    let mut short: Vec<[u32; 2]> = map_chunks(&mesh.triangles, 4096, of_chunk).0.concat();
     if !short.is_empty() && walls.is_some() {
         let fixed = vertices_on_walls(mesh, walls);
         short.retain(|ends| !ends.iter().any(|end| fixed.contains(end)));
@@ -61,43 +64,79 @@ pub(super) fn noise_edges(mesh: &Mesh, walls: Option<MaterialId>) -> Vec<NoiseEd
         return Vec::new();
     }
     let sizes = FaceSizes::around(mesh, &short);
-    let edge = |ends: &[u32; 2]| NoiseEdge { ends: *ends, bound: CONTRACTION * sizes.at_ends(*ends) };
-    let mut noise: Vec<NoiseEdge> = short.iter().map(edge).filter(|edge| length(edge.ends) <= edge.bound).collect();
-    noise.sort_by(|p, q| length(p.ends).total_cmp(&length(q.ends)).then(p.ends.cmp(&q.ends)));
+    let edge = |ends: &[u32; 2]| {
+        let edge = NoiseEdge { ends: *ends, length: length(*ends), bound: CONTRACTION * sizes.at_ends(*ends) };
+        (edge.length <= edge.bound).then_some(edge)
+    };
+    let mut noise: Vec<NoiseEdge> = short.par_iter().with_min_len(1024).filter_map(edge).collect();
+    noise.par_sort_unstable_by(|p, q| p.length.total_cmp(&q.length).then(p.ends.cmp(&q.ends)));
     noise
 }
 
 /// The sizes of the faces around some vertices: their largest coordinates.
 struct FaceSizes {
     sizes: Vec<f64>,
-    /// The faces at each vertex, once for each triangle.
-    faces: FxHashMap<u32, Vec<u32>>,
+    /// For each vertex its place among these, [`NO_PLACE`] for others.
+    place: Vec<u32>,
+    /// Where the faces at each begin.
+    starts: Vec<u32>,
+    /// The faces at each vertex, ascending, once for each triangle.
+    faces: Vec<u32>,
 }
+
+/// The place of a vertex that is not asked for.
+const NO_PLACE: u32 = u32::MAX;
 
 impl FaceSizes {
     fn around(mesh: &Mesh, edges: &[[u32; 2]]) -> Self {
-        let mut is_end = vec![false; mesh.positions.len()];
-        edges.iter().flatten().for_each(|end| is_end[*end as usize] = true);
-        let mut sizes = vec![0.0_f64; mesh.faces.len()];
-        let mut faces: FxHashMap<u32, Vec<u32>> = FxHashMap::default();
-        for (triangle, &face) in mesh.triangles.iter().zip(&mesh.triangle_faces) {
-            let size = &mut sizes[face as usize];
-            *size = size.max(largest_coordinate(triangle.iter().map(|v| mesh.positions[*v as usize])));
-            for vertex in triangle.iter().filter(|v| is_end[**v as usize]) {
-                faces.entry(*vertex).or_default().push(face);
+        let (mut place, mut count) = (vec![NO_PLACE; mesh.positions.len()], 0);
+        for end in edges.iter().flatten() {
+            let place = &mut place[*end as usize];
+            if *place == NO_PLACE {
+                *place = count;
+                count += 1;
             }
         }
-        faces.values_mut().for_each(|faces| {
-            faces.sort_unstable();
-            faces.dedup();
+        let triangles: Vec<u32> = (0..number32(mesh.triangles.len())).collect();
+        let (parts, _) = map_chunks(&triangles, 4096, |chunk| {
+            // of faces that follow one another, and of a triangle and a vertex of it
+            let (mut sizes, mut at_vertices): (Vec<(u32, f64)>, Vec<(u32, u32)>) = (Vec::new(), Vec::new());
+            for t in chunk {
+                let (triangle, face) = (mesh.triangles[*t as usize], mesh.triangle_faces[*t as usize]);
+                let size = largest_coordinate(triangle.iter().map(|v| mesh.positions[*v as usize]));
+                match sizes.last_mut() {
+                    Some((last, largest)) if *last == face => *largest = largest.max(size),
+                    _ => sizes.push((face, size)),
+                }
+                let places = triangle.iter().map(|v| place[*v as usize]).filter(|place| *place != NO_PLACE);
+                at_vertices.extend(places.map(|place| (place, face)));
+            }
+            (sizes, at_vertices)
         });
-        Self { sizes, faces }
+        let mut sizes = vec![0.0_f64; mesh.faces.len()];
+        for (face, size) in parts.iter().flat_map(|(sizes, _)| sizes) {
+            let largest = &mut sizes[*face as usize];
+            *largest = largest.max(*size);
+        }
+        let at_vertices: Vec<(u32, u32)> = parts.into_iter().flat_map(|(_, at_vertices)| at_vertices).collect();
+        let places = at_vertices.iter().map(|(place, _)| *place as usize);
+        let (starts, mut faces) = by_group(count as usize, places, |k| at_vertices[k].1);
+        for ends in starts.windows(2) {
+            faces[ends[0] as usize..ends[1] as usize].sort_unstable();
+        }
+        Self { sizes, place, starts, faces }
+    }
+
+    /// The faces at a vertex.
+    fn at(&self, vertex: u32) -> &[u32] {
+        let place = self.place[vertex as usize] as usize;
+        &self.faces[self.starts[place] as usize..self.starts[place + 1] as usize]
     }
 
     /// The smaller one of the sizes at both ends of an edge: the largest size of the faces that meet it in that end alone, or, where all
     /// lie along it, of these.
     fn at_ends(&self, [a, b]: [u32; 2]) -> f64 {
-        let (at_a, at_b) = (&self.faces[&a], &self.faces[&b]);
+        let (at_a, at_b) = (self.at(a), self.at(b));
         let largest =
             |faces: &mut dyn Iterator<Item = &u32>| faces.map(|face| self.sizes[*face as usize]).reduce(f64::max);
         let beyond = |own: &[u32], others: &[u32]| {
@@ -153,7 +192,7 @@ pub(crate) fn without_noise(mesh: &Mesh, walls: Option<MaterialId>) -> Option<(M
         return None;
     }
     let (mut cleared, mut noise) = (mesh.clone(), Noise::default());
-    contract_noise(&mut cleared, &edges, &mesh.positions, &mut noise);
+    contract_noise(&mut cleared, edges, &mesh.positions, &mut noise);
     collapse_thin(&mut cleared, walls, &mut noise)?;
     flip_caps(&mut cleared, walls)?;
     Some((cleared, noise))

@@ -83,7 +83,7 @@ pub(crate) fn proven(
     // mostly nothing is
     if sums.may_be_noise
         && let Some((cleared, noise)) = without_noise(&mesh, walls)
-        && prove_cleared(&cleared, solid, &mesh, noise).is_ok()
+        && prove_cleared(&cleared, solid, &sums, noise).is_ok()
     {
         return Ok((cleared, noise));
     }
@@ -104,8 +104,8 @@ fn middle_and_rounding(solid: &SolidMeasures) -> (DVec3, f64) {
     (0.5 * (solid.min + solid.max), f64::EPSILON * largest_coordinate([solid.min, solid.max].into_iter()))
 }
 
-/// Checks a mesh from which noise was removed, and which was another one before.
-fn prove_cleared(mesh: &Mesh, solid: &SolidMeasures, before: &Mesh, noise: Noise) -> Result<(), Flaw> {
+/// Checks a mesh from which noise was removed; `before` are the sums of it as it was, so that they have what is gone, too.
+fn prove_cleared(mesh: &Mesh, solid: &SolidMeasures, before: &Sums, noise: Noise) -> Result<(), Flaw> {
     if noise.thickest > PROOF * largest_coordinate([solid.min, solid.max].into_iter()) {
         return Err(Flaw::Measures);
     }
@@ -115,9 +115,7 @@ fn prove_cleared(mesh: &Mesh, solid: &SolidMeasures, before: &Mesh, noise: Noise
     let (middle, rounding) = middle_and_rounding(solid);
     let off = rounding + noise.thickest;
     let sums = sums_of(mesh, middle, off);
-    // of what is gone, too
-    let moved = sums_of(before, middle, off);
-    sums.agree_with([solid.volume, solid.area], solid.area, &moved, off)
+    sums.agree_with([solid.volume, solid.area], solid.area, before, off)
 }
 
 /// Checks a part of a mesh against the volume and area of what it was made of, seen from a point near the middle of a solid of some area.

@@ -37,7 +37,7 @@ pub(super) fn filled_faces(
     vertex: &[VertexId],
 ) -> (Vec<FilledFaces>, Counts) {
     let (parts, counts) = map_chunks(faces, 1, |chunk| {
-        let exact = WeldPoints { table, points };
+        let exact = WeldPoints { table, points, half_edges: pieces, planes: &regions.planes };
         let mut triangulator = Triangulator::new(&exact);
         let (mut edges, mut triangles): (Vec<FaceEdge>, _) = (Vec::new(), Triangles::default());
         let (mut mesh_faces, mut triangle_faces) = (Vec::new(), Vec::new());

@@ -154,7 +154,8 @@ impl<'a> FaceTriangulator<'a> {
     /// The triangles of faces that are triangulated as a whole, loops in the order of the half-edges with which they begin.
     fn whole(self, jobs: &[Job<'_>]) -> Vec<(FaceId, Triangulation)> {
         let Context { table, numbers } = self.context;
-        let exact = WeldPoints { table, points: numbers.points() };
+        let (half_edges, planes) = (&self.pieces.half_edges, &numbers.planes);
+        let exact = WeldPoints { table, points: numbers.points(), half_edges, planes };
         let mut triangulator = Triangulator::new(&exact);
         let mut found = Triangles::default();
         let half_edge = |piece: HalfEdgeId| &self.pieces.half_edges[piece.index()];

@@ -74,6 +74,8 @@ struct Node {
 struct Boundary<'a> {
     nodes: Vec<Node>,
     turns: Turns<'a>,
+    /// Whether it is one loop that turns left at each of its nodes, which follow one another by their numbers.
+    is_convex: bool,
 }
 
 /// Triangulates faces, reusing its buffers.
@@ -90,7 +92,7 @@ impl<'a> Triangulator<'a> {
     pub(crate) fn new(points: &'a dyn ExactPoints) -> Self {
         let turns = Turns { points, projection: Projection { u: 0, v: 1 } };
         Self {
-            boundary: Boundary { nodes: Vec::new(), turns },
+            boundary: Boundary { nodes: Vec::new(), turns, is_convex: false },
             rings: Vec::new(),
             ears: Ears::default(),
             ahead: Vec::new(),
@@ -146,6 +148,7 @@ impl<'a> Triangulator<'a> {
             return;
         }
         let start = rings[0];
+        boundary.is_convex = rings.len() == 1 && boundary.turns_left_everywhere();
         boundary.join_holes(start, &mut rings[1..]);
         ahead.clear();
         ahead.extend(boundary.boundary_edges());
@@ -187,8 +190,24 @@ impl Boundary<'_> {
         self.nodes[node.index()].previous
     }
 
+    /// Whether it is known to turn left at each node of its one loop.
+    fn turns_left_everywhere(&self) -> bool {
+        let count = self.nodes.len();
+        (0..count).all(|k| {
+            let [a, b, c] = [k + count - 1, k, k + 1].map(|k| &self.nodes[k % count].corner);
+            let is_left = Turns::is_left_at([a, b, c], || self.turns.points.corner(a.piece, b.piece));
+            debug_assert!(!is_left || self.turns.of(a, b, c) == Sign::Positive, "planes tell what points do");
+            is_left
+        })
+    }
+
     /// Which way three nodes turn, exactly; positive is left.
     fn turn(&self, a: NodeId, b: NodeId, c: NodeId) -> Sign {
+        if self.is_convex {
+            // a loop that does not cross itself and always turns left is a convex polygon, of which any three corners turn left in their order
+            let is_left = [(a, b), (b, c), (c, a)].iter().filter(|(p, q)| p < q).count() == 2;
+            return if is_left { Sign::Positive } else { Sign::Negative };
+        }
         let [a, b, c] = [a, b, c].map(|node| &self.nodes[node.index()]);
         if a.lines.iter().any(|line| b.lines.contains(line) && c.lines.contains(line)) {
             return Sign::Zero;

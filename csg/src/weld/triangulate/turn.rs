@@ -6,8 +6,9 @@ use planecut_kernel::sign::Sign;
 use planecut_kernel::{DVec2, planar_turn};
 
 use super::{Corner, orient};
-use crate::ids::{Id, PointId};
-use crate::plane_table::PlaneTable;
+use crate::ids::{HalfEdgeId, Id, PointId};
+use crate::plane_table::{PlaneId, PlaneTable};
+use crate::weld::cancel::HalfEdge;
 use crate::weld::nest::Projection;
 use crate::weld::points::Points;
 
@@ -20,12 +21,21 @@ pub(crate) trait ExactPoints {
 
     /// The order of two points from left to right, then upwards.
     fn order(&self, a: PointId, b: PointId, projection: Projection) -> Ordering;
+
+    /// Which way a loop turns from a half-edge to the one that follows, where more is known of them than their points; positive is left. However
+    /// short they are, their planes tell.
+    fn corner(&self, _before: HalfEdgeId, _after: HalfEdgeId) -> Option<Sign> {
+        None
+    }
 }
 
 /// The points of a weld with the planes that meet there.
 pub(in crate::weld) struct WeldPoints<'a> {
     pub(in crate::weld) table: &'a PlaneTable,
     pub(in crate::weld) points: &'a Points,
+    pub(in crate::weld) half_edges: &'a [HalfEdge],
+    /// The planes of the regions.
+    pub(in crate::weld) planes: &'a [PlaneId],
 }
 
 impl ExactPoints for WeldPoints<'_> {
@@ -41,6 +51,12 @@ impl ExactPoints for WeldPoints<'_> {
 
     fn order(&self, a: PointId, b: PointId, projection: Projection) -> Ordering {
         self.points.compare(self.table, a, b, &[projection.u, projection.v])
+    }
+
+    fn corner(&self, before: HalfEdgeId, after: HalfEdgeId) -> Option<Sign> {
+        let [before, after] = [before, after].map(|piece| &self.half_edges[piece.index()]);
+        // outward normals: where they are right-handed with that of the face, the loop turns left
+        Some(self.table.orient3(self.planes[before.region.index()], before.edge, after.edge))
     }
 }
 
@@ -62,6 +78,12 @@ impl Turns<'_> {
             return sign(value);
         }
         self.points.turn([a.point, b.point, c.point], self.projection)
+    }
+
+    /// Whether a loop turns left for certain at the second of three corners that follow one another.
+    pub(super) fn is_left_at([a, b, c]: [&Corner; 3], exact: impl FnOnce() -> Option<Sign>) -> bool {
+        let (value, bound) = rounded_turn(a.at, b.at, c.at);
+        value > bound || value >= -bound && exact() == Some(Sign::Positive)
     }
 
     /// Whether the exact points certainly turn right, from the rounded coordinates.
