@@ -18,6 +18,8 @@ pub mod job;
 mod one_thread;
 #[cfg(feature = "threads")]
 mod parts;
+#[cfg(all(feature = "threads", target_os = "linux"))]
+mod processors;
 
 #[cfg(feature = "threads")]
 pub use parts::{in_pool, join, map_parts};

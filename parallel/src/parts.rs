@@ -7,6 +7,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use crate::job;
+#[cfg(target_os = "linux")]
+use crate::processors::{Caller, KEPT, Spread};
 
 /// The result of work that is done by a thread of the pool, so that its loops and joins begin without waiting for one to awake; where the calling thread is one,
 /// it does the work itself. What watches the calling thread watches the work.
@@ -19,7 +21,32 @@ pub fn in_pool<R: Send>(work: impl FnOnce() -> R + Send) -> R {
         Some(watch) => job::watched(&watch, work),
         None => work(),
     };
+    #[cfg(target_os = "linux")]
+    let (_caller, has_slept) = Caller::begin();
+    #[cfg(target_os = "linux")]
+    if has_slept {
+        return in_pool_that_slept(work);
+    }
     rayon::scope(|_| work())
+}
+
+/// The same for a pool whose threads have slept.
+#[cfg(target_os = "linux")]
+fn in_pool_that_slept<R: Send>(work: impl FnOnce() -> R + Send) -> R {
+    let spread = Spread::new();
+    let (is_done, done) = std::sync::mpsc::sync_channel::<()>(1);
+    let mut result = None;
+    rayon::in_place_scope(|scope| {
+        let result = &mut result;
+        scope.spawn(move |_| {
+            // its end is told also where the work panics
+            let _is_done = is_done;
+            *result = Some(work());
+        });
+        let _ = done.recv_timeout(KEPT);
+        drop(spread);
+    });
+    result.expect("the scope waits for the work, and panics where that does")
 }
 
 /// The results of two functions, of which the calling thread does the first one.

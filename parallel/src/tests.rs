@@ -1,6 +1,14 @@
 //! The same lines compile, and give the same, with threads and without: `./check` runs them both ways.
 
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
 use crate::prelude::*;
+
+/// While one test looks at the threads of the pool, no other has work done in it.
+fn pool() -> MutexGuard<'static, ()> {
+    static POOL: Mutex<()> = Mutex::new(());
+    POOL.lock().unwrap_or_else(PoisonError::into_inner)
+}
 
 #[test]
 fn iterators_keep_the_order_of_elements() {
@@ -57,6 +65,7 @@ fn parts_keep_their_order() {
 fn work_in_the_pool_is_watched_as_its_caller() {
     use crate::job::{Stopped, Watch, check, progress, watched};
 
+    let _pool = pool();
     let watch = Watch::new();
     let sum = watched(&watch, || {
         crate::in_pool(|| {
@@ -69,6 +78,31 @@ fn work_in_the_pool_is_watched_as_its_caller() {
     let ended = std::panic::catch_unwind(|| watched(&watch, || crate::in_pool(check)));
     assert!(ended.unwrap_err().is::<Stopped>());
     crate::in_pool(check);
+}
+
+#[cfg(all(feature = "threads", target_os = "linux"))]
+#[test]
+fn threads_of_a_pool_that_slept_may_run_where_they_might_before() {
+    use std::time::{Duration, Instant};
+
+    let _pool = pool();
+    let allowed = || rayon::broadcast(|_| rustix::thread::sched_getaffinity(None).expect("what a thread may run on"));
+    let before = allowed();
+    std::thread::sleep(Duration::from_millis(30));
+    assert_eq!(crate::in_pool(|| crate::map_parts(100, |part| part).len()), 100);
+    assert_eq!(allowed(), before);
+    // longer than they are kept where they are put
+    std::thread::sleep(Duration::from_millis(30));
+    let moves = crate::in_pool(|| {
+        let begin = Instant::now();
+        while begin.elapsed() < Duration::from_millis(80) {}
+        allowed()
+    });
+    assert_eq!(moves, before);
+    std::thread::sleep(Duration::from_millis(30));
+    let outcome = std::panic::catch_unwind(|| crate::in_pool(|| panic!("this one")));
+    assert_eq!(outcome.unwrap_err().downcast_ref(), Some(&"this one"));
+    assert_eq!(allowed(), before);
 }
 
 #[test]
