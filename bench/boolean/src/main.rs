@@ -15,6 +15,7 @@ mod mesh_table;
 mod meshes;
 mod process;
 mod report;
+mod scaling;
 mod scene;
 mod stl;
 mod trees;

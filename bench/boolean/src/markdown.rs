@@ -8,6 +8,7 @@ use crate::growth::growth;
 use crate::machine;
 use crate::mesh_table;
 use crate::report::{Line, Report};
+use crate::scaling;
 use crate::trees::Tree;
 
 const TEMPLATE: &str = include_str!("../performance.template.md");
@@ -44,6 +45,7 @@ pub(crate) fn page(report: &Report) -> String {
         ("meshes", Some(mesh_table::table(report)).filter(|table| !table.is_empty()).unwrap_or(LEFT_OUT.to_owned())),
         ("workloads", workloads(report)),
         ("growth", Some(exponents(report)).filter(|table| !table.is_empty()).unwrap_or(LEFT_OUT.to_owned())),
+        ("scaling", Some(scaling::table(report)).filter(|table| !table.is_empty()).unwrap_or(LEFT_OUT.to_owned())),
         ("trees", trees(report)),
     ];
     parts
