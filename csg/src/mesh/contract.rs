@@ -122,7 +122,8 @@ impl Contraction {
 
     /// The live triangles at a vertex.
     fn triangles_at(&self, vertex: u32) -> &[u32] {
-        self.changed.get(self.place[vertex as usize] as usize).map_or_else(|| self.triangles_before(vertex), |all| all)
+        let changed = self.changed.get(self.place[vertex as usize] as usize);
+        changed.map_or_else(|| self.triangles_before(vertex), SmallVec::as_slice)
     }
 
     fn triangles_before(&self, vertex: u32) -> &[u32] {

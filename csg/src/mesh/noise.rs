@@ -100,7 +100,8 @@ impl FaceSizes {
         let triangles: Vec<u32> = (0..number32(mesh.triangles.len())).collect();
         let (parts, _) = map_chunks(&triangles, 4096, |chunk| {
             // of faces that follow one another, and of a triangle and a vertex of it
-            let (mut sizes, mut at_vertices): (Vec<(u32, f64)>, Vec<(u32, u32)>) = (Vec::new(), Vec::new());
+            let mut sizes: Vec<(u32, f64)> = Vec::new();
+            let mut at_vertices: Vec<(u32, u32)> = Vec::new();
             for t in chunk {
                 let (triangle, face) = (mesh.triangles[*t as usize], mesh.triangle_faces[*t as usize]);
                 let size = largest_coordinate(triangle.iter().map(|v| mesh.positions[*v as usize]));
