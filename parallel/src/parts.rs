@@ -12,6 +12,9 @@ use crate::processors::{Caller, KEPT, Spread};
 
 /// The result of work that is done by a thread of the pool, so that its loops and joins begin without waiting for one to awake; where the calling thread is one,
 /// it does the work itself. What watches the calling thread watches the work.
+///
+/// On Linux the threads of a pool that has slept are kept on processors of their own for the first 50 ms at most, where there are as many as processors that they
+/// may run on, and not more than 16: in virtual machines they would share one.
 pub fn in_pool<R: Send>(work: impl FnOnce() -> R + Send) -> R {
     if rayon::current_thread_index().is_some() {
         return work();

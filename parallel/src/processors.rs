@@ -1,8 +1,8 @@
 //! On which processors the threads of the pool run at first.
 //!
-//! Linux wakes a thread on an idle processor where it knows of one. Virtual machines tell of a processor that has slept for a while that it is taken
-//! (`vcpu_is_preempted`), so that all threads of the pool awake on the processor of the thread that wakes them and share it, for as long as 50 ms: work that
-//! is shorter is done as fast as by one thread. So after a pause each thread is kept on a processor of its own for that long.
+//! Linux wakes a thread on an idle processor where it knows of one. In virtual machines a processor that has slept for a while seems to be taken
+//! (`vcpu_is_preempted` may be why), so that all threads of the pool awake on the processor of the thread that wakes them and share it, for as long as 50 ms: work
+//! that is shorter is done as fast as by one thread. So after a pause each thread is kept on a processor of its own for that long.
 
 use std::sync::{Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
@@ -15,7 +15,7 @@ const PAUSE: Duration = Duration::from_millis(10);
 /// How long threads are kept where they are put.
 pub(crate) const KEPT: Duration = Duration::from_millis(50);
 
-/// In pools of more threads each is moved in too short a time to be worth it.
+/// Pools of more threads are left as they are: to move each would take longer than short work gains.
 const MOST: usize = 16;
 
 /// Of how many callers the pool does the work, and when the last of them was done.
@@ -42,8 +42,8 @@ impl Drop for Caller {
     }
 }
 
-/// The threads of the pool, each kept on a processor of its own until this is dropped. None where there are not as many as processors that they may run
-/// on: then the user wants something else.
+/// The threads of the pool, each kept on a processor of its own until this is dropped. They are left as they are where there are not as many as processors that
+/// they may run on: then the user wants something else.
 pub(crate) struct Spread(Vec<(Pid, CpuSet)>);
 
 impl Spread {

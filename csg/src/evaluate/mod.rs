@@ -120,7 +120,7 @@ pub fn summarize(model: &Model) -> ModelSummary {
 /// The solid of a model's tree as a watertight mesh. Empty brushes are counted; they take part as nothing. Unbounded brushes
 /// are operands like others; the solid itself must be bounded.
 ///
-/// With feature `parallel` it runs on rayon's current thread pool; the outcome does not depend on the number of threads, nor,
+/// With feature `parallel` it runs on rayon's current thread pool, whose threads [begin on processors of their own](planecut_parallel::in_pool) after a pause; the outcome does not depend on the number of threads, nor,
 /// where materials of overlapping coplanar faces agree, on the order of the brushes in a union. Of 65,536 brushes and more those that are
 /// apart from one another are evaluated apart, in bounded memory: vertices and faces then come group by group.
 ///
