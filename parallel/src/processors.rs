@@ -55,16 +55,17 @@ impl Spread {
             return spread;
         }
         let threads = THREADS.get_or_init(|| rayon::broadcast(|_| gettid()));
-        for (number, thread) in threads.iter().enumerate() {
-            let allowed = sched_getaffinity(Some(*thread)).unwrap_or_else(|_| CpuSet::new());
+        let allowed = threads.iter().map(|thread| Some((*thread, sched_getaffinity(Some(*thread)).ok()?)));
+        let Some(allowed) = allowed.collect::<Option<Vec<_>>>() else { return spread };
+        if allowed.iter().any(|(_, allowed)| allowed.count() as usize != count) {
+            return spread;
+        }
+        for (number, (thread, allowed)) in allowed.into_iter().enumerate() {
             let mut processors = (0..CpuSet::MAX_CPU).filter(|processor| allowed.is_set(*processor));
-            if allowed.count() as usize != count {
-                break;
-            }
             let mut own = CpuSet::new();
             processors.nth(number).into_iter().for_each(|processor| own.set(processor));
-            if sched_setaffinity(Some(*thread), &own).is_ok() {
-                spread.0.push((*thread, allowed));
+            if sched_setaffinity(Some(thread), &own).is_ok() {
+                spread.0.push((thread, allowed));
             }
         }
         spread

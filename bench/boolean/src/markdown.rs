@@ -42,15 +42,20 @@ pub(crate) fn page(report: &Report) -> String {
         ("run", run),
         ("versions", versions()),
         ("ratios", ratios(report)),
-        ("meshes", Some(mesh_table::table(report)).filter(|table| !table.is_empty()).unwrap_or(LEFT_OUT.to_owned())),
+        ("meshes", or_left_out(mesh_table::table(report))),
         ("workloads", workloads(report)),
-        ("growth", Some(exponents(report)).filter(|table| !table.is_empty()).unwrap_or(LEFT_OUT.to_owned())),
-        ("scaling", Some(scaling::table(report)).filter(|table| !table.is_empty()).unwrap_or(LEFT_OUT.to_owned())),
+        ("growth", or_left_out(exponents(report))),
+        ("scaling", or_left_out(scaling::table(report))),
         ("trees", trees(report)),
     ];
     parts
         .iter()
         .fold(TEMPLATE.to_owned(), |page, (name, text)| page.replace(&format!("{{{{{name}}}}}"), text.trim_end()))
+}
+
+/// A table, or that there is none.
+fn or_left_out(table: String) -> String {
+    if table.is_empty() { LEFT_OUT.to_owned() } else { table }
 }
 
 /// The other kernels and their versions.

@@ -23,20 +23,16 @@ pub fn contract_short_edges(mesh: &mut Mesh, length: f64) -> usize {
 ///
 /// A format with coarser coordinates asks for the edges whose ends it would round to one place.
 pub fn contract_edges(mesh: &mut Mesh, is_short: impl Fn(DVec3, DVec3) -> bool) -> usize {
-    let mut short = short_edges(mesh, &is_short);
-    if short.is_empty() {
-        return 0;
-    }
-    let contraction = contract_listed(mesh, &mut short, |ends| *ends, |_, a, b| is_short(a, b));
-    contraction.gone.len()
+    let short = short_edges(mesh, &is_short);
+    if short.is_empty() { 0 } else { contract_listed(mesh, short, |ends| *ends, |_, a, b| is_short(a, b)).gone.len() }
 }
 
 /// Contracts edges that are rounding noise, in the order given; otherwise as [`contract_short_edges`]. `before` are the positions of the mesh.
-pub(super) fn contract_noise(mesh: &mut Mesh, mut edges: Vec<NoiseEdge>, before: &[DVec3], noise: &mut Noise) {
+pub(super) fn contract_noise(mesh: &mut Mesh, edges: Vec<NoiseEdge>, before: &[DVec3], noise: &mut Noise) {
     if edges.is_empty() {
         return;
     }
-    let contraction = contract_listed(mesh, &mut edges, |edge| edge.ends, |edge, a, b| a.distance(b) <= edge.bound);
+    let contraction = contract_listed(mesh, edges, |edge| edge.ends, |edge, a, b| a.distance(b) <= edge.bound);
     for gone in &contraction.gone {
         noise.add(1, before[*gone as usize].distance(before[contraction.current(*gone) as usize]));
     }
@@ -45,7 +41,7 @@ pub(super) fn contract_noise(mesh: &mut Mesh, mut edges: Vec<NoiseEdge>, before:
 /// Contracts edges as often as one goes, each where what is asked of it holds of the places of its ends.
 fn contract_listed<E>(
     mesh: &mut Mesh,
-    edges: &mut Vec<E>,
+    mut edges: Vec<E>,
     ends: impl Fn(&E) -> [u32; 2],
     is_short: impl Fn(&E, DVec3, DVec3) -> bool,
 ) -> Contraction {

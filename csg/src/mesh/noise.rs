@@ -13,9 +13,11 @@ use super::collapse::collapse_thin;
 use super::contract::contract_noise;
 use super::flip_caps::{flat_triangles, flip_caps, is_flat};
 use crate::base::{by_group, map_chunks};
-use crate::ids::number32;
 use crate::model::MaterialId;
 use crate::tolerances::CONTRACTION;
+
+/// Triangles that a thread looks at in a row, at least.
+const CHUNK: usize = 4096;
 
 /// An edge that is short enough to be noise.
 #[derive(Debug, Clone, Copy)]
@@ -55,7 +57,7 @@ pub(super) fn noise_edges(mesh: &Mesh, walls: Option<MaterialId>) -> Vec<NoiseEd
     };
     let is_short = |ends: &[u32; 2]| length(*ends) <= longest;
     let of_chunk = |triangles: &[[u32; 3]]| triangles.iter().flat_map(sides).filter(is_short).collect::<Vec<_>>();
-    let mut short: Vec<[u32; 2]> = map_chunks(&mesh.triangles, 4096, of_chunk).0.concat();
+    let mut short: Vec<[u32; 2]> = map_chunks(&mesh.triangles, CHUNK, of_chunk).0.concat();
     if !short.is_empty() && walls.is_some() {
         let fixed = vertices_on_walls(mesh, walls);
         short.retain(|ends| !ends.iter().any(|end| fixed.contains(end)));
@@ -97,13 +99,12 @@ impl FaceSizes {
                 count += 1;
             }
         }
-        let triangles: Vec<u32> = (0..number32(mesh.triangles.len())).collect();
-        let (parts, _) = map_chunks(&triangles, 4096, |chunk| {
+        let chunks = mesh.triangles.par_chunks(CHUNK).zip(mesh.triangle_faces.par_chunks(CHUNK));
+        let of_chunk = |(triangles, faces): (&[[u32; 3]], &[u32])| {
             // of faces that follow one another, and of a triangle and a vertex of it
             let mut sizes: Vec<(u32, f64)> = Vec::new();
             let mut at_vertices: Vec<(u32, u32)> = Vec::new();
-            for t in chunk {
-                let (triangle, face) = (mesh.triangles[*t as usize], mesh.triangle_faces[*t as usize]);
+            for (triangle, &face) in triangles.iter().zip(faces) {
                 let size = largest_coordinate(triangle.iter().map(|v| mesh.positions[*v as usize]));
                 match sizes.last_mut() {
                     Some((last, largest)) if *last == face => *largest = largest.max(size),
@@ -113,7 +114,8 @@ impl FaceSizes {
                 at_vertices.extend(places.map(|place| (place, face)));
             }
             (sizes, at_vertices)
-        });
+        };
+        let parts: Vec<_> = chunks.map(of_chunk).collect();
         let mut sizes = vec![0.0_f64; mesh.faces.len()];
         for (face, size) in parts.iter().flat_map(|(sizes, _)| sizes) {
             let largest = &mut sizes[*face as usize];
