@@ -6,6 +6,9 @@ use crate::ids::number32;
 /// Leaves hold at most this many boxes.
 const LEAF: usize = 4;
 
+/// Number of boxes from which two threads split them further.
+const MANY: usize = 256;
+
 #[derive(Debug, Clone, Copy)]
 struct BoxNode {
     bounds: Bounds,
@@ -13,6 +16,48 @@ struct BoxNode {
     end: u32,
     /// Index of the second child (the first follows the node); 0 for a leaf.
     second: u32,
+}
+
+/// How many nodes there are for some boxes.
+fn nodes_of(boxes: usize) -> usize {
+    nodes_of_both(boxes)[0]
+}
+
+/// The same for a number of boxes and for one more: both are made of what there is for half of it, and for one more than that.
+fn nodes_of_both(boxes: usize) -> [usize; 2] {
+    let of_halves = if boxes < LEAF { [0; 2] } else { nodes_of_both(boxes / 2) };
+    let of_half = |half: usize| of_halves[half - boxes / 2];
+    [boxes, boxes + 1].map(|boxes| {
+        if boxes <= LEAF { usize::from(boxes > 0) } else { 1 + of_half(boxes / 2) + of_half(boxes - boxes / 2) }
+    })
+}
+
+/// Splits boxes until they are few; the node of the first half directly follows that of both. `start` and `number` are the places of the first box and node
+/// among all.
+fn split(boxes: &[Bounds], order: &mut [u32], nodes: &mut [BoxNode], [start, number]: [u32; 2]) {
+    let Some((node, others)) = nodes.split_first_mut() else { return };
+    let bounds = order.iter().fold(Bounds::EMPTY, |bounds, k| bounds.union(&boxes[*k as usize]));
+    *node = BoxNode { bounds, start, end: start + number32(order.len()), second: 0 };
+    if order.len() <= LEAF {
+        return;
+    }
+    let axis = (bounds.max - bounds.min).max_position();
+    let half = order.len() / 2;
+    let key = |k: &u32| boxes[*k as usize].center()[axis];
+    order.select_nth_unstable_by(half, |a, b| key(a).total_cmp(&key(b)).then(a.cmp(b)));
+    let many = order.len() >= MANY;
+    let (first, second) = order.split_at_mut(half);
+    let (of_first, of_second) = others.split_at_mut(nodes_of(half));
+    node.second = number + 1 + number32(of_first.len());
+    let places = [[start, number + 1], [start + number32(half), node.second]];
+    let mut split_first = || split(boxes, first, of_first, places[0]);
+    let mut split_second = || split(boxes, second, of_second, places[1]);
+    if many {
+        planecut_parallel::join(split_first, split_second);
+    } else {
+        split_first();
+        split_second();
+    }
 }
 
 /// A hierarchy of boxes, split at the median of the longest axis. Infinite boxes are kept beside it.
@@ -36,34 +81,9 @@ impl Boxes {
                 tree.infinite.push(number);
             }
         }
-        tree.split_all();
+        tree.nodes = vec![BoxNode { bounds: Bounds::EMPTY, start: 0, end: 0, second: 0 }; nodes_of(tree.order.len())];
+        split(&tree.boxes, &mut tree.order, &mut tree.nodes, [0, 0]);
         tree
-    }
-
-    /// Splits ranges until they are short; the first half of each directly follows it.
-    fn split_all(&mut self) {
-        // (start, end, the node whose second child this is)
-        let mut waiting = vec![(0, self.order.len(), None)];
-        while let Some((start, end, second_of)) = waiting.pop() {
-            if start == end {
-                continue;
-            }
-            let node = self.nodes.len();
-            if let Some(parent) = second_of {
-                let parent: &mut BoxNode = &mut self.nodes[parent];
-                parent.second = number32(node);
-            }
-            let (boxes, range) = (&self.boxes, &mut self.order[start..end]);
-            let bounds = range.iter().fold(Bounds::EMPTY, |bounds, k| bounds.union(&boxes[*k as usize]));
-            self.nodes.push(BoxNode { bounds, start: number32(start), end: number32(end), second: 0 });
-            if end - start > LEAF {
-                let axis = (bounds.max - bounds.min).max_position();
-                let half = range.len() / 2;
-                let key = |k: &u32| boxes[*k as usize].center()[axis];
-                range.select_nth_unstable_by(half, |a, b| key(a).total_cmp(&key(b)).then(a.cmp(b)));
-                waiting.extend([(start + half, end, Some(node)), (start, start + half, None)]);
-            }
-        }
     }
 
     /// All boxes that are not empty, those that are near each other in a row.

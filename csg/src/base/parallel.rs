@@ -10,6 +10,12 @@ use planecut_parallel::prelude::*;
 /// Chunks for each thread, so that none waits long for the last one.
 const PER_THREAD: usize = 8;
 
+/// Elements that a thread copies in a row, at least.
+const ELEMENTS_OF_CHUNK: usize = 2048;
+
+/// Number of bytes from which lists are not kept longer than they must.
+const MUCH_MEMORY: usize = 1 << 25;
+
 /// The outcome of `work` for each chunk of some items, at least `least` in each, in their order. What a chunk holds depends on
 /// the number of threads: outcomes must not.
 pub(crate) fn map_chunks<T: Sync, R: Send>(
@@ -54,6 +60,23 @@ pub(crate) fn weighed_runs(count: usize, least: usize, size: impl Fn(usize) -> u
     runs
 }
 
+/// Runs of items, for threads to share, that begin only where an item `is_apart` from the one before: each but the last has at least `least`.
+pub(crate) fn runs_apart<T>(items: &[T], least: usize, is_apart: impl Fn(&T, &T) -> bool) -> Vec<&[T]> {
+    let enough = (items.len() / (PER_THREAD * planecut_parallel::current_num_threads())).max(least);
+    let mut runs = Vec::new();
+    let mut rest = items;
+    while rest.len() > enough {
+        let end = (enough..rest.len()).find(|k| is_apart(&rest[k - 1], &rest[*k])).unwrap_or(rest.len());
+        let (run, others) = rest.split_at(end);
+        runs.push(run);
+        rest = others;
+    }
+    if !rest.is_empty() {
+        runs.push(rest);
+    }
+    runs
+}
+
 /// Parts of a slice that follow one another, of some lengths.
 pub(crate) fn split_by<T>(mut slice: &mut [T], lengths: impl Iterator<Item = usize>) -> Vec<&mut [T]> {
     let part = |length: usize| {
@@ -64,24 +87,41 @@ pub(crate) fn split_by<T>(mut slice: &mut [T], lengths: impl Iterator<Item = usi
     lengths.map(part).collect()
 }
 
-/// The elements of some parts one after another, each made from that of the part, in parallel.
-pub(crate) fn concat<'a, S: Sync + 'a, T: Copy + Default + Send>(
-    parts: usize,
-    part: impl Fn(usize) -> &'a [S] + Sync,
-    make: impl Fn(usize, &S) -> T + Sync,
+/// What is made of each element of some parts, one after another, in parallel; `make` is given the number of the part and the place of the element in it.
+pub(crate) fn by_parts<T: Send>(
+    lengths: impl Iterator<Item = usize>,
+    make: impl Fn(usize, usize) -> T + Sync,
 ) -> Vec<T> {
-    let mut all = vec![T::default(); (0..parts).map(|k| part(k).len()).sum()];
-    let slices = split_by(&mut all, (0..parts).map(|k| part(k).len()));
-    slices.into_par_iter().enumerate().for_each(|(k, slice)| {
-        slice.iter_mut().zip(part(k)).for_each(|(to, from)| *to = make(k, from));
-    });
-    all
+    let mut starts = vec![0];
+    for length in lengths {
+        starts.push(starts[starts.len() - 1] + length);
+    }
+    let element = |part: &mut usize, k: usize| {
+        // mostly it is in the same part as the one before
+        if k < starts[*part] || k >= starts[*part + 1] {
+            *part = starts.partition_point(|start| *start <= k) - 1;
+        }
+        make(*part, k - starts[*part])
+    };
+    (0..starts[starts.len() - 1]).into_par_iter().with_min_len(ELEMENTS_OF_CHUNK).map_init(|| 0, element).collect()
 }
 
-/// The elements of some parts one after another; each part is dropped when it is copied, as all of them may be much.
-pub(crate) fn concat_owned<T>(parts: Vec<Vec<T>>) -> Vec<T> {
-    let mut all = Vec::with_capacity(parts.iter().map(Vec::len).sum());
-    parts.into_iter().for_each(|part| all.extend(part));
+/// The elements of some parts one after another. Where they are many, or there is one thread, each part is dropped when it is copied.
+pub(crate) fn concat_owned<T: Copy + Send + Sync>(parts: Vec<Vec<T>>) -> Vec<T> {
+    concat_made(parts, |_, element| *element)
+}
+
+/// The same of what is made of each element and the number of its part.
+pub(crate) fn concat_made<S: Send + Sync, T: Send>(parts: Vec<Vec<S>>, make: impl Fn(usize, &S) -> T + Sync) -> Vec<T> {
+    let lengths = || parts.iter().map(Vec::len);
+    let count = lengths().sum();
+    if planecut_parallel::current_num_threads() > 1 && count * size_of::<T>() < MUCH_MEMORY {
+        return by_parts(lengths(), |part, k| make(part, &parts[part][k]));
+    }
+    let mut all = Vec::with_capacity(count);
+    for (number, part) in parts.into_iter().enumerate() {
+        all.extend(part.iter().map(|element| make(number, element)));
+    }
     all
 }
 

@@ -54,8 +54,9 @@ pub(crate) fn build_other_bodies(brushes: &[Brush], built: &BuiltBodies, size: f
 
 /// The planes of brushes in a table, and those of each brush, in its order; `size` as for [`build_other_bodies`].
 fn intern_planes(brushes: &[Brush], size: f64) -> (PlaneTable, Vec<Vec<PlaneId>>) {
-    let half_spaces: Vec<HalfSpace> = brushes.iter().flat_map(Brush::half_spaces).copied().collect();
-    let (table, ids) = PlaneTable::intern(&half_spaces, size);
+    let lengths = brushes.iter().map(|brush| brush.faces.len());
+    let half_space = |brush: usize, k: usize| &brushes[brush].faces[k].half_space;
+    let (table, ids) = PlaneTable::intern_parts(lengths, half_space, size);
     let mut rest = ids.as_slice();
     let of_brush = |brush: &Brush| {
         let (own, others) = rest.split_at(brush.faces.len());

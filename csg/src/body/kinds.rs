@@ -3,6 +3,7 @@
 use std::hash::Hash;
 
 use rustc_hash::FxHashMap;
+use smallvec::SmallVec;
 
 use crate::base::hash_of;
 use crate::ids::{Id, LeafId};
@@ -17,11 +18,11 @@ pub(crate) fn kinds<I: Iterator<Item = (PlaneId, MaterialId)>>(
     mark: impl Fn(LeafId) -> u64,
 ) -> Vec<LeafId> {
     let sorted = |number: LeafId| {
-        let mut faces: Vec<(PlaneId, MaterialId)> = faces(number).collect();
+        let mut faces: SmallVec<[(PlaneId, MaterialId); 16]> = faces(number).collect();
         faces.sort_unstable();
         faces
     };
-    let mut known: FxHashMap<u64, Vec<LeafId>> = FxHashMap::default();
+    let mut known: FxHashMap<u64, SmallVec<[LeafId; 2]>> = FxHashMap::default();
     let kind = |number: LeafId| {
         if faces(number).next().is_none() {
             return number;

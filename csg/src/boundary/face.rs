@@ -41,10 +41,10 @@ pub(super) struct Section {
 }
 
 /// Emits the boundary edges of faces, reusing its buffers.
-pub(crate) struct FaceWorker<'a> {
-    scene: &'a Scene<'a>,
+#[derive(Default)]
+pub(crate) struct FaceWorker {
     /// The body whose faces are worked on.
-    body: BodyId,
+    body: Option<BodyId>,
     /// The bodies that may touch it, itself among them, ascending.
     near: Vec<BodyId>,
     restriction: Restriction,
@@ -70,64 +70,42 @@ pub(crate) struct FaceWorker<'a> {
     cover: CoverWorker,
 }
 
-impl<'a> FaceWorker<'a> {
-    pub(crate) fn new(scene: &'a Scene<'a>) -> Self {
-        Self {
-            scene,
-            body: BodyId::NONE,
-            near: Vec::new(),
-            restriction: Restriction::default(),
-            bodies: Vec::new(),
-            places: Vec::new(),
-            leaves: Vec::new(),
-            others: Vec::new(),
-            covering: Vec::new(),
-            open: Vec::new(),
-            holding: Vec::new(),
-            region: Polygon::default(),
-            part: Polygon::default(),
-            sections: Vec::new(),
-            live: 0,
-            clipper: Clipper::default(),
-            pieces: Vec::new(),
-            beside: Vec::new(),
-            ownership: Ownership::default(),
-            sweep: Sweep::default(),
-            cover: CoverWorker::default(),
-        }
-    }
-
+impl FaceWorker {
     /// Begins with the faces of another body; `near` are the bodies whose boxes touch its own, by number, itself among them.
-    pub(crate) fn begin(&mut self, body: BodyId, near: impl IntoIterator<Item = BodyId>) {
-        self.body = body;
+    pub(crate) fn begin(&mut self, scene: &Scene<'_>, body: BodyId, near: impl IntoIterator<Item = BodyId>) {
+        self.body = Some(body);
         self.near.clear();
-        self.clipper.begin(self.scene, body);
+        self.clipper.begin(scene, body);
         for other in near {
             if other == body {
                 self.clipper.add_itself();
-            } else if !self.clipper.add_near(self.scene, body, other) {
+            } else if !self.clipper.add_near(scene, body, other) {
                 continue;
             }
             self.near.push(other);
         }
     }
 
+    fn own(&self) -> BodyId {
+        self.body.expect("the faces of a body are worked on")
+    }
+
     /// Emits the boundary of what a face of the body is of the boundary.
-    pub(crate) fn emit(&mut self, face: BodyFaceId, out: &mut Vec<BoundaryEdge>) {
-        let (scene, body) = (self.scene, self.body);
+    pub(crate) fn emit(&mut self, scene: &Scene<'_>, face: BodyFaceId, out: &mut Vec<BoundaryEdge>) {
+        let body = self.own();
         let solid = scene.body(body);
         let this = &solid.faces[face.index()];
         self.region.set(solid.edges(this), solid.corners(this));
         self.clipper.look_at(&self.region);
-        let own = self.gather(this);
+        let own = self.gather(scene, this);
         if let Some(operation) = scene.one_level
             && (operation == OneLevel::Union || !scene.is_plane_shared(this))
         {
-            if let Some(facing) = self.sort_out_one_level(own, this, operation)
-                && self.cover_region(this)
+            if let Some(facing) = self.sort_out_one_level(scene, own, this, operation)
+                && self.cover_region(scene, this)
             {
-                self.emit_own_edges(this, facing, out);
-                self.emit_section_edges(this, facing, out);
+                self.emit_own_edges(scene, this, facing, out);
+                self.emit_section_edges(scene, this, facing, out);
             }
             return;
         }
@@ -138,28 +116,28 @@ impl<'a> FaceWorker<'a> {
         let turn = scene.turn(body, this);
         let own = Reaching { body, place: NearId::NONE, leaf: own, contact: Contact::SameWay, turn };
         self.ownership.begin(scene.expression, &mut self.restriction, &own);
-        if !self.sort_out(&own, this) {
+        if !self.sort_out(scene, &own, this) {
             return;
         }
-        if self.open.is_empty() && self.emitted_on_region().is_none() {
+        if self.open.is_empty() && self.emitted_on_region(scene).is_none() {
             return;
         }
-        if !self.cover_region(this) {
+        if !self.cover_region(scene, this) {
             return;
         }
         let covering = self.live;
         for k in 0..self.open.len() {
-            if self.is_silenced(self.open[k].leaf) {
+            if self.is_silenced(scene, self.open[k].leaf) {
                 continue;
             }
-            match self.cover(this, self.open[k]) {
-                Clip::Whole => self.hold(self.open[k]),
+            match self.cover(scene, this, self.open[k]) {
+                Clip::Whole => self.hold(scene, self.open[k]),
                 Clip::Part => self.live += 1,
                 Clip::Nothing => {}
             }
         }
         for k in (covering..self.live).rev() {
-            if self.is_silenced(self.sections[k].of.leaf) {
+            if self.is_silenced(scene, self.sections[k].of.leaf) {
                 self.live -= 1;
                 self.sections.swap(k, self.live);
             }
@@ -167,15 +145,16 @@ impl<'a> FaceWorker<'a> {
         if self.live > covering {
             let context = Context { scene, face: this, sections: &self.sections[..self.live], covering };
             self.sweep.emit(&context, &self.region, &mut self.restriction, &mut self.ownership, out);
-        } else if let Some(facing) = self.emitted_on_region() {
-            self.emit_own_edges(this, facing, out);
-            self.emit_section_edges(this, facing, out);
+        } else if let Some(facing) = self.emitted_on_region(scene) {
+            self.emit_own_edges(scene, this, facing, out);
+            self.emit_section_edges(scene, this, facing, out);
         }
     }
 
     /// How the edges known on a face of a body change where another body covers what lies in it; as [`CoverWorker::change`].
     pub(crate) fn cover_known(
         &mut self,
+        scene: &Scene<'_>,
         by: BodyId,
         face: BodyFaceId,
         known: &[KnownEdge],
@@ -183,24 +162,24 @@ impl<'a> FaceWorker<'a> {
     ) -> Option<EdgeChange> {
         // a body that is apart covers nothing
         let Ok(place) = self.near.binary_search(&by) else { return Some(EdgeChange::default()) };
-        let solid = self.scene.body(self.body);
+        let solid = scene.body(self.own());
         let face = &solid.faces[face.index()];
         self.region.set(solid.edges(face), solid.corners(face));
-        let cutter = Cutter { scene: self.scene, face, body: by, place: NearId::from_index(place) };
+        let cutter = Cutter { scene, face, body: by, place: NearId::from_index(place) };
         self.cover.change(&mut self.clipper, cutter, &self.region, known, rounded)
     }
 
     /// Finds what covering bodies leave of the region; false where that is nothing.
-    fn cover_region(&mut self, face: &'a BodyFace) -> bool {
+    fn cover_region(&mut self, scene: &Scene<'_>, face: &BodyFace) -> bool {
         self.live = 0;
         for k in 0..self.covering.len() {
-            let cutter = self.cutter(face, &self.covering[k]);
+            let cutter = cutter(scene, face, &self.covering[k]);
             if self.clipper.surely_holds(cutter, &self.region) {
                 return false;
             }
         }
         for k in 0..self.covering.len() {
-            match self.cover(face, self.covering[k]) {
+            match self.cover(scene, face, self.covering[k]) {
                 Clip::Whole => return false,
                 Clip::Part => self.live += 1,
                 Clip::Nothing => {}
@@ -214,18 +193,24 @@ impl<'a> FaceWorker<'a> {
     ///
     /// In a union a body covers what lies in it, and what its face covers on the plane: there the solid goes on where it faces the other way, and where it faces
     /// the same way the first of both emits the boundary.
-    fn sort_out_one_level(&mut self, own: KeptLeafId, face: &'a BodyFace, operation: OneLevel) -> Option<Facing> {
+    fn sort_out_one_level(
+        &mut self,
+        scene: &Scene<'_>,
+        own: KeptLeafId,
+        face: &BodyFace,
+        operation: OneLevel,
+    ) -> Option<Facing> {
         self.covering.clear();
-        let turn = self.scene.turn(self.body, face);
+        let turn = scene.turn(self.own(), face);
         let is_tool = operation == OneLevel::Difference && self.leaves[own.index()].index() != 0;
         let mut is_in_first = !is_tool;
         for leaf in KeptLeafId::all(self.bodies.len()) {
             if leaf == own {
                 continue;
             }
-            let reaching = self.reaching(leaf, face);
+            let reaching = self.reaching(scene, leaf, face);
             if is_tool && self.leaves[leaf.index()].index() == 0 {
-                if !self.require(face, &reaching) {
+                if !self.require(scene, face, &reaching) {
                     return None;
                 }
                 is_in_first = true;
@@ -237,8 +222,8 @@ impl<'a> FaceWorker<'a> {
     }
 
     /// Cuts the region down to what lies in a body; false where that is nothing.
-    fn require(&mut self, face: &'a BodyFace, by: &Reaching) -> bool {
-        let cutter = self.cutter(face, by);
+    fn require(&mut self, scene: &Scene<'_>, face: &BodyFace, by: &Reaching) -> bool {
+        let cutter = cutter(scene, face, by);
         match self.clipper.clip(cutter, &self.region, &mut self.part) {
             Clip::Nothing => return false,
             Clip::Part => {
@@ -251,28 +236,27 @@ impl<'a> FaceWorker<'a> {
     }
 
     /// Takes a body as covering all of the region.
-    fn hold(&mut self, reaching: Reaching) {
-        self.ownership.cover_both(self.scene.expression, &mut self.restriction, &reaching);
+    fn hold(&mut self, scene: &Scene<'_>, reaching: Reaching) {
+        self.ownership.cover_both(scene.expression, &mut self.restriction, &reaching);
         if reaching.contact == Contact::Across {
             self.holding.push(reaching.leaf);
         }
     }
 
     /// Whether a body changes nothing within the region, as others hold all of it.
-    fn is_silenced(&self, leaf: KeptLeafId) -> bool {
-        let silences =
-            |other: &KeptLeafId| self.restriction.forces(self.scene.expression, *other, true, leaf).is_some();
+    fn is_silenced(&self, scene: &Scene<'_>, leaf: KeptLeafId) -> bool {
+        let silences = |other: &KeptLeafId| self.restriction.forces(scene.expression, *other, true, leaf).is_some();
         self.holding.iter().any(silences)
     }
 
     /// Which boundary the face is where nothing is covered that depends on several bodies.
-    fn emitted_on_region(&mut self) -> Option<Facing> {
-        self.ownership.emitted(self.scene.expression, &mut self.restriction, EdgeSide::Left)
+    fn emitted_on_region(&mut self, scene: &Scene<'_>) -> Option<Facing> {
+        self.ownership.emitted(scene.expression, &mut self.restriction, EdgeSide::Left)
     }
 
     /// Finds the bodies that may reach the face, and their leaves; gives the place of its own body.
-    fn gather(&mut self, face: &BodyFace) -> KeptLeafId {
-        let (scene, body) = (self.scene, self.body);
+    fn gather(&mut self, scene: &Scene<'_>, face: &BodyFace) -> KeptLeafId {
+        let body = self.own();
         let half_space = scene.table.half_space(face.plane);
         let (normal, offset) = (half_space.normal(), half_space.offset());
         let reaches = |place: NearId, other: BodyId| {
@@ -299,59 +283,55 @@ impl<'a> FaceWorker<'a> {
     }
 
     /// Finds what each body does to the face and cuts the face down to what is required; false where nothing is left.
-    fn sort_out(&mut self, own: &Reaching, face: &'a BodyFace) -> bool {
+    fn sort_out(&mut self, scene: &Scene<'_>, own: &Reaching, face: &BodyFace) -> bool {
         self.covering.clear();
         self.open.clear();
         self.holding.clear();
         self.others.clear();
         for leaf in KeptLeafId::all(self.bodies.len()) {
             if leaf != own.leaf && self.restriction.matters(leaf) {
-                self.others.push(self.reaching(leaf, face));
+                self.others.push(self.reaching(scene, leaf, face));
             }
         }
-        let polarity = self.scene.polarity(own.body);
+        let polarity = scene.polarity(own.body);
         let coplanar = self.others.iter().filter(|other| other.contact != Contact::Across).count();
         for k in 0..self.others.len() {
             let reaching = self.others[k];
-            match Pair::new(self.scene.expression, &self.restriction, (own, polarity), &reaching, coplanar).role() {
+            match Pair::new(scene.expression, &self.restriction, (own, polarity), &reaching, coplanar).role() {
                 Role::None => {}
                 Role::Covers => self.covering.push(reaching),
                 Role::Open => self.open.push(reaching),
                 Role::Required => {
-                    if !self.require(face, &reaching) {
+                    if !self.require(scene, face, &reaching) {
                         return false;
                     }
-                    self.hold(reaching);
+                    self.hold(scene, reaching);
                 }
             }
         }
         true
     }
 
-    fn reaching(&self, leaf: KeptLeafId, face: &BodyFace) -> Reaching {
+    fn reaching(&self, scene: &Scene<'_>, leaf: KeptLeafId, face: &BodyFace) -> Reaching {
         let body = self.bodies[leaf.index()];
-        let is_shared = self.scene.is_plane_shared(face);
-        let other = if is_shared { self.scene.body(body).face_on(face.plane) } else { None };
+        let is_shared = scene.is_plane_shared(face);
+        let other = if is_shared { scene.body(body).face_on(face.plane) } else { None };
         let contact = match other {
             None => Contact::Across,
             Some(other) if other.plane == face.plane => Contact::SameWay,
             Some(_) => Contact::OtherWay,
         };
         // a body that crosses the plane has no face there, and its turn is never asked for
-        let turn = self.scene.turn(body, other.unwrap_or(face));
+        let turn = scene.turn(body, other.unwrap_or(face));
         Reaching { body, place: self.places[leaf.index()], leaf, contact, turn }
     }
 
-    fn cutter(&self, face: &'a BodyFace, by: &Reaching) -> Cutter<'a> {
-        Cutter { scene: self.scene, face, body: by.body, place: by.place }
-    }
-
     /// Clips the region by a body into the next free section.
-    fn cover(&mut self, face: &'a BodyFace, of: Reaching) -> Clip {
+    fn cover(&mut self, scene: &Scene<'_>, face: &BodyFace, of: Reaching) -> Clip {
         if self.sections.len() == self.live {
             self.sections.push(Section { polygon: Polygon::default(), bounds: Bounds::EMPTY, of });
         }
-        let cutter = self.cutter(face, &of);
+        let cutter = cutter(scene, face, &of);
         let section = &mut self.sections[self.live];
         section.of = of;
         let clip = self.clipper.clip(cutter, &self.region, &mut section.polygon);
@@ -362,8 +342,8 @@ impl<'a> FaceWorker<'a> {
     }
 
     /// The pieces of the region's own edges along which nothing is covered.
-    fn emit_own_edges(&mut self, face: &BodyFace, facing: Facing, out: &mut Vec<BoundaryEdge>) {
-        let table = self.scene.table;
+    fn emit_own_edges(&mut self, scene: &Scene<'_>, face: &BodyFace, facing: Facing, out: &mut Vec<BoundaryEdge>) {
+        let table = scene.table;
         for (i, &edge) in self.region.edges.iter().enumerate() {
             let line = Line { plane: face.plane, edge };
             self.pieces.clear();
@@ -380,7 +360,7 @@ impl<'a> FaceWorker<'a> {
     }
 
     /// The pieces of section edges outside of which nothing is covered: there the boundary ends, too.
-    fn emit_section_edges(&mut self, face: &BodyFace, facing: Facing, out: &mut Vec<BoundaryEdge>) {
+    fn emit_section_edges(&mut self, scene: &Scene<'_>, face: &BodyFace, facing: Facing, out: &mut Vec<BoundaryEdge>) {
         let sections = &self.sections[..self.live];
         let boxes = || Boxes::new(sections.iter().map(|section| section.bounds).collect());
         let boxes = (sections.len() > MANY_SECTIONS).then(boxes);
@@ -397,12 +377,16 @@ impl<'a> FaceWorker<'a> {
                 let line = Line { plane: face.plane, edge };
                 self.pieces.clear();
                 self.pieces.push(Piece::of_edge(&section.polygon, i));
-                subtract_others(self.scene.table, line, sections, &self.beside, [k, i], &mut self.pieces);
+                subtract_others(scene.table, line, sections, &self.beside, [k, i], &mut self.pieces);
                 let right = |piece: &Piece| BoundaryEdge::right(face, facing, edge, piece.start, piece.end);
                 out.extend(self.pieces.iter().map(right));
             }
         }
     }
+}
+
+fn cutter<'a>(scene: &'a Scene<'a>, face: &'a BodyFace, by: &Reaching) -> Cutter<'a> {
+    Cutter { scene, face, body: by.body, place: by.place }
 }
 
 /// Takes out of `pieces`, which lie on edge `edge` of section `own`, what others cover on the outer side of those `beside`.

@@ -150,14 +150,14 @@ pub(crate) fn boundary_edges(scene: &Scene<'_>) -> (Vec<BoundaryEdge>, Counts) {
     let body_of = |place: &u32| BodyId::from_index(*place as usize);
     let (parts, counts) = map_chunks(&in_order, 1, |chunk| {
         let mut edges = Vec::new();
-        let mut worker = FaceWorker::new(scene);
+        let mut worker = FaceWorker::default();
         let mut found = Vec::new();
         for body in chunk.iter().map(body_of) {
             let solid = scene.body(body);
             boxes.find(|other| other.may_share_area(&solid.bounds), &mut found);
-            worker.begin(body, found.iter().map(body_of));
+            worker.begin(scene, body, found.iter().map(body_of));
             for face in BodyFaceId::all(solid.faces.len()) {
-                worker.emit(face, &mut edges);
+                worker.emit(scene, face, &mut edges);
             }
         }
         // room for more may be as much again

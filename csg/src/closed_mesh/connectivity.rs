@@ -4,6 +4,7 @@
 
 use crate::ids::number32;
 use planecut_parallel::prelude::*;
+use smallvec::SmallVec;
 
 use crate::base::by_group;
 
@@ -14,7 +15,7 @@ pub const NO_TWIN: u32 = u32::MAX;
 const FEW: usize = 16;
 
 /// Vertices that one thread looks at in a row.
-const VERTICES_OF_CHUNK: u32 = 1 << 13;
+const VERTICES_OF_CHUNK: u32 = 1 << 10;
 
 /// The half-edge that follows in its triangle.
 #[inline]
@@ -164,17 +165,21 @@ impl<'a> HalfEdges<'a> {
     /// The edges `a < b` along which more than one half-edge runs from `a` to `b`, in ascending order.
     pub(crate) fn repeated(&self) -> Vec<(u32, u32)> {
         let repeated_at = |a: u32| {
-            let from_a = self.leaving(a);
-            let is_repeated = |k: usize| from_a[..k].iter().any(|other| self.to(*other) == self.to(from_a[k]));
-            let mut ends = Vec::new();
-            if from_a.len() > FEW || (1..from_a.len()).any(is_repeated) {
-                ends.extend(from_a.iter().map(|half_edge| self.to(*half_edge)));
+            let mut ends: SmallVec<[u32; FEW]> = self.leaving(a).iter().map(|half_edge| self.to(*half_edge)).collect();
+            let is_repeated = |k: usize| ends[..k].contains(&ends[k]);
+            if ends.len() > FEW || (1..ends.len()).any(is_repeated) {
                 ends.sort_unstable();
-                ends = ends.chunk_by(|p, q| p == q).filter(|same| same.len() > 1).map(|same| same[0]).collect();
+            } else {
+                ends.clear();
             }
-            ends.into_iter().filter(move |b| a < *b).map(move |b| (a, b))
+            let same = ends.chunk_by(|p, q| p == q).filter(|same| same.len() > 1 && a < same[0]);
+            same.map(|same| (a, same[0])).collect::<Vec<(u32, u32)>>()
         };
-        (0..self.vertices()).into_par_iter().with_min_len(2048).flat_map_iter(repeated_at).collect()
+        (0..self.vertices())
+            .into_par_iter()
+            .with_min_len(VERTICES_OF_CHUNK as usize)
+            .flat_map_iter(repeated_at)
+            .collect()
     }
 
     fn vertices(&self) -> u32 {

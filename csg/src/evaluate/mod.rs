@@ -10,6 +10,7 @@ use crate::ids::number32;
 use std::time::Duration;
 
 use planecut_kernel::sign::Counts;
+use planecut_parallel::prelude::*;
 use rustc_hash::FxHashMap;
 use thiserror::Error;
 
@@ -245,7 +246,9 @@ fn evaluate_here(
     };
     let bodies: Vec<Option<Body>> = bodies.into_iter().enumerate().map(bounded).collect();
     let faces = |leaf: LeafId| bodies[leaf.index()].iter().flat_map(Body::planes_and_materials);
-    let kinds = others.kinds(kinds(bodies.len(), faces, |leaf| mark_of(faces(leaf))));
+    let mark = |body: &Option<Body>| mark_of(body.iter().flat_map(Body::planes_and_materials));
+    let marks: Vec<u64> = bodies.par_iter().with_min_len(256).map(mark).collect();
+    let kinds = others.kinds(kinds(bodies.len(), faces, |leaf| marks[leaf.index()]));
     let repeated = expression.repeated_leaves(&kinds);
     let polarities = others.polarities(&expression, &kinds);
     let mut leaves = Leaves::default();

@@ -9,8 +9,11 @@ pub(crate) mod random_trees;
 mod repeats;
 mod restriction;
 
-use crate::ids::number32;
-use crate::ids::{Id, LeafId, TreeNodeId};
+use std::sync::OnceLock;
+
+use smallvec::SmallVec;
+
+use crate::ids::{Id, LeafId, TreeNodeId, number32};
 use crate::model::{Operation, TreeNode};
 pub(crate) use restriction::Restriction;
 
@@ -100,8 +103,8 @@ pub(crate) struct Expression {
     /// The node above each node.
     parents: Vec<TreeNodeId>,
     leaves: Vec<TreeNodeId>,
-    /// For the leaves `k` and `k + 1` the lowest node above both, then minima over ranges of powers of two of it.
-    between: Vec<Vec<TreeNodeId>>,
+    /// For the leaves `k` and `k + 1` the lowest node above both, then minima over ranges of powers of two of it. Trees of one level are never asked for it.
+    between: OnceLock<Vec<Vec<TreeNodeId>>>,
 }
 
 impl Expression {
@@ -109,8 +112,8 @@ impl Expression {
     pub(crate) fn new(entries: &[TreeNode]) -> Self {
         let mut nodes: Vec<Node> = Vec::with_capacity(entries.len());
         let mut parents: Vec<TreeNodeId> = Vec::with_capacity(entries.len());
-        let mut open: Vec<TreeNodeId> = Vec::new();
-        let mut leaves = Vec::new();
+        let mut open: SmallVec<[TreeNodeId; 16]> = SmallVec::new();
+        let mut leaves = Vec::with_capacity(entries.len());
         for (number, entry) in TreeNodeId::all(entries.len()).zip(entries) {
             let next_leaf = LeafId::from_index(leaves.len());
             let node = match *entry {
@@ -119,11 +122,12 @@ impl Expression {
                     Node::leaf(next_leaf)
                 }
                 TreeNode::Operation { operation, operands } => {
-                    let taken = open.split_off(open.len() - operands as usize);
-                    for operand in &taken {
+                    let taken = open.drain(open.len() - operands as usize..);
+                    let below = taken.map(|operand| {
                         parents[operand.index()] = number;
-                    }
-                    let operands: Vec<&Node> = taken.iter().map(|k| &nodes[k.index()]).collect();
+                        &nodes[operand.index()]
+                    });
+                    let operands: SmallVec<[&Node; 8]> = below.collect();
                     Node::operation(operation, &operands, next_leaf)
                 }
             };
@@ -132,8 +136,7 @@ impl Expression {
             open.push(number);
         }
         descend(&mut nodes, &parents);
-        let between = lowest_between(&nodes, &leaves, &parents);
-        Self { nodes, parents, leaves, between }
+        Self { nodes, parents, leaves, between: OnceLock::new() }
     }
 
     /// The union of as many leaves.
@@ -182,7 +185,8 @@ impl Expression {
     fn lowest_above(&self, p: LeafId, q: LeafId) -> TreeNodeId {
         let (p, q) = (p.index(), q.index());
         let level = (q - p).ilog2() as usize;
-        let (a, b) = (self.between[level][p], self.between[level][q - (1 << level)]);
+        let between = self.between.get_or_init(|| lowest_between(&self.nodes, &self.leaves, &self.parents));
+        let (a, b) = (between[level][p], between[level][q - (1 << level)]);
         shallower(&self.nodes, a, b)
     }
 }

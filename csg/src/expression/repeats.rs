@@ -13,10 +13,14 @@
 
 use crate::ids::number32;
 use rustc_hash::{FxHashMap, FxHashSet};
+use smallvec::SmallVec;
 
 use super::Expression;
 use crate::ids::{Id, LeafId, TreeNodeId};
 use crate::model::Operation;
+
+/// Numbers of operands: mostly there are few.
+type Numbers = SmallVec<[u32; 4]>;
 
 impl Expression {
     /// For each leaf whether the tree says the same where it is 0; `kinds` gives one number to equal leaves: that of one of them.
@@ -32,7 +36,7 @@ impl Expression {
         let is_operand = |k: usize| {
             unions[k] != TreeNodeId::NONE && self.nodes[k].operation != Some(Operation::Union) && has_leaves(k)
         };
-        let mut operands: Vec<Vec<u32>> = vec![Vec::new(); self.nodes.len()];
+        let mut operands: Vec<Numbers> = vec![Numbers::new(); self.nodes.len()];
         let mut said: FxHashSet<(TreeNodeId, u32)> = FxHashSet::default();
         let mut is_again = vec![false; self.nodes.len()];
         // of equal operands of one union the last counts
@@ -83,9 +87,9 @@ impl Expression {
 
     /// Numbers that are equal for nodes of the same operations on equal leaves.
     fn numbers(&self, kinds: &[LeafId]) -> Vec<u32> {
-        let mut operands: Vec<Vec<u32>> = vec![Vec::new(); self.nodes.len()];
+        let mut operands: Vec<Numbers> = vec![Numbers::new(); self.nodes.len()];
         let mut numbers: Vec<u32> = Vec::with_capacity(self.nodes.len());
-        let mut known: FxHashMap<(Option<Operation>, Vec<u32>), u32> = FxHashMap::default();
+        let mut known: FxHashMap<(Option<Operation>, Numbers), u32> = FxHashMap::default();
         for (k, node) in self.nodes.iter().enumerate() {
             let mut key = std::mem::take(&mut operands[k]);
             match node.operation {

@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use smallvec::SmallVec;
+
 use super::LiveModel;
 use super::reach::Reach;
 use super::tree::Member;
@@ -126,9 +128,10 @@ impl LiveModel {
         surroundings: Option<&Surroundings>,
     ) -> Vec<Found> {
         let mut place = std::mem::take(&mut self.buffers.place);
+        let mut worker = std::mem::take(&mut self.buffers.worker);
         // what is near the faces of each body
-        let mut near: Vec<Member> = Vec::new();
-        let mut groups: Vec<FaceBatch> = Vec::new();
+        let mut near: SmallVec<[Member; 32]> = SmallVec::new();
+        let mut groups: SmallVec<[FaceBatch; 16]> = SmallVec::new();
         // of one body, and of those that a new body may cover or those that it may not
         let is_covered = |entry: &OperandFace| {
             let Known::Covered(_, by) = of_others else { return false };
@@ -136,7 +139,8 @@ impl LiveModel {
             by != entry.operand
                 && can_cover(self.body_at(by), &body.faces[face], &self.operand(entry.operand).edges[face])
         };
-        let faces: Vec<(OperandFace, bool)> = faces.iter().map(|entry| (*entry, is_covered(entry))).collect();
+        let faces: SmallVec<[(OperandFace, bool); 32]> =
+            faces.iter().map(|entry| (*entry, is_covered(entry))).collect();
         for group in faces.chunk_by(|a, b| (a.0.operand, a.1) == (b.0.operand, b.1)) {
             let (OperandFace { operand: number, .. }, is_covered) = group[0];
             let body = self.body_at(number);
@@ -169,7 +173,7 @@ impl LiveModel {
             near[start..].sort_unstable();
             groups.push(FaceBatch { number, near: start..near.len(), faces: first..first + group.len(), way });
         }
-        let mut members = near.clone();
+        let mut members = near.to_vec();
         members.sort_unstable();
         members.dedup();
         let role = |member: &Member| self.operand(member.operand).state.role;
@@ -185,7 +189,8 @@ impl LiveModel {
         let body = |leaf: LeafId| self.body_at(members[leaf.index()].operand);
         let expression = Expression::new(&nodes);
         let repeated = expression.repeated_leaves(kinds);
-        let leaves: Vec<LeafId> = LeafId::all(members.len()).filter(|leaf| !repeated[leaf.index()]).collect();
+        let leaves: SmallVec<[LeafId; 32]> =
+            LeafId::all(members.len()).filter(|leaf| !repeated[leaf.index()]).collect();
         place.resize(self.operands.len(), BodyId::NONE);
         for (k, leaf) in BodyId::all(leaves.len()).zip(&leaves) {
             place[members[leaf.index()].operand.index()] = k;
@@ -194,8 +199,7 @@ impl LiveModel {
         let table = &self.planes.table;
         let scene =
             Scene::of_some(table, bodies, &leaves, (&expression, polarities), &self.bodies_on_plane, &self.rank);
-        let emit = |groups: &[FaceBatch]| {
-            let mut worker = FaceWorker::new(&scene);
+        let emit = |groups: &[FaceBatch], worker: &mut FaceWorker| {
             let (mut found, mut edges, mut near_here) = (Found::default(), Vec::new(), Vec::new());
             for FaceBatch { number, near: range, faces: of_group, way } in groups {
                 let own = place[number.index()];
@@ -203,14 +207,14 @@ impl LiveModel {
                 let places = near[range.clone()].iter().map(|member| place[member.operand.index()]);
                 near_here.extend(places.filter(|place| *place != BodyId::NONE));
                 if own != BodyId::NONE {
-                    worker.begin(own, near_here.iter().copied());
+                    worker.begin(&scene, own, near_here.iter().copied());
                 }
                 for (entry, _) in &faces[of_group.clone()] {
                     let known = &self.operand(*number).edges[entry.face.index()];
                     let ends = |edge| self.welded.ends(edge);
                     edges.clear();
                     if own != BodyId::NONE && !matches!(way, Way::Covered(_)) {
-                        worker.emit(entry.face, &mut edges);
+                        worker.emit(&scene, entry.face, &mut edges);
                         edges.sort_unstable();
                     }
                     let change = match way {
@@ -218,7 +222,7 @@ impl LiveModel {
                         Way::Within(bounds) => EdgeChange::within(bounds, table, known, ends, &edges),
                         Way::Covered(by) => match place[by.index()] {
                             by if [own, by].contains(&BodyId::NONE) => None,
-                            by => worker.cover_known(by, entry.face, known, ends),
+                            by => worker.cover_known(&scene, by, entry.face, known, ends),
                         },
                     };
                     match change {
@@ -231,15 +235,15 @@ impl LiveModel {
             found
         };
         let parts = if faces.len() < FACES_FOR_THREADS {
-            vec![emit(&groups)]
+            vec![emit(&groups, &mut worker)]
         } else {
             let groups: Vec<FaceBatch> = groups.into_iter().flat_map(FaceBatch::split).collect();
-            map_chunks(&groups, 1, emit).0
+            map_chunks(&groups, 1, |groups| emit(groups, &mut FaceWorker::default())).0
         };
         for member in &members {
             place[member.operand.index()] = BodyId::NONE;
         }
-        self.buffers.place = place;
+        (self.buffers.place, self.buffers.worker) = (place, worker);
         parts
     }
 

@@ -48,7 +48,7 @@ use planecut_kernel::PlaneIdx;
 use rustc_hash::FxHashSet;
 
 use crate::body::{Body, BuiltBodies, OuterBox, ShapeBuilder};
-use crate::boundary::BoundaryEdge;
+use crate::boundary::{BoundaryEdge, FaceWorker};
 use crate::evaluate::{EvaluateError, UnboundedBrushes, check_materials, material_ranks};
 pub use crate::ids::FaceId;
 use crate::ids::{BodyFaceId, BodyId, Id, OperandFace, OperandId};
@@ -181,6 +181,7 @@ struct Buffers {
     place: Vec<BodyId>,
     /// The face on each plane of a body.
     face_on_plane: Vec<BodyFaceId>,
+    worker: FaceWorker,
 }
 
 impl LiveModel {

@@ -1,5 +1,6 @@
 //! Every plane of a model once: interned exactly up to scale, with noise snapped away.
 
+mod interning;
 mod known_planes;
 mod morton;
 mod near;
@@ -11,17 +12,15 @@ mod tests;
 use crate::ids::number32;
 use planecut_kernel::sign::{Homogeneous, Row, Sign, cross_component, orient3};
 use planecut_kernel::{DVec3, HalfSpace, meet};
-use planecut_parallel::prelude::*;
 use rustc_hash::FxHashMap;
 
 use crate::base::sortable;
 pub use known_planes::{KnownPlanes, compare};
 pub use morton::curve_number;
 pub(crate) use morton::{renumber_planes, spread};
+use near::NearPlanes;
 pub(crate) use near::{NearCells, is_nearly_same, unit};
-use near::{NearPlanes, may_be_near};
 pub use near::{size_of, smallest_size};
-use same::group_exactly;
 pub(crate) use same::{Key, compare_coefficients, first_side, is_exact, is_reversed, key};
 pub(crate) use snapped::Snapped;
 
@@ -90,24 +89,6 @@ pub struct PlaneTable {
 }
 
 impl PlaneTable {
-    /// Interns half-spaces; gives the table and the id of each half-space in the order given. `size` is the [`smallest_size`] of the
-    /// bodies that they bound.
-    ///
-    /// The numbering depends on the planes alone, not on the order in which they were given.
-    #[must_use]
-    pub fn intern(half_spaces: &[HalfSpace], size: f64) -> (Self, Vec<PlaneId>) {
-        let rows: Vec<Row> = half_spaces.par_iter().with_min_len(1024).map(Row::new).collect();
-        let (exact, class) = group_exactly(&rows);
-        let mut table = Self { size, ..Self::default() };
-        let ids = table.snap(&exact);
-        let of_input = class.into_iter().zip(&rows).map(|(class, row)| {
-            let id: PlaneId = ids[class as usize];
-            if is_reversed(row) { id.flipped() } else { id }
-        });
-        let of_input = of_input.collect();
-        (table, of_input)
-    }
-
     /// The id of a half-space, whose plane is added where it is not there yet. A plane that is nearly the same as one that
     /// is there ([`SNAP_TOLERANCE`](crate::SNAP_TOLERANCE), relative to its distance from the origin or the size of the smallest body) is
     /// taken to be that one, unless its normal is made of short integers.
@@ -147,15 +128,19 @@ impl PlaneTable {
         self.find_or_add(half_space, |table, (row, id)| table.row(*id).is_same_plane(row), Self::add)
     }
 
-    /// Gives all planes new indices, each once.
+    /// Gives all planes new indices, each once. Planes change places, as there may be much memory in them.
     pub(crate) fn renumber(&mut self, new_of_old: &[u32]) {
-        let mut old_of_new = vec![0; new_of_old.len()];
-        for (old, new) in new_of_old.iter().enumerate() {
-            old_of_new[*new as usize] = old;
+        let mut new_at: Vec<u32> = new_of_old.to_vec();
+        for place in 0..new_at.len() {
+            while new_at[place] as usize != place {
+                let new = new_at[place] as usize;
+                for side in 0..2 {
+                    self.rows.swap(2 * place + side, 2 * new + side);
+                    self.half_spaces.swap(2 * place + side, 2 * new + side);
+                }
+                new_at.swap(place, new);
+            }
         }
-        let sides = |old: &usize| [2 * old, 2 * old + 1];
-        self.rows = old_of_new.iter().flat_map(sides).map(|k| self.rows[k]).collect();
-        self.half_spaces = old_of_new.iter().flat_map(sides).map(|k| self.half_spaces[k]).collect();
         for (_, id) in &mut self.replaced {
             *id = id.with_index(new_of_old[id.index() as usize]);
         }
@@ -249,42 +234,6 @@ impl PlaneTable {
     pub fn position(&self, planes: [PlaneId; 3]) -> Option<DVec3> {
         let [a, b, c] = planes.map(|p| self.row(p));
         meet(a, b, c)
-    }
-
-    /// Stores different planes, given by their sides with a positive first coefficient, snapping those that are nearly
-    /// equal; gives their ids.
-    ///
-    /// Exact planes come first, then the others by their coefficients, so that the outcome does not depend on the order of
-    /// the input.
-    fn snap(&mut self, planes: &[Row]) -> Vec<PlaneId> {
-        let units: Vec<[f64; 4]> = planes.par_iter().with_min_len(1024).map(unit).collect();
-        self.reach = units.iter().map(|unit| unit[3].abs()).fold(self.reach, f64::max);
-        let place = |(k, row): (usize, &Row)| (!is_exact(row), row.coefficients().map(sortable), number32(k));
-        let mut order: Vec<(bool, [u64; 4], u32)> =
-            planes.par_iter().enumerate().with_min_len(1024).map(place).collect();
-        order.par_sort_unstable();
-        let any_noise = order.last().is_some_and(|last| last.0);
-        let mut near = NearPlanes::new(self.size);
-        let may_be_near = if any_noise { may_be_near(&units, self.size) } else { vec![false; planes.len()] };
-        self.rows.reserve_exact(2 * planes.len());
-        self.half_spaces.reserve_exact(2 * planes.len());
-        let mut ids = vec![PlaneId(0); planes.len()];
-        for (is_noisy, _, plane) in order {
-            let plane = plane as usize;
-            let row = &planes[plane];
-            let found = if is_noisy && may_be_near[plane] { near.find(&units[plane]) } else { None };
-            ids[plane] = found.unwrap_or_else(|| {
-                let id = self.push(row);
-                if may_be_near[plane] {
-                    near.insert(units[plane], id);
-                }
-                id
-            });
-            if let Some(id) = found {
-                self.replaced.push((*row, id));
-            }
-        }
-        ids
     }
 
     /// The id of a half-space where exactly its plane is known and `serves`, else what `add` gives for the side with a

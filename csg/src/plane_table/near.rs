@@ -7,12 +7,11 @@
 use crate::ids::number32;
 use planecut_kernel::sign::Row;
 use planecut_kernel::{DVec3, HalfSpace};
-use planecut_parallel::prelude::*;
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
 use super::PlaneId;
-use crate::base::{WEIGHTS, hash_of, sortable};
+use crate::base::hash_of;
 use crate::ids::RowGroupId;
 use crate::tolerances::SNAP_TOLERANCE;
 
@@ -92,30 +91,6 @@ impl NearPlanes {
             .map(|(_, id, _)| *id)
             .min()
     }
-}
-
-/// Which of some planes may be within the tolerance of another: most are told apart by one number each.
-pub(super) fn may_be_near(units: &[[f64; 4]], size: f64) -> Vec<bool> {
-    // the sum of the weights times the tolerance, and room for rounding
-    const APART: f64 = 3.0 * SNAP_TOLERANCE;
-    let reach = units.iter().map(|unit| unit[3].abs()).fold(size, f64::max).max(f64::MIN_POSITIVE);
-    let number = |[x, y, z, d]: [f64; 4]| [x, y, z, d / reach].iter().zip(WEIGHTS).map(|(v, w)| v * w).sum::<f64>();
-    let mut sorted: Vec<(u64, u32)> = units
-        .par_iter()
-        .enumerate()
-        .with_min_len(1024)
-        .map(|(k, unit)| (sortable(number(*unit)), number32(k)))
-        .collect();
-    sorted.par_sort_unstable();
-    // the side of a plane whose first coefficient is noise is noise, too
-    let mut may_be_near: Vec<bool> = units.iter().map(|unit| unit[0] <= SNAP_TOLERANCE).collect();
-    for pair in sorted.windows(2) {
-        let [p, q] = [0, 1].map(|k| pair[k].1 as usize);
-        if number(units[q]) - number(units[p]) <= APART {
-            (may_be_near[p], may_be_near[q]) = (true, true);
-        }
-    }
-    may_be_near
 }
 
 /// Groups of planes by where they are, to be put in and taken out. Where each is, is known elsewhere: there are very many.

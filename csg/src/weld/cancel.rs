@@ -14,7 +14,7 @@ use super::lines::Line;
 use super::points::Points;
 use super::slits::SlitFinder;
 use super::stops::{Stops, sort_along};
-use crate::base::map_chunks;
+use crate::base::{concat_made, map_chunks};
 use crate::ids::{EdgeId, HalfEdgeId, Id, LineId, PointId, PointOfRegion, PointOnLine, RegionId};
 use crate::plane_table::{PlaneId, PlaneTable};
 
@@ -33,7 +33,7 @@ pub(super) struct Run {
 }
 
 /// What cancelling leaves.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Surviving {
     /// The runs that survive, ordered by line.
     pub(super) runs: Vec<Run>,
@@ -69,6 +69,12 @@ pub(super) struct LineWorker<'a> {
     lines: &'a [Line],
     /// The planes of the regions.
     planes: &'a [PlaneId],
+    pub(super) buffers: LineBuffers,
+}
+
+/// What is asked along a line, kept for the next one.
+#[derive(Clone, Default)]
+pub(super) struct LineBuffers {
     sweep: Sweep,
     slits: SlitFinder,
     stops: Stops,
@@ -111,21 +117,19 @@ pub(super) fn pieces(
     Ok((parts.into_iter().collect::<Result<_, _>>()?, counts))
 }
 
-/// The half-edges of some parts; each part is dropped when it is copied.
+/// The half-edges of some parts.
 pub(super) fn joined(parts: Vec<Pieces>) -> Vec<HalfEdge> {
-    let mut all = Vec::with_capacity(parts.iter().map(|part| part.pieces.len()).sum());
-    for part in parts {
-        let base = all.len();
-        all.extend(part.pieces.into_iter().map(|piece| HalfEdge { twin: piece.twin.plus(base), ..piece }));
+    let mut first = vec![0];
+    for part in &parts {
+        first.push(first[first.len() - 1] + part.pieces.len());
     }
-    all
+    let pieces = parts.into_iter().map(|part| part.pieces).collect();
+    concat_made(pieces, |part, piece: &HalfEdge| HalfEdge { twin: piece.twin.plus(first[part]), ..*piece })
 }
 
 impl<'a> LineWorker<'a> {
     pub(super) fn new(table: &'a PlaneTable, points: &'a Points, lines: &'a [Line], planes: &'a [PlaneId]) -> Self {
-        let (stops, at_interval, around) = (Stops::default(), Vec::new(), Vec::new());
-        let (sweep, slits) = (Sweep::default(), SlitFinder::default());
-        Self { table, points, lines, planes, sweep, slits, stops, at_interval, around }
+        Self { table, points, lines, planes, buffers: LineBuffers::default() }
     }
 
     /// Pairs the edges of one line where they are no more than two, of different regions and with the same ends; tells whether that was so.
@@ -146,17 +150,17 @@ impl<'a> LineWorker<'a> {
         let line = &self.lines[first.line.index()];
         let known = out.runs.len();
         edges.sort_unstable_by_key(|edge| edge.region);
-        self.sweep.cancelled.clear();
+        self.buffers.sweep.cancelled.clear();
         for group in edges.chunk_by(|a, b| a.region == b.region) {
             if let [edge] = group {
                 out.runs.push(*edge);
             } else {
-                self.sweep.run_group(self.table, self.points, line, group, out)?;
+                self.buffers.sweep.run_group(self.table, self.points, line, group, out)?;
             }
         }
         let Self { table, points, planes, .. } = *self;
         let line = AroundLine { table, line, planes };
-        self.slits.find(&line, points, &self.sweep.cancelled, &out.runs[known..], &mut out.slits);
+        self.buffers.slits.find(&line, points, &self.buffers.sweep.cancelled, &out.runs[known..], &mut out.slits);
         Ok(())
     }
 
@@ -182,20 +186,20 @@ impl<'a> LineWorker<'a> {
         }
         let line = &self.lines[first.line.index()];
         let ends = runs.iter().flat_map(|run| [run.from, run.to]).chain(further.iter().copied());
-        self.stops.set(self.table, self.points, line, ends);
-        self.at_interval.clear();
-        for (run, ends) in runs.iter().zip(self.stops.places()) {
-            cut_run(run, *ends, self.stops.points(), out, &mut self.at_interval);
+        self.buffers.stops.set(self.table, self.points, line, ends);
+        self.buffers.at_interval.clear();
+        for (run, ends) in runs.iter().zip(self.buffers.stops.places()) {
+            cut_run(run, *ends, self.buffers.stops.points(), out, &mut self.buffers.at_interval);
         }
-        self.at_interval.sort_unstable();
-        for interval in self.at_interval.chunk_by(|a, b| a.0 == b.0) {
-            self.around.clear();
-            self.around.extend(interval.iter().map(|(_, k)| *k));
+        self.buffers.at_interval.sort_unstable();
+        for interval in self.buffers.at_interval.chunk_by(|a, b| a.0 == b.0) {
+            self.buffers.around.clear();
+            self.buffers.around.extend(interval.iter().map(|(_, k)| *k));
             match crossed {
                 Crossed::No => {
-                    AroundLine { table: self.table, line, planes: self.planes }.pair(&mut self.around, out)?;
+                    AroundLine { table: self.table, line, planes: self.planes }.pair(&mut self.buffers.around, out)?;
                 }
-                Crossed::Unslit => around::pair_anyhow(&mut self.around, out)?,
+                Crossed::Unslit => around::pair_anyhow(&mut self.buffers.around, out)?,
             }
         }
         Ok(())
@@ -203,7 +207,7 @@ impl<'a> LineWorker<'a> {
 }
 
 /// Buffers of the sweep along one line.
-#[derive(Default)]
+#[derive(Clone, Default)]
 struct Sweep {
     stops: Stops,
     /// For each stop what changes there: the sum of directed edges, and how many there are.

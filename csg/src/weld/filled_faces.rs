@@ -10,7 +10,7 @@ use super::nest::{Faces, Projection};
 use super::points::Points;
 use super::regions::Regions;
 use super::triangulate::{Triangles, Triangulator, WeldPoints};
-use crate::base::{concat, concat_owned, map_chunks};
+use crate::base::{concat_made, concat_owned, map_chunks};
 use crate::ids::{HalfEdgeId, Id, PointId, RegionId, VertexId, number32};
 use crate::mesh::{Mesh, MeshFace};
 use crate::model::Material;
@@ -81,11 +81,10 @@ pub(super) fn mesh_of(mut parts: Vec<FilledFaces>, materials: &[Material]) -> (M
         first.push(number32(count));
         count += part.faces.len();
     }
-    // what is copied is dropped: of a large model it is much
     let faces = concat_owned(parts.iter_mut().map(|part| std::mem::take(&mut part.faces)).collect());
-    let triangles = concat(parts.len(), |part| &parts[part].triangles, |_, triangle| *triangle);
-    parts.iter_mut().for_each(|part| part.triangles = Vec::new());
-    let triangle_faces = concat(parts.len(), |part| &parts[part].triangle_faces, |part, face| first[part] + *face);
+    let triangles = concat_owned(parts.iter_mut().map(|part| std::mem::take(&mut part.triangles)).collect());
+    let triangle_faces = parts.iter_mut().map(|part| std::mem::take(&mut part.triangle_faces)).collect();
+    let triangle_faces = concat_made(triangle_faces, |part, face| first[part] + *face);
     let mesh = Mesh { triangles, triangle_faces, faces, materials: materials.to_vec(), ..Mesh::default() };
     (mesh, parts.into_iter().map(|part| part.labels).collect())
 }

@@ -61,11 +61,14 @@ pub(crate) fn split_repeated_edges(
         let along = |(a, b)| [(a, b), (b, a)].map(|(a, b)| half_edges.between(a, b).collect());
         let repeated: Vec<[Vec<TriangleSide>; 2]> = half_edges.repeated().into_iter().map(along).collect();
         let mut touched: FxHashSet<u32> = FxHashSet::default();
-        let mut additions = Vec::new();
+        let (mut additions, mut are_left) = (Vec::new(), false);
         for sides in &repeated {
+            // sides of a triangle that was split have other numbers now
+            are_left |= sides.iter().flatten().any(|side| touched.contains(&(side / 3)));
             // All but one pair of opposite sides get a midpoint of their own; a triangle is split once a round.
             for (there, back) in match_sides(sides, &mesh.triangle_faces, labels, &twin).into_iter().skip(1) {
                 if touched.contains(&(there / 3)) || touched.contains(&(back / 3)) {
+                    are_left = true;
                     continue;
                 }
                 touched.extend([there / 3, back / 3]);
@@ -73,10 +76,13 @@ pub(crate) fn split_repeated_edges(
                 split += 1;
             }
         }
-        if additions.is_empty() {
+        if !additions.is_empty() {
+            insert_triangles(mesh, labels, &additions);
+        }
+        // what ends at a midpoint is not repeated
+        if !are_left {
             return split;
         }
-        insert_triangles(mesh, labels, &additions);
     }
 }
 

@@ -55,7 +55,7 @@ pub(crate) use nest::Projection;
 use nest::{Faces, Nester};
 use points::Points;
 use region_corners::RegionCorners;
-use regions::{RegionPieces, Regions};
+use regions::{ByRegion, RegionPieces, Regions};
 
 /// Number of boundary edges from which points and lines are numbered one after the other.
 const MANY_EDGES: usize = 1 << 21;
@@ -185,28 +185,32 @@ fn half_edges(
     rank: &[u32],
 ) -> Result<(Regions, Points, RegionPieces, Counts), WeldError> {
     let number_points = || Points::identify(table, &edges);
-    let number_others = || planecut_parallel::join(|| Regions::number(&edges, rank), || lines::identify(table, &edges));
+    let number_lines = || {
+        let (lines, of_edge, counts) = lines::identify(table, &edges);
+        let by_line = by_group(lines.len(), of_edge.iter().map(|line| line.index()), EdgeId::from_index);
+        (lines, of_edge, by_line, counts)
+    };
+    let number_others = || planecut_parallel::join(|| Regions::number(&edges, rank), number_lines);
     // each has parts for one thread, during which the others go on; of very many edges what both take at once would be much memory
     let (found, others) = if edges.len() < MANY_EDGES {
         planecut_parallel::join(number_points, number_others)
     } else {
         (number_points(), number_others())
     };
-    let ((mut points, ends, mut signs), ((mut regions, of_edge), (lines, of_pair, counted))) = (found, others);
+    let ((mut points, ends, mut signs), ((mut regions, of_edge), (lines, line_of_edge, by_line, counted))) =
+        (found, others);
     signs += counted;
     let run = |(k, edge): (usize, &BoundaryEdge)| Run {
-        line: of_pair[k],
+        line: line_of_edge[k],
         region: of_edge[k],
         edge: edge.edge,
         from: ends[k][0],
         to: ends[k][1],
-        forward: lines[of_pair[k].index()].is_along(table, edge.face, edge.edge),
+        forward: lines[line_of_edge[k].index()].is_along(table, edge.face, edge.edge),
     };
     let runs: Vec<Run> = edges.par_iter().enumerate().with_min_len(1024).map(run).collect();
     // each of these is as large as the mesh of a large model
-    drop((edges, ends, of_edge));
-    let by_line = by_group(lines.len(), of_pair.iter().map(|line| line.index()), EdgeId::from_index);
-    drop(of_pair);
+    drop((edges, ends, of_edge, line_of_edge));
     let (parts, counted) = cancel::pieces(table, &points, &lines, &regions.planes, &runs, &by_line)?;
     signs += counted;
     let is_crossed =
@@ -217,12 +221,14 @@ fn half_edges(
         drop((runs, by_line));
         cancel::joined(parts)
     };
-    regions.sort(table, &mut pieces);
-    let (mut sorted, pinches, counted) = RegionPieces::with_pinches(table, &points, &regions.planes, &pieces);
+    let mut by_region = ByRegion::of(&pieces, regions.planes.len());
+    regions.sort(table, &pieces, &mut by_region);
+    let (mut sorted, pinches, counted) =
+        RegionPieces::with_pinches(table, &points, &regions.planes, &pieces, &by_region);
     signs += counted;
     if !pinches.is_empty() {
         cancel::cut_further(table, &points, &lines, &pinches, &mut pieces);
-        sorted = RegionPieces::sort(table, &points, &regions.planes, &pieces);
+        sorted = RegionPieces::sort(table, &points, &regions.planes, &pieces, &by_region.again(&pieces));
     }
     Ok((regions, points, sorted, signs))
 }

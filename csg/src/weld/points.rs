@@ -36,6 +36,7 @@ pub(super) type Triple = (u64, u32);
 const SHORT_BITS: u32 = 21;
 
 /// A point that three planes name, before equal ones are joined.
+#[derive(Debug, Clone, Copy)]
 pub(super) struct Named {
     pub(super) planes: [PlaneId; 3],
     pub(super) position: DVec3,

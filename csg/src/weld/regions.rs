@@ -51,24 +51,59 @@ impl Regions {
 
     /// Puts regions in an order that depends on the boundary alone, not on the bodies that it came from: by the first of
     /// their points, their planes and materials.
-    pub(super) fn sort(&mut self, table: &PlaneTable, pieces: &mut [HalfEdge]) {
-        let mut first = vec![PointId::NONE; self.planes.len()];
-        for piece in pieces.iter() {
-            let first = &mut first[piece.region.index()];
-            *first = piece.from.min(*first);
-        }
-        let regions = RegionId::all(first.len());
-        let mut order: Vec<(PointId, RegionId)> = first.into_iter().zip(regions.clone()).collect();
-        let further = |region: RegionId| (table.order(self.planes[region.index()]), self.ranks[region.index()]);
-        order.par_sort_unstable_by(|p, q| p.0.cmp(&q.0).then_with(|| further(p.1).cmp(&further(q.1))));
-        let mut number = vec![RegionId::NONE; order.len()];
-        for (new, (_, old)) in regions.zip(&order) {
-            number[old.index()] = new;
-        }
-        self.planes = order.iter().map(|(_, old)| self.planes[old.index()]).collect();
-        self.materials = order.iter().map(|(_, old)| self.materials[old.index()]).collect();
-        self.ranks = order.iter().map(|(_, old)| self.ranks[old.index()]).collect();
-        pieces.iter_mut().for_each(|piece| piece.region = number[piece.region.index()]);
+    pub(super) fn sort(&mut self, table: &PlaneTable, pieces: &[HalfEdge], by_region: &mut ByRegion) {
+        let first = |region: RegionId| {
+            let points = by_region.of_region(region).iter().map(|piece| pieces[piece.index()].from);
+            (points.min().unwrap_or(PointId::NONE), region)
+        };
+        let mut order: Vec<(PointId, RegionId)> =
+            by_region.order.par_iter().with_min_len(256).map(|region| first(*region)).collect();
+        order.par_sort_unstable();
+        let further =
+            |(_, region): &(PointId, RegionId)| (table.order(self.planes[region.index()]), self.ranks[region.index()]);
+        // at a corner three regions meet at least, of all of which it may be the first
+        order.par_chunk_by_mut(|p, q| p.0 == q.0).for_each(|alike| {
+            if alike.len() > 1 {
+                alike.sort_by_cached_key(further);
+            }
+        });
+        by_region.order = order.into_iter().map(|(_, region)| region).collect();
+        let order = &by_region.order;
+        self.planes = order.iter().map(|old| self.planes[old.index()]).collect();
+        self.materials = order.iter().map(|old| self.materials[old.index()]).collect();
+        self.ranks = order.iter().map(|old| self.ranks[old.index()]).collect();
+    }
+}
+
+/// Half-edges, listed by region.
+pub(super) struct ByRegion {
+    /// Where the half-edges of each region begin in the list, and their end.
+    starts: Vec<u32>,
+    members: Vec<HalfEdgeId>,
+    /// The regions in their order. Half-edges keep the numbers that regions had before they were sorted.
+    order: Vec<RegionId>,
+}
+
+impl ByRegion {
+    /// Lists half-edges whose regions are in the order of their numbers.
+    pub(super) fn of(pieces: &[HalfEdge], regions: usize) -> Self {
+        Self::in_order(pieces, RegionId::all(regions).collect())
+    }
+
+    /// The same of other half-edges of the same regions.
+    pub(super) fn again(self, pieces: &[HalfEdge]) -> Self {
+        Self::in_order(pieces, self.order)
+    }
+
+    fn in_order(pieces: &[HalfEdge], order: Vec<RegionId>) -> Self {
+        let regions = pieces.iter().map(|piece| piece.region.index());
+        let (starts, members) = by_group(order.len(), regions, HalfEdgeId::from_index);
+        Self { starts, members, order }
+    }
+
+    fn of_region(&self, region: RegionId) -> &[HalfEdgeId] {
+        let region = region.index();
+        &self.members[self.starts[region] as usize..self.starts[region + 1] as usize]
     }
 }
 
@@ -82,8 +117,14 @@ pub(super) struct RegionPieces {
 
 impl RegionPieces {
     /// Sorts half-edges by region and place, keeping the pairs.
-    pub(super) fn sort(table: &PlaneTable, points: &Points, planes: &[PlaneId], pieces: &[HalfEdge]) -> Self {
-        Self::sort_and_search(table, points, planes, pieces, false).0
+    pub(super) fn sort(
+        table: &PlaneTable,
+        points: &Points,
+        planes: &[PlaneId],
+        pieces: &[HalfEdge],
+        by_region: &ByRegion,
+    ) -> Self {
+        Self::sort_and_search(table, points, planes, (pieces, by_region), false).0
     }
 
     /// The same, and where corners lie inside edges of their region, by line.
@@ -92,42 +133,45 @@ impl RegionPieces {
         points: &Points,
         planes: &[PlaneId],
         pieces: &[HalfEdge],
+        by_region: &ByRegion,
     ) -> (Self, Vec<PointOnLine>, Counts) {
-        Self::sort_and_search(table, points, planes, pieces, true)
+        Self::sort_and_search(table, points, planes, (pieces, by_region), true)
     }
 
     fn sort_and_search(
         table: &PlaneTable,
         points: &Points,
         planes: &[PlaneId],
-        pieces: &[HalfEdge],
+        (pieces, by_region): (&[HalfEdge], &ByRegion),
         searches: bool,
     ) -> (Self, Vec<PointOnLine>, Counts) {
-        let (starts, mut order) =
-            by_group(planes.len(), pieces.iter().map(|piece| piece.region.index()), HalfEdgeId::from_index);
-        let ranges: Vec<Range<usize>> = starts
-            .windows(2)
-            .map(|ends| ends[0] as usize..ends[1] as usize)
-            .filter(|range| !range.is_empty())
-            .collect();
+        let (mut regions, mut ranges, mut end) = (Vec::new(), Vec::new(), 0);
+        for (new, old) in RegionId::all(by_region.order.len()).zip(&by_region.order) {
+            let members = by_region.of_region(*old);
+            if !members.is_empty() {
+                regions.push((new, members));
+                ranges.push(end..end + members.len());
+                end += members.len();
+            }
+        }
         let mut sorted: Vec<HalfEdge> = pieces.first().map_or_else(Vec::new, |first| vec![*first; pieces.len()]);
         let place: Vec<AtomicU32> = pieces.par_iter().with_min_len(1 << 14).map(|_| AtomicU32::new(0)).collect();
         let runs = weighed_runs(ranges.len(), PIECES_OF_CHUNK, |k| ranges[k].len());
-        let lengths = || runs.iter().map(|run| ranges[run.end - 1].end - ranges[run.start].start);
-        let (orders, slices) = (split_by(&mut order, lengths()), split_by(&mut sorted, lengths()));
-        let jobs: Vec<_> = runs.iter().zip(orders.into_iter().zip(slices)).collect();
-        let work = |(run, (order, sorted)): (&Range<usize>, (&mut [HalfEdgeId], &mut [HalfEdge]))| {
+        let lengths = runs.iter().map(|run| ranges[run.end - 1].end - ranges[run.start].start);
+        let slices = split_by(&mut sorted, lengths);
+        let jobs: Vec<_> = runs.iter().zip(slices).collect();
+        let work = |(run, sorted): (&Range<usize>, &mut [HalfEdge])| {
             let mut finder = PinchFinder::new(table, points);
             let (first, mut keys) = (ranges[run.start].start, Vec::new());
-            for range in &ranges[run.clone()] {
-                let own = range.start - first..range.end - first;
-                sort_region(pieces, &mut order[own.clone()], &mut sorted[own.clone()], &mut keys);
-                for (new, old) in range.clone().zip(&order[own.clone()]) {
+            for ((number, members), range) in regions[run.clone()].iter().zip(&ranges[run.clone()]) {
+                let sorted = &mut sorted[range.start - first..range.end - first];
+                sort_region(pieces, members, &mut keys);
+                for ((sorted, (.., old)), new) in sorted.iter_mut().zip(&keys).zip(range.clone()) {
+                    *sorted = HalfEdge { region: *number, ..pieces[old.index()] };
                     place[old.index()].store(HalfEdgeId::from_index(new).number(), Ordering::Relaxed);
                 }
-                let region = &sorted[own];
                 if searches {
-                    finder.search(region, planes[region[0].region.index()]);
+                    finder.search(sorted, planes[number.index()]);
                 }
             }
             finder.found
@@ -147,21 +191,12 @@ impl RegionPieces {
     }
 }
 
-/// Sorts the half-edges of a region by their places; `keys` is a buffer.
-fn sort_region(
-    pieces: &[HalfEdge],
-    order: &mut [HalfEdgeId],
-    sorted: &mut [HalfEdge],
-    keys: &mut Vec<(PointId, PointId, HalfEdgeId)>,
-) {
+/// Sorts the half-edges of a region by their places.
+fn sort_region(pieces: &[HalfEdge], members: &[HalfEdgeId], keys: &mut Vec<(PointId, PointId, HalfEdgeId)>) {
     keys.clear();
-    keys.extend(order.iter().map(|number| {
+    keys.extend(members.iter().map(|number| {
         let HalfEdge { from, to, .. } = pieces[number.index()];
         (from, to, *number)
     }));
     keys.sort_unstable();
-    for ((order, sorted), (.., number)) in order.iter_mut().zip(sorted).zip(keys) {
-        *order = *number;
-        *sorted = pieces[number.index()];
-    }
 }

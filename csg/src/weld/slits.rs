@@ -11,7 +11,7 @@ use super::stops::Stops;
 use crate::ids::Id;
 
 /// Finds slits; holds buffers.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct SlitFinder {
     stops: Stops,
     /// What cancelled on an interval.

@@ -8,7 +8,7 @@ use crate::ids::{PointId, number32};
 use crate::plane_table::PlaneTable;
 
 /// Different points of a line in order along it, and where the ends from which they were made stand among them.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Stops {
     ends: Vec<End>,
     points: Vec<PointId>,

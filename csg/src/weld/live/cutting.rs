@@ -7,16 +7,24 @@ use super::on_line::{Along, OnLine, Parts};
 use super::{Edge, MANY, SHARE, State};
 use crate::ids::{EdgeId, HalfEdgeId, Id, LineId, PointId, PointOfRegion, PointOnLine, RegionId};
 use crate::weld::WeldError;
-use crate::weld::cancel::{Crossed, HalfEdge, LineWorker, Run, Surviving};
+use crate::weld::cancel::{Crossed, HalfEdge, LineBuffers, LineWorker, Run, Surviving};
 
 /// Number of lines that a thread looks at in a row, where it looks at many.
 const LINES_OF_CHUNK: usize = 1024;
 
-/// What it takes to cancel and cut lines, and buffers.
+/// What it takes to cancel and cut lines.
 pub(super) struct Cutter<'a> {
     context: Context<'a>,
     edges: &'a [Edge],
     worker: LineWorker<'a>,
+    buffers: CutBuffers,
+}
+
+/// What is cancelled and cut on a line, kept for the next one.
+#[derive(Clone, Default)]
+pub(super) struct CutBuffers {
+    /// Those of the worker, between two updates.
+    line: LineBuffers,
     members: Vec<EdgeId>,
     group: Vec<Run>,
     surviving: Surviving,
@@ -29,45 +37,39 @@ pub(super) struct Cutter<'a> {
 }
 
 impl<'a> Cutter<'a> {
-    pub(super) fn new(context: Context<'a>, edges: &'a [Edge]) -> Self {
+    pub(super) fn new(context: Context<'a>, edges: &'a [Edge], mut buffers: CutBuffers) -> Self {
         let Context { table, numbers } = context;
-        Self {
-            context,
-            edges,
-            worker: LineWorker::new(table, numbers.points(), numbers.lines(), &numbers.planes),
-            members: Vec::new(),
-            group: Vec::new(),
-            surviving: Surviving::default(),
-            further: Vec::new(),
-            cut: Vec::new(),
-            old_pieces: Vec::new(),
-            old: Vec::new(),
-            numbers: Vec::new(),
-            passed: Vec::new(),
-        }
+        let mut worker = LineWorker::new(table, numbers.points(), numbers.lines(), &numbers.planes);
+        worker.buffers = std::mem::take(&mut buffers.line);
+        Self { context, edges, worker, buffers }
+    }
+
+    /// The buffers, for the next one.
+    pub(super) fn into_buffers(self) -> CutBuffers {
+        CutBuffers { line: self.worker.buffers, ..self.buffers }
     }
 
     /// Leaves in `members` the edges of the parts of a line in which something has changed, and in `old_pieces` their pieces; gives the parts.
     fn take_changed(&mut self, line: &mut OnLine, number: LineId, half_edges: &[HalfEdge]) -> Parts {
         let along = Along { context: self.context, line: number };
-        line.take_changed(&along, self.edges, half_edges, &mut self.members, &mut self.old_pieces)
+        line.take_changed(&along, self.edges, half_edges, &mut self.buffers.members, &mut self.buffers.old_pieces)
     }
 
     /// Leaves in `surviving` what is left of the edges of a line, `members` of it.
     fn cancel(&mut self) -> Result<(), WeldError> {
-        self.group.clear();
-        self.group.extend(self.members.iter().map(|edge| self.edges[edge.index()].numbered.run));
-        self.surviving.runs.clear();
-        self.surviving.slits.clear();
-        self.surviving.passed.clear();
-        self.worker.cancel(&mut self.group, &mut self.surviving)
+        self.buffers.group.clear();
+        self.buffers.group.extend(self.buffers.members.iter().map(|edge| self.edges[edge.index()].numbered.run));
+        self.buffers.surviving.runs.clear();
+        self.buffers.surviving.slits.clear();
+        self.buffers.surviving.passed.clear();
+        self.worker.cancel(&mut self.buffers.group, &mut self.buffers.surviving)
     }
 
     /// Leaves in `cut` the paired pieces of that, cut at `further` points as well.
     fn cut(&mut self) -> Result<(), WeldError> {
-        self.cut.clear();
-        let crossed = if self.surviving.slits.is_empty() { Crossed::No } else { Crossed::Unslit };
-        self.worker.cut(&self.surviving.runs, &self.further, &mut self.cut, crossed)
+        self.buffers.cut.clear();
+        let crossed = if self.buffers.surviving.slits.is_empty() { Crossed::No } else { Crossed::Unslit };
+        self.worker.cut(&self.buffers.surviving.runs, &self.buffers.further, &mut self.buffers.cut, crossed)
     }
 }
 
@@ -100,27 +102,30 @@ impl State {
     fn cut_many(&mut self, cutter: &mut Cutter<'_>) -> Result<(), WeldError> {
         let (context, edges, half_edges) = (cutter.context, cutter.edges, &self.pieces.half_edges);
         let work = |(chunk, lines): (usize, &mut [OnLine])| {
-            let (mut cutter, mut done) = (Cutter::new(context, edges), Vec::new());
+            let (mut cutter, mut done) = (Cutter::new(context, edges, CutBuffers::default()), Vec::new());
             let numbers = LineId::from_index(chunk * LINES_OF_CHUNK);
             for (k, line) in lines.iter_mut().enumerate().filter(|(_, line)| line.is_dirty) {
                 let number = numbers.plus(k);
                 cutter.take_changed(line, number, half_edges);
                 cutter.cancel()?;
-                if line.is_crossed() || !cutter.surviving.passed.is_empty() || !cutter.surviving.slits.is_empty() {
-                    line.put_back(&mut cutter.old_pieces);
+                if line.is_crossed()
+                    || !cutter.buffers.surviving.passed.is_empty()
+                    || !cutter.buffers.surviving.slits.is_empty()
+                {
+                    line.put_back(&mut cutter.buffers.old_pieces);
                     continue;
                 }
-                cutter.further.clear();
+                cutter.buffers.further.clear();
                 cutter.cut()?;
                 line.is_dirty = false;
-                done.push((number, cutter.cut.clone(), std::mem::take(&mut cutter.old_pieces)));
+                done.push((number, cutter.buffers.cut.clone(), std::mem::take(&mut cutter.buffers.old_pieces)));
             }
             Ok::<_, WeldError>(done)
         };
         let parts: Vec<_> = self.lines.par_chunks_mut(LINES_OF_CHUNK).enumerate().map(work).collect();
         for part in parts {
             for (number, cut, old) in part? {
-                (cutter.cut, cutter.old_pieces) = (cut, old);
+                (cutter.buffers.cut, cutter.buffers.old_pieces) = (cut, old);
                 self.exchange_pieces(cutter, number);
             }
         }
@@ -142,7 +147,7 @@ impl State {
     fn exchange_pieces(&mut self, cutter: &mut Cutter<'_>, number: LineId) {
         let Self { lines, pieces, regions, .. } = self;
         let line = &mut lines[number.index()];
-        let Cutter { context, cut, old_pieces, old, numbers, .. } = cutter;
+        let Cutter { context, buffers: CutBuffers { cut, old_pieces, old, numbers, .. }, .. } = cutter;
         let key = |piece: &HalfEdge| (piece.region, piece.from, piece.to);
         old.clear();
         old.extend(old_pieces.iter().map(|number| (key(&pieces.half_edges[number.index()]), *number)));
@@ -181,12 +186,12 @@ impl State {
         let along = &Along { context: cutter.context, line: number };
         let line = &mut self.lines[number.index()];
         let crossings = &mut self.crossings;
-        let has_slits = !cutter.surviving.slits.is_empty();
+        let has_slits = !cutter.buffers.surviving.slits.is_empty();
         crossings.lines += usize::from(has_slits);
         crossings.lines -= usize::from(std::mem::replace(&mut line.has_slits, has_slits));
-        let passed = &mut cutter.passed;
+        let passed = &mut cutter.buffers.passed;
         passed.clear();
-        passed.extend(cutter.surviving.passed.iter().map(|passed| passed.at));
+        passed.extend(cutter.buffers.surviving.passed.iter().map(|passed| passed.at));
         if !parts.are_all() {
             passed.extend(line.passed().iter().filter(|at| !parts.hold(along, at.point)));
         }
@@ -212,11 +217,11 @@ impl State {
                 others.push((other, new.point));
             }
         }
-        cutter.further.clear();
-        cutter.further.extend(line.cuts().iter().map(|cut| cut.point));
+        cutter.buffers.further.clear();
+        cutter.buffers.further.extend(line.cuts().iter().map(|cut| cut.point));
         let is_crossed = |at: &&PointOfRegion| crossings.passing.get(at).is_some_and(|passing| passing.len() > 1);
-        cutter.further.extend(line.passed().iter().filter(is_crossed).map(|at| at.point));
-        cutter.further.retain(|point| parts.hold(along, *point));
+        cutter.buffers.further.extend(line.passed().iter().filter(is_crossed).map(|at| at.point));
+        cutter.buffers.further.retain(|point| parts.hold(along, *point));
         others.into_iter().for_each(|(other, point)| self.mark_change(other, [point, point]));
     }
 

@@ -4,6 +4,7 @@
 //! region only those are looked at that changed, and those of the faces that these bound.
 
 use rustc_hash::FxHashMap;
+use smallvec::SmallVec;
 
 use super::loops::{Loop, Loops};
 use super::names::place;
@@ -15,6 +16,7 @@ use crate::ids::{FaceId, HalfEdgeId, Id, LoopId, RegionId, holds, number32};
 use crate::weld::WeldError;
 use crate::weld::large_face::LargeFace;
 use crate::weld::nest::RegionPlane;
+use crate::weld::triangulate::TriangulatorBuffers;
 
 /// The faces, by number.
 #[derive(Clone, Default)]
@@ -25,6 +27,7 @@ pub(super) struct Faces {
     triangles: usize,
     removed: Vec<FaceId>,
     added: Vec<FaceId>,
+    buffers: TriangulatorBuffers,
 }
 
 #[derive(Clone)]
@@ -49,14 +52,20 @@ impl Default for Face {
     }
 }
 
+/// Some loops of a region: few, mostly.
+type SomeLoops = SmallVec<[LoopId; 8]>;
+
+/// Holes, each with the outer loop around it.
+type OwnedHoles = SmallVec<[(LoopId, LoopId); 4]>;
+
 /// What a change of a region has left of its faces.
 #[derive(Default)]
 struct Left {
     /// Those that have lost or gained a loop, and those that are new.
-    touched: Vec<FaceId>,
-    made: Vec<FaceId>,
+    touched: SmallVec<[FaceId; 8]>,
+    made: SmallVec<[FaceId; 8]>,
     /// Half-edges of loops that are gone, each with the face that it bounded.
-    pieces: Vec<(HalfEdgeId, FaceId)>,
+    pieces: SmallVec<[(HalfEdgeId, FaceId); 32]>,
     has_new_outers: bool,
 }
 
@@ -144,19 +153,19 @@ impl Faces {
             left.pieces.extend(gone.pieces.iter().map(|piece| (*piece, gone.face)));
         }
         let plane = context.plane(number);
-        let mut new: Vec<LoopId> = Vec::new();
-        for piece in left.pieces.iter().map(|(piece, _)| *piece).chain(std::mem::take(&mut region.new)) {
+        let mut new = SomeLoops::new();
+        for piece in left.pieces.iter().map(|(piece, _)| *piece).chain(region.new.drain(..)) {
             if !pieces.is_gone[piece.index()] && pieces.loop_of[piece.index()] == LoopId::NONE {
                 new.push(self.loops.walk(context, &plane, pieces, piece));
             }
         }
-        region.gone = Vec::new();
-        let (outers, holes): (Vec<LoopId>, Vec<LoopId>) =
-            new.iter().partition(|number| self.loops.get(**number).is_outer);
-        let mut owned: Vec<(LoopId, LoopId)> = Vec::with_capacity(holes.len());
+        region.gone.clear();
+        let (outers, holes): (SomeLoops, SomeLoops) =
+            new.iter().copied().partition(|number| self.loops.get(*number).is_outer);
+        let mut owned = OwnedHoles::new();
         if !holes.is_empty() {
             let old = region.faces.iter().map(|face| self.faces[face.index()].outer);
-            let all: Vec<LoopId> = old.filter(|outer| *outer != LoopId::NONE).chain(outers.iter().copied()).collect();
+            let all: SomeLoops = old.filter(|outer| *outer != LoopId::NONE).chain(outers.iter().copied()).collect();
             for hole in holes {
                 let owner = self.owner(&plane, pieces, &all, hole).ok_or_else(|| WeldError::hole(number))?;
                 left.touch(self.loops.get(owner).face);
@@ -228,7 +237,7 @@ impl Faces {
         region: &mut Region,
         pieces: &Pieces,
         left: &mut Left,
-        mut outers: Vec<LoopId>,
+        mut outers: SomeLoops,
     ) {
         outers.sort_by(|p, q| self.loops.get(*q).extent.area.total_cmp(&self.loops.get(*p).extent.area));
         let headless = |faces: &Self, face: FaceId| faces.faces[face.index()].outer == LoopId::NONE;
@@ -261,10 +270,10 @@ impl Faces {
         plane: &RegionPlane<'_>,
         pieces: &Pieces,
         left: &mut Left,
-        owned: &mut Vec<(LoopId, LoopId)>,
+        owned: &mut OwnedHoles,
     ) -> Option<()> {
         let outer = |faces: &Self, face: FaceId| faces.faces[face.index()].outer;
-        let around: Vec<LoopId> =
+        let around: SomeLoops =
             left.faces().map(|face| outer(self, face)).filter(|outer| *outer != LoopId::NONE).collect();
         let first = owned.len();
         for &face in &left.touched {
@@ -345,7 +354,7 @@ impl Faces {
         };
         let jobs = self.added.iter().zip(old).map(job).collect();
         let triangulator = FaceTriangulator { context: *context, pieces, loops: &self.loops };
-        for (face, triangulation) in triangulator.triangulate(jobs) {
+        for (face, triangulation) in triangulator.triangulate(jobs, &mut self.buffers) {
             self.triangles += triangulation.count();
             self.faces[face.index()].triangulation = triangulation;
         }

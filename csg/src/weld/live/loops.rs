@@ -1,5 +1,7 @@
 //! Loops of half-edges, chained again where something changed.
 
+use smallvec::SmallVec;
+
 use super::names::place;
 use super::numbers::Context;
 use super::pieces::Pieces;
@@ -51,17 +53,17 @@ impl Loops {
         plane: PlaneId,
         region: &Region,
         pieces: &mut Pieces,
-    ) -> Result<Vec<LoopId>, WeldError> {
+    ) -> Result<SmallVec<[LoopId; 8]>, WeldError> {
         let ends = |number: &HalfEdgeId| {
             let piece = &pieces.half_edges[number.index()];
             [piece.from, piece.to]
         };
-        let mut points: Vec<PointId> = region.new.iter().chain(&region.gone).flat_map(ends).collect();
+        let mut points: SmallVec<[PointId; 32]> = region.new.iter().chain(&region.gone).flat_map(ends).collect();
         points.sort_unstable();
         points.dedup();
-        let mut broken: Vec<LoopId> = region.gone.iter().map(|gone| pieces.loop_of[gone.index()]).collect();
-        let mut outgoing: Vec<HalfEdgeId> = Vec::new();
-        let mut followed: Vec<(HalfEdgeId, HalfEdgeId)> = Vec::new();
+        let mut broken: SmallVec<[LoopId; 8]> = region.gone.iter().map(|gone| pieces.loop_of[gone.index()]).collect();
+        let mut outgoing: SmallVec<[HalfEdgeId; 8]> = SmallVec::new();
+        let mut followed: SmallVec<[(HalfEdgeId, HalfEdgeId); 16]> = SmallVec::new();
         for point in points {
             outgoing.clear();
             outgoing.extend(region.beginning_at(pieces, point));

@@ -31,7 +31,7 @@ use crate::boundary::BoundaryEdge;
 use crate::ids::{EdgeId, FaceId, Id, LineId, PointId, PointOfRegion};
 use crate::model::MaterialId;
 use crate::plane_table::{PlaneId, PlaneTable};
-use cutting::Cutter;
+use cutting::{CutBuffers, Cutter};
 use faces::Faces;
 use moved::Moving;
 use names::place;
@@ -61,6 +61,7 @@ pub(crate) struct LiveWeld {
     /// Lines that are the same as others, which have their edges now.
     merged: Vec<LineId>,
     state: State,
+    cut_buffers: CutBuffers,
     moving: Option<Moving>,
 }
 
@@ -146,11 +147,12 @@ impl LiveWeld {
         let (numbers, state) = (&self.numbers, &mut self.state);
         state.faces.begin_changes();
         let context = Context { table, numbers };
-        let mut cutter = Cutter::new(context, &self.edges);
+        let mut cutter = Cutter::new(context, &self.edges, std::mem::take(&mut self.cut_buffers));
         state.cut_dirty_lines(&mut cutter, true)?;
         if state.find_pinches(&context) {
             state.cut_dirty_lines(&mut cutter, false)?;
         }
+        self.cut_buffers = cutter.into_buffers();
         let State { pieces, regions, faces, vertices, .. } = state;
         faces.update(&context, regions, pieces)?;
         vertices.update(pieces);

@@ -68,18 +68,21 @@ fn low_and_high([from, to]: [PointId; 2], forward: bool) -> [PointId; 2] {
     if forward { [from, to] } else { [to, from] }
 }
 
+/// From where to where parts of a line are: mostly there are few.
+type Intervals = SmallVec<[[PointId; 2]; 8]>;
+
 /// Parts of a line, in order, with gaps between them.
 #[derive(Debug, Default)]
 pub(super) struct Parts {
     /// Without these, all of it.
-    intervals: Option<Vec<[PointId; 2]>>,
+    intervals: Option<Intervals>,
 }
 
 impl Parts {
     /// Those that some intervals make up, of which each begins before it ends.
-    fn of(along: &Along<'_>, mut intervals: Vec<[PointId; 2]>) -> Self {
+    fn of(along: &Along<'_>, mut intervals: Intervals) -> Self {
         intervals.sort_by(|a, b| along.compare(a[0], b[0]));
-        let mut merged: Vec<[PointId; 2]> = Vec::new();
+        let mut merged = Intervals::new();
         for [low, high] in intervals {
             match merged.last_mut() {
                 Some(last) if along.compare(low, last[1]).is_le() => last[1] = along.max(last[1], high),
@@ -180,7 +183,7 @@ impl OnLine {
         }
         let low = |number: &EdgeId| along.of_edge(&edges[number.index()])[0];
         self.edges.sort_by(|a, b| along.compare(low(a), low(b)));
-        let mut changed = std::mem::take(&mut self.rare_mut().changed);
+        let mut changed: Intervals = self.rare_mut().changed.drain(..).collect();
         for ends in &mut changed {
             let is_forward = along.compare(ends[0], ends[1]).is_le();
             *ends = low_and_high(*ends, is_forward);

@@ -2,6 +2,7 @@
 
 use planecut_parallel::prelude::*;
 use rustc_hash::FxHashMap;
+use smallvec::SmallVec;
 
 use super::grid::{BoxGrid, Rectangle};
 use super::numbers::Context;
@@ -26,6 +27,14 @@ const REGIONS_OF_CHUNK: usize = 1024;
 pub(super) struct Regions {
     regions: Vec<Region>,
     changed: Vec<RegionId>,
+    near: NearNew,
+}
+
+/// What is near new half-edges of a region: buffers.
+#[derive(Clone, Default)]
+struct NearNew {
+    pieces: Vec<HalfEdgeId>,
+    corners: Vec<PointId>,
 }
 
 #[derive(Clone, Default)]
@@ -35,8 +44,8 @@ pub(super) struct Region {
     /// Where they are, where there are many.
     index: Option<Box<Index>>,
     /// What came since the last update, some of it gone by now, and what went.
-    pub(super) new: Vec<HalfEdgeId>,
-    pub(super) gone: Vec<HalfEdgeId>,
+    pub(super) new: SmallVec<[HalfEdgeId; 4]>,
+    pub(super) gone: SmallVec<[HalfEdgeId; 4]>,
     /// Its faces, in no order.
     pub(super) faces: Vec<FaceId>,
     /// Where corners touch the inside of edges.
@@ -220,21 +229,21 @@ impl Regions {
     /// Finds the pinches that new half-edges make in regions that have changed; they are noted, too.
     pub(super) fn find_pinches(&mut self, context: &Context<'_>, pieces: &Pieces) -> Vec<(RegionId, PointOnLine)> {
         let finder = || PinchFinder::new(context.table, context.numbers.points());
-        let Self { regions, changed } = self;
+        let Self { regions, changed, near } = self;
         if changed.len() < MANY || changed.len() * SHARE < regions.len() {
             let (mut finder, mut found) = (finder(), Vec::new());
             for number in changed {
-                regions[number.index()].find_pinches(context, pieces, *number, &mut finder);
+                regions[number.index()].find_pinches(context, pieces, *number, (&mut finder, near));
                 found.extend(finder.found.drain(..).map(|pinch| (*number, pinch)));
             }
             return found;
         }
         let work = |(chunk, regions): (usize, &mut [Region])| {
-            let (mut finder, mut found) = (finder(), Vec::new());
+            let (mut finder, mut near, mut found) = (finder(), NearNew::default(), Vec::new());
             let first = RegionId::from_index(chunk * REGIONS_OF_CHUNK);
             for (k, region) in regions.iter_mut().enumerate().filter(|(_, region)| region.is_changed()) {
                 let number = first.plus(k);
-                region.find_pinches(context, pieces, number, &mut finder);
+                region.find_pinches(context, pieces, number, (&mut finder, &mut near));
                 found.extend(finder.found.drain(..).map(|pinch| (number, pinch)));
             }
             found
@@ -249,21 +258,27 @@ impl Region {
     }
 
     /// Leaves in the finder the pinches that new half-edges make; they are noted, too.
-    fn find_pinches(&mut self, context: &Context<'_>, pieces: &Pieces, number: RegionId, finder: &mut PinchFinder<'_>) {
+    fn find_pinches(
+        &mut self,
+        context: &Context<'_>,
+        pieces: &Pieces,
+        number: RegionId,
+        (finder, near): (&mut PinchFinder<'_>, &mut NearNew),
+    ) {
         finder.found.clear();
         let plane = context.plane(number);
         self.settle_index(pieces, &plane);
         let half_edge = |number: &HalfEdgeId| pieces.half_edges[number.index()];
         let alive = |number: &&HalfEdgeId| !pieces.is_gone[number.index()];
-        let (mut near, mut corners): (Vec<HalfEdgeId>, Vec<PointId>) = (Vec::new(), Vec::new());
+        let NearNew { pieces: near, corners } = near;
         match &self.index {
             Some(index) => {
                 for number in self.new.iter().filter(alive) {
                     let piece = half_edge(number);
-                    index.grid.find(&rectangle(&piece, &plane), &mut near);
+                    index.grid.find(&rectangle(&piece, &plane), near);
                     corners.clear();
                     corners.extend(near.iter().map(|other| half_edge(other).from));
-                    finder.touching(&piece, &corners);
+                    finder.touching(&piece, corners);
                     // what its corner touches is among these
                     near.iter().for_each(|other| finder.touching(&half_edge(other), &[piece.from]));
                 }
@@ -276,12 +291,14 @@ impl Region {
                     let other = rectangle(&half_edge(number), &plane);
                     other.min.cmple(reach.max).all() && other.max.cmpge(reach.min).all()
                 };
+                near.clear();
                 near.extend(self.pieces.iter().filter(touches));
+                corners.clear();
                 corners.extend(self.new.iter().filter(alive).map(|number| half_edge(number).from));
-                near.iter().for_each(|old| finder.touching(&half_edge(old), &corners));
+                near.iter().for_each(|old| finder.touching(&half_edge(old), corners));
                 corners.clear();
                 corners.extend(near.iter().map(|number| half_edge(number).from));
-                self.new.iter().filter(alive).for_each(|new| finder.touching(&half_edge(new), &corners));
+                self.new.iter().filter(alive).for_each(|new| finder.touching(&half_edge(new), corners));
             }
         }
         finder.found.sort_unstable();

@@ -2,6 +2,8 @@
 
 use std::sync::{Mutex, PoisonError};
 
+use smallvec::SmallVec;
+
 use super::loops::{Loop, Loops};
 use super::numbers::Context;
 use super::pieces::Pieces;
@@ -9,7 +11,7 @@ use crate::base::map_chunks;
 use crate::ids::{FaceId, HalfEdgeId, Id, LoopId, PointId, RegionId};
 use crate::weld::large_face::{FaceEdge, LARGE, LargeFace};
 use crate::weld::nest::Projection;
-use crate::weld::triangulate::{Triangles, Triangulator, WeldPoints, convex_quadrilateral};
+use crate::weld::triangulate::{Triangles, Triangulator, TriangulatorBuffers, WeldPoints, convex_quadrilateral};
 
 /// Number of corners, of all faces together, from which several threads triangulate them: to wake another one takes as long as a few hundred.
 const CORNERS_FOR_THREADS: usize = 400;
@@ -102,7 +104,11 @@ pub(super) struct FaceTriangulator<'a> {
 
 impl<'a> FaceTriangulator<'a> {
     /// Triangulates faces, on several threads where there are many corners.
-    pub(super) fn triangulate(self, jobs: Vec<Job<'a>>) -> Vec<(FaceId, Triangulation)> {
+    pub(super) fn triangulate(
+        self,
+        jobs: Vec<Job<'a>>,
+        buffers: &mut TriangulatorBuffers,
+    ) -> Vec<(FaceId, Triangulation)> {
         let (large, mut whole): (Vec<Job<'a>>, Vec<Job<'a>>) = jobs.into_iter().partition(|job| job.corners >= LARGE);
         let of_large = |mut job: Job<'a>| (self.large(&mut job), job);
         let in_parts =
@@ -122,9 +128,14 @@ impl<'a> FaceTriangulator<'a> {
             }
         }
         if in_parts(&whole) {
-            done.extend(map_chunks(&whole, 1, |jobs| self.whole(jobs)).0.into_iter().flatten());
+            let of_chunk = |jobs: &[Job<'_>]| {
+                let mut done = Vec::with_capacity(jobs.len());
+                self.whole(jobs, &mut TriangulatorBuffers::default(), &mut done);
+                done
+            };
+            done.extend(map_chunks(&whole, 1, of_chunk).0.into_iter().flatten());
         } else {
-            done.extend(self.whole(&whole));
+            self.whole(&whole, buffers, &mut done);
         }
         done
     }
@@ -151,12 +162,12 @@ impl<'a> FaceTriangulator<'a> {
         LargeFace::new(&edges, at).ok().map(Box::new)
     }
 
-    /// The triangles of faces that are triangulated as a whole, loops in the order of the half-edges with which they begin.
-    fn whole(self, jobs: &[Job<'_>]) -> Vec<(FaceId, Triangulation)> {
+    /// Adds the triangles of faces that are triangulated as a whole, loops in the order of the half-edges with which they begin.
+    fn whole(self, jobs: &[Job<'_>], buffers: &mut TriangulatorBuffers, done: &mut Vec<(FaceId, Triangulation)>) {
         let Context { table, numbers } = self.context;
         let (half_edges, planes) = (&self.pieces.half_edges, &numbers.planes);
         let exact = WeldPoints { table, points: numbers.points(), half_edges, planes };
-        let mut triangulator = Triangulator::new(&exact);
+        let mut triangulator = Triangulator::with_buffers(&exact, std::mem::take(buffers));
         let mut found = Triangles::default();
         let half_edge = |piece: HalfEdgeId| &self.pieces.half_edges[piece.index()];
         let mut triangulate = |job: &Job<'_>| {
@@ -173,7 +184,7 @@ impl<'a> FaceTriangulator<'a> {
                 _ => {}
             }
             triangulator.begin(projection);
-            let mut holes: Vec<&Loop> = job.holes.iter().map(|hole| self.loops.get(*hole)).collect();
+            let mut holes: SmallVec<[&Loop; 4]> = job.holes.iter().map(|hole| self.loops.get(*hole)).collect();
             holes.sort_by(|p, q| self.pieces.compare(&self.context, p.pieces[0], q.pieces[0]));
             for members in std::iter::once(job.outer).chain(holes) {
                 let corner = |piece: &HalfEdgeId| numbers.points().corner(*piece, half_edge(*piece));
@@ -184,6 +195,7 @@ impl<'a> FaceTriangulator<'a> {
             triangulator.triangulate(&mut found);
             Triangulation::Whole(found.corners.clone())
         };
-        jobs.iter().map(|job| (job.face, triangulate(job))).collect()
+        done.extend(jobs.iter().map(|job| (job.face, triangulate(job))));
+        *buffers = triangulator.into_buffers();
     }
 }

@@ -34,7 +34,7 @@ impl Care {
 }
 
 /// Cuts boundaries into triangles, reusing its buffers.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Ears {
     ring: Vec<NodeId>,
     grid: Grid,

@@ -13,7 +13,7 @@ const NONE: u32 = u32::MAX;
 type Numbered = (NodeId, NodeId, u32);
 
 /// Improves triangulations, reusing its buffers.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Flips {
     /// For each half-edge, three for each triangle, the number of its diagonal.
     diagonal_of: Vec<u32>,

@@ -10,7 +10,7 @@ use crate::ids::{Id, NodeId};
 const SMALL: usize = 32;
 
 /// The reflex corners by cell. Cutting ears never makes a convex corner reflex, so the grid is filled once for each boundary.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Grid {
     min: DVec2,
     scale: DVec2,

@@ -88,16 +88,32 @@ pub(crate) struct Triangulator<'a> {
     flips: Flips,
 }
 
+/// The buffers of a [`Triangulator`], kept for the next one.
+#[derive(Clone, Default)]
+pub(crate) struct TriangulatorBuffers {
+    nodes: Vec<Node>,
+    rings: Vec<NodeId>,
+    ears: Ears,
+    ahead: Vec<NodeId>,
+    flips: Flips,
+}
+
 impl<'a> Triangulator<'a> {
     pub(crate) fn new(points: &'a dyn ExactPoints) -> Self {
+        Self::with_buffers(points, TriangulatorBuffers::default())
+    }
+
+    /// The same with the buffers of another one.
+    pub(crate) fn with_buffers(points: &'a dyn ExactPoints, buffers: TriangulatorBuffers) -> Self {
+        let TriangulatorBuffers { nodes, rings, ears, ahead, flips } = buffers;
         let turns = Turns { points, projection: Projection { u: 0, v: 1 } };
-        Self {
-            boundary: Boundary { nodes: Vec::new(), turns, is_convex: false },
-            rings: Vec::new(),
-            ears: Ears::default(),
-            ahead: Vec::new(),
-            flips: Flips::default(),
-        }
+        Self { boundary: Boundary { nodes, turns, is_convex: false }, rings, ears, ahead, flips }
+    }
+
+    /// The buffers, for the next one.
+    pub(crate) fn into_buffers(self) -> TriangulatorBuffers {
+        let Self { boundary: Boundary { nodes, .. }, rings, ears, ahead, flips } = self;
+        TriangulatorBuffers { nodes, rings, ears, ahead, flips }
     }
 
     /// Begins a face.

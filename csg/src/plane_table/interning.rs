@@ -1,0 +1,204 @@
+//! A table of the planes of a model, all at once.
+//!
+//! Planes are sorted by a number that is the same for both sides of a plane and close for planes that are nearly the same: what equals another
+//! plane, or is near it, follows it. Most have no other as close as that, and need not be compared with any.
+
+use std::sync::atomic::{AtomicU32, Ordering};
+
+use planecut_kernel::HalfSpace;
+use planecut_kernel::sign::Row;
+use planecut_parallel::prelude::*;
+use rustc_hash::FxHashMap;
+
+use super::near::{NearPlanes, unit};
+use super::same::{Key, compare_coefficients, first_side, is_exact, key};
+use super::{PlaneId, PlaneTable, half_space_of};
+use crate::base::{WEIGHTS, by_parts, runs_apart};
+use crate::ids::number32;
+use crate::tolerances::SNAP_TOLERANCE;
+
+/// Planes whose numbers differ by more are not within the tolerance: the sum of the weights times the tolerance, and room for rounding.
+const APART: f64 = 3.0 * SNAP_TOLERANCE;
+
+/// Least number of planes that a thread looks at in a row.
+const CHUNK: usize = 1024;
+
+impl PlaneTable {
+    /// Interns half-spaces; gives the table and the id of each half-space in the order given. `size` is the [`smallest_size`](super::smallest_size)
+    /// of the bodies that they bound.
+    ///
+    /// The numbering depends on the planes alone, not on the order in which they were given.
+    #[must_use]
+    pub fn intern(half_spaces: &[HalfSpace], size: f64) -> (Self, Vec<PlaneId>) {
+        Self::intern_parts(std::iter::once(half_spaces.len()), |_, k| &half_spaces[k], size)
+    }
+
+    /// The same for half-spaces in parts of some lengths, for instance one for each brush: `half_space` gives one from the number of its part and
+    /// its place there.
+    pub(crate) fn intern_parts<'a>(
+        lengths: impl Iterator<Item = usize>,
+        half_space: impl Fn(usize, usize) -> &'a HalfSpace + Sync,
+        size: f64,
+    ) -> (Self, Vec<PlaneId>) {
+        let sides = by_parts(lengths, |part, k| first_side(&Row::new(half_space(part, k))));
+        let (sorted, reach) = sort(&sides, size);
+        let runs = runs_apart(&sorted, CHUNK, |a, b| f64::from_bits(b.0) - f64::from_bits(a.0) > APART);
+        let settle = |run: &&[(u64, u32)]| {
+            let mut settled = Settled::default();
+            let chains = run.chunk_by(|a, b| f64::from_bits(b.0) - f64::from_bits(a.0) <= APART);
+            chains.for_each(|chain| settled.add(chain, &sides, size));
+            settled
+        };
+        let parts: Vec<Settled> = runs.par_iter().with_max_len(1).map(settle).collect();
+        let mut firsts = vec![0];
+        for part in &parts {
+            firsts.push(firsts[firsts.len() - 1] + part.planes.len());
+        }
+        let ids: Vec<AtomicU32> = sides.par_iter().with_min_len(1 << 14).map(|_| AtomicU32::new(0)).collect();
+        let by_run = || runs.par_iter().zip(&parts).zip(&firsts).with_max_len(1);
+        by_run().for_each(|((run, part), first)| {
+            for ((_, place), local) in run.iter().zip(&part.ids) {
+                ids[*place as usize].store(local.after(*first).0, Ordering::Relaxed);
+            }
+        });
+        let planes: Vec<u32> = parts.iter().flat_map(|part| &part.planes).copied().collect();
+        let number = |(id, side): (AtomicU32, &(Row, bool))| {
+            let id = PlaneId(id.into_inner());
+            if side.1 { id.flipped() } else { id }
+        };
+        let given = || (0..2 * planes.len()).into_par_iter().with_min_len(CHUNK);
+        let row = |side: usize| {
+            let row = &sides[planes[side / 2] as usize].0;
+            if side.is_multiple_of(2) { *row } else { row.flipped() }
+        };
+        let table = Self {
+            rows: given().map(row).collect(),
+            half_spaces: given().map(|side| half_space_of(&row(side))).collect(),
+            replaced: parts.iter().zip(&firsts).flat_map(|(part, first)| part.replaced(*first)).collect(),
+            reach,
+            size,
+            index: None,
+        };
+        (table, ids.into_par_iter().zip(&sides).with_min_len(CHUNK).map(number).collect())
+    }
+}
+
+impl PlaneId {
+    /// The same side of the plane that has this index after `first` others.
+    fn after(self, first: usize) -> Self {
+        self.with_index(number32(self.index() as usize + first))
+    }
+}
+
+/// The places of planes in the order of their numbers, with these, and the largest distance of any from the origin.
+fn sort(sides: &[(Row, bool)], size: f64) -> (Vec<(u64, u32)>, f64) {
+    // the part of the normal, and the distance
+    let parts = |(row, _): &(Row, bool)| {
+        let [x, y, z, d] = unit(row);
+        ([x, y, z].iter().zip(WEIGHTS).map(|(v, w)| v * w).sum::<f64>(), d)
+    };
+    let parts: Vec<(f64, f64)> = sides.par_iter().with_min_len(CHUNK).map(parts).collect();
+    let reach = parts.iter().map(|part| part.1.abs()).fold(0.0, f64::max);
+    let largest = reach.max(size).max(f64::MIN_POSITIVE);
+    // numbers that are not negative are in the order of their bits
+    let number = |(place, (normal, d)): (usize, &(f64, f64))| {
+        ((normal + d / largest * WEIGHTS[3]).abs().to_bits(), number32(place))
+    };
+    let mut sorted: Vec<(u64, u32)> = parts.par_iter().enumerate().with_min_len(CHUNK).map(number).collect();
+    sorted.par_sort_unstable();
+    (sorted, reach)
+}
+
+/// The different planes among some that follow one another.
+#[derive(Default)]
+struct Settled {
+    /// The places of those that are kept.
+    planes: Vec<u32>,
+    /// For each plane given the side of the one that stands for it, by its place among those kept.
+    ids: Vec<PlaneId>,
+    /// Those that were replaced by another one, as in [`PlaneTable`].
+    replaced: Vec<(Row, PlaneId)>,
+}
+
+impl Settled {
+    fn replaced(&self, first: usize) -> impl Iterator<Item = (Row, PlaneId)> {
+        self.replaced.iter().map(move |(row, id)| (*row, id.after(first)))
+    }
+
+    /// Adds planes that may be equal or near one another, and are near no others: exact planes first, then the others by their coefficients, each of which
+    /// is taken for one before that it is near.
+    fn add(&mut self, chain: &[(u64, u32)], sides: &[(Row, bool)], size: f64) {
+        if let [(_, only)] = chain {
+            self.ids.push(self.next());
+            self.planes.push(*only);
+            return;
+        }
+        let row = |place: u32| &sides[place as usize].0;
+        let groups = EqualPlanes::of(chain, row);
+        let mut order: Vec<usize> = (0..groups.least.len()).collect();
+        let place = |group: &usize| row(groups.least[*group]);
+        order.sort_unstable_by(|p, q| {
+            let (p, q) = (place(p), place(q));
+            is_exact(q).cmp(&is_exact(p)).then_with(|| compare_coefficients(p, q))
+        });
+        let mut ids = vec![PlaneId(0); order.len()];
+        let mut near = NearPlanes::new(size);
+        let is_alone = order.len() == 1;
+        for group in order {
+            let row = row(groups.least[group]);
+            let at = if is_alone { None } else { Some(unit(row)) };
+            let found = at.filter(|_| !is_exact(row)).and_then(|at| near.find(&at));
+            ids[group] = found.unwrap_or_else(|| {
+                let id = self.next();
+                self.planes.push(groups.least[group]);
+                at.into_iter().for_each(|at| near.insert(at, id));
+                id
+            });
+            self.replaced.extend(found.map(|id| (*row, id)));
+        }
+        self.ids.extend(groups.of_plane.iter().map(|group| ids[*group as usize]));
+    }
+
+    /// The id of the plane that is kept next.
+    fn next(&self) -> PlaneId {
+        PlaneId::new(self.planes.len(), false)
+    }
+}
+
+/// Planes that are exactly the same, among some.
+struct EqualPlanes {
+    /// Of rows of different scale the place of the least, so that the order of the input does not matter.
+    least: Vec<u32>,
+    /// The group of each plane.
+    of_plane: Vec<u32>,
+}
+
+impl EqualPlanes {
+    fn of<'a>(chain: &[(u64, u32)], row: impl Fn(u32) -> &'a Row) -> Self {
+        let mut groups = Self { least: Vec::new(), of_plane: Vec::with_capacity(chain.len()) };
+        let mut by_key: FxHashMap<Key, Vec<u32>> = FxHashMap::default();
+        let mut last: Option<(&Row, u32)> = None;
+        for (_, place) in chain {
+            let this = row(*place);
+            let known = last.filter(|(other, _)| *other == this).map(|(_, group)| group);
+            let group = known.unwrap_or_else(|| {
+                let bucket = by_key.entry(key(this)).or_default();
+                let is_same = |group: &u32| row(groups.least[*group as usize]).is_same_plane(this);
+                let same = bucket.iter().copied().find(is_same);
+                same.unwrap_or_else(|| {
+                    let group = number32(groups.least.len());
+                    groups.least.push(*place);
+                    bucket.push(group);
+                    group
+                })
+            });
+            let least = &mut groups.least[group as usize];
+            if compare_coefficients(this, row(*least)).is_lt() {
+                *least = *place;
+            }
+            groups.of_plane.push(group);
+            last = Some((this, group));
+        }
+        groups
+    }
+}
