@@ -21,6 +21,9 @@ _OPERATIONS = {"union": OpType.Add, "difference": OpType.Subtract, "intersection
 
 
 def main() -> None:
+    # as for everybody: the allocator keeps what is freed, where a block as large as this was (`keep_freed_memory` of planecut)
+    block = np.empty((32 << 20) - (1 << 16), dtype=np.uint8)
+    del block
     try:
         bodies, plan = _begun(*_read(sys.argv[1]))
     except (RuntimeError, ValueError) as error:

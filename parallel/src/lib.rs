@@ -14,6 +14,7 @@
 #![deny(missing_docs)]
 
 pub mod job;
+mod memory;
 #[cfg(not(feature = "threads"))]
 mod one_thread;
 #[cfg(feature = "threads")]
@@ -21,6 +22,7 @@ mod parts;
 #[cfg(all(feature = "threads", target_os = "linux"))]
 mod processors;
 
+pub use memory::keep_freed_memory;
 #[cfg(feature = "threads")]
 pub use parts::{in_pool, join, map_parts};
 #[cfg(feature = "threads")]

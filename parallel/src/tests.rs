@@ -124,3 +124,18 @@ fn slices_are_sorted_and_split() {
     assert_eq!(crate::join(|| 1, || "two"), (1, "two"));
     assert!(crate::current_num_threads() >= 1);
 }
+
+#[test]
+#[cfg(all(target_os = "linux", target_env = "gnu"))]
+fn freed_memory_is_kept() {
+    // pages of the process that are in memory
+    let resident = || {
+        let statm = std::fs::read_to_string("/proc/self/statm").expect("Linux tells what memory a process has");
+        statm.split(' ').nth(1).and_then(|pages| pages.parse::<usize>().ok()).expect("a number of pages")
+    };
+    crate::keep_freed_memory();
+    let (block, before) = (vec![1_u8; 24 << 20], resident());
+    drop(block);
+    // less than a quarter of the block has gone
+    assert!(resident() > before - (6 << 20) / 4096, "{} of {before} pages are left", resident());
+}

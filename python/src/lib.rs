@@ -26,6 +26,8 @@ use pyo3::prelude::*;
 #[pymodule(gil_used = false)]
 fn _planecut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     job::note_process();
+    // scripts evaluate many parts
+    planecut_csg::keep_freed_memory();
     errors::register(module)?;
     shapes::register(module)?;
     files::register(module)?;

@@ -16,7 +16,7 @@ use super::winding::Windings;
 use crate::closed_mesh::connectivity::NO_TWIN;
 use crate::ids::{HalfEdgeId, Id, InputTriangleId, InputVertexId, number32};
 use crate::mesh::{Flaw, Mesh, MeshFace, Noise, SolidMeasures, may_be_noise, prove_part, proven};
-use crate::weld::manifold::split_repeated_edges;
+use crate::weld::manifold::{repeated_edges, split_repeated_edges};
 
 /// Triangles that one thread looks at in a row.
 const CHUNK: usize = 1 << 13;
@@ -91,9 +91,11 @@ impl Arranged<'_> {
             faces: faces.par_iter().map(|face| self.mesh_face(&face.kept)).collect(),
             materials: Vec::new(),
         };
-        let side = |half_edge: u32| HalfEdgeId::from_index(half_edge as usize);
-        let mut labels = (0..number32(triangles.len())).map(|t| [0, 1, 2].map(|k| side(3 * t + k))).collect();
-        split_repeated_edges(&mut mesh, &mut labels, |piece| side(twins[piece.index()]));
+        if let Some(repeated) = repeated_edges(&mesh) {
+            let side = |half_edge: u32| HalfEdgeId::from_index(half_edge as usize);
+            let mut labels = (0..number32(triangles.len())).map(|t| [0, 1, 2].map(|k| side(3 * t + k))).collect();
+            split_repeated_edges(&mut mesh, &mut labels, repeated, |piece| side(twins[piece.index()]));
+        }
         let mut origins = inputs;
         origins.resize(mesh.positions.len(), None);
         let shared: Vec<bool> = origins.iter().map(|input| input.is_some_and(is_shared)).collect();

@@ -2,7 +2,6 @@
 
 use std::hash::Hash;
 
-use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
 use crate::base::hash_of;
@@ -22,20 +21,22 @@ pub(crate) fn kinds<I: Iterator<Item = (PlaneId, MaterialId)>>(
         faces.sort_unstable();
         faces
     };
-    let mut known: FxHashMap<u64, SmallVec<[LeafId; 2]>> = FxHashMap::default();
-    let kind = |number: LeafId| {
-        if faces(number).next().is_none() {
-            return number;
+    let is_body = |number: &LeafId| faces(*number).next().is_some();
+    let mut marked: SmallVec<[(u64, LeafId); 32]> =
+        LeafId::all(bodies).filter(is_body).map(|number| (mark(number), number)).collect();
+    marked.sort_unstable();
+    let mut kinds: Vec<LeafId> = LeafId::all(bodies).collect();
+    for alike in marked.chunk_by(|a, b| a.0 == b.0).filter(|alike| alike.len() > 1) {
+        let mut different = Vec::new();
+        for (_, number) in alike {
+            let own = sorted(*number);
+            match different.iter().find(|(_, other)| *other == own) {
+                Some((first, _)) => kinds[number.index()] = *first,
+                None => different.push((*number, own)),
+            }
         }
-        let alike = known.entry(mark(number)).or_default();
-        let equal = (!alike.is_empty()).then(|| sorted(number));
-        let first = equal.and_then(|own| alike.iter().copied().find(|other| sorted(*other) == own));
-        first.unwrap_or_else(|| {
-            alike.push(number);
-            number
-        })
-    };
-    LeafId::all(bodies).map(kind).collect()
+    }
+    kinds
 }
 
 /// A number that faces of the same planes and materials share, whatever their order.

@@ -10,6 +10,7 @@ use std::cmp::Ordering;
 
 use planecut_kernel::DVec3;
 use planecut_kernel::sign::Sign;
+use smallvec::SmallVec;
 
 use super::BoundaryEdge;
 use super::section::{Line, Piece};
@@ -21,7 +22,7 @@ use crate::plane_table::{PlaneId, PlaneTable};
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(crate) struct EdgeChange {
     /// The places of those that are no more, ascending.
-    pub(crate) removed: Vec<u32>,
+    pub(crate) removed: SmallVec<[u32; 8]>,
     /// Those that are new, sorted.
     pub(crate) added: Vec<BoundaryEdge>,
 }

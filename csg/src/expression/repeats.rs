@@ -26,8 +26,9 @@ impl Expression {
     /// For each leaf whether the tree says the same where it is 0; `kinds` gives one number to equal leaves: that of one of them.
     pub(crate) fn repeated_leaves(&self, kinds: &[LeafId]) -> Vec<bool> {
         let mut repeated = vec![false; kinds.len()];
-        let different: FxHashSet<LeafId> = kinds.iter().copied().collect();
-        if different.len() == kinds.len() {
+        let mut sorted: SmallVec<[LeafId; 32]> = kinds.into();
+        sorted.sort_unstable();
+        if sorted.windows(2).all(|pair| pair[0] != pair[1]) {
             return repeated;
         }
         let (numbers, unions) = (self.numbers(kinds), self.unions());

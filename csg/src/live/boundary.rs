@@ -9,7 +9,7 @@ use super::reach::Reach;
 use super::tree::Member;
 use crate::base::{Bounds, map_chunks};
 use crate::body::{Body, kinds};
-use crate::boundary::{EdgeChange, FaceWorker, KnownEdge, Scene, can_cover};
+use crate::boundary::{BoundaryEdge, EdgeChange, FaceWorker, KnownEdge, Scene, can_cover};
 use crate::expression::{Expression, common_polarities};
 use crate::ids::{BodyId, Id, LeafId, OperandFace, OperandId};
 use crate::weld::LiveWeld;
@@ -29,6 +29,14 @@ pub(super) struct Found {
     pub(super) changes: Vec<(OperandFace, EdgeChange)>,
     /// The faces on which edges near the change did not fit to those known elsewhere.
     unfit: Vec<OperandFace>,
+}
+
+/// What finds the boundary on faces, kept for the next edit.
+#[derive(Default)]
+pub(super) struct EmitBuffers {
+    worker: FaceWorker,
+    edges: Vec<BoundaryEdge>,
+    near_here: Vec<BodyId>,
 }
 
 /// A part of space outside of which nothing changes.
@@ -110,7 +118,8 @@ impl LiveModel {
     fn surroundings(&self, vicinity: Vicinity) -> Option<Surroundings> {
         let mut near = self.places.near(&vicinity.around);
         let few = near.by_ref().take(FEW_NEAR);
-        let bodies = few.map(|(operand, bounds)| (self.member(operand), bounds)).collect();
+        let mut bodies = Vec::with_capacity(FEW_NEAR);
+        bodies.extend(few.map(|(operand, bounds)| (self.member(operand), bounds)));
         near.next().is_none().then_some(Surroundings { around: vicinity.around, bodies })
     }
 
@@ -128,7 +137,7 @@ impl LiveModel {
         surroundings: Option<&Surroundings>,
     ) -> Vec<Found> {
         let mut place = std::mem::take(&mut self.buffers.place);
-        let mut worker = std::mem::take(&mut self.buffers.worker);
+        let mut buffers = std::mem::take(&mut self.buffers.emit);
         // what is near the faces of each body
         let mut near: SmallVec<[Member; 32]> = SmallVec::new();
         let mut groups: SmallVec<[FaceBatch; 16]> = SmallVec::new();
@@ -199,8 +208,8 @@ impl LiveModel {
         let table = &self.planes.table;
         let scene =
             Scene::of_some(table, bodies, &leaves, (&expression, polarities), &self.bodies_on_plane, &self.rank);
-        let emit = |groups: &[FaceBatch], worker: &mut FaceWorker| {
-            let (mut found, mut edges, mut near_here) = (Found::default(), Vec::new(), Vec::new());
+        let emit = |groups: &[FaceBatch], EmitBuffers { worker, edges, near_here }: &mut EmitBuffers| {
+            let mut found = Found::default();
             for FaceBatch { number, near: range, faces: of_group, way } in groups {
                 let own = place[number.index()];
                 near_here.clear();
@@ -214,12 +223,12 @@ impl LiveModel {
                     let ends = |edge| self.welded.ends(edge);
                     edges.clear();
                     if own != BodyId::NONE && !matches!(way, Way::Covered(_)) {
-                        worker.emit(&scene, entry.face, &mut edges);
+                        worker.emit(&scene, entry.face, edges);
                         edges.sort_unstable();
                     }
                     let change = match way {
-                        Way::Whole => Some(EdgeChange::between(known, &edges)),
-                        Way::Within(bounds) => EdgeChange::within(bounds, table, known, ends, &edges),
+                        Way::Whole => Some(EdgeChange::between(known, edges)),
+                        Way::Within(bounds) => EdgeChange::within(bounds, table, known, ends, edges),
                         Way::Covered(by) => match place[by.index()] {
                             by if [own, by].contains(&BodyId::NONE) => None,
                             by => worker.cover_known(&scene, by, entry.face, known, ends),
@@ -235,15 +244,15 @@ impl LiveModel {
             found
         };
         let parts = if faces.len() < FACES_FOR_THREADS {
-            vec![emit(&groups, &mut worker)]
+            vec![emit(&groups, &mut buffers)]
         } else {
             let groups: Vec<FaceBatch> = groups.into_iter().flat_map(FaceBatch::split).collect();
-            map_chunks(&groups, 1, |groups| emit(groups, &mut FaceWorker::default())).0
+            map_chunks(&groups, 1, |groups| emit(groups, &mut EmitBuffers::default())).0
         };
         for member in &members {
             place[member.operand.index()] = BodyId::NONE;
         }
-        (self.buffers.place, self.buffers.worker) = (place, worker);
+        (self.buffers.place, self.buffers.emit) = (place, buffers);
         parts
     }
 

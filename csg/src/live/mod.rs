@@ -48,7 +48,7 @@ use planecut_kernel::PlaneIdx;
 use rustc_hash::FxHashSet;
 
 use crate::body::{Body, BuiltBodies, OuterBox, ShapeBuilder};
-use crate::boundary::{BoundaryEdge, FaceWorker};
+use crate::boundary::BoundaryEdge;
 use crate::evaluate::{EvaluateError, UnboundedBrushes, check_materials, material_ranks};
 pub use crate::ids::FaceId;
 use crate::ids::{BodyFaceId, BodyId, Id, OperandFace, OperandId};
@@ -57,6 +57,7 @@ use crate::model::{Brush, Material, MaterialId, Model};
 use crate::plane_table::PlaneTable;
 use crate::weld::{LiveWeld, weld};
 use bodies::Marks;
+use boundary::EmitBuffers;
 pub use buffers::{FaceBuffers, FaceRange, ModelBuffers};
 pub use edit::{Edit, Edited};
 pub use error::EditError;
@@ -181,7 +182,7 @@ struct Buffers {
     place: Vec<BodyId>,
     /// The face on each plane of a body.
     face_on_plane: Vec<BodyFaceId>,
-    worker: FaceWorker,
+    emit: EmitBuffers,
 }
 
 impl LiveModel {

@@ -16,7 +16,7 @@ pub use measures::SolidMeasures;
 pub use noise::Noise;
 pub(crate) use noise::may_be_noise;
 use noise::without_noise;
-pub(crate) use proof::{Flaw, is_each_edge_paired, prove_part, proven};
+pub(crate) use proof::{Flaw, prove_part, proven};
 
 /// One planar, connected region of a [`Mesh`] with one material.
 #[derive(Debug, Clone, Copy, PartialEq)]

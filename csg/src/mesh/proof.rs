@@ -95,7 +95,7 @@ pub(crate) fn proven(
 }
 
 /// Whether every edge of a mesh is used once each way.
-pub(crate) fn is_each_edge_paired(mesh: &Mesh) -> bool {
+fn is_each_edge_paired(mesh: &Mesh) -> bool {
     HalfEdges::new(mesh.positions.len(), &mesh.triangles).are_all_paired()
 }
 

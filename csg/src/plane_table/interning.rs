@@ -21,7 +21,7 @@ use crate::tolerances::SNAP_TOLERANCE;
 const APART: f64 = 3.0 * SNAP_TOLERANCE;
 
 /// Least number of planes that a thread looks at in a row.
-const CHUNK: usize = 1024;
+const CHUNK: usize = 256;
 
 impl PlaneTable {
     /// Interns half-spaces; gives the table and the id of each half-space in the order given. `size` is the [`smallest_size`](super::smallest_size)

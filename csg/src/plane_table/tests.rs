@@ -90,3 +90,19 @@ fn ids_do_not_depend_on_the_order() {
     let (_, back) = PlaneTable::intern(&reversed, 0.0);
     assert!(ids.iter().eq(back.iter().rev()));
 }
+
+#[test]
+fn one_plane_far_away_does_not_hide_how_others_differ() {
+    let (s, c) = 0.3_f64.sin_cos();
+    let noise = 1.0 + 4.0 * f64::EPSILON;
+    let planes = (1..=1000).flat_map(|k| [1.0, -noise].map(|scale| plane(s, c, 0.0, f64::from(k) * scale)));
+    let given: Vec<HalfSpace> = planes.chain([plane(1.0, 2.0, 3.1, 1e20)]).collect();
+    let (table, _) = PlaneTable::intern(&given, 0.0);
+    // the planes on both sides of the origin are as many
+    assert_eq!((table.len(), table.snapped()), (2001, 0));
+    let near: Vec<HalfSpace> =
+        given.iter().map(|plane| HalfSpace::new(plane.normal(), plane.offset() * noise).expect("a plane")).collect();
+    let (table, again) = PlaneTable::intern(&[&given[..], &near].concat(), 0.0);
+    assert_eq!((table.len(), table.snapped()), (2001, 2001));
+    assert!(again[..2001] == again[2001..]);
+}

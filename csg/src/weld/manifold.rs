@@ -10,13 +10,16 @@ use planecut_parallel::prelude::*;
 use rustc_hash::FxHashSet;
 
 use super::cancel::HalfEdge;
+use crate::base::concat_owned;
 use crate::closed_mesh::connectivity::HalfEdges;
 use crate::ids::{HalfEdgeId, Id, PointId, VertexId, number32};
 use crate::mesh::Mesh;
 
+/// Number of half-edges that a thread looks at in a row.
+const CHUNK: usize = 4096;
+
 /// The vertex at the start of each half-edge; and for each vertex the point it lies on. Vertices are numbered by the first of their half-edges.
 pub(super) fn vertices(pieces: &[HalfEdge], following: &[HalfEdgeId]) -> (Vec<VertexId>, Vec<PointId>) {
-    let all = HalfEdgeId::all(pieces.len());
     // around the fan: the twin ends at the corner's point, and its follower starts there
     let around = |first: HalfEdgeId| {
         let next = move |piece: &HalfEdgeId| {
@@ -24,42 +27,49 @@ pub(super) fn vertices(pieces: &[HalfEdge], following: &[HalfEdgeId]) -> (Vec<Ve
         };
         std::iter::successors(Some(first), next)
     };
-    let is_first = |piece: usize| {
-        let piece = HalfEdgeId::from_index(piece);
-        around(piece).skip(1).all(|other| other > piece)
+    let is_first = |piece: &HalfEdgeId| around(*piece).skip(1).all(|other| other > *piece);
+    let firsts_of = |(chunk, some): (usize, &[HalfEdge])| -> Vec<HalfEdgeId> {
+        HalfEdgeId::all(some.len()).map(|piece| piece.plus(chunk * CHUNK)).filter(is_first).collect()
     };
-    let firsts: Vec<bool> = (0..pieces.len()).into_par_iter().with_min_len(4096).map(is_first).collect();
-    let firsts: Vec<HalfEdgeId> = all.zip(firsts).filter(|(_, is_first)| *is_first).map(|(piece, _)| piece).collect();
-    let vertex: Vec<AtomicU32> = pieces.par_iter().with_min_len(4096).map(|_| AtomicU32::new(0)).collect();
+    let firsts = concat_owned(pieces.par_chunks(CHUNK).enumerate().map(firsts_of).collect());
+    let vertex: Vec<AtomicU32> = pieces.par_iter().with_min_len(CHUNK).map(|_| AtomicU32::new(0)).collect();
     firsts.par_iter().enumerate().with_min_len(1024).for_each(|(number, first)| {
         let number = VertexId::from_index(number).number();
         around(*first).for_each(|piece| vertex[piece.index()].store(number, Ordering::Relaxed));
     });
     let number = |vertex: AtomicU32| VertexId::from_index(vertex.into_inner() as usize);
-    let vertex = vertex.into_par_iter().with_min_len(4096).map(number).collect();
-    (vertex, firsts.into_par_iter().with_min_len(4096).map(|first| pieces[first.index()].from).collect())
+    let vertex = vertex.into_par_iter().with_min_len(CHUNK).map(number).collect();
+    (vertex, firsts.into_par_iter().with_min_len(CHUNK).map(|first| pieces[first.index()].from).collect())
 }
 
 /// The half-edge behind each side of each triangle; [`Id::NONE`] for a diagonal.
 pub(crate) type Labels = Vec<[HalfEdgeId; 3]>;
 
 /// A side of a triangle: its number among [`HalfEdges`].
-type TriangleSide = u32;
+pub(crate) type TriangleSide = u32;
+
+/// Edges that join the same two vertices as others: of each two vertices the sides that run one way, and those that run back.
+pub(crate) type RepeatedEdges = Vec<[Vec<TriangleSide>; 2]>;
+
+/// The edges of a mesh that are there more than once; nothing where each is used once each way.
+pub(crate) fn repeated_edges(mesh: &Mesh) -> Option<RepeatedEdges> {
+    let half_edges = HalfEdges::new(mesh.positions.len(), &mesh.triangles);
+    let along = |(a, b)| [(a, b), (b, a)].map(|(a, b)| half_edges.between(a, b).collect());
+    (!half_edges.are_all_paired()).then(|| half_edges.repeated().into_iter().map(along).collect())
+}
 
 /// Splits every edge that joins the same two vertices as another one, in both of its triangles, at a midpoint, until all
-/// directed edges are unique. Gives how many were split.
+/// directed edges are unique; `repeated` are the [`repeated_edges`] to begin with. Gives how many were split.
 ///
 /// `twin` gives the half-edge that bounds the same wedge of solid.
 pub(crate) fn split_repeated_edges(
     mesh: &mut Mesh,
     labels: &mut Labels,
+    mut repeated: RepeatedEdges,
     twin: impl Fn(HalfEdgeId) -> HalfEdgeId,
 ) -> usize {
     let mut split = 0;
     loop {
-        let half_edges = HalfEdges::new(mesh.positions.len(), &mesh.triangles);
-        let along = |(a, b)| [(a, b), (b, a)].map(|(a, b)| half_edges.between(a, b).collect());
-        let repeated: Vec<[Vec<TriangleSide>; 2]> = half_edges.repeated().into_iter().map(along).collect();
         let mut touched: FxHashSet<u32> = FxHashSet::default();
         let (mut additions, mut are_left) = (Vec::new(), false);
         for sides in &repeated {
@@ -83,6 +93,7 @@ pub(crate) fn split_repeated_edges(
         if !are_left {
             return split;
         }
+        repeated = repeated_edges(mesh).unwrap_or_default();
     }
 }
 

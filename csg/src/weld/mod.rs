@@ -44,7 +44,7 @@ use thiserror::Error;
 use crate::base::{Clock, by_group, map_weighed_chunks};
 use crate::boundary::BoundaryEdge;
 use crate::ids::{EdgeId, HalfEdgeId, Id, PointId, RegionId};
-use crate::mesh::{Flaw, Mesh, Noise, SolidMeasures, is_each_edge_paired, proven};
+use crate::mesh::{Flaw, Mesh, Noise, SolidMeasures, proven};
 use crate::model::{Material, MaterialId};
 use crate::plane_table::PlaneTable;
 use cancel::{HalfEdge, Run};
@@ -168,9 +168,10 @@ pub(crate) fn weld(
     mesh.positions = point.par_iter().with_min_len(4096).map(|p| points.positions[p.index()]).collect();
     drop((point, points));
     // an edge that is there twice is not paired
-    let is_closed = is_each_edge_paired(&mesh);
-    if !is_closed {
-        manifold::split_repeated_edges(&mut mesh, &mut labels.concat(), |piece| twins[piece.index()]);
+    let repeated = manifold::repeated_edges(&mesh);
+    let is_closed = repeated.is_none();
+    if let Some(repeated) = repeated {
+        manifold::split_repeated_edges(&mut mesh, &mut labels.concat(), repeated, |piece| twins[piece.index()]);
     }
     drop((labels, twins));
     let (mesh, noise) = proven(mesh, &solid, walls, is_closed)?;
@@ -222,7 +223,7 @@ fn half_edges(
         cancel::joined(parts)
     };
     let mut by_region = ByRegion::of(&pieces, regions.planes.len());
-    regions.sort(table, &pieces, &mut by_region);
+    regions.sort(table, &mut by_region);
     let (mut sorted, pinches, counted) =
         RegionPieces::with_pinches(table, &points, &regions.planes, &pieces, &by_region);
     signs += counted;

@@ -51,13 +51,10 @@ impl Regions {
 
     /// Puts regions in an order that depends on the boundary alone, not on the bodies that it came from: by the first of
     /// their points, their planes and materials.
-    pub(super) fn sort(&mut self, table: &PlaneTable, pieces: &[HalfEdge], by_region: &mut ByRegion) {
-        let first = |region: RegionId| {
-            let points = by_region.of_region(region).iter().map(|piece| pieces[piece.index()].from);
-            (points.min().unwrap_or(PointId::NONE), region)
-        };
+    pub(super) fn sort(&mut self, table: &PlaneTable, by_region: &mut ByRegion) {
+        let first = |region: RegionId| by_region.of_region(region).first().map_or(PointId::NONE, |piece| piece.0);
         let mut order: Vec<(PointId, RegionId)> =
-            by_region.order.par_iter().with_min_len(256).map(|region| first(*region)).collect();
+            by_region.order.iter().map(|region| (first(*region), *region)).collect();
         order.par_sort_unstable();
         let further =
             |(_, region): &(PointId, RegionId)| (table.order(self.planes[region.index()]), self.ranks[region.index()]);
@@ -75,11 +72,14 @@ impl Regions {
     }
 }
 
-/// Half-edges, listed by region.
+/// Where a half-edge begins and ends, and its number.
+type PlacedPiece = (PointId, PointId, HalfEdgeId);
+
+/// Half-edges, listed by region, those of each sorted by their places.
 pub(super) struct ByRegion {
     /// Where the half-edges of each region begin in the list, and their end.
     starts: Vec<u32>,
-    members: Vec<HalfEdgeId>,
+    members: Vec<PlacedPiece>,
     /// The regions in their order. Half-edges keep the numbers that regions had before they were sorted.
     order: Vec<RegionId>,
 }
@@ -96,12 +96,24 @@ impl ByRegion {
     }
 
     fn in_order(pieces: &[HalfEdge], order: Vec<RegionId>) -> Self {
+        if pieces.is_empty() {
+            return Self { starts: vec![0; order.len() + 1], members: Vec::new(), order };
+        }
         let regions = pieces.iter().map(|piece| piece.region.index());
-        let (starts, members) = by_group(order.len(), regions, HalfEdgeId::from_index);
+        let (starts, mut members) = by_group(order.len(), regions, |number| {
+            (pieces[number].from, pieces[number].to, HalfEdgeId::from_index(number))
+        });
+        let lengths: Vec<usize> = starts.windows(2).map(|ends| (ends[1] - ends[0]) as usize).collect();
+        let runs = weighed_runs(lengths.len(), PIECES_OF_CHUNK, |region| lengths[region]);
+        let parts = split_by(&mut members, runs.iter().map(|run| lengths[run.clone()].iter().sum()));
+        let sort = |(run, part): (&Range<usize>, &mut [PlacedPiece])| {
+            split_by(part, lengths[run.clone()].iter().copied()).into_iter().for_each(<[PlacedPiece]>::sort_unstable);
+        };
+        runs.par_iter().zip(parts).with_max_len(1).for_each(sort);
         Self { starts, members, order }
     }
 
-    fn of_region(&self, region: RegionId) -> &[HalfEdgeId] {
+    fn of_region(&self, region: RegionId) -> &[PlacedPiece] {
         let region = region.index();
         &self.members[self.starts[region] as usize..self.starts[region + 1] as usize]
     }
@@ -162,11 +174,10 @@ impl RegionPieces {
         let jobs: Vec<_> = runs.iter().zip(slices).collect();
         let work = |(run, sorted): (&Range<usize>, &mut [HalfEdge])| {
             let mut finder = PinchFinder::new(table, points);
-            let (first, mut keys) = (ranges[run.start].start, Vec::new());
+            let first = ranges[run.start].start;
             for ((number, members), range) in regions[run.clone()].iter().zip(&ranges[run.clone()]) {
                 let sorted = &mut sorted[range.start - first..range.end - first];
-                sort_region(pieces, members, &mut keys);
-                for ((sorted, (.., old)), new) in sorted.iter_mut().zip(&keys).zip(range.clone()) {
+                for ((sorted, (.., old)), new) in sorted.iter_mut().zip(*members).zip(range.clone()) {
                     *sorted = HalfEdge { region: *number, ..pieces[old.index()] };
                     place[old.index()].store(HalfEdgeId::from_index(new).number(), Ordering::Relaxed);
                 }
@@ -189,14 +200,4 @@ impl RegionPieces {
         pinches.dedup();
         (Self { pieces: sorted, ranges }, pinches, counts)
     }
-}
-
-/// Sorts the half-edges of a region by their places.
-fn sort_region(pieces: &[HalfEdge], members: &[HalfEdgeId], keys: &mut Vec<(PointId, PointId, HalfEdgeId)>) {
-    keys.clear();
-    keys.extend(members.iter().map(|number| {
-        let HalfEdge { from, to, .. } = pieces[number.index()];
-        (from, to, *number)
-    }));
-    keys.sort_unstable();
 }

@@ -33,6 +33,8 @@ pub(crate) fn serve(name: &str, scene: &Path) -> Result<(), String> {
 }
 
 fn answer(name: &str, file: &Path) {
+    // for everybody alike: processes that are run again and again
+    planecut_csg::keep_freed_memory();
     let prepared = caught(|| {
         let scene = Scene::read(file).map_err(|error| error.to_string())?;
         prepare(name, scene, file)

@@ -97,7 +97,7 @@ impl LiveTree {
     pub(in crate::live) fn near(&self, members: &mut Vec<Member>, role: impl Fn(&Member) -> Role) -> Vec<TreeNode> {
         let is_near = |key: &OrderKey| members.binary_search_by(|member| member.at.top.cmp(key)).is_ok();
         let far = self.barriers.iter().rev().find(|(key, _)| !is_near(key));
-        let mut sequence = Sequence::default();
+        let mut sequence = Sequence { nodes: Vec::with_capacity(members.len() + 4), ..Sequence::default() };
         if let Some((key, is_full)) = far {
             members.retain(|member| member.at.top > *key);
             sequence = Sequence::of_constant(*is_full);

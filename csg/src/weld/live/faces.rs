@@ -28,6 +28,7 @@ pub(super) struct Faces {
     removed: Vec<FaceId>,
     added: Vec<FaceId>,
     buffers: TriangulatorBuffers,
+    changed_regions: Vec<RegionId>,
 }
 
 #[derive(Clone)]
@@ -109,9 +110,12 @@ impl Faces {
         pieces: &mut Pieces,
     ) -> Result<(), WeldError> {
         let mut changes: FxHashMap<FaceId, EdgeChanges> = FxHashMap::default();
-        for number in regions.take_changed() {
+        let mut changed = std::mem::take(&mut self.changed_regions);
+        regions.take_changed(&mut changed);
+        for &number in &changed {
             self.update_region(context, number, regions.get_mut(number), pieces, &mut changes)?;
         }
+        self.changed_regions = changed;
         self.triangulate(context, pieces, |face| Changed::Edges(changes.remove(&face).unwrap_or_default()));
         Ok(())
     }
@@ -151,6 +155,7 @@ impl Faces {
             let gone = self.loops.take(pieces, broken);
             left.touch(gone.face);
             left.pieces.extend(gone.pieces.iter().map(|piece| (*piece, gone.face)));
+            self.loops.keep(gone.pieces);
         }
         let plane = context.plane(number);
         let mut new = SomeLoops::new();

@@ -17,7 +17,12 @@ use crate::weld::nest::{Extent, LoopOf, RegionPlane};
 pub(super) struct Loops {
     loops: Vec<Loop>,
     free: Vec<LoopId>,
+    /// Lists of half-edges of loops that are gone, empty, for new ones.
+    spare: Vec<Vec<HalfEdgeId>>,
 }
+
+/// Number of lists that are kept for new loops, and of half-edges up to which one is.
+const SPARE: [usize; 2] = [64, 64];
 
 /// A loop around a face, or around a hole of it.
 #[derive(Clone)]
@@ -101,6 +106,15 @@ impl Loops {
         gone
     }
 
+    /// Keeps the list of half-edges of a loop that is gone, for a new one.
+    pub(super) fn keep(&mut self, mut pieces: Vec<HalfEdgeId>) {
+        let [lists, pieces_of_list] = SPARE;
+        if self.spare.len() < lists && pieces.capacity() <= pieces_of_list {
+            pieces.clear();
+            self.spare.push(pieces);
+        }
+    }
+
     /// Makes the loop of a half-edge that is in none.
     pub(super) fn walk(
         &mut self,
@@ -109,7 +123,7 @@ impl Loops {
         pieces: &mut Pieces,
         start: HalfEdgeId,
     ) -> LoopId {
-        let mut members = Vec::new();
+        let mut members = self.spare.pop().unwrap_or_default();
         let mut piece = start;
         loop {
             members.push(piece);

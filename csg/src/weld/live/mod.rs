@@ -24,6 +24,7 @@ mod welded_face;
 
 use planecut_kernel::DVec3;
 use rustc_hash::FxHashMap;
+use smallvec::SmallVec;
 
 use super::WeldError;
 use super::cancel::Run;
@@ -88,7 +89,7 @@ struct State {
 #[derive(Clone, Default)]
 struct Crossings {
     /// For each region and point the lines that pass it.
-    passing: FxHashMap<PointOfRegion, Vec<LineId>>,
+    passing: FxHashMap<PointOfRegion, SmallVec<[LineId; 2]>>,
     /// How many lines there are in which faces cross.
     lines: usize,
 }

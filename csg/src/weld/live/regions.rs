@@ -126,8 +126,10 @@ impl Regions {
         self.regions.get(region.index()).map_or(&[], |region| &region.faces)
     }
 
-    pub(super) fn take_changed(&mut self) -> Vec<RegionId> {
-        std::mem::take(&mut self.changed)
+    /// Those that changed since this was last called, in the place of what is listed there.
+    pub(super) fn take_changed(&mut self, changed: &mut Vec<RegionId>) {
+        changed.clear();
+        std::mem::swap(&mut self.changed, changed);
     }
 
     /// The region of a half-edge that comes or goes.
