@@ -304,21 +304,21 @@ impl Line {
             let head = piece.start_side(table, self, cover.start) == Sign::Positive;
             let tail = piece.end_side(table, self, cover.end) == Sign::Positive;
             let before =
-                Piece { end: cover.start.flipped(), end_point: self.turned(table, cover.start, true), ..piece };
+                || Piece { end: cover.start.flipped(), end_point: self.turned(table, cover.start, true), ..piece };
             let after =
-                Piece { start: cover.end.flipped(), start_point: self.turned(table, cover.end, false), ..piece };
+                || Piece { start: cover.end.flipped(), start_point: self.turned(table, cover.end, false), ..piece };
             match (head, tail) {
                 (true, true) => {
-                    pieces[k] = before;
-                    pieces.push(after);
+                    pieces[k] = before();
+                    pieces.push(after());
                     k += 1;
                 }
                 (true, false) => {
-                    pieces[k] = before;
+                    pieces[k] = before();
                     k += 1;
                 }
                 (false, true) => {
-                    pieces[k] = after;
+                    pieces[k] = after();
                     k += 1;
                 }
                 (false, false) => {
