@@ -6,9 +6,9 @@
 use super::infinity::is_infinity;
 use super::redundant::Orphan;
 use super::remove::RingEdge;
-use super::store::{BEFORE, Link, NEXT, NONE, PlaneState, PlaneStore};
+use super::store::{BEFORE, Link, NEXT, NONE, PlaneState};
 use super::{IncrementalPolytope, VertexIdx};
-use crate::sign::{Corner, Homogeneous, OffsetColumn, Probe, cross};
+use crate::sign::{Corner, FaceCorners, Homogeneous, OffsetColumn, Probe, Row};
 
 impl IncrementalPolytope {
     /// Collects all vertices outside `plane` into the scratch, beginning with `top`, and the ring around them, counter-clockwise;
@@ -28,16 +28,15 @@ impl IncrementalPolytope {
             let end = vertices.other_end(edge);
             let vertex = end.vertex();
             if !vertices.is_visited(vertex) {
-                let point = vertices.point(vertex);
-                if planes.is_outside(probe, plane, vertices.planes(vertex), point) {
+                let (meeting, point) = vertices.planes_and_point(vertex);
+                if planes.is_outside(probe, plane, meeting, point) {
                     vertices.set_visited(vertex);
                     cut.push(vertex);
                     waiting.push(Link::new(vertex, BEFORE[end.index()]));
                     edge = Link::new(vertex, NEXT[end.index()]);
                     continue;
                 }
-                let plane = vertices.planes(edge.vertex())[NEXT[edge.index()]];
-                horizon.push(RingEdge { plane, end });
+                horizon.push(RingEdge { plane: vertices.plane_after(edge), end });
             }
             match waiting.pop() {
                 Some(next) => edge = next,
@@ -72,34 +71,28 @@ impl IncrementalPolytope {
     /// Makes the vertices of the face of `plane`, one on each edge of the ring, in the slots claimed from `first` on.
     fn make_face(&mut self, plane: u32, first: usize) {
         let fresh = &self.change.created[first..];
-        let horizon = &self.scratch.horizon[..fresh.len()];
-        let planes = &self.planes;
+        let horizon = self.scratch.horizon.as_slice();
+        let mut planes = self.planes.slots_mut();
         let mut vertices = self.vertices.slots_mut();
-        let n = planes.row(plane);
-        // Where the edge on p and q meets the plane; q is p for the next.
-        let RingEdge { plane: mut p, end: mut kept } = horizon[0];
-        let mut row_p = planes.row(p);
-        let mut n_p = cross(n, row_p);
-        let mut previous = fresh[fresh.len() - 1].0;
-        let mut slot = fresh[0].0;
-        for at in 1..=fresh.len() {
-            let at = if at == fresh.len() { 0 } else { at };
-            let (RingEdge { plane: q, end: kept_next }, VertexIdx(following)) = (horizon[at], fresh[at]);
-            let row_q = planes.row(q);
-            let n_q = cross(n, row_q);
+        let (&[.., RingEdge { plane: mut p, end: mut kept }], &[.., VertexIdx(mut previous), VertexIdx(mut slot)]) =
+            (horizon, fresh)
+        else {
+            unreachable!("a ring has three edges and more");
+        };
+        let mut corners = FaceCorners::begin(planes.row(plane), planes.row(p));
+        // on the edge of each plane of the ring with the one before
+        for (&RingEdge { plane: q, end }, &VertexIdx(following)) in horizon.iter().zip(fresh) {
+            let point = corners.next(planes.row(q));
             let links = [kept, Link::new(following, 2), Link::new(previous, 1)];
             if is_infinity(p.min(q).min(plane)) {
-                vertices.put(slot, [plane, p, q], links, ideal_point(planes, [plane, p, q]));
+                vertices.put(slot, [plane, p, q], links, ideal_point([plane, p, q].map(|plane| planes.row(plane))));
             } else {
-                let point = Homogeneous::corner(n, [row_p, row_q], &n_p, &n_q);
-                vertices.put(slot, [plane, p, q], links, Corner::new(&point, OffsetColumn::Finite));
+                vertices.put(slot, [plane, p, q], links, point);
             }
             vertices.set_other_end(kept, Link::new(slot, 0));
-            (p, kept, row_p, n_p) = (q, kept_next, row_q, n_q);
+            planes.set_face(q, following);
+            (p, kept) = (q, end);
             (previous, slot) = (slot, following);
-        }
-        for (edge, &VertexIdx(slot)) in horizon.iter().zip(fresh) {
-            self.planes.set_face(edge.plane, slot);
         }
     }
 
@@ -120,7 +113,6 @@ impl IncrementalPolytope {
 
 #[cold]
 #[inline(never)]
-fn ideal_point(planes: &PlaneStore, meeting: [u32; 3]) -> Corner {
-    let [a, b, c] = meeting.map(|plane| planes.row(plane));
+fn ideal_point([a, b, c]: [&Row; 3]) -> Corner {
     Corner::new(&Homogeneous::quick(a, b, c, OffsetColumn::Infinite), OffsetColumn::Infinite)
 }

@@ -31,7 +31,7 @@ impl IncrementalPolytope {
     /// The same where the probe of the plane is at hand.
     #[inline(always)]
     pub(super) fn violates(&self, vertex: u32, plane: u32, probe: &Probe) -> bool {
-        let (planes, point) = (self.vertices.planes(vertex), self.vertices.point(vertex));
+        let (planes, point) = self.vertices.planes_and_point(vertex);
         self.planes.is_outside(probe, plane, planes, point)
     }
 
@@ -39,7 +39,7 @@ impl IncrementalPolytope {
     #[inline]
     pub(super) fn is_point_outside(&self, planes: [u32; 3], point: &Corner, plane: u32) -> bool {
         let probe = Probe::new(self.row(plane), OffsetColumn::Finite);
-        self.planes.is_outside(&probe, plane, planes, point)
+        self.planes.is_outside(&probe, plane, &planes, point)
     }
 
     /// Whether four planes meet in one point exactly (or in one ideal point along one line).
@@ -54,10 +54,11 @@ impl IncrementalPolytope {
 }
 
 impl PlaneStore {
-    /// Whether the meeting point of `planes` violates `plane`; `probe` is made from its row for the finite column.
+    /// Whether the meeting point of `planes` violates `plane`; `probe` is made from its row for the finite column, where it tells nothing of
+    /// an infinity plane.
     #[inline(always)]
-    pub(super) fn is_outside(&self, probe: &Probe, plane: u32, planes: [u32; 3], point: &Corner) -> bool {
-        if !point.is_ideal() && !is_infinity(plane) {
+    pub(super) fn is_outside(&self, probe: &Probe, plane: u32, planes: &[u32; 3], point: &Corner) -> bool {
+        if !point.is_ideal() {
             match probe.certain_side(point) {
                 Sign::Positive => return true,
                 Sign::Negative => return false,
@@ -70,7 +71,8 @@ impl PlaneStore {
     /// The same where an infinity plane takes part or the quick filter could not tell.
     #[cold]
     #[inline(never)]
-    fn decide_outside(&self, planes: [u32; 3], point: &Corner, plane: u32) -> bool {
+    fn decide_outside(&self, planes: &[u32; 3], point: &Corner, plane: u32) -> bool {
+        let planes = *planes;
         let column = leading_column(planes);
         if column == OffsetColumn::Finite && is_infinity(plane) {
             return false;

@@ -243,18 +243,6 @@ impl Homogeneous {
         Self { value, permanent: [reach, reach, reach, 6.0 * (ma * mb * mc)] }
     }
 
-    /// The same for finite planes `n`, `p` and `q`, where `n×p` and `n×q` are known.
-    #[inline(always)]
-    pub(crate) fn corner(n: &Row, [p, q]: [&Row; 2], np: &[f64; 3], nq: &[f64; 3]) -> Self {
-        let [mn, mp, mq] = [n.magnitude(), p.magnitude(), q.magnitude()];
-        let [dn, dp, dq] = [n.coefficients()[3], p.coefficients()[3], q.coefficients()[3]];
-        let pq = cross(p, q);
-        let coordinate = |k: usize| dn * pq[k] - dp * nq[k] + dq * np[k];
-        let value = [coordinate(0), coordinate(1), coordinate(2), dot(&pq, n)];
-        let reach = 2.0 * (dn.abs() * (mp * mq) + dp.abs() * (mq * mn) + dq.abs() * (mn * mp));
-        Self { value, permanent: [reach, reach, reach, 6.0 * (mn * mp * mq)] }
-    }
-
     /// The sign of `n_h·(X, Y, Z) − d_h·W`; `rows` are the planes that this was made from, in the same order.
     #[inline]
     pub(crate) fn side(&self, rows: [&Row; 3], h: &Row, column: OffsetColumn) -> Sign {

@@ -1,7 +1,7 @@
 //! The side of a plane on which a kept corner lies, as far as floating point tells: one plane, many corners.
 
 use super::filter::DET4_BOUND;
-use super::{Homogeneous, OffsetColumn, Row, Sign, counts};
+use super::{Homogeneous, OffsetColumn, Row, Sign, counts, cross};
 
 /// The sign bit of an `f64`, which no permanent uses.
 const SIGN: u64 = 1 << 63;
@@ -19,13 +19,19 @@ impl Corner {
     /// What a free slot holds.
     pub(crate) const NOWHERE: Self = Self { value: [0.0; 4], permanents: 0 };
 
-    /// Keeps a point that was made for a column by [`Homogeneous::quick`] or [`Homogeneous::corner`].
+    /// Keeps a point that was made for a column by [`Homogeneous::quick`].
     #[inline(always)]
     pub(crate) fn new(point: &Homogeneous, column: OffsetColumn) -> Self {
-        // the lower half of what is rounded up is less than one unit of the upper half
-        let [reach, weight] = [point.permanent[0], point.permanent[3]].map(|v| (v.to_bits() >> 32) + 1);
         let sign = if column == OffsetColumn::Infinite { SIGN } else { 0 };
-        Self { value: point.value, permanents: sign | reach << 32 | weight }
+        Self::keep(point.value, [point.permanent[0], point.permanent[3]], sign)
+    }
+
+    #[inline(always)]
+    fn keep(value: [f64; 4], permanents: [f64; 2], sign: u64) -> Self {
+        // the lower half of what is rounded up is less than one unit of the upper half
+        const ONE_EACH: u64 = 1 << 32 | 1;
+        let [reach, weight] = permanents.map(f64::to_bits);
+        Self { value, permanents: sign | ((reach & !0 << 32 | weight >> 32) + ONE_EACH) }
     }
 
     /// Whether this is the part in `M`, of a point on an infinity plane.
@@ -56,6 +62,55 @@ impl Corner {
     }
 }
 
+/// The corners of a face, one after the other around it: where its plane meets a plane of the ring and the next one. What
+/// two corners share is computed once.
+pub(crate) struct FaceCorners<'a> {
+    n: &'a Row,
+    /// The plane of the ring before.
+    p: &'a Row,
+    /// `n×p`.
+    n_p: [f64; 3],
+    magnitude_p: f64,
+    /// The magnitude of the offset of `p` times twice that of `n`.
+    reach_p: f64,
+    /// Twice the magnitudes of the offset and the normal of `n`: each minor has two products.
+    twice: [f64; 2],
+}
+
+impl<'a> FaceCorners<'a> {
+    /// Begins with a plane of the ring.
+    #[inline(always)]
+    pub(crate) fn begin(n: &'a Row, p: &'a Row) -> Self {
+        let twice = [2.0 * n.coefficients()[3].abs(), 2.0 * n.magnitude()];
+        Self {
+            n,
+            p,
+            n_p: cross(n, p),
+            magnitude_p: p.magnitude(),
+            reach_p: twice[1] * p.coefficients()[3].abs(),
+            twice,
+        }
+    }
+
+    /// The corner between the plane of the ring before and this one, as [`Homogeneous::quick`] has it; all planes must be finite.
+    #[inline(always)]
+    pub(crate) fn next(&mut self, q: &'a Row) -> Corner {
+        let (n, p) = (self.n.coefficients(), self.p.coefficients());
+        let (n_q, p_q) = (cross(self.n, q), cross(self.p, q));
+        let [dn, dp, dq] = [n[3], p[3], q.coefficients()[3]];
+        let coordinate = |k: usize| dn * p_q[k] - dp * n_q[k] + dq * self.n_p[k];
+        let value = [coordinate(0), coordinate(1), coordinate(2), p_q[0] * n[0] + p_q[1] * n[1] + p_q[2] * n[2]];
+        let magnitude_q = q.magnitude();
+        let [twice_offset, twice_magnitude] = self.twice;
+        let reach_q = twice_magnitude * dq.abs();
+        let magnitudes = self.magnitude_p * magnitude_q;
+        let reach = twice_offset * magnitudes + (self.reach_p * magnitude_q + reach_q * self.magnitude_p);
+        let weight = 3.0 * twice_magnitude * magnitudes;
+        (self.p, self.n_p, self.magnitude_p, self.reach_p) = (q, n_q, magnitude_q, reach_q);
+        Corner::keep(value, [reach, weight], 0)
+    }
+}
+
 /// A plane that many points are held against.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Probe {
@@ -66,12 +121,16 @@ pub(crate) struct Probe {
 }
 
 impl Probe {
-    /// A plane with its offset in one column.
+    /// A plane with its offset in one column; nothing is certain of an infinity plane in the finite column, where the other one
+    /// decides first.
     #[inline(always)]
     pub(crate) fn new(plane: &Row, column: OffsetColumn) -> Self {
         let [x, y, z, _] = *plane.coefficients();
         let offset = column.of(plane);
-        let bounds = [DET4_BOUND * (x.abs() + y.abs() + z.abs()), DET4_BOUND * offset.abs()];
+        let mut bounds = [DET4_BOUND * (x.abs() + y.abs() + z.abs()), DET4_BOUND * offset.abs()];
+        if column == OffsetColumn::Finite && plane.is_at_infinity() {
+            bounds = [f64::INFINITY; 2];
+        }
         Self { normal: [x, y, z], offset, bounds }
     }
 

@@ -88,7 +88,7 @@ impl PlaneStore {
     }
 
     /// Stores a plane with the next stamp; it is uncertified.
-    #[inline]
+    #[inline(always)]
     pub(in crate::polytope) fn insert(&mut self, half_space: HalfSpace, row: Row) -> u32 {
         let stamp = self.next_stamp;
         self.next_stamp += 1;
@@ -96,7 +96,7 @@ impl PlaneStore {
     }
 
     /// Stores a plane with a stamp of the caller's.
-    #[inline]
+    #[inline(always)]
     pub(in crate::polytope) fn insert_with_stamp(&mut self, half_space: HalfSpace, row: Row, stamp: u64) -> u32 {
         let state = PlaneState::Uncertified;
         let record =
@@ -246,6 +246,12 @@ impl PlaneStore {
         *face = [vertex, face[0]];
     }
 
+    /// The planes by slot, for a loop that makes many vertices.
+    #[inline(always)]
+    pub(in crate::polytope) fn slots_mut(&mut self) -> PlaneSlots<'_> {
+        PlaneSlots { records: &self.records, faces: &mut self.faces }
+    }
+
     /// The plane has a face, and these are two of its vertices; the first is the one that counts.
     #[inline]
     pub(in crate::polytope) fn set_new_face(&mut self, plane: u32, vertices: [u32; 2]) {
@@ -296,5 +302,25 @@ impl PlaneStore {
     #[inline]
     pub(in crate::polytope) fn set_mark(&mut self, plane: u32, mark: u32) {
         self.records[plane as usize].mark = mark;
+    }
+}
+
+/// The planes of a store by slot: a loop over these keeps them at hand.
+pub(in crate::polytope) struct PlaneSlots<'a> {
+    records: &'a [PlaneRecord],
+    faces: &'a mut [[u32; 2]],
+}
+
+impl<'a> PlaneSlots<'a> {
+    #[inline(always)]
+    pub(in crate::polytope) fn row(&self, plane: u32) -> &'a Row {
+        &self.records[plane as usize].row
+    }
+
+    /// The plane has a face, and `vertex` is one of its vertices.
+    #[inline(always)]
+    pub(in crate::polytope) fn set_face(&mut self, plane: u32, vertex: u32) {
+        let face = &mut self.faces[plane as usize];
+        *face = [vertex, face[0]];
     }
 }

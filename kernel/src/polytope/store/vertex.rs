@@ -214,6 +214,13 @@ impl VertexStore {
         &self.records[slot as usize].point
     }
 
+    /// The three planes of a vertex and its position.
+    #[inline(always)]
+    pub(in crate::polytope) fn planes_and_point(&self, slot: u32) -> (&[u32; 3], &Corner) {
+        let VertexRecord { planes, point, .. } = &self.records[slot as usize];
+        (planes, point)
+    }
+
     /// Whether an infinity plane takes part in a vertex.
     #[inline]
     pub(in crate::polytope) fn is_ideal(&self, slot: u32) -> bool {
@@ -352,10 +359,10 @@ pub(in crate::polytope) struct VertexSlots<'a> {
 }
 
 impl VertexSlots<'_> {
-    /// The three planes of a vertex, counter-clockwise seen from outside.
+    /// The plane of the vertex after the one that the edge at an end does not lie on.
     #[inline(always)]
-    pub(in crate::polytope) fn planes(&self, slot: u32) -> [u32; 3] {
-        self.records[slot as usize].planes
+    pub(in crate::polytope) fn plane_after(&self, end: Link) -> u32 {
+        self.records[end.vertex() as usize].planes[NEXT[end.index()]]
     }
 
     /// The other end of an edge.
@@ -364,9 +371,11 @@ impl VertexSlots<'_> {
         self.records[end.vertex() as usize].links[end.index()]
     }
 
+    /// The three planes of a vertex and its position.
     #[inline(always)]
-    pub(in crate::polytope) fn point(&self, slot: u32) -> &Corner {
-        &self.records[slot as usize].point
+    pub(in crate::polytope) fn planes_and_point(&self, slot: u32) -> (&[u32; 3], &Corner) {
+        let VertexRecord { planes, point, .. } = &self.records[slot as usize];
+        (planes, point)
     }
 
     /// Whether the current visit came to a vertex.
