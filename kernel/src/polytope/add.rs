@@ -1,6 +1,6 @@
 //! Adding a plane: climb to the extreme vertex, cut what it violates, close the hole with the new face.
 
-use super::store::{Change, PlaneState, Steps};
+use super::store::{Change, Farthest, PlaneState, Steps};
 use super::{AddPlaneResult, IncrementalPolytope, VertexIdx, external};
 use crate::half_space::HalfSpace;
 use crate::sign::{OffsetColumn, Probe, Row};
@@ -29,7 +29,8 @@ impl IncrementalPolytope {
     ///
     /// Cost: a short climb, from where one in about this direction ended before, then proportional to the vertices cut away.
     pub fn add_plane(&mut self, half_space: HalfSpace) -> AddPlaneResult<'_> {
-        let slot = self.planes.insert(half_space, Row::new(&half_space));
+        let row = Row::new(&half_space);
+        let slot = self.planes.insert(half_space, row);
         let plane = external(slot);
         if self.is_empty() {
             self.planes.set_without_face(slot, PlaneState::Pending);
@@ -37,7 +38,13 @@ impl IncrementalPolytope {
             return AddPlaneResult::Empty { plane };
         }
         self.begin_change(Steps::One);
-        match self.insert_into_structure(slot) {
+        let farthest = self.vertices.seemingly_farthest(&row);
+        if let Some(Farthest { vertex, is_certain: true, is_inside: true }) = farthest {
+            self.grow_starts();
+            self.hide(slot, &row, vertex);
+            return AddPlaneResult::Redundant { plane };
+        }
+        match self.insert_with_farthest(slot, &row, farthest) {
             Insertion::Cut => {
                 let Change { removed, created, .. } = &self.change;
                 AddPlaneResult::Added { plane, removed_vertices: removed, new_vertices: created }
@@ -52,26 +59,30 @@ impl IncrementalPolytope {
 
     /// Lets a stored plane take part; it must carry no certificate.
     pub(super) fn insert_into_structure(&mut self, plane: u32) -> Insertion {
-        self.grow_starts();
         let row = *self.row(plane);
-        let probe = Probe::new(&row, OffsetColumn::Finite);
-        let mut known_top = None;
-        if self.vertices.are_places_known() {
-            known_top = self.certain_top(&row);
-            if let Some(top) = known_top
-                && !self.violates(top, plane, &probe)
-            {
-                return self.hide(plane, &row, top);
-            }
+        let farthest = self.vertices.seemingly_farthest(&row);
+        self.insert_with_farthest(plane, &row, farthest)
+    }
+
+    /// The same; `farthest` is what the places of the vertices tell, where they are known.
+    #[inline(never)]
+    fn insert_with_farthest(&mut self, plane: u32, row: &Row, farthest: Option<Farthest>) -> Insertion {
+        self.grow_starts();
+        let probe = Probe::new(row, OffsetColumn::Finite);
+        let known_top = farthest.and_then(|farthest| self.certain_top(row, farthest));
+        if let Some(top) = known_top
+            && !self.violates(top, plane, &probe)
+        {
+            return self.hide(plane, row, top);
         }
-        let start = self.start(&row);
+        let start = self.start(row);
         let mut top = start;
         // a vertex that is cut away is as good a beginning as the extreme one
         if !self.violates(start, plane, &probe) {
-            top = known_top.unwrap_or_else(|| self.climb(&row, start));
+            top = known_top.unwrap_or_else(|| self.climb(row, start));
             if top == start || !self.violates(top, plane, &probe) {
                 self.note_climb();
-                return self.hide(plane, &row, top);
+                return self.hide(plane, row, top);
             }
         }
         self.scratch.climbs = self.scratch.climbs.min(0);
@@ -79,7 +90,7 @@ impl IncrementalPolytope {
             return Insertion::Empty;
         }
         let face_vertex = self.cut_away(plane);
-        self.note_start(&row, plane, face_vertex);
+        self.note_start(row, plane, face_vertex);
         Insertion::Cut
     }
 

@@ -1,7 +1,7 @@
 //! The vertex that is extreme in a direction, by climbing along edges.
 
 use super::IncrementalPolytope;
-use super::store::{BEFORE, NEXT};
+use super::store::{BEFORE, Farthest, NEXT};
 use crate::sign::{Ascent, Row, Sign, Slope, orient3};
 
 /// Indices counted on from any of the three.
@@ -27,13 +27,17 @@ impl IncrementalPolytope {
         }
     }
 
-    /// The vertex at which `normal·x` is largest, where the places of the vertices are known and only one vertex is the best for
-    /// certain. A climb ends there, wherever it begins.
+    /// The vertex at which `normal·x` is largest, where only one is the best for certain: the one that seems to be, or where a climb from there
+    /// ends. Any climb ends there, wherever it begins.
     #[inline(always)]
-    pub(super) fn certain_top(&self, normal: &Row) -> Option<u32> {
-        let seemingly = self.vertices.seemingly_farthest(normal.coefficients())?;
+    pub(super) fn certain_top(&self, normal: &Row, farthest: Farthest) -> Option<u32> {
+        let seemingly = farthest.vertex;
         let rows = self.vertices.planes(seemingly).map(|plane| self.row(plane));
-        if Ascent::is_top(normal, rows) { Some(seemingly) } else { self.climb_quickly(normal, seemingly).ok() }
+        if farthest.is_certain || Ascent::is_top(normal, rows) {
+            Some(seemingly)
+        } else {
+            self.climb_quickly(normal, seemingly).ok()
+        }
     }
 
     /// Climbs while the filter decides; else the vertex at which it does not.

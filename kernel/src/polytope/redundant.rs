@@ -89,7 +89,7 @@ impl Certificates {
     }
 
     /// Stores a certificate that is in no list yet.
-    #[inline]
+    #[inline(always)]
     fn insert(&mut self, planes: &mut PlaneStore, plane: u32, certifiers: [u32; 3]) {
         let entry = Certificate { plane, certifiers, next: [UNLISTED; 3], previous: [NONE; 3] };
         let number = if let Some(number) = self.free.pop() {

@@ -48,6 +48,17 @@ impl Corner {
         [x * scale, y * scale, z * scale]
     }
 
+    /// Bounds for how far off [`place`](Self::place) is before it is rounded: one for a point near the origin, and what each unit of its
+    /// distance from the origin, along the axis where it is largest, adds.
+    ///
+    /// With errors `x` and `w` of `X` and `W`, the point is `t = (X + x) / (W + w)`, so that `t − X/W = (x − t·w) / W`. Each error is less
+    /// than the bound for a side, which has a product and three sums more. Where `W` may be zero, the second is not less than one.
+    #[inline(always)]
+    pub(crate) fn place_errors(&self) -> [f64; 2] {
+        let scale = DET4_BOUND * (1.0 / self.value[3]).abs();
+        self.permanents().map(|permanent| permanent * scale)
+    }
+
     /// At least the permanents of the coordinates and of `W`, and hardly more.
     #[inline(always)]
     fn permanents(&self) -> [f64; 2] {

@@ -81,6 +81,12 @@ impl Row {
         f64::from(self.magnitude)
     }
 
+    /// The same in single precision.
+    #[inline(always)]
+    pub(crate) fn magnitude_f32(&self) -> f32 {
+        self.magnitude
+    }
+
     /// The scaled coefficients `[nx, ny, nz, d]`.
     #[inline]
     #[must_use]

@@ -8,8 +8,9 @@ mod plane;
 mod vertex;
 
 pub(super) use crate::sign::{BEFORE, NEXT};
+pub(super) use places::Farthest;
 pub(super) use plane::{Leaving, PlaneState, PlaneStore};
-pub(super) use vertex::{Link, Steps, VertexStore};
+pub(super) use vertex::{Link, VertexStore};
 
 use super::VertexIdx;
 
@@ -22,4 +23,14 @@ pub(super) struct Change {
     pub(super) removed: Vec<VertexIdx>,
     pub(super) created: Vec<VertexIdx>,
     pub(super) moved: Vec<VertexIdx>,
+}
+
+/// Whether an operation can take away vertices that it made itself.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Steps {
+    /// It cannot.
+    #[default]
+    One,
+    /// It can: new vertices are marked until it ends.
+    Several,
 }

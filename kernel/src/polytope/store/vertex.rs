@@ -1,9 +1,9 @@
 //! Vertices by slot, and the edges between them.
 
-use super::places::Places;
-use super::{NEXT, NONE};
+use super::places::{Farthest, Places};
+use super::{NEXT, NONE, Steps};
 use crate::polytope::VertexIdx;
-use crate::sign::Corner;
+use crate::sign::{Corner, Row};
 
 /// One end of an edge: a vertex and the index at which the edge leaves it, which is that of the plane the edge does not
 /// lie on.
@@ -48,16 +48,6 @@ impl VertexRecord {
 const FRESH: u8 = 1;
 /// Mark of a vertex that the current visit came to.
 const VISITED: u8 = 2;
-
-/// Whether an operation can take away vertices that it made itself.
-#[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
-pub(in crate::polytope) enum Steps {
-    /// It cannot.
-    #[default]
-    One,
-    /// It can: new vertices are marked until it ends.
-    Several,
-}
 
 /// Vertices by slot.
 #[derive(Debug, Default)]
@@ -313,10 +303,11 @@ impl VertexStore {
         self.places.forget();
     }
 
-    /// The vertex that seems to be farthest in a direction; `None` where the places are not known.
+    /// The vertex that seems to be farthest in the direction of a plane, and what is known of it; `None` where the places are not
+    /// known.
     #[inline(always)]
-    pub(in crate::polytope) fn seemingly_farthest(&self, direction: &[f64; 4]) -> Option<u32> {
-        self.places.farthest(direction)
+    pub(in crate::polytope) fn seemingly_farthest(&self, plane: &Row) -> Option<Farthest> {
+        self.places.farthest(plane)
     }
 
     /// At which index of a vertex a plane stands.
