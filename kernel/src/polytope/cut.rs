@@ -56,9 +56,10 @@ impl IncrementalPolytope {
         self.vertices.claim(self.scratch.horizon.len(), &mut self.change.created);
         self.make_face(plane, first);
         let cut = std::mem::take(&mut self.scratch.cut);
-        // A connected part of `cut` vertices without a face in it has `cut + 2` edges that leave it (Euler).
-        if self.scratch.horizon.len() != cut.len() + 2 {
-            self.hide_orphans(plane, &cut);
+        // A connected part of `cut` vertices has `cut + 2` edges that leave it, two fewer for each face in it (Euler).
+        let orphans = (cut.len() + 2 - self.scratch.horizon.len()) / 2;
+        if orphans > 0 {
+            self.hide_orphans(plane, &cut, orphans);
         }
         self.discard_vertices(&cut);
         self.scratch.cut = cut;
@@ -96,8 +97,9 @@ impl IncrementalPolytope {
         }
     }
 
-    /// Planes that lost all their vertices ("orphaned faces", paper Appendix C) are redundant from now on.
-    fn hide_orphans(&mut self, plane: u32, cut: &[u32]) {
+    /// The `count` planes that lost all their vertices ("orphaned faces", paper Appendix C) are redundant from now on.
+    fn hide_orphans(&mut self, plane: u32, cut: &[u32], count: usize) {
+        let mut left = count;
         for &vertex in cut {
             for p in self.vertices.planes(vertex) {
                 // a plane on the horizon got a new vertex, which lies on `plane`
@@ -105,6 +107,10 @@ impl IncrementalPolytope {
                 if kept != NONE && self.vertices.planes(kept)[0] != plane {
                     self.planes.set_without_face(p, PlaneState::Uncertified);
                     self.certificates.push_uncertified(Orphan { plane: p, hidden_by: plane });
+                    left -= 1;
+                    if left == 0 {
+                        return;
+                    }
                 }
             }
         }
