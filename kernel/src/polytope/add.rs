@@ -1,5 +1,6 @@
 //! Adding a plane: climb to the extreme vertex, cut what it violates, close the hole with the new face.
 
+use super::infinity::is_infinity;
 use super::store::{Change, Farthest, PlaneState, Steps};
 use super::{AddPlaneResult, IncrementalPolytope, VertexIdx, external};
 use crate::half_space::HalfSpace;
@@ -81,7 +82,10 @@ impl IncrementalPolytope {
         if !self.violates(start, plane, &probe) {
             top = known_top.unwrap_or_else(|| self.climb(row, start));
             if top == start || !self.violates(top, plane, &probe) {
-                self.note_climb();
+                // a removal looks at these alone, and then changes what would be found
+                if !is_infinity(plane) {
+                    self.note_climb();
+                }
                 return self.hide(plane, row, top);
             }
         }
