@@ -30,10 +30,21 @@ impl PlaneTable {
     /// The numbering depends on the planes alone, not on the order in which they were given.
     #[must_use]
     pub fn intern(half_spaces: &[HalfSpace], size: f64) -> (Self, Vec<PlaneId>) {
-        Self::intern_parts(std::iter::once(half_spaces.len()), |_, k| &half_spaces[k], size)
+        let (mut table, mut ids) = Self::intern_parts(std::iter::once(half_spaces.len()), |_, k| &half_spaces[k], size);
+        // exact planes first, then the others by their coefficients: in this order cells are cut and merged
+        let row = |index: &u32| table.row(PlaneId::of_index(*index));
+        let mut order: Vec<u32> = (0..number32(table.len())).collect();
+        order.par_sort_unstable_by(|p, q| {
+            is_exact(row(q)).cmp(&is_exact(row(p))).then_with(|| compare_coefficients(row(p), row(q)))
+        });
+        let mut new_of_old = vec![0; order.len()];
+        (0..).zip(&order).for_each(|(new, old)| new_of_old[*old as usize] = new);
+        table.renumber(&new_of_old);
+        ids.iter_mut().for_each(|id| *id = id.with_index(new_of_old[id.index() as usize]));
+        (table, ids)
     }
 
-    /// The same for half-spaces in parts of some lengths, for instance one for each brush: `half_space` gives one from the number of its part and
+    /// The same, in another order of planes, for half-spaces in parts of some lengths, for instance one for each brush: `half_space` gives one from the number of its part and
     /// its place there.
     pub(crate) fn intern_parts<'a>(
         lengths: impl Iterator<Item = usize>,
