@@ -292,7 +292,7 @@ impl Builder<'_> {
 /// What became of the tiles of a height.
 enum Simplified {
     Made(Vec<Made>),
-    /// One of them has so many triangles.
+    /// Number of triangles of one of them.
     TooMany(usize),
 }
 

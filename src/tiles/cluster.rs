@@ -20,7 +20,7 @@ use super::surface::Surface;
 /// How much a vertex's distance from the mean of its cluster counts beside the distance from planes: enough where these are the same.
 const TOWARDS_MEAN: f64 = 1e-3;
 
-/// A cell has so many places along the edges where walls meet.
+/// Number of places of a cell along the edges where walls meet.
 const PLACES_ALONG_EDGE: f64 = 4.0;
 
 /// Cells and places of one height.

@@ -19,7 +19,7 @@ pub(super) const CONTENTS: &str = "tiles";
 /// What a document of ours says that it was made by, so that it may be replaced.
 pub(super) const GENERATOR: &str = "planecut";
 
-/// Where a tile set is divided, each document holds tiles of so many heights, and the roots of those below: 585 tiles at most.
+/// Where a tile set is divided, each document holds tiles of this number of heights, and the roots of those below: 585 tiles at most.
 const HEIGHTS_PER_FILE: usize = 3;
 
 /// Boxes are larger than what is in them by this part of their coordinates, which is more than rounding.

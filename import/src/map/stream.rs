@@ -21,7 +21,7 @@ const WINDOW: usize = 1 << 22;
 ///
 /// Brushes, materials, lines, warnings and errors are those of [`read_map`](super::read_map), for which the text has to be in memory. Here a window
 /// of 4 MiB of it is, more only where a single brush, with the comments in it, is longer. Brushes that stand before the `classname` of their entity wait for it. What is
-/// handed on is not taken back: where a later key of an entity would change brushes before it (another `classname` or, for planes of four
+/// handed on cannot be changed any more: where a later key of an entity would change brushes before it (another `classname` or, for planes of four
 /// numbers, another `origin`), that is an error, while `read_map` goes by the last one. The sink may have taken brushes before any error.
 ///
 /// ```

@@ -163,7 +163,7 @@ impl Cache {
         fs::rename(&unfinished, self.list_place(job, &text))
     }
 
-    /// Removes what was not used for longest until no more than so many bytes are left.
+    /// Removes what was not used for longest until at most a given number of bytes is left.
     ///
     /// # Errors
     /// What the system says of the folder.

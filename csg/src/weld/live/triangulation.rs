@@ -82,7 +82,7 @@ pub(super) struct Job<'a> {
 }
 
 impl Job<'_> {
-    /// How much work it is to change its triangulation or to make a new one: as many corners triangulated anew take as long.
+    /// How much work it is to change its triangulation or to make a new one: as many corners of a new triangulation take as long.
     fn work(&self) -> usize {
         match (&self.large, &self.changed) {
             (Some(_), Changed::Places) => self.corners / FOLLOWED,

@@ -15,7 +15,7 @@ use crate::map::read_map;
 
 planecut_testkit::tests_on_data!(maps_of_others_are_read_alike_in_any_window);
 
-/// Gives so many bytes at once at most.
+/// Gives at most this number of bytes at once.
 struct Slow<'a>(&'a [u8], usize);
 
 impl Read for Slow<'_> {
@@ -214,7 +214,7 @@ fn warnings_name_a_thousand_lines() {
     }
 }
 
-/// A map of so many times the same brush, made as it is read; then what follows it.
+/// A map of the same brush a number of times, made as it is read; then what follows it.
 struct Endless {
     brushes: usize,
     piece: Vec<u8>,

@@ -48,7 +48,7 @@ pub(super) struct Extent {
 }
 
 impl Extent {
-    /// That of so many copies in one union.
+    /// That of a number of copies in one union.
     pub(super) fn copied(self, count: f64) -> Self {
         Self { brushes: self.brushes * count, operations: self.operations * count + 1.0 }
     }

@@ -112,7 +112,7 @@ fn attributes(random: &mut Rng) -> String {
     text
 }
 
-/// A node of so many levels at most, in a file whose parts below `parts` may be used.
+/// A node of at most this number of levels, in a file whose parts below `parts` may be used.
 fn random_node(random: &mut Rng, levels: usize, parts: usize) -> String {
     let inner = |random: &mut Rng| random_node(random, levels - 1, parts);
     let several = |random: &mut Rng| {
@@ -226,7 +226,7 @@ fn errors_are_those_of_the_tree_in_memory() {
     }
 }
 
-/// Counts, and takes no more than so many brushes.
+/// Counts, and takes at most this number of brushes.
 struct Count {
     brushes: u64,
     most: u64,

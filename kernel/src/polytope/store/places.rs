@@ -27,7 +27,7 @@ use wide::f32x4;
 
 /// The most vertices that are looked at.
 const MOST: usize = 64;
-/// The bits of a number that tell one of so many vertices.
+/// The bits of a number that tell which of the vertices it is.
 const NUMBER_BITS: u32 = MOST as u32 - 1;
 const LANES: usize = 4;
 
