@@ -87,15 +87,23 @@ pub(crate) fn split_by<T>(mut slice: &mut [T], lengths: impl Iterator<Item = usi
     lengths.map(part).collect()
 }
 
+/// Where parts of some lengths begin that follow one another, and where the last one ends.
+pub(crate) fn starts_of(lengths: impl Iterator<Item = usize>) -> Vec<usize> {
+    let mut starts = vec![0];
+    let mut end = 0;
+    starts.extend(lengths.map(|length| {
+        end += length;
+        end
+    }));
+    starts
+}
+
 /// What is made of each element of some parts, one after another, in parallel; `make` is given the number of the part and the place of the element in it.
 pub(crate) fn by_parts<T: Send>(
     lengths: impl Iterator<Item = usize>,
     make: impl Fn(usize, usize) -> T + Sync,
 ) -> Vec<T> {
-    let mut starts = vec![0];
-    for length in lengths {
-        starts.push(starts[starts.len() - 1] + length);
-    }
+    let starts = starts_of(lengths);
     let element = |part: &mut usize, k: usize| {
         // mostly it is in the same part as the one before
         if k < starts[*part] || k >= starts[*part + 1] {

@@ -80,7 +80,7 @@ fn intern_repeated_planes(brushes: &[Brush], size: f64) -> (PlaneTable, Vec<Vec<
     let of_brush = |brush: &Brush| brush.half_spaces().map(&mut number).collect();
     let numbers: Vec<Vec<u32>> = brushes.iter().map(of_brush).collect();
     drop(known);
-    let (table, ids) = PlaneTable::intern(&different, size);
+    let (table, ids) = PlaneTable::intern_parts(std::iter::once(different.len()), |_, k| &different[k], size);
     let of_brush = |numbers: Vec<u32>| numbers.into_iter().map(|number| ids[number as usize]).collect();
     (table, numbers.into_iter().map(of_brush).collect())
 }

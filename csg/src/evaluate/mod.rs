@@ -246,8 +246,8 @@ fn evaluate_here(
     };
     let bodies: Vec<Option<Body>> = bodies.into_iter().enumerate().map(bounded).collect();
     let faces = |leaf: LeafId| bodies[leaf.index()].iter().flat_map(Body::planes_and_materials);
-    let mark = |body: &Option<Body>| mark_of(body.iter().flat_map(Body::planes_and_materials));
-    let marks: Vec<u64> = bodies.par_iter().with_min_len(256).map(mark).collect();
+    let mark = |leaf: usize| mark_of(faces(LeafId::from_index(leaf)));
+    let marks: Vec<u64> = (0..bodies.len()).into_par_iter().with_min_len(256).map(mark).collect();
     let kinds = others.kinds(kinds(bodies.len(), faces, |leaf| marks[leaf.index()]));
     let repeated = expression.repeated_leaves(&kinds);
     let polarities = others.polarities(&expression, &kinds);

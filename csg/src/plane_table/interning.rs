@@ -11,9 +11,9 @@ use planecut_parallel::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::near::{NearPlanes, unit};
-use super::same::{Key, compare_coefficients, first_side, is_exact, key};
+use super::same::{Key, compare_coefficients, first_side, is_exact, key, settling_order};
 use super::{PlaneId, PlaneTable, half_space_of};
-use crate::base::{WEIGHTS, by_parts, runs_apart};
+use crate::base::{WEIGHTS, by_parts, runs_apart, starts_of};
 use crate::ids::number32;
 use crate::tolerances::SNAP_TOLERANCE;
 
@@ -31,12 +31,10 @@ impl PlaneTable {
     #[must_use]
     pub fn intern(half_spaces: &[HalfSpace], size: f64) -> (Self, Vec<PlaneId>) {
         let (mut table, mut ids) = Self::intern_parts(std::iter::once(half_spaces.len()), |_, k| &half_spaces[k], size);
-        // exact planes first, then the others by their coefficients: in this order cells are cut and merged
+        // in this order cells are cut and merged
         let row = |index: &u32| table.row(PlaneId::of_index(*index));
         let mut order: Vec<u32> = (0..number32(table.len())).collect();
-        order.par_sort_unstable_by(|p, q| {
-            is_exact(row(q)).cmp(&is_exact(row(p))).then_with(|| compare_coefficients(row(p), row(q)))
-        });
+        order.par_sort_unstable_by(|p, q| settling_order(row(p)).cmp(&settling_order(row(q))));
         let mut new_of_old = vec![0; order.len()];
         (0..).zip(&order).for_each(|(new, old)| new_of_old[*old as usize] = new);
         table.renumber(&new_of_old);
@@ -44,8 +42,8 @@ impl PlaneTable {
         (table, ids)
     }
 
-    /// The same, in another order of planes, for half-spaces in parts of some lengths, for instance one for each brush: `half_space` gives one from the number of its part and
-    /// its place there.
+    /// The same, the planes in an order of their own, for half-spaces in parts of some lengths, for instance one for each brush: `half_space` gives
+    /// one from the number of its part and its place there.
     pub(crate) fn intern_parts<'a>(
         lengths: impl Iterator<Item = usize>,
         half_space: impl Fn(usize, usize) -> &'a HalfSpace + Sync,
@@ -53,18 +51,15 @@ impl PlaneTable {
     ) -> (Self, Vec<PlaneId>) {
         let sides = by_parts(lengths, |part, k| first_side(&Row::new(half_space(part, k))));
         let (sorted, reach) = sort(&sides, size);
-        let runs = runs_apart(&sorted, CHUNK, |a, b| f64::from_bits(b.0) - f64::from_bits(a.0) > APART);
+        let may_be_near = |a: &(u64, u32), b: &(u64, u32)| f64::from_bits(b.0) - f64::from_bits(a.0) <= APART;
+        let runs = runs_apart(&sorted, CHUNK, |a, b| !may_be_near(a, b));
         let settle = |run: &&[(u64, u32)]| {
             let mut settled = Settled::default();
-            let chains = run.chunk_by(|a, b| f64::from_bits(b.0) - f64::from_bits(a.0) <= APART);
-            chains.for_each(|chain| settled.add(chain, &sides, size));
+            run.chunk_by(may_be_near).for_each(|chain| settled.add(chain, &sides, size));
             settled
         };
         let parts: Vec<Settled> = runs.par_iter().with_max_len(1).map(settle).collect();
-        let mut firsts = vec![0];
-        for part in &parts {
-            firsts.push(firsts[firsts.len() - 1] + part.planes.len());
-        }
+        let firsts = starts_of(parts.iter().map(|part| part.planes.len()));
         let ids: Vec<AtomicU32> = sides.par_iter().with_min_len(1 << 14).map(|_| AtomicU32::new(0)).collect();
         let by_run = || runs.par_iter().zip(&parts).zip(&firsts).with_max_len(1);
         by_run().for_each(|((run, part), first)| {
@@ -78,13 +73,17 @@ impl PlaneTable {
             if side.1 { id.flipped() } else { id }
         };
         let given = || (0..2 * planes.len()).into_par_iter().with_min_len(CHUNK);
-        let row = |side: usize| {
-            let row = &sides[planes[side / 2] as usize].0;
-            if side.is_multiple_of(2) { *row } else { row.flipped() }
+        let first = |side: usize| &sides[planes[side / 2] as usize].0;
+        let is_first = |side: usize| side.is_multiple_of(2);
+        let row = |side: usize| if is_first(side) { *first(side) } else { first(side).flipped() };
+        let half_space = |side: usize| {
+            let half_space = half_space_of(first(side));
+            // as `push` has it, to the signs of zeros
+            if is_first(side) { half_space } else { half_space.flipped() }
         };
         let table = Self {
             rows: given().map(row).collect(),
-            half_spaces: given().map(|side| half_space_of(&row(side))).collect(),
+            half_spaces: given().map(half_space).collect(),
             replaced: parts.iter().zip(&firsts).flat_map(|(part, first)| part.replaced(*first)).collect(),
             reach,
             size,
@@ -136,8 +135,8 @@ impl Settled {
         self.replaced.iter().map(move |(row, id)| (*row, id.after(first)))
     }
 
-    /// Adds planes that may be equal or near one another, and are near no others: exact planes first, then the others by their coefficients, each of which
-    /// is taken for one before that it is near.
+    /// Adds planes that may be equal or near one another, and are near no others, in the [`settling_order`]: each that is not exact is taken for one
+    /// before that it is near.
     fn add(&mut self, chain: &[(u64, u32)], sides: &[(Row, bool)], size: f64) {
         if let [(_, only)] = chain {
             self.ids.push(self.next());
@@ -147,11 +146,7 @@ impl Settled {
         let row = |place: u32| &sides[place as usize].0;
         let groups = EqualPlanes::of(chain, row);
         let mut order: Vec<usize> = (0..groups.least.len()).collect();
-        let place = |group: &usize| row(groups.least[*group]);
-        order.sort_unstable_by(|p, q| {
-            let (p, q) = (place(p), place(q));
-            is_exact(q).cmp(&is_exact(p)).then_with(|| compare_coefficients(p, q))
-        });
+        order.sort_by_cached_key(|group| settling_order(row(groups.least[*group])));
         let mut ids = vec![PlaneId(0); order.len()];
         let mut near = NearPlanes::new(size);
         let is_alone = order.len() == 1;

@@ -21,7 +21,7 @@ pub(crate) use morton::{renumber_planes, spread};
 use near::NearPlanes;
 pub(crate) use near::{NearCells, is_nearly_same, unit};
 pub use near::{size_of, smallest_size};
-pub(crate) use same::{Key, compare_coefficients, first_side, is_exact, is_reversed, key};
+pub(crate) use same::{Key, compare_coefficients, first_side, is_exact, is_reversed, key, settling_order};
 pub(crate) use snapped::Snapped;
 
 /// An oriented plane of a [`PlaneTable`]: an index and a bit for the opposite side.

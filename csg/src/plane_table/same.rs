@@ -4,6 +4,8 @@ use std::cmp::Ordering;
 
 use planecut_kernel::sign::Row;
 
+use crate::base::sortable;
+
 /// Planes whose normal has coprime integer components of at most this many bits are exact and never snapped onto others:
 /// what went through rotations or decimal text is hardly ever that short.
 const EXACT_BITS: u32 = 36;
@@ -32,6 +34,11 @@ pub(crate) fn is_reversed(row: &Row) -> bool {
 pub(crate) fn first_side(row: &Row) -> (Row, bool) {
     let reversed = is_reversed(row);
     (if reversed { row.flipped() } else { *row }, reversed)
+}
+
+/// By what planes are put in the order in which they are kept or taken for one before: exact ones first, then by their coefficients.
+pub(crate) fn settling_order(row: &Row) -> (bool, [u64; 4]) {
+    (!is_exact(row), row.coefficients().map(sortable))
 }
 
 /// The order of rows by their coefficients.

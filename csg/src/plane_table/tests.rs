@@ -106,3 +106,19 @@ fn one_plane_far_away_does_not_hide_how_others_differ() {
     assert_eq!((table.len(), table.snapped()), (2001, 2001));
     assert!(again[..2001] == again[2001..]);
 }
+
+#[test]
+fn both_sides_are_the_same_to_the_last_bit_whether_planes_are_interned_or_inserted() {
+    let (s, c) = 0.3_f64.sin_cos();
+    let given =
+        [plane(0.0, 0.0, 2.0, 3.0), plane(s, 0.0, -c, 0.0), plane(-3.0, 0.0, 1.0, 0.7), plane(-s, -0.0, c, 5.0)];
+    let (interned, ids) = PlaneTable::intern(&given, 0.0);
+    let mut inserted = PlaneTable::default();
+    for (half_space, id) in given.iter().zip(ids) {
+        let other = inserted.insert(half_space);
+        for (id, other) in [(id, other), (id.flipped(), other.flipped())] {
+            let bits = |half_space: &HalfSpace| half_space.to_array().map(f64::to_bits);
+            assert_eq!(bits(interned.half_space(id)), bits(inserted.half_space(other)), "{half_space:?}");
+        }
+    }
+}

@@ -14,7 +14,7 @@ use super::lines::Line;
 use super::points::Points;
 use super::slits::SlitFinder;
 use super::stops::{Stops, sort_along};
-use crate::base::{concat_made, map_chunks};
+use crate::base::{concat_made, map_chunks, starts_of};
 use crate::ids::{EdgeId, HalfEdgeId, Id, LineId, PointId, PointOfRegion, PointOnLine, RegionId};
 use crate::plane_table::{PlaneId, PlaneTable};
 
@@ -119,10 +119,7 @@ pub(super) fn pieces(
 
 /// The half-edges of some parts.
 pub(super) fn joined(parts: Vec<Pieces>) -> Vec<HalfEdge> {
-    let mut first = vec![0];
-    for part in &parts {
-        first.push(first[first.len() - 1] + part.pieces.len());
-    }
+    let first = starts_of(parts.iter().map(|part| part.pieces.len()));
     let pieces = parts.into_iter().map(|part| part.pieces).collect();
     concat_made(pieces, |part, piece: &HalfEdge| HalfEdge { twin: piece.twin.plus(first[part]), ..*piece })
 }

@@ -10,7 +10,7 @@ use super::nest::{Faces, Projection};
 use super::points::Points;
 use super::regions::Regions;
 use super::triangulate::{Triangles, Triangulator, WeldPoints};
-use crate::base::{concat_made, concat_owned, map_chunks};
+use crate::base::{concat_made, concat_owned, map_chunks, starts_of};
 use crate::ids::{HalfEdgeId, Id, PointId, RegionId, VertexId, number32};
 use crate::mesh::{Mesh, MeshFace};
 use crate::model::Material;
@@ -75,16 +75,11 @@ fn mesh_face(regions: &Regions, region: RegionId, normal: DVec3) -> MeshFace {
 
 /// The mesh of faces, without positions; and what is behind the sides of its triangles, in parts.
 pub(super) fn mesh_of(mut parts: Vec<FilledFaces>, materials: &[Material]) -> (Mesh, Vec<Labels>) {
-    let mut first = Vec::with_capacity(parts.len());
-    let mut count = 0;
-    for part in &parts {
-        first.push(number32(count));
-        count += part.faces.len();
-    }
+    let first = starts_of(parts.iter().map(|part| part.faces.len()));
     let faces = concat_owned(parts.iter_mut().map(|part| std::mem::take(&mut part.faces)).collect());
     let triangles = concat_owned(parts.iter_mut().map(|part| std::mem::take(&mut part.triangles)).collect());
     let triangle_faces = parts.iter_mut().map(|part| std::mem::take(&mut part.triangle_faces)).collect();
-    let triangle_faces = concat_made(triangle_faces, |part, face| first[part] + *face);
+    let triangle_faces = concat_made(triangle_faces, |part, face| number32(first[part]) + *face);
     let mesh = Mesh { triangles, triangle_faces, faces, materials: materials.to_vec(), ..Mesh::default() };
     (mesh, parts.into_iter().map(|part| part.labels).collect())
 }

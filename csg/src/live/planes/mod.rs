@@ -16,10 +16,10 @@ use planecut_parallel::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 use smallvec::{SmallVec, smallvec};
 
-use crate::base::sortable;
 use crate::ids::{Id, OperandId, RowGroupId, holds};
 use crate::plane_table::{
-    Key, NearCells, PlaneId, PlaneTable, compare_coefficients, first_side, is_exact, is_nearly_same, key, unit,
+    Key, NearCells, PlaneId, PlaneTable, compare_coefficients, first_side, is_exact, is_nearly_same, key,
+    settling_order, unit,
 };
 
 /// A plane that a face uses: the group of what is exactly the same plane, and whether it is the other side.
@@ -368,10 +368,7 @@ impl LivePlanes {
     /// Finds for what each group of a cluster is taken: exact ones for themselves, others for the first within the tolerance.
     fn settle_cluster(&mut self, cluster: &[RowGroupId], kept: &[u32], settled: &mut Settled) {
         let mut order = cluster.to_vec();
-        order.sort_by_cached_key(|number| {
-            let row = self.groups[number.index()].row();
-            row.map(|row| (!is_exact(row), row.coefficients().map(sortable)))
-        });
+        order.sort_by_cached_key(|number| self.groups[number.index()].row().map(settling_order));
         let mut leaders: Vec<RowGroupId> = Vec::new();
         for number in order {
             let (unit, is_exact) = self.groups[number.index()].hashed.expect("what is in a cluster is hashed");
