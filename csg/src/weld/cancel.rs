@@ -13,9 +13,9 @@ use super::large_face::FaceEdge;
 use super::lines::Line;
 use super::points::Points;
 use super::slits::SlitFinder;
-use super::stops::{Stops, sort_along};
+use super::stops::Stops;
 use crate::base::{concat_made, map_chunks, starts_of};
-use crate::ids::{EdgeId, HalfEdgeId, Id, LineId, PointId, PointOfRegion, PointOnLine, RegionId};
+use crate::ids::{EdgeId, HalfEdgeId, Id, LineId, PointId, PointOfRegion, RegionId};
 use crate::plane_table::{PlaneId, PlaneTable};
 
 /// A directed piece of a line along which one region ends on one side: a boundary edge, or after cancelling a maximal run.
@@ -290,46 +290,6 @@ impl HalfEdge {
     /// What it is as the boundary of its face; `piece` is its own number.
     pub(super) fn edge_of_face(&self, piece: HalfEdgeId) -> FaceEdge {
         FaceEdge { piece, from: self.from, to: self.to }
-    }
-}
-
-/// Cuts half-edges, ordered by line, at further points of their lines, given by line. Pairs stay paired: what bounds one
-/// wedge of solid does so on either side of a cut.
-pub(super) fn cut_further(
-    table: &PlaneTable,
-    points: &Points,
-    lines: &[Line],
-    cuts: &[PointOnLine],
-    pieces: &mut Vec<HalfEdge>,
-) {
-    let mut stops: Vec<PointId> = Vec::new();
-    let by_line = pieces.len();
-    for group in cuts.chunk_by(|a, b| a.line == b.line) {
-        let number = group[0].line;
-        let line = &lines[number.index()];
-        stops.clear();
-        stops.extend(group.iter().map(|cut| cut.point));
-        sort_along(table, points, line, &mut stops);
-        let start = pieces[..by_line].partition_point(|piece| piece.line < number);
-        let end = start + pieces[start..by_line].partition_point(|piece| piece.line == number);
-        for mut k in (start..end).map(HalfEdgeId::from_index) {
-            if !pieces[k.index()].forward {
-                continue;
-            }
-            for &stop in &stops {
-                let piece = pieces[k.index()];
-                let is_before = |p: PointId, q: PointId| line.compare(table, points, p, q).is_lt();
-                if !is_before(piece.from, stop) || !is_before(stop, piece.to) {
-                    continue;
-                }
-                let (twin, rest) = (pieces[piece.twin.index()], HalfEdgeId::from_index(pieces.len()));
-                pieces[k.index()] = HalfEdge { to: stop, twin: rest.plus(1), ..piece };
-                pieces[piece.twin.index()] = HalfEdge { to: stop, twin: rest, ..twin };
-                pieces.push(HalfEdge { from: stop, ..piece });
-                pieces.push(HalfEdge { from: stop, twin: k, ..twin });
-                k = rest;
-            }
-        }
     }
 }
 

@@ -26,6 +26,7 @@ mod loops;
 pub(crate) mod manifold;
 mod measure;
 mod nest;
+mod pinch_cuts;
 mod pinches;
 mod points;
 mod region_corners;
@@ -216,7 +217,7 @@ fn half_edges(
     signs += counted;
     let is_crossed =
         parts.iter().any(|part| part.is_slit) || crossings::any(parts.iter().flat_map(|part| &part.passed));
-    let mut pieces = if is_crossed {
+    let pieces = if is_crossed {
         crossings::pieces(table, &mut points, &lines, &regions.planes, &runs, &by_line)?
     } else {
         drop((runs, by_line));
@@ -224,12 +225,11 @@ fn half_edges(
     };
     let mut by_region = ByRegion::of(&pieces, regions.planes.len());
     regions.sort(table, &mut by_region);
-    let (mut sorted, pinches, counted) =
-        RegionPieces::with_pinches(table, &points, &regions.planes, &pieces, &by_region);
+    let (mut sorted, pinches, counted) = RegionPieces::sort(table, &points, &regions.planes, &pieces, &by_region);
     signs += counted;
+    drop((pieces, by_region));
     if !pinches.is_empty() {
-        cancel::cut_further(table, &points, &lines, &pinches, &mut pieces);
-        sorted = RegionPieces::sort(table, &points, &regions.planes, &pieces, &by_region.again(&pieces));
+        sorted.cut(table, &points, &lines, &pinches);
     }
     Ok((regions, points, sorted, signs))
 }

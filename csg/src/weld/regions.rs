@@ -87,15 +87,7 @@ pub(super) struct ByRegion {
 impl ByRegion {
     /// Lists half-edges whose regions are in the order of their numbers.
     pub(super) fn of(pieces: &[HalfEdge], regions: usize) -> Self {
-        Self::in_order(pieces, RegionId::all(regions).collect())
-    }
-
-    /// The same of other half-edges of the same regions.
-    pub(super) fn again(self, pieces: &[HalfEdge]) -> Self {
-        Self::in_order(pieces, self.order)
-    }
-
-    fn in_order(pieces: &[HalfEdge], order: Vec<RegionId>) -> Self {
+        let order: Vec<RegionId> = RegionId::all(regions).collect();
         if pieces.is_empty() {
             return Self { starts: vec![0; order.len() + 1], members: Vec::new(), order };
         }
@@ -128,34 +120,13 @@ pub(super) struct RegionPieces {
 }
 
 impl RegionPieces {
-    /// Sorts half-edges by region and place, keeping the pairs.
+    /// Sorts half-edges by region and place, keeping the pairs; and tells where corners lie inside edges of their region, by line.
     pub(super) fn sort(
         table: &PlaneTable,
         points: &Points,
         planes: &[PlaneId],
         pieces: &[HalfEdge],
         by_region: &ByRegion,
-    ) -> Self {
-        Self::sort_and_search(table, points, planes, (pieces, by_region), false).0
-    }
-
-    /// The same, and where corners lie inside edges of their region, by line.
-    pub(super) fn with_pinches(
-        table: &PlaneTable,
-        points: &Points,
-        planes: &[PlaneId],
-        pieces: &[HalfEdge],
-        by_region: &ByRegion,
-    ) -> (Self, Vec<PointOnLine>, Counts) {
-        Self::sort_and_search(table, points, planes, (pieces, by_region), true)
-    }
-
-    fn sort_and_search(
-        table: &PlaneTable,
-        points: &Points,
-        planes: &[PlaneId],
-        (pieces, by_region): (&[HalfEdge], &ByRegion),
-        searches: bool,
     ) -> (Self, Vec<PointOnLine>, Counts) {
         let (mut regions, mut ranges, mut end) = (Vec::new(), Vec::new(), 0);
         for (new, old) in RegionId::all(by_region.order.len()).zip(&by_region.order) {
@@ -181,9 +152,7 @@ impl RegionPieces {
                     *sorted = HalfEdge { region: *number, ..pieces[old.index()] };
                     place[old.index()].store(HalfEdgeId::from_index(new).number(), Ordering::Relaxed);
                 }
-                if searches {
-                    finder.search(sorted, planes[number.index()]);
-                }
+                finder.search(sorted, planes[number.index()]);
             }
             finder.found
         };
