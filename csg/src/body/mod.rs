@@ -33,7 +33,7 @@ pub(crate) use built::ShapeBuilder;
 pub(crate) use corner::{Corner, PlaneFilter, exact_side};
 pub(crate) use kinds::{kinds, mark_of, mark_of_faces};
 pub(crate) use outer::OuterBox;
-pub(crate) use polar_dual::{Place, PolarDual};
+pub(crate) use polar_dual::{Place, PolarDual, SomeFaces};
 use shape::Corners;
 pub(crate) use shape::Shape;
 
@@ -82,15 +82,15 @@ impl Body {
 
     /// A shape whose planes are in a table: `face_of` gives the id and the material of each.
     pub(crate) fn new(shape: &Shape, face_of: impl Fn(PlaneIdx) -> (PlaneId, MaterialId)) -> Self {
-        let corners = &shape.corners;
+        let structure = &shape.corners.structure;
         let face = |(face, plane): (&shape::Face, &PlaneIdx)| {
             let (plane, material) = face_of(*plane);
             BodyFace { plane, material, bounds: face.bounds, start: face.start, end: face.end }
         };
         Self {
-            faces: shape.faces.iter().zip(&corners.planes).map(face).collect(),
-            edges: corners.edges.iter().map(|plane| face_of(*plane).0).collect(),
-            corners: Arc::clone(corners),
+            faces: shape.faces.iter().zip(&structure.planes).map(face).collect(),
+            edges: structure.edges.iter().map(|plane| face_of(*plane).0).collect(),
+            corners: Arc::clone(&shape.corners),
             bounds: shape.bounds,
             volume: shape.volume,
             by_plane: OnceLock::new(),
@@ -120,7 +120,7 @@ impl Body {
 
     /// The corners of a face: corner `i` between the edges `i` and `i + 1`.
     pub(crate) fn corners(&self, face: &BodyFace) -> impl ExactSizeIterator<Item = &Corner> + Clone {
-        let numbers = &self.corners.numbers[face.start as usize..face.end as usize];
+        let numbers = &self.corners.structure.numbers[face.start as usize..face.end as usize];
         numbers.iter().map(|number| &self.corners.different[number.index()])
     }
 

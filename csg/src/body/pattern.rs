@@ -6,21 +6,19 @@
 //! the other. So one sign for each edge, instead of adding plane after plane, tells that a structure stays; where it does not, the
 //! body is built.
 
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use planecut_kernel::sign::{Homogeneous, Row, Sign};
 use planecut_kernel::{HalfSpace, PlaneIdx};
 
 use super::Shape;
-use super::shape::Corners;
+use super::shape::{Corners, Structure};
 use crate::ids::{CornerId, Id};
 
 /// The structure of a body with three planes at every corner.
 #[derive(Debug)]
-struct Structure {
-    numbers: Vec<CornerId>,
-    edges: Vec<PlaneIdx>,
-    planes: Vec<PlaneIdx>,
+struct SimpleStructure {
+    structure: Arc<Structure>,
     /// Where the edges of each face end.
     ends: Vec<u32>,
     /// The planes of each corner, right-handed.
@@ -36,7 +34,7 @@ pub(super) struct Pattern {
     normals: Vec<[f64; 3]>,
     shape: Option<Shape>,
     /// Its structure, read when a second shape has the same normals.
-    structure: OnceLock<Option<Structure>>,
+    structure: OnceLock<Option<SimpleStructure>>,
 }
 
 impl Pattern {
@@ -54,7 +52,7 @@ impl Pattern {
             return None;
         }
         let shape = self.shape.as_ref()?;
-        self.structure.get_or_init(|| Structure::of(shape, count)).as_ref()?.shape(plane)
+        self.structure.get_or_init(|| SimpleStructure::of(shape, count)).as_ref()?.shape(plane)
     }
 }
 
@@ -68,10 +66,11 @@ fn normal(row: &Row) -> [f64; 3] {
     [x, y, z]
 }
 
-impl Structure {
+impl SimpleStructure {
     /// That of a shape of some planes; nothing where one of them has no face or more than three meet in a corner.
     fn of(shape: &Shape, count: usize) -> Option<Self> {
-        let Corners { different, numbers, edges, planes, .. } = &*shape.corners;
+        let (different, structure) = (&shape.corners.different, &shape.corners.structure);
+        let Structure { numbers, edges, planes } = &**structure;
         // a corner that several faces share by one number is shared by three; Euler's formula tells that none is named twice
         let is_simple = numbers.len() == 3 * different.len() && different.len() + planes.len() == numbers.len() / 2 + 2;
         if !is_simple || planes.len() != count {
@@ -93,9 +92,7 @@ impl Structure {
             }
         }
         Some(Self {
-            numbers: numbers.clone(),
-            edges: edges.clone(),
-            planes: planes.clone(),
+            structure: Arc::clone(structure),
             ends: shape.faces.iter().map(|face| face.end).collect(),
             corners,
             lengths,
@@ -105,7 +102,6 @@ impl Structure {
     /// What planes with the same normals bound, where it has this structure.
     fn shape<'a>(&self, plane: impl Fn(usize) -> (&'a Row, &'a HalfSpace)) -> Option<Shape> {
         let row = |idx: &PlaneIdx| plane(idx.0).0;
-        let mut corners = Corners { different: Vec::with_capacity(self.corners.len()), ..Corners::default() };
         let points: Vec<Homogeneous> = self.corners.iter().map(|planes| meet(planes.each_ref().map(row))).collect();
         let is_long = |(corner, end): &(CornerId, PlaneIdx)| {
             let planes = self.corners[corner.index()].each_ref().map(row);
@@ -114,12 +110,7 @@ impl Structure {
         if !self.lengths.iter().all(is_long) {
             return None;
         }
-        for point in &points {
-            corners.add_point(point);
-        }
-        corners.numbers.clone_from(&self.numbers);
-        corners.edges.clone_from(&self.edges);
-        corners.planes.clone_from(&self.planes);
+        let corners = Corners::new(points.iter(), Arc::clone(&self.structure));
         Some(Shape::measured(&self.ends, corners, |idx| plane(idx.0)))
     }
 }
@@ -145,8 +136,8 @@ mod tests {
     fn told(shape: &BrushShape) -> String {
         match shape {
             BrushShape::Bounded(Shape { faces, corners, bounds, volume }) => {
-                let Corners { different, numbers, edges, planes, .. } = &**corners;
-                format!("{faces:?} {different:?} {numbers:?} {edges:?} {planes:?} {bounds:?} {volume:?}")
+                let Corners { different, structure, .. } = &**corners;
+                format!("{faces:?} {different:?} {structure:?} {bounds:?} {volume:?}")
             }
             other => format!("{other:?}"),
         }

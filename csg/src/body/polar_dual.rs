@@ -13,6 +13,7 @@ use std::ops::Range;
 use planecut_kernel::{DVec3, HalfSpace};
 
 use rustc_hash::FxHashMap;
+use smallvec::SmallVec;
 
 use super::Corner;
 use super::shape::Corners;
@@ -22,6 +23,12 @@ use crate::ids::{BodyFaceId, Id, holds};
 /// Bodies of fewer faces are asked plane by plane.
 const MANY: usize = 14;
 const U: f64 = f64::EPSILON / 2.0;
+
+/// From this error of a value of 1 on, values tell nothing.
+const USELESS: f64 = 0.25;
+
+/// Some faces of a body, mostly few.
+pub(crate) type SomeFaces = SmallVec<[BodyFaceId; 16]>;
 
 /// The faces of a body, as the vertices of its polar dual.
 #[derive(Debug, Clone)]
@@ -38,6 +45,15 @@ pub(crate) struct PolarDual {
     reach: f64,
     /// For each octant around the center the face in its middle.
     seeds: [BodyFaceId; 8],
+}
+
+/// A bound for the error of the values of a point, relative to the larger of 1 and the value: for the reach of a dual, the error of the point, and the sum of the
+/// largest coordinates of the point and the center.
+///
+/// With `g` the dual, rounded, of `p − c`: `p` is off by its own error, the difference by a rounding of both. A dual is off by
+/// at most `U (10 |g| |c| + 8)` of itself, as `|d| ≤ (d − n·c) + |n| |c|`.
+fn room(reach: f64, error: f64, size: f64) -> f64 {
+    2.0 * (reach * (error + 24.0 * U * size) + 32.0 * U)
 }
 
 /// Boxes around the duals of the neighbours of one face, a run of them after another: a cap has as many neighbours as a body has sides, of which
@@ -95,7 +111,7 @@ impl Place {
     /// What the largest value of a point tells, with the error of a value of 1: the face that has it, and the one that is nearest where the point is inside.
     fn of(value: f64, room: f64, [farthest, nearest]: [BodyFaceId; 2]) -> Self {
         let room = room * value.max(1.0);
-        if room >= 0.25 || value.is_nan() {
+        if room >= USELESS || value.is_nan() {
             Self::Unknown
         } else if value > 1.0 + room {
             Self::Outside(farthest)
@@ -118,7 +134,7 @@ impl PolarDual {
         if half_spaces().len() < MANY {
             return None;
         }
-        let center = corners.middle();
+        let (center, structure) = (corners.middle(), &*corners.structure);
         let duals: Vec<DVec3> = half_spaces()
             .map(|half_space| half_space.normal() / (half_space.offset() - half_space.normal().dot(center)))
             .collect();
@@ -130,22 +146,27 @@ impl PolarDual {
         if !half_spaces().zip(&duals).all(is_inside) {
             return None;
         }
+        let reach = duals.iter().map(|dual| dual.abs().element_sum()).fold(0.0, f64::max);
+        if room(reach, 0.0, center.abs().max_element()) >= USELESS {
+            // that of a body that ends far away, where an outer box cuts it, is in the far distance
+            return None;
+        }
         let mut dual = Self {
             center,
-            reach: duals.iter().map(|dual| dual.abs().element_sum()).fold(0.0, f64::max),
+            reach,
             duals,
             runs: FxHashMap::default(),
             starts: vec![0],
-            neighbours: Vec::with_capacity(corners.edges.len()),
+            neighbours: Vec::with_capacity(structure.edges.len()),
             seeds: [BodyFaceId::from_index(0); 8],
         };
-        let planes = corners.planes.iter().chain(&corners.edges).map(|plane| plane.0 + 1).max().unwrap_or(0);
+        let planes = structure.planes.iter().chain(&structure.edges).map(|plane| plane.0 + 1).max().unwrap_or(0);
         let mut face_of: Vec<Option<BodyFaceId>> = vec![None; planes];
-        for (plane, face) in corners.planes.iter().zip(BodyFaceId::all(corners.planes.len())) {
+        for (plane, face) in structure.planes.iter().zip(BodyFaceId::all(structure.planes.len())) {
             face_of[plane.0] = Some(face);
         }
         for edges in edges {
-            let edges = &corners.edges[edges.start as usize..edges.end as usize];
+            let edges = &structure.edges[edges.start as usize..edges.end as usize];
             // where one neighbour is missing, a climb may end below the largest value, and a point beyond pass for one inside
             debug_assert!(
                 edges.iter().all(|plane| face_of[plane.0].is_some()),
@@ -177,6 +198,9 @@ impl PolarDual {
     /// Where a point lies, climbing from a face.
     pub(crate) fn place(&self, point: &Corner, from: BodyFaceId) -> Place {
         let (at, room) = self.relative(point);
+        if room >= USELESS {
+            return Place::Unknown;
+        }
         let (face, value) = self.climb(at, from, room);
         Place::of(value, room, [face, face])
     }
@@ -201,20 +225,16 @@ impl PolarDual {
     }
 
     /// The faces on or beyond whose planes a point may lie, `face` being the one where its value is largest.
-    pub(crate) fn near(&self, point: &Corner, face: BodyFaceId, found: &mut Vec<BodyFaceId>) {
+    pub(crate) fn near(&self, point: &Corner, face: BodyFaceId, found: &mut SomeFaces) {
         let (at, room) = self.relative(point);
         let level = 1.0 - 4.0 * room;
         self.above(at, face, level, found);
     }
 
-    /// A point seen from the center, and a bound for the error of its values, relative to the larger of 1 and the value.
-    ///
-    /// With `g` the dual, rounded, of `p − c`: `p` is off by its own error, the difference by a rounding of both. A dual is off by
-    /// at most `U (10 |g| |c| + 8)` of itself, as `|d| ≤ (d − n·c) + |n| |c|`.
+    /// A point seen from the center, and a [bound](room) for the error of its values.
     fn relative(&self, point: &Corner) -> (DVec3, f64) {
         let size = point.at.abs().max_element() + self.center.abs().max_element();
-        let room = self.reach * (point.error + 24.0 * U * size) + 32.0 * U;
-        (point.at - self.center, 2.0 * room)
+        (point.at - self.center, room(self.reach, point.error, size))
     }
 
     fn value(&self, face: BodyFaceId, at: DVec3) -> f64 {
@@ -238,31 +258,31 @@ impl PolarDual {
         }
     }
 
-    /// The face with the largest value, and this.
+    /// The face with the largest value, and this; where a point is surely outside, one from which no neighbour leads on may do.
     fn climb(&self, at: DVec3, from: BodyFaceId, room: f64) -> (BodyFaceId, f64) {
         let (mut best, mut value) = (from, self.value(from, at));
+        let mut level_faces = SomeFaces::new();
         loop {
-            let (start, mut second) = (best, f64::NEG_INFINITY);
+            let start = best;
             let level = value - 2.0 * room * value.abs().max(1.0);
+            level_faces.clear();
+            level_faces.push(start);
             self.for_each_neighbour(start, at, level, |next, other| {
                 if other > value {
-                    second = value;
                     (best, value) = (next, other);
-                } else {
-                    second = second.max(other);
+                } else if other >= level {
+                    level_faces.push(next);
                 }
             });
             if best != start {
                 continue;
             }
-            // a neighbour that is as good within the error may lead on
-            let level = value - 2.0 * room * value.abs().max(1.0);
-            if second < level {
+            if level_faces.len() == 1 || value > 1.0 + room * value {
                 return (best, value);
             }
-            let mut level_faces = Vec::new();
-            self.above(at, best, level, &mut level_faces);
-            for face in level_faces {
+            // a neighbour that is as good within the error may lead on
+            self.spread(at, level, 1, &mut level_faces);
+            for &face in &level_faces {
                 let other = self.value(face, at);
                 if other > value {
                     (best, value) = (face, other);
@@ -275,10 +295,15 @@ impl PolarDual {
     }
 
     /// The faces with values above a level that are connected to one.
-    fn above(&self, at: DVec3, face: BodyFaceId, level: f64, found: &mut Vec<BodyFaceId>) {
+    fn above(&self, at: DVec3, face: BodyFaceId, level: f64, found: &mut SomeFaces) {
         found.clear();
         found.push(face);
-        let mut next = 0;
+        self.spread(at, level, 0, found);
+    }
+
+    /// Adds the faces with values above a level that are connected to those found, but the neighbours of the first `done`, which are known.
+    fn spread(&self, at: DVec3, level: f64, done: usize, found: &mut SomeFaces) {
+        let mut next = done;
         while next < found.len() {
             self.for_each_neighbour(found[next], at, level, |other, value| {
                 if value >= level && !holds(found, other) {

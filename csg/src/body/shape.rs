@@ -31,36 +31,36 @@ pub(super) struct Face {
 }
 
 /// What bodies of the same shape share.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Corners {
     /// The different corners.
     pub(super) different: Vec<Corner>,
+    pub(super) structure: Arc<Structure>,
+    /// Made when first asked for.
+    pub(super) polar_dual: OnceLock<Option<Box<PolarDual>>>,
+}
+
+/// Which corners, edges and planes faces have, what bodies share that differ in distances alone.
+#[derive(Debug, Default)]
+pub(super) struct Structure {
     /// Face by face the numbers of its corners, and the planes of its edges: those of the neighbouring faces.
     pub(super) numbers: Vec<CornerId>,
     pub(super) edges: Vec<PlaneIdx>,
     /// The plane of each face.
     pub(super) planes: Vec<PlaneIdx>,
-    /// Made when first asked for.
-    pub(super) polar_dual: OnceLock<Option<Box<PolarDual>>>,
 }
 
 impl Corners {
-    /// Adds the meeting point of three planes.
-    pub(super) fn add(&mut self, [a, b, c]: [&Row; 3]) -> CornerId {
-        self.add_point(&Homogeneous::meet(a, b, c))
-    }
-
-    /// Adds a point.
-    pub(super) fn add_point(&mut self, point: &Homogeneous) -> CornerId {
-        let number = CornerId::from_index(self.different.len());
-        self.different.push(Corner { number, ..Corner::new(point) });
-        number
+    /// Corners at some points, in the order of their numbers.
+    pub(super) fn new<'a>(points: impl Iterator<Item = &'a Homogeneous>, structure: Arc<Structure>) -> Self {
+        let corner = |(number, point)| Corner { number: CornerId::from_index(number), ..Corner::new(point) };
+        Self { different: points.enumerate().map(corner).collect(), structure, polar_dual: OnceLock::new() }
     }
 
     /// The mean of the corners, each counted once for each face at it.
     pub(super) fn middle(&self) -> DVec3 {
-        let corners = self.numbers.iter().map(|number| self.different[number.index()].at);
-        corners.sum::<DVec3>() / self.numbers.len() as f64
+        let numbers = &self.structure.numbers;
+        numbers.iter().map(|number| self.different[number.index()].at).sum::<DVec3>() / numbers.len() as f64
     }
 }
 
@@ -71,7 +71,7 @@ impl Shape {
         polytope: &IncrementalPolytope,
         plane: impl Fn(PlaneIdx) -> (&'a Row, &'a HalfSpace),
     ) -> Option<Self> {
-        let (mut ends, mut corners) = (Vec::new(), Corners::default());
+        let (mut ends, mut structure, mut points) = (Vec::new(), Structure::default(), Vec::new());
         let mut is_bounded = true;
         // the corners that other faces have as well, by their numbers
         let mut shared: Vec<Option<CornerId>> = vec![None; polytope.corner_bound()];
@@ -79,32 +79,34 @@ impl Shape {
             // loops begin at the edge whose plane comes first, so that a shape does not depend on how it was found
             let first = (0..edges.len()).min_by_key(|k| edges[*k].plane).unwrap_or(0);
             let edges = || edges[first..].iter().chain(&edges[..first]);
-            let start = corners.edges.len();
+            let start = structure.edges.len();
             for edge in edges() {
                 let Some(edge) = edge.plane else {
                     is_bounded = false;
                     return;
                 };
-                corners.edges.push(edge);
+                structure.edges.push(edge);
             }
-            let count = corners.edges.len() - start;
+            let count = structure.edges.len() - start;
             for (i, edge) in edges().enumerate() {
                 let known = edge.corner.and_then(|number| shared[number]);
                 let number = known.unwrap_or_else(|| {
-                    let triple = [own, corners.edges[start + i], corners.edges[start + (i + 1) % count]];
-                    corners.add(triple.map(|idx| plane(idx).0))
+                    let triple = [own, structure.edges[start + i], structure.edges[start + (i + 1) % count]];
+                    let [a, b, c] = triple.map(|idx| plane(idx).0);
+                    points.push(Homogeneous::meet(a, b, c));
+                    CornerId::from_index(points.len() - 1)
                 });
                 if let Some(shared_number) = edge.corner {
                     shared[shared_number] = Some(number);
                 }
-                corners.numbers.push(number);
+                structure.numbers.push(number);
             }
-            corners.planes.push(own);
-            ends.push(number32(corners.edges.len()));
+            structure.planes.push(own);
+            ends.push(number32(structure.edges.len()));
         });
-        corners.edges.shrink_to_fit();
-        corners.numbers.shrink_to_fit();
-        is_bounded.then(|| Self::measured(&ends, corners, plane))
+        structure.edges.shrink_to_fit();
+        structure.numbers.shrink_to_fit();
+        is_bounded.then(|| Self::measured(&ends, Corners::new(points.iter(), Arc::new(structure)), plane))
     }
 
     /// The shape of known corners: boxes of its faces, of which each ends at an entry of the edges, and volume.
@@ -115,9 +117,10 @@ impl Shape {
     ) -> Self {
         let mut volume = Volume::default();
         let mut start = 0;
+        let structure = &*corners.structure;
         let face = |(&end, &own): (&u32, &PlaneIdx)| {
             let range = std::mem::replace(&mut start, end) as usize..end as usize;
-            let (numbers, edges) = (&corners.numbers[range.clone()], &corners.edges[range.clone()]);
+            let (numbers, edges) = (&structure.numbers[range.clone()], &structure.edges[range.clone()]);
             let mut bounds = Bounds::EMPTY;
             volume.begin_face();
             for (i, number) in numbers.iter().enumerate() {
@@ -131,7 +134,7 @@ impl Shape {
             }
             Face { bounds, start: number32(range.start), end }
         };
-        let faces = ends.iter().zip(&corners.planes).map(face).collect();
+        let faces = ends.iter().zip(&structure.planes).map(face).collect();
         let mut shape = Self { faces, corners: Arc::new(corners), bounds: Bounds::EMPTY, volume: volume.six / 6.0 };
         shape.tighten_bounds(|idx| plane(idx).1);
         shape
@@ -139,7 +142,7 @@ impl Shape {
 
     /// Brings the faces into the order that their planes have.
     pub(super) fn sort_faces(&mut self, place_of: impl Fn(PlaneIdx) -> usize) {
-        let planes = &self.corners.planes;
+        let planes = &self.corners.structure.planes;
         if planes.is_sorted_by_key(|plane| place_of(*plane)) {
             return;
         }
@@ -147,7 +150,8 @@ impl Shape {
         order.sort_unstable_by_key(|face| place_of(planes[*face]));
         let planes = order.iter().map(|face| planes[*face]).collect();
         self.faces = order.iter().map(|face| self.faces[*face].clone()).collect();
-        Arc::get_mut(&mut self.corners).expect("a shape that was made just now shares nothing").planes = planes;
+        let corners = Arc::get_mut(&mut self.corners).expect("a shape that was made just now shares nothing");
+        Arc::get_mut(&mut corners.structure).expect("nor its structure").planes = planes;
     }
 
     pub(crate) fn bounds(&self) -> &Bounds {
@@ -159,13 +163,13 @@ impl Shape {
         if self.faces.len() == planes {
             return Vec::new();
         }
-        let has_face = |plane: &usize| self.corners.planes.contains(&PlaneIdx(*plane));
+        let has_face = |plane: &usize| self.corners.structure.planes.contains(&PlaneIdx(*plane));
         (0..planes).filter(|plane| !has_face(plane)).map(number32).collect()
     }
 
     /// Cuts what corners are known to lie in down to what the planes leave of it.
     fn tighten_bounds<'a>(&mut self, half_space: impl Fn(PlaneIdx) -> &'a HalfSpace) {
-        let planes = &self.corners.planes;
+        let planes = &self.corners.structure.planes;
         let all = self.faces.iter().fold(Bounds::EMPTY, |bounds, face| bounds.union(&face.bounds));
         self.bounds = planes.iter().fold(all, |bounds, plane| bounds.within(half_space(*plane)));
         for (face, plane) in self.faces.iter_mut().zip(planes) {

@@ -8,7 +8,7 @@ use planecut_kernel::sign::Sign;
 use super::Scene;
 use super::corner_sides::CornerSides;
 use super::section::{Clip, Polygon};
-use crate::body::{Body, BodyFace, Corner, Place, PlaneFilter, PolarDual};
+use crate::body::{Body, BodyFace, Corner, Place, PlaneFilter, PolarDual, SomeFaces};
 use crate::ids::{BodyFaceId, BodyId, Id, NearId};
 use crate::plane_table::PlaneId;
 
@@ -19,7 +19,7 @@ const MOST: usize = 1 << 20;
 #[derive(Debug, Default)]
 pub(super) struct Clipper {
     spare: Polygon,
-    near: Vec<BodyFaceId>,
+    near: SomeFaces,
     /// For each body near the one whose faces are clipped, the face at which the last point was found, or [`Id::NONE`].
     last: Vec<BodyFaceId>,
     /// How many corners the body has whose faces are clipped.

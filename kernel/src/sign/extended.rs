@@ -14,9 +14,9 @@ pub(crate) fn homogeneous(planes: [&Row; 3]) -> [DoubleDouble; 4] {
     let mut numerators = [DoubleDouble::default(); 3];
     for (axis, numerator) in numerators.iter_mut().enumerate() {
         let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
-        let (bc, ca, ab) = (minor(b, c, u, v), minor(c, a, u, v), minor(a, b, u, v));
-        *numerator = bc.times(a[3]).plus(ca.times(b[3])).plus(ab.times(c[3]));
-        w = w.plus(bc.times(a[axis]));
+        let (bc, ca, ab) = (loose_minor(b, c, u, v), loose_minor(c, a, u, v), loose_minor(a, b, u, v));
+        *numerator = bc.times(a[3]).plus_loosely(ca.times(b[3])).plus_loosely(ab.times(c[3]));
+        w = w.plus_loosely(bc.times(a[axis]));
     }
     let [x, y, z] = numerators;
     [x, y, z, w]
@@ -25,17 +25,30 @@ pub(crate) fn homogeneous(planes: [&Row; 3]) -> [DoubleDouble; 4] {
 /// On which side of a plane the meeting point of three others lies, times the sign of `W`, where double-doubles decide it;
 /// `permanent` is that of the whole determinant.
 ///
-/// The coordinates are off by [`DOUBLE_DOUBLE_BOUND`] of their permanents, and seven operations follow.
-pub(super) fn certain_side(planes: [&Row; 3], h: &Row, permanent: f64) -> Option<Sign> {
-    const SIDE_BOUND: f64 = 1.5 * DOUBLE_DOUBLE_BOUND;
+/// It is expanded by the minors of two rows and those of the other two (Laplace). With `u = 2⁻⁵³`, a minor is off by `7u²` of its permanent, a product of two minors by `8u²` of theirs
+/// beyond what these are off, and each of five sums by `7u²` of what is added: `57u²` of the permanent in all, of which the bound is more than four times as much.
+pub(super) fn certain_side([a, b, c]: [&Row; 3], h: &Row, permanent: f64) -> Option<Sign> {
+    const SIDE_BOUND: f64 = 0.5 * DOUBLE_DOUBLE_BOUND;
     // outside this range the low words could underflow
     if !(1e-150..=1e150).contains(&permanent) {
         return None;
     }
-    let [x, y, z, w] = homogeneous(planes);
-    let [a, b, c, d] = *h.coefficients();
-    let value = x.times(a).plus(y.times(b)).plus(z.times(c)).plus(w.times(-d));
+    let [a, b, c, h] = [a, b, c, h].map(Row::coefficients);
+    let term = |[i, j]: [usize; 2], [k, l]: [usize; 2]| loose_minor(a, b, i, j).times_sum(loose_minor(c, h, k, l));
+    // the determinant with its sign turned: the side is positive where the rows are left-handed
+    let value = term([0, 2], [1, 3])
+        .plus_loosely(term([1, 0], [2, 3]))
+        .plus_loosely(term([3, 0], [1, 2]))
+        .plus_loosely(term([2, 1], [0, 3]))
+        .plus_loosely(term([1, 3], [0, 2]))
+        .plus_loosely(term([3, 2], [0, 1]));
     (value.high.abs() > SIDE_BOUND * permanent).then(|| Sign::of(value.high))
+}
+
+/// The same as [`minor`], off by at most `7u²` of the magnitudes of both products, with `u = 2⁻⁵³`.
+#[inline(always)]
+fn loose_minor(p: &[f64; 4], q: &[f64; 4], u: usize, v: usize) -> DoubleDouble {
+    DoubleDouble::product(p[u], q[v]).plus_loosely(DoubleDouble::product(p[v], q[u]).negated())
 }
 
 /// The determinant of the columns `u`, `v` of two rows. Inlined, so that each number is split into halves once for all

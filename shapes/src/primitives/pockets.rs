@@ -31,21 +31,25 @@ pub(super) fn hull_and_pockets(corners: &[DVec2]) -> Result<Option<HullAndPocket
         corners.reverse();
     }
     let n = corners.len();
-    let is_reflex = |k: usize| turn(corners[(k + n - 1) % n], corners[k], corners[(k + 1) % n]) < 0.0;
-    let reflex = (0..n).filter(|k| is_reflex(*k)).count();
+    let turn_at = |k: usize| turn(corners[(k + n - 1) % n], corners[k % n], corners[(k + 1) % n]);
+    let reflex = (0..n).filter(|k| turn_at(*k) < 0.0).count();
     if reflex < MANY {
         return Ok(None);
     }
     let size = largest_coordinate(&corners);
     let Some(hull) = hull_corners(&corners) else { return Ok(None) };
     let hull = with_corners_on_lids(&corners, &hull, LID_NOISE * size);
+    let is_worth_while = |pockets: usize| pockets <= MOST && 3 * pockets < reflex;
+    let mut waiting: usize = sides_of(&hull, n).map(|(from, between)| least_parts(from, between, turn_at)).sum();
+    if !is_worth_while(waiting) {
+        return Ok(None);
+    }
     let mut found = HullAndPockets { hull: Vec::new(), pockets: Vec::new() };
-    for (k, from) in hull.iter().enumerate() {
-        let to = hull[(k + 1) % hull.len()];
-        let between = (to + n - from) % n;
-        let line = side(corners[*from], corners[to])?;
+    for (from, between) in sides_of(&hull, n) {
+        let to = (from + between) % n;
+        let line = side(corners[from], corners[to])?;
         if between == 1 {
-            let is_short = corners[*from].distance(corners[to]) <= LID_REACH * size;
+            let is_short = corners[from].distance(corners[to]) <= LID_REACH * size;
             let depth = |p: &DVec2| (line.offset() - line.normal().truncate().dot(*p)) / line.normal().length();
             if is_short && corners.iter().any(|p| depth(p) < -LID_REACH * size) {
                 // rounding turns so short a side anywhere, also across the body
@@ -54,7 +58,7 @@ pub(super) fn hull_and_pockets(corners: &[DVec2]) -> Result<Option<HullAndPocket
             found.hull.push(line);
             continue;
         }
-        if corners[*from].distance(corners[to]) <= LID_REACH * size {
+        if corners[from].distance(corners[to]) <= LID_REACH * size {
             // a mouth that is no wider than what the hull reaches beyond
             return Ok(None);
         }
@@ -62,15 +66,30 @@ pub(super) fn hull_and_pockets(corners: &[DVec2]) -> Result<Option<HullAndPocket
         found.hull.push(plane(line.normal(), line.offset() + reach)?);
         // the lid, and then the sides from its end back to its start
         let pocket: Vec<DVec2> =
-            [*from].into_iter().chain((1..=between).rev().map(|step| (from + step) % n)).map(|k| corners[k]).collect();
+            [from].into_iter().chain((1..=between).rev().map(|step| (from + step) % n)).map(|k| corners[k]).collect();
         let walls = Walls::over(&pocket)?;
         for mut cell in walls.cells()? {
             cell.retain(|side| side.facet != 0);
             found.pockets.push(half_spaces(&cell, &walls.half_spaces).collect());
         }
+        waiting -= least_parts(from, between, turn_at);
+        if !is_worth_while(found.pockets.len() + waiting) {
+            return Ok(None);
+        }
     }
-    let count = found.pockets.len();
-    Ok((count <= MOST && 3 * count < reflex).then_some(found))
+    Ok(Some(found))
+}
+
+/// The sides of a hull of a loop of `n` corners: the corner where each begins, and how many sides of the loop lie behind it.
+fn sides_of(hull: &[usize], n: usize) -> impl Iterator<Item = (usize, usize)> {
+    hull.iter().enumerate().map(move |(k, from)| (*from, (hull[(k + 1) % hull.len()] + n - from) % n))
+}
+
+/// Number of convex parts, at least, of the pocket behind a side of the hull: a cut ends in two of its reflex corners at most.
+fn least_parts(from: usize, between: usize, turn_at: impl Fn(usize) -> f64) -> usize {
+    // the loop turns to the left where the pocket does to the right
+    let reflex = (from + 1..from + between).filter(|k| turn_at(*k) > 0.0).count();
+    if between == 1 { 0 } else { 1 + reflex.div_ceil(2) }
 }
 
 /// The numbers of the corners of the convex hull, ascending; `None` where they do not come in the order of the loop.

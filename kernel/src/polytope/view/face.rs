@@ -80,9 +80,10 @@ impl IncrementalPolytope {
         // which faces are slivers is known once all were looked at
         let half_edges = 3 * self.vertices.slot_count();
         let (mut edges, mut ends, mut slivers) = (Vec::with_capacity(half_edges), Vec::new(), Slivers::default());
+        let mut known = vec![None; half_edges];
         for plane in self.planes.faces().filter(|plane| !self.is_empty() && !is_infinity(*plane)) {
             let start = edges.len();
-            self.exact_edges(plane, &mut edges);
+            self.exact_edges(plane, &mut edges, &mut known);
             match edges[start..] {
                 [] | [_] => edges.truncate(start),
                 [one, other] => {
@@ -118,18 +119,28 @@ impl IncrementalPolytope {
     /// The planes of a face's edges in order, without those of exactly no length.
     pub(in crate::polytope) fn edge_planes(&self, plane: u32) -> Vec<u32> {
         let mut edges = Vec::new();
-        self.exact_edges(plane, &mut edges);
+        self.exact_edges(plane, &mut edges, &mut []);
         edges.into_iter().map(|edge| edge.plane).collect()
     }
 
-    /// Adds a face's edges in order, without those of exactly no length.
-    fn exact_edges(&self, plane: u32, edges: &mut Vec<FaceEdge>) {
+    /// Adds a face's edges in order, without those of exactly no length. `has_length` is told of the half-edges that were met from the face on
+    /// the other side, by vertex and place there; where it is empty, nothing is kept.
+    fn exact_edges(&self, plane: u32, edges: &mut Vec<FaceEdge>, has_length: &mut [Option<bool>]) {
         for (vertex, k) in self.vertices.face_corners(plane, self.planes.face_vertex(plane)) {
             // the edge from this vertex (plane, p, q) to the next lies on q
             let planes = self.vertices.planes(vertex);
             let next = self.vertices.link(vertex, NEXT[k]);
-            let across = self.vertices.planes(next.vertex())[next.index()];
-            if !self.is_exactly_on(planes, across) {
+            let known = has_length.get(3 * vertex as usize + k).copied().flatten();
+            let is_long = known.unwrap_or_else(|| {
+                let across = self.vertices.planes(next.vertex())[next.index()];
+                let is_long = !self.is_exactly_on(planes, across);
+                // seen from q it begins there, before the plane that is across
+                if let Some(opposite) = has_length.get_mut(3 * next.vertex() as usize + BEFORE[next.index()]) {
+                    *opposite = Some(is_long);
+                }
+                is_long
+            });
+            if is_long {
                 edges.push(FaceEdge { plane: planes[BEFORE[k]], start: vertex, end: next.vertex() });
             }
         }

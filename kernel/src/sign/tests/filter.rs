@@ -4,9 +4,11 @@
 use dashu_ratio::RBig;
 use planecut_oracle::random::Rng;
 
+use super::super::extended::certain_side;
 use super::super::filter::{self, Ascent, DET3_BOUND, DET4_BOUND, Homogeneous, OffsetColumn, Slope, certain_det3};
 use super::super::{Corner, FaceCorners, Probe, Row, Sign};
 use super::{DRAWS, dense_rows, exact, magnitude, normal, rows, shifted, sign_of, sum, terms_of_det3};
+use crate::arithmetic::DoubleDouble;
 
 /// Below `2^-SURE` of the permanent a filter may leave the sign of dense rows open, above it may not.
 const SURE: usize = 45;
@@ -120,6 +122,54 @@ fn a_certain_side_is_the_side() {
         certain += usize::from(found != Sign::Zero);
     }
     assert!(certain > DRAWS / 4 && certain < DRAWS, "{certain} of {DRAWS}");
+}
+
+/// Below `2^-SURE_TWICE` of the permanent double-doubles may leave a sign open, above it they may not.
+const SURE_TWICE: usize = 97;
+
+#[test]
+fn what_double_doubles_decide_is_the_side() {
+    let mut rng = Rng::new(8);
+    let (mut behind, mut open) = (0, 0);
+    for _ in 0..2 * DRAWS {
+        let [a, b, c, h]: [Row; 4] = rows(&mut rng);
+        let [value, size] = Meeting::of(&[a, b, c], &h, OffsetColumn::Finite).side;
+        let found = certain_side([&a, &b, &c], &h, size.to_f64().value());
+        assert!(found.is_none_or(|found| found == sign_of(&value)), "{a:?} {b:?} {c:?} {h:?}: {found:?}");
+        if magnitude(&value) > shifted(&size, SURE_TWICE) {
+            assert!(found.is_some(), "{a:?} {b:?} {c:?} {h:?}");
+            behind += usize::from(magnitude(&value) < shifted(&size, SURE));
+        } else {
+            open += 1;
+        }
+    }
+    assert!(behind > DRAWS / 20 && open > DRAWS / 20, "{behind} behind the filter, {open} open");
+}
+
+#[test]
+fn a_loose_sum_is_within_its_bound() {
+    let mut rng = Rng::new(9);
+    let value = |v: DoubleDouble| exact(v.high) + exact(v.low);
+    let mut cancelled = 0;
+    for draw in 0..2 * DRAWS {
+        let [p, q, r, s]: [f64; 4] = std::array::from_fn(|_| rng.float(-2.0, 2.0));
+        let left = DoubleDouble::product(p, q);
+        // products that differ in their last digits, or anywhere
+        let right = if draw % 2 == 0 {
+            DoubleDouble::product(rng.nudge(p, 3), rng.nudge(-q, 3)).plus(DoubleDouble::product(r, s * 1e-20))
+        } else {
+            DoubleDouble::product(r, s)
+        };
+        let (sum, size) = (value(left) + value(right), magnitude(&value(left)) + magnitude(&value(right)));
+        let found = left.plus_loosely(right);
+        assert!(
+            magnitude(&(value(found) - &sum)) <= shifted(&size, 106) * RBig::from(7),
+            "{left:?} {right:?}: {found:?}"
+        );
+        assert!(found.low.abs() <= f64::EPSILON * found.high.abs(), "{left:?} {right:?}: {found:?}");
+        cancelled += usize::from(magnitude(&sum) < shifted(&size, 40));
+    }
+    assert!(cancelled > DRAWS / 4, "{cancelled}");
 }
 
 /// The quick permanents are a few times too large, not more, and sides that are clear are found.
