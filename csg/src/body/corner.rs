@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use planecut_kernel::HalfSpace;
-use planecut_kernel::sign::{Homogeneous, Sign};
+use planecut_kernel::sign::{Homogeneous, Sign, side_left_open};
 
 use crate::base::Bounds;
 use crate::ids::{BodyId, CornerId, Id};
@@ -104,7 +104,7 @@ pub(crate) fn exact_side(table: &PlaneTable, planes: [PlaneId; 3], plane: PlaneI
     if planes.iter().any(|other| other.index() == plane.index()) {
         return Sign::Zero;
     }
-    table.side(planes, &table.homogeneous(planes), plane)
+    side_left_open(planes.map(|p| table.row(p)), table.row(plane))
 }
 
 impl Bounds {

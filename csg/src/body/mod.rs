@@ -120,7 +120,7 @@ impl Body {
 
     /// The corners of a face: corner `i` between the edges `i` and `i + 1`.
     pub(crate) fn corners(&self, face: &BodyFace) -> impl ExactSizeIterator<Item = &Corner> + Clone {
-        let numbers = &self.corners.structure.numbers[face.start as usize..face.end as usize];
+        let numbers = &self.corners.numbers[face.start as usize..face.end as usize];
         numbers.iter().map(|number| &self.corners.different[number.index()])
     }
 

@@ -19,6 +19,7 @@ use crate::ids::{CornerId, Id};
 #[derive(Debug)]
 struct SimpleStructure {
     structure: Arc<Structure>,
+    numbers: Vec<CornerId>,
     /// Where the edges of each face end.
     ends: Vec<u32>,
     /// The planes of each corner, right-handed.
@@ -69,8 +70,8 @@ fn normal(row: &Row) -> [f64; 3] {
 impl SimpleStructure {
     /// That of a shape of some planes; nothing where one of them has no face or more than three meet in a corner.
     fn of(shape: &Shape, count: usize) -> Option<Self> {
-        let (different, structure) = (&shape.corners.different, &shape.corners.structure);
-        let Structure { numbers, edges, planes } = &**structure;
+        let Corners { different, numbers, structure, .. } = &*shape.corners;
+        let Structure { edges, planes } = &**structure;
         // a corner that several faces share by one number is shared by three; Euler's formula tells that none is named twice
         let is_simple = numbers.len() == 3 * different.len() && different.len() + planes.len() == numbers.len() / 2 + 2;
         if !is_simple || planes.len() != count {
@@ -93,6 +94,7 @@ impl SimpleStructure {
         }
         Some(Self {
             structure: Arc::clone(structure),
+            numbers: numbers.clone(),
             ends: shape.faces.iter().map(|face| face.end).collect(),
             corners,
             lengths,
@@ -110,7 +112,7 @@ impl SimpleStructure {
         if !self.lengths.iter().all(is_long) {
             return None;
         }
-        let corners = Corners::new(points.iter(), Arc::clone(&self.structure));
+        let corners = Corners::new(&points, self.numbers.clone(), Arc::clone(&self.structure));
         Some(Shape::measured(&self.ends, corners, |idx| plane(idx.0)))
     }
 }
@@ -136,8 +138,8 @@ mod tests {
     fn told(shape: &BrushShape) -> String {
         match shape {
             BrushShape::Bounded(Shape { faces, corners, bounds, volume }) => {
-                let Corners { different, structure, .. } = &**corners;
-                format!("{faces:?} {different:?} {structure:?} {bounds:?} {volume:?}")
+                let Corners { different, numbers, structure, .. } = &**corners;
+                format!("{faces:?} {different:?} {numbers:?} {structure:?} {bounds:?} {volume:?}")
             }
             other => format!("{other:?}"),
         }

@@ -35,16 +35,17 @@ pub(super) struct Face {
 pub(super) struct Corners {
     /// The different corners.
     pub(super) different: Vec<Corner>,
+    /// Face by face the numbers of its corners.
+    pub(super) numbers: Vec<CornerId>,
     pub(super) structure: Arc<Structure>,
     /// Made when first asked for.
     pub(super) polar_dual: OnceLock<Option<Box<PolarDual>>>,
 }
 
-/// Which corners, edges and planes faces have, what bodies share that differ in distances alone.
+/// Which planes and edges faces have, what bodies share that differ in distances alone.
 #[derive(Debug, Default)]
 pub(super) struct Structure {
-    /// Face by face the numbers of its corners, and the planes of its edges: those of the neighbouring faces.
-    pub(super) numbers: Vec<CornerId>,
+    /// Face by face the planes of its edges: those of the neighbouring faces.
     pub(super) edges: Vec<PlaneIdx>,
     /// The plane of each face.
     pub(super) planes: Vec<PlaneIdx>,
@@ -52,15 +53,16 @@ pub(super) struct Structure {
 
 impl Corners {
     /// Corners at some points, in the order of their numbers.
-    pub(super) fn new<'a>(points: impl Iterator<Item = &'a Homogeneous>, structure: Arc<Structure>) -> Self {
-        let corner = |(number, point)| Corner { number: CornerId::from_index(number), ..Corner::new(point) };
-        Self { different: points.enumerate().map(corner).collect(), structure, polar_dual: OnceLock::new() }
+    pub(super) fn new(points: &[Homogeneous], numbers: Vec<CornerId>, structure: Arc<Structure>) -> Self {
+        let corner = |(number, point)| Corner { number, ..Corner::new(point) };
+        let different = CornerId::all(points.len()).zip(points).map(corner).collect();
+        Self { different, numbers, structure, polar_dual: OnceLock::new() }
     }
 
     /// The mean of the corners, each counted once for each face at it.
     pub(super) fn middle(&self) -> DVec3 {
-        let numbers = &self.structure.numbers;
-        numbers.iter().map(|number| self.different[number.index()].at).sum::<DVec3>() / numbers.len() as f64
+        let corners = self.numbers.iter().map(|number| self.different[number.index()].at);
+        corners.sum::<DVec3>() / self.numbers.len() as f64
     }
 }
 
@@ -71,7 +73,8 @@ impl Shape {
         polytope: &IncrementalPolytope,
         plane: impl Fn(PlaneIdx) -> (&'a Row, &'a HalfSpace),
     ) -> Option<Self> {
-        let (mut ends, mut structure, mut points) = (Vec::new(), Structure::default(), Vec::new());
+        let (mut ends, mut points, mut numbers) = (Vec::new(), Vec::new(), Vec::new());
+        let mut structure = Structure::default();
         let mut is_bounded = true;
         // the corners that other faces have as well, by their numbers
         let mut shared: Vec<Option<CornerId>> = vec![None; polytope.corner_bound()];
@@ -99,14 +102,14 @@ impl Shape {
                 if let Some(shared_number) = edge.corner {
                     shared[shared_number] = Some(number);
                 }
-                structure.numbers.push(number);
+                numbers.push(number);
             }
             structure.planes.push(own);
             ends.push(number32(structure.edges.len()));
         });
         structure.edges.shrink_to_fit();
-        structure.numbers.shrink_to_fit();
-        is_bounded.then(|| Self::measured(&ends, Corners::new(points.iter(), Arc::new(structure)), plane))
+        numbers.shrink_to_fit();
+        is_bounded.then(|| Self::measured(&ends, Corners::new(&points, numbers, Arc::new(structure)), plane))
     }
 
     /// The shape of known corners: boxes of its faces, of which each ends at an entry of the edges, and volume.
@@ -120,7 +123,7 @@ impl Shape {
         let structure = &*corners.structure;
         let face = |(&end, &own): (&u32, &PlaneIdx)| {
             let range = std::mem::replace(&mut start, end) as usize..end as usize;
-            let (numbers, edges) = (&structure.numbers[range.clone()], &structure.edges[range.clone()]);
+            let (numbers, edges) = (&corners.numbers[range.clone()], &structure.edges[range.clone()]);
             let mut bounds = Bounds::EMPTY;
             volume.begin_face();
             for (i, number) in numbers.iter().enumerate() {

@@ -26,9 +26,10 @@ pub(crate) fn homogeneous(planes: [&Row; 3]) -> [DoubleDouble; 4] {
 /// `permanent` is that of the whole determinant.
 ///
 /// It is expanded by the minors of two rows and those of the other two (Laplace). With `u = 2⁻⁵³`, a minor is off by `7u²` of its permanent, a product of two minors by `8u²` of theirs
-/// beyond what these are off, and each of five sums by `7u²` of what is added: `57u²` of the permanent in all, of which the bound is more than four times as much.
+/// beyond what these are off, and each of five sums by `7u²` of what is added: `57u²` of the permanent in all.
 pub(super) fn certain_side([a, b, c]: [&Row; 3], h: &Row, permanent: f64) -> Option<Sign> {
-    const SIDE_BOUND: f64 = 0.5 * DOUBLE_DOUBLE_BOUND;
+    // 64 u²
+    const SIDE_BOUND: f64 = f64::from_bits((1023 - 100) << 52);
     // outside this range the low words could underflow
     if !(1e-150..=1e150).contains(&permanent) {
         return None;

@@ -247,10 +247,9 @@ impl Homogeneous {
     #[inline]
     pub(crate) fn side(&self, rows: [&Row; 3], h: &Row, column: OffsetColumn) -> Sign {
         let n = h.coefficients();
-        let d = column.of(h);
-        let (x, p) = (&self.value, &self.permanent);
-        let value = n[0] * x[0] + n[1] * x[1] + n[2] * x[2] - d * x[3];
-        let permanent = n[0].abs() * p[0] + n[1].abs() * p[1] + n[2].abs() * p[2] + d.abs() * p[3];
+        let x = &self.value;
+        let value = n[0] * x[0] + n[1] * x[1] + n[2] * x[2] - column.of(h) * x[3];
+        let permanent = self.permanent_of_side(h, column);
         counts::note_total();
         if value.abs() > DET4_BOUND * permanent {
             return Sign::of(value);
@@ -260,6 +259,43 @@ impl Homogeneous {
         }
         side_exact(rows, h, column, value, permanent)
     }
+
+    /// The permanent of `n_h·(X, Y, Z) − d_h·W`.
+    #[inline(always)]
+    fn permanent_of_side(&self, h: &Row, column: OffsetColumn) -> f64 {
+        let (n, p) = (h.coefficients(), &self.permanent);
+        n[0].abs() * p[0] + n[1].abs() * p[1] + n[2].abs() * p[2] + column.of(h).abs() * p[3]
+    }
+}
+
+/// On which side of `h` the meeting point of three planes lies, as [`Homogeneous::side_of`] has it: for where plain numbers have already left
+/// it open.
+///
+/// Of planes that are no short integers double-doubles are asked at once, with a permanent that is a few times too large.
+#[must_use]
+pub fn side_left_open(rows: [&Row; 3], h: &Row) -> Sign {
+    let [a, b, c] = rows;
+    if [a, b, c, h].iter().all(|row| row.is_integer()) {
+        return Homogeneous::meet(a, b, c).side_of(rows, h);
+    }
+    let offsets = [a, b, c, h].map(|row| row.coefficients()[3].abs());
+    let [ma, mb, mc, mh] = [a, b, c, h].map(Row::magnitude);
+    // a determinant of three normals has six terms
+    let permanent = 6.0
+        * (offsets[0] * (mb * mc * mh)
+            + offsets[1] * (ma * mc * mh)
+            + offsets[2] * (ma * mb * mh)
+            + offsets[3] * (ma * mb * mc));
+    counts::note_total();
+    if let Some(sign) = certain_side(rows, h, permanent) {
+        return sign;
+    }
+    let point = Homogeneous::meet(a, b, c);
+    if point.permanent_of_side(h, OffsetColumn::Finite) == 0.0 {
+        return Sign::Zero;
+    }
+    counts::note_big();
+    big::det4([a, b, c, h], OffsetColumn::Finite).flip()
 }
 
 /// The tiers behind the filter.

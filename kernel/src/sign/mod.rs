@@ -31,9 +31,9 @@ pub use row::Row;
 
 pub(crate) use big::homogeneous as homogeneous_exactly;
 pub(crate) use extended::{DOUBLE_DOUBLE_BOUND, homogeneous as homogeneous_in_double_doubles, minor};
-pub use filter::Homogeneous;
 use filter::cross;
 pub(crate) use filter::{Ascent, BEFORE, NEXT, OffsetColumn, Slope};
+pub use filter::{Homogeneous, side_left_open};
 pub(crate) use point::{ExactPoint, POINT_BOUND, UNDERFLOW, integer_row, residual_with_error, side_of_point};
 pub(crate) use probe::{Corner, FaceCorners, Probe};
 

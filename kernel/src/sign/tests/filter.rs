@@ -5,7 +5,9 @@ use dashu_ratio::RBig;
 use planecut_oracle::random::Rng;
 
 use super::super::extended::certain_side;
-use super::super::filter::{self, Ascent, DET3_BOUND, DET4_BOUND, Homogeneous, OffsetColumn, Slope, certain_det3};
+use super::super::filter::{
+    self, Ascent, DET3_BOUND, DET4_BOUND, Homogeneous, OffsetColumn, Slope, certain_det3, side_left_open,
+};
 use super::super::{Corner, FaceCorners, Probe, Row, Sign};
 use super::{DRAWS, dense_rows, exact, magnitude, normal, rows, shifted, sign_of, sum, terms_of_det3};
 use crate::arithmetic::DoubleDouble;
@@ -135,6 +137,7 @@ fn what_double_doubles_decide_is_the_side() {
         let [a, b, c, h]: [Row; 4] = rows(&mut rng);
         let [value, size] = Meeting::of(&[a, b, c], &h, OffsetColumn::Finite).side;
         let found = certain_side([&a, &b, &c], &h, size.to_f64().value());
+        assert_eq!(side_left_open([&a, &b, &c], &h), sign_of(&value), "{a:?} {b:?} {c:?} {h:?}");
         assert!(found.is_none_or(|found| found == sign_of(&value)), "{a:?} {b:?} {c:?} {h:?}: {found:?}");
         if magnitude(&value) > shifted(&size, SURE_TWICE) {
             assert!(found.is_some(), "{a:?} {b:?} {c:?} {h:?}");

@@ -178,7 +178,9 @@ impl<'a> Cutter<'a> {
     fn exit(&mut self, polygon: &[Edge], at: usize, ray: Ray) -> Option<Hit> {
         let mut turns = std::mem::take(&mut self.turns);
         turns.clear();
-        turns.extend(polygon.iter().map(|edge| self.turn_from(ray, self.vertices[edge.from as usize])));
+        let line = self.sides.along(ray.side);
+        let turn = |edge: &Edge| oriented(line.turn(self.vertices[edge.from as usize]), ray.is_back);
+        turns.extend(polygon.iter().map(turn));
         let start = polygon[at].from;
         let mut best: Option<(usize, Hit)> = None;
         for (k, edge) in polygon.iter().enumerate() {
@@ -221,10 +223,6 @@ impl<'a> Cutter<'a> {
     /// On which side of an edge a vertex lies.
     fn turn(&self, edge: &Edge, vertex: u32) -> Ordering {
         oriented(self.sides.turn(edge.side, self.vertices[vertex as usize]), edge.is_outer)
-    }
-
-    fn turn_from(&self, ray: Ray, vertex: Vertex) -> Ordering {
-        oriented(self.sides.turn(ray.side, vertex), ray.is_back)
     }
 
     /// The parts to the right and to the left of a cut.

@@ -18,6 +18,16 @@ pub(super) struct Sides<'a> {
     corners: &'a [DVec2],
     /// Of each side the number of its line; sides on one line have the same.
     lines: &'a [u32],
+    /// Of each corner the lines of the sides before and after it.
+    lines_at: Vec<[u32; 2]>,
+}
+
+/// The line of a side, beside which many vertices are sought.
+pub(super) struct SideLine<'a> {
+    sides: &'a Sides<'a>,
+    side: u32,
+    line: u32,
+    ends: [DVec2; 2],
 }
 
 /// A determinant and how far it may be off.
@@ -33,7 +43,8 @@ const ERROR: f64 = 4.0 * f64::EPSILON;
 
 impl<'a> Sides<'a> {
     pub(super) fn new(corners: &'a [DVec2], lines: &'a [u32]) -> Self {
-        Self { corners, lines }
+        let before = lines.last().into_iter().chain(lines);
+        Self { corners, lines, lines_at: before.zip(lines).map(|(before, after)| [*before, *after]).collect() }
     }
 
     pub(super) fn len(&self) -> u32 {
@@ -49,22 +60,14 @@ impl<'a> Sides<'a> {
         [side, next].map(|k| self.corners[k as usize])
     }
 
-    /// On which side of the line of a side a vertex lies: greater is to the left. A vertex at an end of a side on the same line
-    /// lies on it.
+    /// The line of a side.
+    pub(super) fn along(&self, side: u32) -> SideLine<'_> {
+        SideLine { sides: self, side, line: self.line(side), ends: self.ends(side) }
+    }
+
+    /// On which side of the line of a side a vertex lies; as [`SideLine::turn`].
     pub(super) fn turn(&self, side: u32, vertex: Vertex) -> Ordering {
-        let line = self.line(side);
-        match vertex {
-            Vertex::Corner(k) => {
-                let before = (k + self.len() - 1) % self.len();
-                if self.line(before) == line || self.line(k) == line {
-                    return Ordering::Equal;
-                }
-                let [p, q] = self.ends(side);
-                sign(orient2d(at(p), at(q), at(self.corners[k as usize])))
-            }
-            Vertex::Meet(a, b) if self.line(a) == line || self.line(b) == line => Ordering::Equal,
-            Vertex::Meet(a, b) => self.turn_at_meet(side, a, b),
-        }
+        self.along(side).turn(vertex)
     }
 
     /// On the line of `a` from `a₀` to `a₁`, the determinant with the line of `b` goes from `d₀` to `d₁`, and is 0 where they
@@ -98,6 +101,27 @@ impl<'a> Sides<'a> {
                 let (d0, d1) = (rounded(other, a0).value, rounded(other, a1).value);
                 a0 + (a1 - a0) * (d0 / (d0 - d1))
             }
+        }
+    }
+}
+
+impl SideLine<'_> {
+    /// On which side of the line a vertex lies: greater is to the left. A vertex at an end of a side on the same line lies on it.
+    #[inline]
+    pub(super) fn turn(&self, vertex: Vertex) -> Ordering {
+        let (sides, line) = (self.sides, self.line);
+        match vertex {
+            Vertex::Corner(k) if sides.lines_at[k as usize].contains(&line) => Ordering::Equal,
+            Vertex::Corner(k) => {
+                let corner = sides.corners[k as usize];
+                let exactly = || {
+                    let [p, q] = self.ends;
+                    sign(orient2d(at(p), at(q), at(corner)))
+                };
+                rounded(self.ends, corner).sign().unwrap_or_else(exactly)
+            }
+            Vertex::Meet(a, b) if sides.line(a) == line || sides.line(b) == line => Ordering::Equal,
+            Vertex::Meet(a, b) => sides.turn_at_meet(self.side, a, b),
         }
     }
 }
