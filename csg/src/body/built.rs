@@ -142,8 +142,11 @@ impl ShapeBuilder {
         if let Some(shape) = self.pattern.shape(count, &plane) {
             return BrushShape::Bounded(shape);
         }
-        let shape = shape_of_planes(count, &plane, &mut self.polytope);
-        if let BrushShape::Bounded(shape) = &shape {
+        let mut shape = shape_of_planes(count, &plane, &mut self.polytope);
+        if let BrushShape::Bounded(shape) = &mut shape {
+            if let Some(last) = self.pattern.last() {
+                shape.share_structure(last);
+            }
             self.pattern.set(shape, count, plane);
         }
         shape

@@ -39,6 +39,11 @@ pub(super) struct Pattern {
 }
 
 impl Pattern {
+    /// The shape that is the pattern.
+    pub(super) fn last(&self) -> Option<&Shape> {
+        self.shape.as_ref()
+    }
+
     /// Makes a shape the pattern; `plane` gives the coefficients of its planes, of which there are `count`.
     pub(super) fn set<'a>(&mut self, shape: &Shape, count: usize, plane: impl Fn(usize) -> (&'a Row, &'a HalfSpace)) {
         self.normals.clear();

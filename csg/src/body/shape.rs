@@ -43,7 +43,7 @@ pub(super) struct Corners {
 }
 
 /// Which planes and edges faces have, what bodies share that differ in distances alone.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, PartialEq)]
 pub(super) struct Structure {
     /// Face by face the planes of its edges: those of the neighbouring faces.
     pub(super) edges: Vec<PlaneIdx>,
@@ -141,6 +141,16 @@ impl Shape {
         let mut shape = Self { faces, corners: Arc::new(corners), bounds: Bounds::EMPTY, volume: volume.six / 6.0 };
         shape.tighten_bounds(|idx| plane(idx).1);
         shape
+    }
+
+    /// Takes the structure of another shape for its own, where it is the same: it is kept once.
+    pub(super) fn share_structure(&mut self, other: &Self) {
+        let structure = &other.corners.structure;
+        if let Some(corners) = Arc::get_mut(&mut self.corners)
+            && corners.structure == *structure
+        {
+            corners.structure = Arc::clone(structure);
+        }
     }
 
     /// Brings the faces into the order that their planes have.

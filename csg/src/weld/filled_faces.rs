@@ -61,7 +61,11 @@ pub(super) fn filled_faces(
             mesh_faces.push(mesh_face(regions, face.region, normal));
         }
         let corner = |piece: HalfEdgeId| vertex[piece.index()].number();
-        let Triangles { corners, labels } = triangles;
+        let Triangles { corners, mut labels } = triangles;
+        // room for more may be as much again
+        labels.shrink_to_fit();
+        mesh_faces.shrink_to_fit();
+        triangle_faces.shrink_to_fit();
         let triangles = corners.iter().map(|corners| corners.map(corner)).collect();
         FilledFaces { triangles, labels, faces: mesh_faces, triangle_faces }
     });

@@ -162,9 +162,10 @@ pub(crate) fn weld(
     let begin = Clock::start();
     let (filled, counted) = filled_faces(table, &regions, &points, &pieces, &faces, &vertex);
     signs += counted;
-    let twins: Vec<HalfEdgeId> = pieces.par_iter().with_min_len(4096).map(|piece| piece.twin).collect();
     // of a large model each of these is as large as its mesh
-    drop((faces, vertex, pieces));
+    drop((faces, vertex));
+    let twins: Vec<HalfEdgeId> = pieces.par_iter().with_min_len(4096).map(|piece| piece.twin).collect();
+    drop(pieces);
     let (mut mesh, labels) = filled_faces::mesh_of(filled, materials);
     mesh.positions = point.par_iter().with_min_len(4096).map(|p| points.positions[p.index()]).collect();
     drop((point, points));
