@@ -11,7 +11,7 @@ use crate::base::by_group;
 /// The twin of a half-edge that has none.
 pub const NO_TWIN: u32 = u32::MAX;
 
-/// More ends than these are sorted.
+/// Up to this number of ends are compared with one another; more are sorted.
 const FEW: usize = 16;
 
 /// Vertices that one thread looks at in a row.
@@ -32,65 +32,33 @@ pub fn previous(half_edge: u32) -> u32 {
 }
 
 /// The other ends of the half-edges at a vertex: of those that leave it, and of those that come to it.
+#[derive(Default)]
 struct Ends {
     leaving: Vec<u32>,
     coming: Vec<u32>,
-    /// Ends of half-edges that leave a vertex, by their last bits; [`NO_END`] where there is none.
-    by_last_bits: [u32; PLACES],
-}
-
-/// Number of places for ends.
-const PLACES: usize = 256;
-
-/// No vertex has this number.
-const NO_END: u32 = u32::MAX;
-
-impl Default for Ends {
-    fn default() -> Self {
-        Self { leaving: Vec::new(), coming: Vec::new(), by_last_bits: [NO_END; PLACES] }
-    }
 }
 
 impl Ends {
     /// Whether each half-edge at a vertex has a twin. As many come to it as leave it: it is enough that all of these end differently, and
     /// that of those each begins where one of these ends.
     fn are_paired(&mut self, half_edges: &HalfEdges<'_>, vertex: u32) -> bool {
-        let leaving = half_edges.leaving(vertex);
-        if leaving.len() <= FEW && self.are_seen_to_be_paired(half_edges, vertex, leaving) {
-            return true;
-        }
         self.leaving.clear();
         self.coming.clear();
-        for half_edge in leaving {
+        for half_edge in half_edges.leaving(vertex) {
             let [_, to, from] = half_edges.turned(*half_edge);
             self.leaving.push(to);
             self.coming.push(from);
         }
-        self.leaving.sort_unstable();
-        self.coming.sort_unstable();
-        let are_different = self.leaving.windows(2).all(|pair| pair[0] != pair[1]);
-        // an edge from a vertex to itself is nobody's twin
-        are_different && self.leaving == self.coming && self.leaving.binary_search(&vertex).is_err()
-    }
-
-    /// The same where no two ends have their last bits in common: each end has a place, from which what begins there takes it. As many are taken as
-    /// were put there, each from a place of its own, so all are different.
-    fn are_seen_to_be_paired(&mut self, half_edges: &HalfEdges<'_>, vertex: u32, leaving: &[u32]) -> bool {
-        let corners = leaving.iter().map(|half_edge| half_edges.turned(*half_edge));
-        let place = |end: u32| end as usize % PLACES;
-        let mut are_paired = true;
-        for [_, to, _] in corners.clone() {
-            let known = std::mem::replace(&mut self.by_last_bits[place(to)], to);
-            are_paired &= known == NO_END && to != vertex;
+        if self.leaving.len() > FEW {
+            self.leaving.sort_unstable();
+            self.coming.sort_unstable();
+            let are_different = self.leaving.windows(2).all(|pair| pair[0] != pair[1]);
+            // an edge from a vertex to itself is nobody's twin
+            return are_different && self.leaving == self.coming && self.leaving.binary_search(&vertex).is_err();
         }
-        for [.., from] in corners.clone() {
-            let known = std::mem::replace(&mut self.by_last_bits[place(from)], NO_END);
-            are_paired &= known == from;
-        }
-        if !are_paired {
-            corners.for_each(|[_, to, _]| self.by_last_bits[place(to)] = NO_END);
-        }
-        are_paired
+        let count = |ends: &[u32], end: u32| ends.iter().map(|other| u32::from(*other == end)).sum::<u32>();
+        let is_paired = |end: &u32| *end != vertex && count(&self.leaving, *end) == 1 && count(&self.coming, *end) == 1;
+        self.leaving.iter().all(is_paired)
     }
 }
 

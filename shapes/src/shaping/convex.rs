@@ -10,6 +10,9 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use crate::parameter::ShapeError;
 use crate::tolerances::MERGED_VERTICES;
 
+/// Number of planes from which bodies are worth waiting for threads.
+const MANY_PLANES: usize = 256;
+
 /// A bounded convex body with interior.
 pub(super) struct Convex {
     /// The half-spaces that have a face, exactly.
@@ -141,9 +144,18 @@ fn build(half_spaces: &[HalfSpace]) -> IncrementalPolytope {
     polytope
 }
 
-/// The brushes of a union that have an interior.
-pub(super) fn parts_of_union(tree: &Tree) -> Result<Vec<(&Brush, Convex)>, ShapeError> {
-    let parts = tree.brushes().iter().map(|brush| Ok(Convex::of_brush(brush)?.map(|convex| (brush, convex))));
+/// The brushes of unions that have an interior; those of many planes are built in parallel.
+pub(super) fn parts_of_unions<'a>(
+    trees: impl IntoIterator<Item = &'a Tree>,
+) -> Result<Vec<(&'a Brush, Convex)>, ShapeError> {
+    let brushes: Vec<&Brush> = trees.into_iter().flat_map(Tree::brushes).collect();
+    let planes: usize = brushes.iter().map(|brush| brush.faces.len()).sum();
+    let bodies: Vec<Result<Option<Convex>, ShapeError>> = if brushes.len() > 1 && planes >= MANY_PLANES {
+        planecut_parallel::map_parts(brushes.len(), |k| Convex::of_brush(brushes[k]))
+    } else {
+        brushes.iter().map(|brush| Convex::of_brush(brush)).collect()
+    };
+    let parts = brushes.into_iter().zip(bodies).map(|(brush, body)| Ok(body?.map(|body| (brush, body))));
     parts.filter_map(Result::transpose).collect()
 }
 

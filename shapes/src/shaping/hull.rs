@@ -4,7 +4,7 @@ use planecut_csg::stages::{KnownPlanes, compare};
 use planecut_csg::{Brush, MaterialId, Tree};
 use planecut_kernel::{DVec3, HalfSpace, HullError};
 
-use super::convex::{Convex, evaluated, parts_of_union, wide_faces};
+use super::convex::{Convex, evaluated, parts_of_unions, wide_faces};
 use crate::parameter::ShapeError;
 
 /// The convex hull of all operands together; empty where none has an interior. A single convex body is its own hull, with its
@@ -25,14 +25,11 @@ pub fn hull(operands: &[Tree], material: MaterialId) -> Result<Tree, ShapeError>
 /// # Errors
 /// As [`hull`], and [`ShapeError::Hull`] for a point whose coordinates are not accepted.
 pub fn hull_with_points(operands: &[Tree], points: &[DVec3], material: MaterialId) -> Result<Tree, ShapeError> {
-    let mut bodies: Vec<(&Brush, Convex)> = Vec::new();
+    let is_in_parts = |operand: &&Tree| operand.is_union() && !operand.has_meshes();
+    let bodies: Vec<(&Brush, Convex)> = parts_of_unions(operands.iter().filter(is_in_parts))?;
     let mut corners: Vec<DVec3> = points.to_vec();
-    for operand in operands {
-        if operand.is_union() && !operand.has_meshes() {
-            bodies.extend(parts_of_union(operand)?);
-        } else {
-            corners.extend(evaluated(operand)?.mesh.positions);
-        }
+    for operand in operands.iter().filter(|operand| !is_in_parts(operand)) {
+        corners.extend(evaluated(operand)?.mesh.positions);
     }
     if let ([(brush, _)], true) = (&bodies[..], corners.is_empty()) {
         return Ok(Tree::from((*brush).clone()));

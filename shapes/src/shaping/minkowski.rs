@@ -12,7 +12,7 @@ use planecut_kernel::{DVec3, HalfSpace, direction_across, line_direction};
 use rustc_hash::FxHashMap;
 
 use super::boxes::{Bounds, BoxTree};
-use super::convex::{Convex, Edge, parts_of_union, wide_faces};
+use super::convex::{Convex, Edge, parts_of_unions, wide_faces};
 use crate::parameter::{ShapeError, pieces};
 use crate::polyhedron::convex_tree;
 
@@ -25,19 +25,18 @@ use crate::polyhedron::convex_tree;
 pub fn minkowski(a: &Tree, b: &Tree, material: MaterialId) -> Result<Tree, ShapeError> {
     let (a, b) = (convex_parts(a)?, convex_parts(b)?);
     pieces(a.len() as u64 * b.len() as u64)?;
-    let mut brushes = Vec::with_capacity(a.len() * b.len());
-    for first in &a {
-        for second in &b {
-            brushes.push(Brush::from_half_spaces(sum(first, second)?, material));
-        }
-    }
-    Ok(Tree::union_of(brushes))
+    let sum_of_pair = |k: usize| {
+        let faces = sum(&a[k / b.len()], &b[k % b.len()])?;
+        Ok(Brush::from_half_spaces(faces, material))
+    };
+    let brushes = planecut_parallel::map_parts(a.len() * b.len(), sum_of_pair);
+    Ok(Tree::union_of(brushes.into_iter().collect::<Result<Vec<Brush>, ShapeError>>()?))
 }
 
 fn convex_parts(tree: &Tree) -> Result<Vec<Gauss>, ShapeError> {
     let tree = convex_tree(tree)?;
     let parts = if tree.is_union() {
-        parts_of_union(&tree)?.into_iter().map(|(_, body)| body).collect()
+        parts_of_unions([&*tree])?.into_iter().map(|(_, body)| body).collect()
     } else {
         super::convex::cells(&tree)?
     };
