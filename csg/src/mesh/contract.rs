@@ -5,7 +5,7 @@
 //! keep the mesh a manifold, so edges are contracted one by one, each only where the surface stays the surface it was
 //! (the link condition: Dey, Edelsbrunner, Guha, Nekhayev 1999).
 
-use crate::ids::{holds, number32};
+use crate::ids::number32;
 use glam::DVec3;
 use smallvec::SmallVec;
 
@@ -80,9 +80,6 @@ fn short_edges(mesh: &Mesh, is_short: impl Fn(DVec3, DVec3) -> bool) -> Vec<[u32
 
 /// The triangles at a vertex where they have changed.
 type Changed = SmallVec<[u32; 8]>;
-
-/// Of so few triangles at a vertex the vertices around it are compared with one another; more are sorted.
-const FEW: usize = 16;
 
 /// A vertex with nothing changed at it.
 const UNCHANGED: u32 = u32::MAX;
@@ -178,29 +175,14 @@ impl Contraction {
             return false;
         }
         let around = |v: u32| -> SmallVec<[u32; 32]> {
-            let triangles = self.triangles_at(v);
-            let corners = triangles.iter().flat_map(|t| mesh.triangles[*t as usize]).filter(|other| *other != v);
-            let mut around: SmallVec<[u32; 32]> = SmallVec::new();
-            if triangles.len() <= FEW {
-                for other in corners {
-                    if !holds(&around, other) {
-                        around.push(other);
-                    }
-                }
-            } else {
-                around.extend(corners);
-            }
-            if around.len() > FEW {
-                around.sort_unstable();
-                around.dedup();
-            }
+            let corners = self.triangles_at(v).iter().flat_map(|t| mesh.triangles[*t as usize]);
+            let mut around: SmallVec<[u32; 32]> = corners.filter(|other| *other != v).collect();
+            around.sort_unstable();
+            around.dedup();
             around
         };
         let (at_a, at_b) = (around(a), around(b));
-        let is_at_b = |vertex: &u32| {
-            if at_b.len() <= FEW { holds(&at_b, *vertex) } else { at_b.binary_search(vertex).is_ok() }
-        };
-        let common = at_a.iter().filter(|vertex| is_at_b(vertex)).count();
+        let common = at_a.iter().filter(|vertex| at_b.binary_search(vertex).is_ok()).count();
         // a tetrahedron would fold flat
         common == 2 && at_a.len() + at_b.len() > 6
     }
