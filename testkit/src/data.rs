@@ -37,7 +37,7 @@ macro_rules! tests_on_data {
     ($($name:ident),+ $(,)?) => {
         mod on_data {
             $(#[test]
-            #[ignore = "needs ../shared/data"]
+            #[ignore = "2026-11-23: needs ../shared/data"]
             fn $name() {
                 super::$name();
             })+

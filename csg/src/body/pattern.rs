@@ -11,8 +11,8 @@ use std::sync::{Arc, OnceLock};
 use planecut_kernel::sign::{Homogeneous, Row, Sign};
 use planecut_kernel::{HalfSpace, PlaneIdx};
 
-use super::Shape;
 use super::shape::{Corners, Structure};
+use super::{Corner, Shape};
 use crate::ids::{CornerId, Id};
 
 /// The structure of a body with three planes at every corner.
@@ -117,7 +117,8 @@ impl SimpleStructure {
         if !self.lengths.iter().all(is_long) {
             return None;
         }
-        let corners = Corners::new(&points, self.numbers.clone(), Arc::clone(&self.structure));
+        let different = points.iter().map(Corner::new).collect();
+        let corners = Corners::new(different, self.numbers.clone(), Arc::clone(&self.structure));
         Some(Shape::measured(&self.ends, corners, |idx| plane(idx.0)))
     }
 }

@@ -228,7 +228,9 @@ impl PolarDual {
     pub(crate) fn near(&self, point: &Corner, face: BodyFaceId, found: &mut SomeFaces) {
         let (at, room) = self.relative(point);
         let level = 1.0 - 4.0 * room;
-        self.above(at, face, level, found);
+        found.clear();
+        found.push(face);
+        self.spread(at, level, 0, found);
     }
 
     /// A point seen from the center, and a [bound](room) for the error of its values.
@@ -292,13 +294,6 @@ impl PolarDual {
                 return (best, value);
             }
         }
-    }
-
-    /// The faces with values above a level that are connected to one.
-    fn above(&self, at: DVec3, face: BodyFaceId, level: f64, found: &mut SomeFaces) {
-        found.clear();
-        found.push(face);
-        self.spread(at, level, 0, found);
     }
 
     /// Adds the faces with values above a level that are connected to those found, but the neighbours of the first `done`, which are known.

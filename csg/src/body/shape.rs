@@ -52,10 +52,9 @@ pub(super) struct Structure {
 }
 
 impl Corners {
-    /// Corners at some points, in the order of their numbers.
-    pub(super) fn new(points: &[Homogeneous], numbers: Vec<CornerId>, structure: Arc<Structure>) -> Self {
-        let corner = |(number, point)| Corner { number, ..Corner::new(point) };
-        let different = CornerId::all(points.len()).zip(points).map(corner).collect();
+    /// Different corners, numbered in their order.
+    pub(super) fn new(mut different: Vec<Corner>, numbers: Vec<CornerId>, structure: Arc<Structure>) -> Self {
+        CornerId::all(different.len()).zip(&mut different).for_each(|(number, corner)| corner.number = number);
         Self { different, numbers, structure, polar_dual: OnceLock::new() }
     }
 
@@ -73,7 +72,7 @@ impl Shape {
         polytope: &IncrementalPolytope,
         plane: impl Fn(PlaneIdx) -> (&'a Row, &'a HalfSpace),
     ) -> Option<Self> {
-        let (mut ends, mut points, mut numbers) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut ends, mut different, mut numbers) = (Vec::new(), Vec::new(), Vec::new());
         let mut structure = Structure::default();
         let mut is_bounded = true;
         // the corners that other faces have as well, by their numbers
@@ -96,8 +95,8 @@ impl Shape {
                 let number = known.unwrap_or_else(|| {
                     let triple = [own, structure.edges[start + i], structure.edges[start + (i + 1) % count]];
                     let [a, b, c] = triple.map(|idx| plane(idx).0);
-                    points.push(Homogeneous::meet(a, b, c));
-                    CornerId::from_index(points.len() - 1)
+                    different.push(Corner::new(&Homogeneous::meet(a, b, c)));
+                    CornerId::from_index(different.len() - 1)
                 });
                 if let Some(shared_number) = edge.corner {
                     shared[shared_number] = Some(number);
@@ -109,7 +108,7 @@ impl Shape {
         });
         structure.edges.shrink_to_fit();
         numbers.shrink_to_fit();
-        is_bounded.then(|| Self::measured(&ends, Corners::new(&points, numbers, Arc::new(structure)), plane))
+        is_bounded.then(|| Self::measured(&ends, Corners::new(different, numbers, Arc::new(structure)), plane))
     }
 
     /// The shape of known corners: boxes of its faces, of which each ends at an entry of the edges, and volume.

@@ -36,7 +36,7 @@ pub(super) fn certain_side([a, b, c]: [&Row; 3], h: &Row, permanent: f64) -> Opt
     }
     let [a, b, c, h] = [a, b, c, h].map(Row::coefficients);
     let term = |[i, j]: [usize; 2], [k, l]: [usize; 2]| loose_minor(a, b, i, j).times_sum(loose_minor(c, h, k, l));
-    // the determinant with its sign turned: the side is positive where the rows are left-handed
+    // the determinant with its sign turned
     let value = term([0, 2], [1, 3])
         .plus_loosely(term([1, 0], [2, 3]))
         .plus_loosely(term([3, 0], [1, 2]))

@@ -104,12 +104,11 @@ fn hull_corners(corners: &[DVec2]) -> Option<Vec<usize>> {
 fn with_corners_on_lids(corners: &[DVec2], hull: &[usize], noise: f64) -> Vec<usize> {
     let n = corners.len();
     let mut all = Vec::with_capacity(hull.len());
-    for (k, from) in hull.iter().enumerate() {
-        let to = hull[(k + 1) % hull.len()];
-        let (start, along) = (corners[*from], corners[to] - corners[*from]);
+    for (from, between) in sides_of(hull, n) {
+        let (start, along) = (corners[from], corners[(from + between) % n] - corners[from]);
         let is_on_lid = |number: &usize| along.perp_dot(corners[*number] - start) <= noise * along.length();
-        all.push(*from);
-        all.extend((1..(to + n - from) % n).map(|step| (from + step) % n).filter(is_on_lid));
+        all.push(from);
+        all.extend((1..between).map(|step| (from + step) % n).filter(is_on_lid));
     }
     all
 }

@@ -150,7 +150,7 @@ pub(super) fn parts_of_unions<'a>(
 ) -> Result<Vec<(&'a Brush, Convex)>, ShapeError> {
     let brushes: Vec<&Brush> = trees.into_iter().flat_map(Tree::brushes).collect();
     let planes: usize = brushes.iter().map(|brush| brush.faces.len()).sum();
-    let bodies: Vec<Result<Option<Convex>, ShapeError>> = if brushes.len() > 1 && planes >= MANY_PLANES {
+    let bodies: Vec<Result<Option<Convex>, ShapeError>> = if planes >= MANY_PLANES {
         planecut_parallel::map_parts(brushes.len(), |k| Convex::of_brush(brushes[k]))
     } else {
         brushes.iter().map(|brush| Convex::of_brush(brush)).collect()
