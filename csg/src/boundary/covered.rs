@@ -76,7 +76,7 @@ impl CoverWorker {
             let whole = Piece::of_boundary(table, edge);
             self.known.push((bounds, Some(whole)));
             let line = Line { plane: edge.face, edge: edge.edge };
-            let covered = match line.cover(table, &whole, &whole.bounds(), &self.section) {
+            let covered = match line.cover(table, &whole, &self.section) {
                 Cover::Apart => continue,
                 Cover::Across(part) => part,
                 Cover::Along(part, other) if line.is_same_side(table, other) => part,

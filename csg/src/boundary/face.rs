@@ -406,7 +406,7 @@ fn subtract_others(
         if k == own || pieces.is_empty() || !other.bounds.touches(&bounds) {
             continue;
         }
-        match line.cover(table, &whole, &bounds, &other.polygon) {
+        match line.cover(table, &whole, &other.polygon) {
             Cover::Apart => {}
             Cover::Across(part) => line.subtract(table, pieces, &part),
             Cover::Along(part, edge) => {

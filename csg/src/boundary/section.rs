@@ -202,6 +202,13 @@ pub(super) enum Cover {
     Along(Piece, PlaneId),
 }
 
+impl Cover {
+    /// Whether all of a piece lies in the polygon.
+    pub(super) fn is_whole(&self, piece: &Piece) -> bool {
+        matches!(self, Self::Across(part) if (part.start, part.end) == (piece.start, piece.end))
+    }
+}
+
 impl Line {
     /// The right-handed planes of a point at which a piece starts.
     pub(super) fn start(self, start: PlaneId) -> [PlaneId; 3] {
@@ -245,21 +252,22 @@ impl Line {
         table.orient3(self.plane, self.edge, plane) == Sign::Positive
     }
 
-    /// The part of a piece, within a box, that lies in a convex polygon on the same plane.
-    pub(super) fn cover(self, table: &PlaneTable, piece: &Piece, bounds: &Bounds, polygon: &Polygon) -> Cover {
+    /// The part of a piece that lies in a convex polygon on the same plane.
+    pub(super) fn cover(self, table: &PlaneTable, piece: &Piece, polygon: &Polygon) -> Cover {
         let mut part = *piece;
         let mut along = None;
         for &edge in &polygon.edges {
-            // most edges are far away, and the box tells on which side
-            let half_space = table.half_space(edge);
-            let (low, high) = bounds.extent_along(half_space.normal(), half_space.offset());
-            if high < 0.0 {
+            // most edges are far away, and plain numbers tell on which side
+            let filter = PlaneFilter::new(table.half_space(edge));
+            let (start, end) = (filter.side(&part.start_point), filter.side(&part.end_point));
+            if start == Sign::Negative && end == Sign::Negative {
                 continue;
             }
-            if low > 0.0 {
-                return Cover::Apart;
-            }
-            let (start, end) = (part.start_side(table, self, edge), part.end_side(table, self, edge));
+            let exactly = |side: Sign, planes: [PlaneId; 3]| match side {
+                Sign::Zero => exact_side(table, planes, edge),
+                certain => certain,
+            };
+            let (start, end) = (exactly(start, self.start(part.start)), exactly(end, self.end(part.end)));
             match (start == Sign::Positive, end == Sign::Positive) {
                 (false, false) => {
                     if start == Sign::Zero && end == Sign::Zero {

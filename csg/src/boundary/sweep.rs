@@ -32,6 +32,8 @@ pub(super) struct Sweep {
     events: Vec<Event>,
     /// The sections that cover sides of the piece, until each is let go.
     covering: Vec<(SectionId, [bool; 2])>,
+    /// The section that covered all of an edge last: it mostly covers the next one, too.
+    last: Option<SectionId>,
 }
 
 /// What stays the same during the sweep over one face.
@@ -53,6 +55,7 @@ impl Sweep {
         ownership: &mut Ownership,
         out: &mut Vec<BoundaryEdge>,
     ) {
+        self.last = None;
         for i in 0..region.edges.len() {
             self.pieces.clear();
             self.pieces.push(Piece::of_edge(region, i));
@@ -78,17 +81,28 @@ impl Sweep {
         let whole = self.pieces[0];
         let bounds = whole.bounds();
         self.beside.clear();
-        for (k, other) in SectionId::all(context.sections.len()).zip(context.sections) {
+        let cover = |k: SectionId| line.cover(context.scene.table, &whole, &context.sections[k.index()].polygon);
+        let is_near = |k: SectionId| own != Some(k) && context.sections[k.index()].bounds.touches(&bounds);
+        let mut last = self.last.filter(|last| is_near(*last)).map(|last| (last, cover(last)));
+        if last.as_ref().is_some_and(|(_, cover)| cover.is_whole(&whole)) {
+            self.pieces.clear();
+            return;
+        }
+        for k in SectionId::all(context.sections.len()) {
             let covers = k.index() < context.covering;
             let is_earlier = own.is_some_and(|own| k < own);
-            if own == Some(k) || self.pieces.is_empty() || !other.bounds.touches(&bounds) {
+            if self.pieces.is_empty() || !is_near(k) {
                 continue;
             }
             if !covers && !is_earlier {
                 self.beside.push(k);
                 continue;
             }
-            match line.cover(context.scene.table, &whole, &bounds, &other.polygon) {
+            let (_, cover) = last.take_if(|(last, _)| *last == k).unwrap_or_else(|| (k, cover(k)));
+            if covers && cover.is_whole(&whole) {
+                self.last = Some(k);
+            }
+            match cover {
                 Cover::Along(part, _) if is_earlier => line.subtract(context.scene.table, &mut self.pieces, &part),
                 Cover::Across(part) if covers => line.subtract(context.scene.table, &mut self.pieces, &part),
                 Cover::Apart => {}
@@ -159,7 +173,7 @@ impl Sweep {
             if !other.bounds.touches(&bounds) {
                 continue;
             }
-            let (part, sides) = match line.cover(table, piece, &bounds, &other.polygon) {
+            let (part, sides) = match line.cover(table, piece, &other.polygon) {
                 Cover::Apart => continue,
                 Cover::Across(part) => (part, [true, true]),
                 Cover::Along(part, edge) if line.is_same_side(table, edge) => (part, [true, false]),

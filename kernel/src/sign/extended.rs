@@ -22,17 +22,25 @@ pub(crate) fn homogeneous(planes: [&Row; 3]) -> [DoubleDouble; 4] {
     [x, y, z, w]
 }
 
-/// On which side of a plane the meeting point of three others lies, times the sign of `W`, where double-doubles decide it;
-/// `permanent` is that of the whole determinant.
+/// What double-doubles tell of a determinant.
+pub(super) enum Found {
+    /// Its sign.
+    Sign(Sign),
+    /// A bound for its magnitude.
+    Below(f64),
+    /// Nothing, as the low words could underflow.
+    Nothing,
+}
+
+/// On which side of a plane the meeting point of three others lies, times the sign of `W`; `permanent` is that of the whole determinant.
 ///
 /// It is expanded by the minors of two rows and those of the other two (Laplace). With `u = 2⁻⁵³`, a minor is off by `7u²` of its permanent, a product of two minors by `8u²` of theirs
 /// beyond what these are off, and each of five sums by `7u²` of what is added: `57u²` of the permanent in all.
-pub(super) fn certain_side([a, b, c]: [&Row; 3], h: &Row, permanent: f64) -> Option<Sign> {
+pub(super) fn side([a, b, c]: [&Row; 3], h: &Row, permanent: f64) -> Found {
     // 64 u²
     const SIDE_BOUND: f64 = f64::from_bits((1023 - 100) << 52);
-    // outside this range the low words could underflow
     if !(1e-150..=1e150).contains(&permanent) {
-        return None;
+        return Found::Nothing;
     }
     let [a, b, c, h] = [a, b, c, h].map(Row::coefficients);
     let term = |[i, j]: [usize; 2], [k, l]: [usize; 2]| loose_minor(a, b, i, j).times_sum(loose_minor(c, h, k, l));
@@ -43,7 +51,8 @@ pub(super) fn certain_side([a, b, c]: [&Row; 3], h: &Row, permanent: f64) -> Opt
         .plus_loosely(term([2, 1], [0, 3]))
         .plus_loosely(term([1, 3], [0, 2]))
         .plus_loosely(term([3, 2], [0, 1]));
-    (value.high.abs() > SIDE_BOUND * permanent).then(|| Sign::of(value.high))
+    let bound = SIDE_BOUND * permanent;
+    if value.high.abs() > bound { Found::Sign(Sign::of(value.high)) } else { Found::Below(2.0 * bound) }
 }
 
 /// The same as [`minor`], off by at most `7u²` of the magnitudes of both products, with `u = 2⁻⁵³`.

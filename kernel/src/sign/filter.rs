@@ -6,8 +6,7 @@
 //! that. Underflow cannot matter: the accepted coefficient range (see [`HalfSpace`](crate::HalfSpace)) keeps every
 //! non-zero product of a permanent above `2⁻⁹⁰⁰`, while an underflowed product is off by at most `2⁻¹⁰⁷⁵`.
 
-use super::extended::certain_side;
-use super::{Row, Sign, big, counts, small_int};
+use super::{Row, Sign, big, counts, extended, near_zero, small_int};
 
 const U: f64 = f64::EPSILON / 2.0;
 
@@ -287,15 +286,22 @@ pub fn side_left_open(rows: [&Row; 3], h: &Row) -> Sign {
             + offsets[2] * (ma * mb * mh)
             + offsets[3] * (ma * mb * mc));
     counts::note_total();
-    if let Some(sign) = certain_side(rows, h, permanent) {
-        return sign;
-    }
-    let point = Homogeneous::meet(a, b, c);
-    if point.permanent_of_side(h, OffsetColumn::Finite) == 0.0 {
+    if permanent == 0.0 {
         return Sign::Zero;
     }
+    side_of_long_numbers(rows, h, permanent)
+}
+
+/// By double-doubles, or else by integers; `permanent` is that of the whole determinant or larger.
+fn side_of_long_numbers([a, b, c]: [&Row; 3], h: &Row, permanent: f64) -> Sign {
+    let bound = match extended::side([a, b, c], h, permanent) {
+        extended::Found::Sign(sign) => return sign,
+        extended::Found::Below(bound) => Some(bound),
+        extended::Found::Nothing => None,
+    };
     counts::note_big();
-    big::det4([a, b, c, h], OffsetColumn::Finite).flip()
+    let known_small = bound.and_then(|bound| near_zero::side([a, b, c], h, bound));
+    known_small.unwrap_or_else(|| big::det4([a, b, c, h], OffsetColumn::Finite).flip())
 }
 
 /// The tiers behind the filter.
@@ -309,10 +315,8 @@ fn side_exact([a, b, c]: [&Row; 3], h: &Row, column: OffsetColumn, value: f64, p
     if column == OffsetColumn::Infinite && [a, b, c].into_iter().any(|row| is_parallel_and_finite(row, h)) {
         return Sign::Zero;
     }
-    if column == OffsetColumn::Finite
-        && let Some(sign) = certain_side([a, b, c], h, permanent)
-    {
-        return sign;
+    if column == OffsetColumn::Finite {
+        return side_of_long_numbers([a, b, c], h, permanent);
     }
     counts::note_big();
     big::det4([a, b, c, h], column).flip()

@@ -5,7 +5,7 @@
 //!
 //! 1. floating point with a proven error bound (`filter`), sides of planes also in twice the precision (`extended`);
 //! 2. `i128`, where the rows are small integers (`small_int`): on grids about a fifth of all signs are true zeros;
-//! 3. longer integers (`big`), always: of a fixed length (`wide`) or, where that does not suffice, of any.
+//! 3. longer integers, always: of three words where the sign is that of a small number (`near_zero`), of a fixed length (`wide`) or, where that does not suffice, of any (`big`).
 //!
 //! Rows are scaled by exact powers of two (or, for integers, by their greatest common divisor), never normalised to
 //! unit length: dividing by a length would destroy exact coincidences.
@@ -14,6 +14,7 @@ mod big;
 mod counts;
 mod extended;
 mod filter;
+mod near_zero;
 mod point;
 mod probe;
 mod row;

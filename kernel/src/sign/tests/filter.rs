@@ -4,11 +4,11 @@
 use dashu_ratio::RBig;
 use planecut_oracle::random::Rng;
 
-use super::super::extended::certain_side;
+use super::super::extended::{self, Found};
 use super::super::filter::{
     self, Ascent, DET3_BOUND, DET4_BOUND, Homogeneous, OffsetColumn, Slope, certain_det3, side_left_open,
 };
-use super::super::{Corner, FaceCorners, Probe, Row, Sign};
+use super::super::{Corner, FaceCorners, Probe, Row, Sign, near_zero};
 use super::{DRAWS, dense_rows, exact, magnitude, normal, rows, shifted, sign_of, sum, terms_of_det3};
 use crate::arithmetic::DoubleDouble;
 
@@ -132,13 +132,25 @@ const SURE_TWICE: usize = 97;
 #[test]
 fn what_double_doubles_decide_is_the_side() {
     let mut rng = Rng::new(8);
-    let (mut behind, mut open) = (0, 0);
+    let (mut behind, mut open, mut short) = (0, 0, 0);
     for _ in 0..2 * DRAWS {
         let [a, b, c, h]: [Row; 4] = rows(&mut rng);
         let [value, size] = Meeting::of(&[a, b, c], &h, OffsetColumn::Finite).side;
-        let found = certain_side([&a, &b, &c], &h, size.to_f64().value());
         assert_eq!(side_left_open([&a, &b, &c], &h), sign_of(&value), "{a:?} {b:?} {c:?} {h:?}");
-        assert!(found.is_none_or(|found| found == sign_of(&value)), "{a:?} {b:?} {c:?} {h:?}: {found:?}");
+        let found = match extended::side([&a, &b, &c], &h, size.to_f64().value()) {
+            Found::Sign(found) => {
+                assert_eq!(found, sign_of(&value), "{a:?} {b:?} {c:?} {h:?}");
+                Some(found)
+            }
+            Found::Below(bound) => {
+                assert!(magnitude(&value) <= exact(bound), "{a:?} {b:?} {c:?} {h:?}: {bound}");
+                let small = near_zero::side([&a, &b, &c], &h, bound);
+                assert!(small.is_none_or(|found| found == sign_of(&value)), "{a:?} {b:?} {c:?} {h:?}: {small:?}");
+                short += usize::from(small.is_some());
+                None
+            }
+            Found::Nothing => None,
+        };
         if magnitude(&value) > shifted(&size, SURE_TWICE) {
             assert!(found.is_some(), "{a:?} {b:?} {c:?} {h:?}");
             behind += usize::from(magnitude(&value) < shifted(&size, SURE));
@@ -147,6 +159,26 @@ fn what_double_doubles_decide_is_the_side() {
         }
     }
     assert!(behind > DRAWS / 20 && open > DRAWS / 20, "{behind} behind the filter, {open} open");
+    assert!(short > open / 2, "{short} of {open} by three words");
+}
+
+/// Of any rows, with the determinant itself as the bound: up to the longest that three words hold.
+#[test]
+fn determinants_of_three_words_are_exact() {
+    let mut rng = Rng::new(9);
+    let (mut found, mut long) = (0, 0);
+    for _ in 0..2 * DRAWS {
+        let [a, b, c, h]: [Row; 4] = rows(&mut rng);
+        let [value, size] = Meeting::of(&[a, b, c], &h, OffsetColumn::Finite).side;
+        let bound = (magnitude(&value).to_f64().value() * (1.0 + 4.0 * f64::EPSILON)).max(1e-200);
+        let side = near_zero::side([&a, &b, &c], &h, bound);
+        assert!(side.is_none_or(|side| side == sign_of(&value)), "{a:?} {b:?} {c:?} {h:?}: {side:?}");
+        found += usize::from(side.is_some());
+        // one word less than it has would not do
+        long += usize::from(side.is_some() && near_zero::side([&a, &b, &c], &h, bound * 2f64.powi(64)).is_none());
+        assert!(magnitude(&value) <= size);
+    }
+    assert!(found > DRAWS / 4 && long > DRAWS / 40, "{found} found, {long} of more than two words");
 }
 
 #[test]
