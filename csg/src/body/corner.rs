@@ -2,11 +2,10 @@
 
 use glam::DVec3;
 use planecut_kernel::HalfSpace;
-use planecut_kernel::sign::{Homogeneous, Sign, side_left_open};
+use planecut_kernel::sign::{Homogeneous, Sign};
 
 use crate::base::Bounds;
 use crate::ids::{BodyId, CornerId, Id};
-use crate::plane_table::{PlaneId, PlaneTable};
 
 /// Three products and three sums, each rounded, and more.
 const PLANE_VALUE_BOUND: f64 = 8.0 * f64::EPSILON;
@@ -80,31 +79,12 @@ impl Corner {
         Self { at, error, within: Self::NOWHERE, number: Self::NEW }
     }
 
-    /// On which side of a plane it lies; `planes` are those that meet in it, right-handed.
-    #[inline]
-    pub(crate) fn side(&self, table: &PlaneTable, planes: [PlaneId; 3], plane: PlaneId) -> Sign {
-        match PlaneFilter::new(table.half_space(plane)).side(self) {
-            Sign::Zero => exact_side(table, planes, plane),
-            certain => certain,
-        }
-    }
-
     /// Whether its coordinates are right to ten digits; the bound for their error is far larger than the error.
     #[inline]
     pub(crate) fn is_well_known(&self) -> bool {
         const WELL: f64 = 1e-10;
         self.error <= WELL * self.at.abs().max_element()
     }
-}
-
-/// On which side of a plane the meeting point of three planes, right-handed, lies: asked for where plain numbers leave it open.
-#[cold]
-#[inline(never)]
-pub(crate) fn exact_side(table: &PlaneTable, planes: [PlaneId; 3], plane: PlaneId) -> Sign {
-    if planes.iter().any(|other| other.index() == plane.index()) {
-        return Sign::Zero;
-    }
-    side_left_open(planes.map(|p| table.row(p)), table.row(plane))
 }
 
 impl Bounds {

@@ -30,7 +30,7 @@ pub(crate) use build::{
 };
 pub use built::BuiltBodies;
 pub(crate) use built::ShapeBuilder;
-pub(crate) use corner::{Corner, PlaneFilter, exact_side};
+pub(crate) use corner::{Corner, PlaneFilter};
 pub(crate) use kinds::{kinds, mark_of, mark_of_faces};
 pub(crate) use outer::OuterBox;
 pub(crate) use polar_dual::{Place, PolarDual, SomeFaces};

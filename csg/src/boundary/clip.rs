@@ -8,6 +8,7 @@ use planecut_kernel::sign::Sign;
 use super::Scene;
 use super::corner_sides::CornerSides;
 use super::section::{Clip, Polygon};
+use super::signs::Signs;
 use crate::body::{Body, BodyFace, Corner, Place, PlaneFilter, PolarDual, SomeFaces};
 use crate::ids::{BodyFaceId, BodyId, Id, NearId};
 use crate::plane_table::PlaneId;
@@ -40,6 +41,7 @@ const GUESSES: usize = 4;
 #[derive(Clone, Copy)]
 pub(super) struct Cutter<'a> {
     pub(super) scene: &'a Scene<'a>,
+    pub(super) signs: Signs<'a>,
     pub(super) face: &'a BodyFace,
     pub(super) body: BodyId,
     /// Its place among the bodies near.
@@ -150,7 +152,7 @@ impl Clipper {
 
     /// By the planes of a body of few faces: those on both sides of which corners lie. The polygon is the one that is looked at.
     fn clip_by_few(&mut self, cutter: Cutter<'_>, polygon: &Polygon, out: &mut Polygon) -> Clip {
-        let Cutter { scene, face, body, place } = cutter;
+        let Cutter { scene, signs, face, body, place } = cutter;
         if self.sides.is_empty() {
             out.copy_from(polygon);
             return self.clip_by_all(cutter, out);
@@ -161,7 +163,7 @@ impl Clipper {
             if other.plane.index() == face.plane.index() {
                 continue;
             }
-            let spread = self.sides.spread(scene.table, (polygon, face.plane), (number, other.plane));
+            let spread = self.sides.spread(signs, (polygon, face.plane), (number, other.plane));
             match (spread.inside, spread.outside) {
                 (false, true) => return Clip::Nothing,
                 (true, true) => self.cuts.push(other.plane),
@@ -173,7 +175,7 @@ impl Clipper {
         }
         out.copy_from(polygon);
         for cut in &self.cuts {
-            if out.clip(scene.table, face.plane, *cut, &mut self.spare) == Clip::Nothing {
+            if out.clip(signs, face.plane, *cut, &mut self.spare) == Clip::Nothing {
                 return Clip::Nothing;
             }
         }
@@ -181,11 +183,11 @@ impl Clipper {
     }
 
     /// By the planes of all faces.
-    fn clip_by_all(&mut self, Cutter { scene, face, body, .. }: Cutter<'_>, polygon: &mut Polygon) -> Clip {
+    fn clip_by_all(&mut self, Cutter { scene, signs, face, body, .. }: Cutter<'_>, polygon: &mut Polygon) -> Clip {
         let mut whole = true;
         let cuts = scene.body(body).faces.iter().map(|face| face.plane);
         for cut in cuts.filter(|cut| cut.index() != face.plane.index()) {
-            match polygon.clip(scene.table, face.plane, cut, &mut self.spare) {
+            match polygon.clip(signs, face.plane, cut, &mut self.spare) {
                 Clip::Nothing => return Clip::Nothing,
                 Clip::Part => whole = false,
                 Clip::Whole => {}
@@ -196,7 +198,7 @@ impl Clipper {
 
     /// By planes beyond which corners lie, until there is none. Then all corners lie in the body, and so does the polygon.
     fn clip_by_dual(&mut self, cutter: Cutter<'_>, dual: &PolarDual, polygon: &Polygon, out: &mut Polygon) -> Clip {
-        let Cutter { scene, face, body, .. } = cutter;
+        let Cutter { scene, signs, face, body, .. } = cutter;
         // mostly all of it is inside, or all beyond one plane, and nothing need be copied
         let mut first = None;
         for i in 0..polygon.corners.len() {
@@ -221,7 +223,7 @@ impl Clipper {
         let mut i = known;
         loop {
             let cut = scene.body(body).faces[beyond.index()].plane;
-            match out.clip(scene.table, face.plane, cut, &mut self.spare) {
+            match out.clip(signs, face.plane, cut, &mut self.spare) {
                 Clip::Nothing => return Clip::Nothing,
                 Clip::Part => {}
                 // signs decide
@@ -302,7 +304,7 @@ impl Clipper {
     /// Where a corner lies, of which it is known as well as numbers tell.
     fn exact_place(
         &mut self,
-        Cutter { scene, face, body, .. }: Cutter<'_>,
+        Cutter { scene, signs, face, body, .. }: Cutter<'_>,
         dual: &PolarDual,
         polygon: &Polygon,
         i: usize,
@@ -318,7 +320,7 @@ impl Clipper {
                 let faces = &scene.body(body).faces;
                 let is_beyond = |other: &BodyFaceId| {
                     let plane = faces[other.index()].plane;
-                    corner.side(scene.table, planes, plane) == Sign::Positive
+                    signs.side(corner, planes, plane) == Sign::Positive
                 };
                 self.near.iter().copied().find(is_beyond).map_or(Found::Inside(other), Found::Beyond)
             }

@@ -7,9 +7,10 @@ use planecut_kernel::sign::Sign;
 use wide::f64x4;
 
 use super::section::Polygon;
+use super::signs::Signs;
 use crate::body::{Corner, PlaneFilter};
 use crate::ids::{CornerId, Id};
-use crate::plane_table::{PlaneId, PlaneTable};
+use crate::plane_table::PlaneId;
 
 /// Of bodies with more corners nothing is told here.
 const MOST: usize = 1024;
@@ -167,7 +168,7 @@ impl CornerSides {
     /// of either side is not looked for.
     pub(super) fn spread(
         &mut self,
-        table: &PlaneTable,
+        signs: Signs<'_>,
         (polygon, plane): (&Polygon, PlaneId),
         (number, cut): (usize, PlaneId),
     ) -> Spread {
@@ -180,7 +181,7 @@ impl CornerSides {
                 let corner = CornerId::from_index(word * BITS + bit.trailing_zeros() as usize);
                 let place = polygon.corners.iter().position(|other| other.number == corner);
                 let place = place.expect("a corner of the polygon");
-                match polygon.corners[place].side(table, polygon.corner(plane, place), cut) {
+                match signs.side(&polygon.corners[place], polygon.corner(plane, place), cut) {
                     Sign::Negative => sides.inside |= bit,
                     Sign::Zero => sides.on |= bit,
                     Sign::Positive => sides.outside |= bit,
@@ -194,7 +195,7 @@ impl CornerSides {
             if spread.inside && spread.outside {
                 break;
             }
-            match polygon.corners[*place].side(table, polygon.corner(plane, *place), cut) {
+            match signs.side(&polygon.corners[*place], polygon.corner(plane, *place), cut) {
                 Sign::Negative => spread.inside = true,
                 Sign::Zero => {}
                 Sign::Positive => spread.outside = true,
@@ -225,6 +226,7 @@ mod tests {
     use super::*;
     use crate::body::{Body, build_bodies};
     use crate::model::{Brush, MaterialId};
+    use crate::plane_table::PlaneTable;
 
     /// A prism of many sides, so that its corners take several words; on a grid, so that corners often lie on planes.
     fn prism(sides: u32, middle: DVec3) -> Brush {
@@ -280,7 +282,8 @@ mod tests {
                         if corners.is_known_outside(number) {
                             assert!(!is(Sign::Negative) && !is(Sign::Zero));
                         }
-                        let spread = corners.spread(&built.table, (&polygon, face.plane), (number, cut.plane));
+                        let spread =
+                            corners.spread(Signs::of(&built.table), (&polygon, face.plane), (number, cut.plane));
                         assert_eq!((spread.inside, spread.outside), (is(Sign::Negative), is(Sign::Positive)));
                         told[0] += usize::from(is(Sign::Zero));
                         told[1] += usize::from(spread.inside && spread.outside);

@@ -11,11 +11,12 @@ use planecut_kernel::sign::Sign;
 use super::clip::{Clipper, Cutter};
 use super::contact::Facing;
 use super::section::{Clip, Cover, Line, Meeting, Piece, Polygon};
+use super::signs::Signs;
 use super::{BoundaryEdge, EdgeChange, KnownEdge};
 use crate::base::Bounds;
 use crate::body::{Body, BodyFace};
 use crate::ids::{EdgeId, holds};
-use crate::plane_table::{PlaneId, PlaneTable};
+use crate::plane_table::PlaneId;
 
 /// On faces of more edges not all of them are held against each edge of a section.
 const MOST_EDGES: usize = 96;
@@ -50,8 +51,8 @@ impl CoverWorker {
         known: &[KnownEdge],
         rounded: impl Fn(EdgeId) -> [DVec3; 2],
     ) -> Option<EdgeChange> {
-        let Cutter { scene, face, .. } = cutter;
-        let table = scene.table;
+        let Cutter { signs, face, .. } = cutter;
+        let table = signs.table;
         let mut change = EdgeChange::default();
         clipper.look_at(region);
         match clipper.clip(cutter, region, &mut self.section) {
@@ -76,7 +77,7 @@ impl CoverWorker {
             let whole = Piece::of_boundary(table, edge);
             self.known.push((bounds, Some(whole)));
             let line = Line { plane: edge.face, edge: edge.edge };
-            let covered = match line.cover(table, &whole, &self.section) {
+            let covered = match line.cover(signs, &whole, &self.section) {
                 Cover::Apart => continue,
                 Cover::Across(part) => part,
                 Cover::Along(part, other) if line.is_same_side(table, other) => part,
@@ -90,7 +91,7 @@ impl CoverWorker {
             };
             self.pieces.clear();
             self.pieces.push(whole);
-            line.subtract(table, &mut self.pieces, &covered);
+            line.subtract(signs, &mut self.pieces, &covered);
             change.removed.push(place);
             let rest = |rest: &Piece| BoundaryEdge { start: rest.start, end: rest.end, ..*edge };
             change.added.extend(self.pieces.iter().map(rest));
@@ -104,10 +105,10 @@ impl CoverWorker {
             let line = Line { plane: face.plane, edge };
             for facing in Facing::BOTH {
                 let side = if facing == Facing::Out { face.plane } else { face.plane.flipped() };
-                self.find_crossings(table, line, facing, side, known);
-                self.find_pieces(table, line, &whole)?;
+                self.find_crossings(signs, line, facing, side, known);
+                self.find_pieces(signs, line, &whole)?;
                 for (.., known) in self.outside.iter().filter(|(other, of, _)| (*other, *of) == (edge, side)) {
-                    line.subtract(table, &mut self.pieces, known);
+                    line.subtract(signs, &mut self.pieces, known);
                 }
                 let right = |piece: &Piece| BoundaryEdge::right(face, facing, edge, piece.start, piece.end);
                 change.added.extend(self.pieces.iter().map(right));
@@ -118,9 +119,9 @@ impl CoverWorker {
     }
 
     /// Finds where the line of an edge of the section, on its outer side, enters and leaves the boundary that faces one way.
-    fn find_crossings(&mut self, table: &PlaneTable, line: Line, facing: Facing, side: PlaneId, known: &[KnownEdge]) {
+    fn find_crossings(&mut self, signs: Signs<'_>, line: Line, facing: Facing, side: PlaneId, known: &[KnownEdge]) {
         self.crossings.clear();
-        let half_space = table.half_space(line.edge);
+        let half_space = signs.table.half_space(line.edge);
         let of_side = known.iter().zip(&mut self.known).filter(|((edge, _), _)| edge.face == side);
         for ((edge, _), (bounds, piece)) in of_side {
             // most lie on one side, and that the ends are rounded is less than the room that this leaves
@@ -128,37 +129,37 @@ impl CoverWorker {
             if low > 0.0 || high < 0.0 {
                 continue;
             }
-            let piece = piece.get_or_insert_with(|| Piece::of_boundary(table, edge));
+            let piece = piece.get_or_insert_with(|| Piece::of_boundary(signs.table, edge));
             let of_known = Line { plane: edge.face, edge: edge.edge };
-            let starts = piece.start_side(table, of_known, line.edge) == Sign::Positive;
-            let ends = piece.end_side(table, of_known, line.edge) == Sign::Positive;
+            let starts = piece.start_side(signs, of_known, line.edge) == Sign::Positive;
+            let ends = piece.end_side(signs, of_known, line.edge) == Sign::Positive;
             if starts == ends {
                 continue;
             }
             // the boundary lies to the left of its edges, seen from where it faces
             let enters = ends == (facing == Facing::Out);
-            self.crossings.push(line.meeting(table, edge.edge, enters));
+            self.crossings.push(line.meeting(signs.table, edge.edge, enters));
         }
     }
 
     /// Leaves in `pieces` the parts of an edge of the section along which there is boundary on its outer side; nothing where the crossings make no sense.
-    fn find_pieces(&mut self, table: &PlaneTable, line: Line, whole: &Piece) -> Option<()> {
+    fn find_pieces(&mut self, signs: Signs<'_>, line: Line, whole: &Piece) -> Option<()> {
         let step = |crossing: &Meeting| if crossing.looks_back { 1 } else { -1 };
         // those before the edge tell what is at its beginning
         let mut now = 0;
         self.crossings.retain(|crossing| {
-            let is_within = |end: PlaneId| line.side(table, crossing, end) == Sign::Negative;
+            let is_within = |end: PlaneId| line.side(signs, crossing, end) == Sign::Negative;
             let is_after_start = is_within(whole.start);
             if !is_after_start {
                 now += step(crossing);
             }
             is_after_start && is_within(whole.end)
         });
-        self.crossings.sort_by(|a, b| line.compare(table, a, b));
+        self.crossings.sort_by(|a, b| line.compare(signs, a, b));
         self.pieces.clear();
         // what is left from here on
         let mut rest = *whole;
-        for here in self.crossings.chunk_by(|a, b| line.compare(table, a, b).is_eq()) {
+        for here in self.crossings.chunk_by(|a, b| line.compare(signs, a, b).is_eq()) {
             let before = now;
             now += here.iter().map(step).sum::<i32>();
             if before.min(now) < 0 || before.max(now) > 1 {

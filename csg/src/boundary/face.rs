@@ -8,13 +8,13 @@ use super::covered::CoverWorker;
 use super::ownership::{EdgeSide, Ownership, Turn};
 use super::role::{Pair, Role};
 use super::section::{Clip, Cover, Line, Piece, Polygon};
+use super::signs::{KeptSigns, Signs};
 use super::sweep::{Context, Sweep};
 use super::{BoundaryEdge, EdgeChange, KnownEdge, Scene};
 use crate::base::{Bounds, Boxes};
 use crate::body::BodyFace;
 use crate::expression::{OneLevel, Restriction};
 use crate::ids::{BodyFaceId, BodyId, EdgeId, Id, KeptLeafId, LeafId, NearId, holds, number32};
-use crate::plane_table::PlaneTable;
 
 /// Number of sections from which those near one are looked up: few are compared one by one.
 const MANY_SECTIONS: usize = 32;
@@ -68,12 +68,14 @@ pub(crate) struct FaceWorker {
     ownership: Ownership,
     sweep: Sweep,
     cover: CoverWorker,
+    signs: KeptSigns,
 }
 
 impl FaceWorker {
     /// Begins with the faces of another body; `near` are the bodies whose boxes touch its own, by number, itself among them.
     pub(crate) fn begin(&mut self, scene: &Scene<'_>, body: BodyId, near: impl IntoIterator<Item = BodyId>) {
         self.body = Some(body);
+        self.signs.forget();
         self.near.clear();
         self.clipper.begin(scene, body);
         for other in near {
@@ -143,7 +145,8 @@ impl FaceWorker {
             }
         }
         if self.live > covering {
-            let context = Context { scene, face: this, sections: &self.sections[..self.live], covering };
+            let signs = Signs::new(scene.table, &self.signs);
+            let context = Context { scene, signs, face: this, sections: &self.sections[..self.live], covering };
             self.sweep.emit(&context, &self.region, &mut self.restriction, &mut self.ownership, out);
         } else if let Some(facing) = self.emitted_on_region(scene) {
             self.emit_own_edges(scene, this, facing, out);
@@ -165,7 +168,8 @@ impl FaceWorker {
         let solid = scene.body(self.own());
         let face = &solid.faces[face.index()];
         self.region.set(solid.edges(face), solid.corners(face));
-        let cutter = Cutter { scene, face, body: by, place: NearId::from_index(place) };
+        let signs = Signs::new(scene.table, &self.signs);
+        let cutter = Cutter { scene, signs, face, body: by, place: NearId::from_index(place) };
         self.cover.change(&mut self.clipper, cutter, &self.region, known, rounded)
     }
 
@@ -173,7 +177,7 @@ impl FaceWorker {
     fn cover_region(&mut self, scene: &Scene<'_>, face: &BodyFace) -> bool {
         self.live = 0;
         for k in 0..self.covering.len() {
-            let cutter = cutter(scene, face, &self.covering[k]);
+            let cutter = cutter(scene, &self.signs, face, &self.covering[k]);
             if self.clipper.surely_holds(cutter, &self.region) {
                 return false;
             }
@@ -223,7 +227,7 @@ impl FaceWorker {
 
     /// Cuts the region down to what lies in a body; false where that is nothing.
     fn require(&mut self, scene: &Scene<'_>, face: &BodyFace, by: &Reaching) -> bool {
-        let cutter = cutter(scene, face, by);
+        let cutter = cutter(scene, &self.signs, face, by);
         match self.clipper.clip(cutter, &self.region, &mut self.part) {
             Clip::Nothing => return false,
             Clip::Part => {
@@ -331,7 +335,7 @@ impl FaceWorker {
         if self.sections.len() == self.live {
             self.sections.push(Section { polygon: Polygon::default(), bounds: Bounds::EMPTY, of });
         }
-        let cutter = cutter(scene, face, &of);
+        let cutter = cutter(scene, &self.signs, face, &of);
         let section = &mut self.sections[self.live];
         section.of = of;
         let clip = self.clipper.clip(cutter, &self.region, &mut section.polygon);
@@ -343,7 +347,7 @@ impl FaceWorker {
 
     /// The pieces of the region's own edges along which nothing is covered.
     fn emit_own_edges(&mut self, scene: &Scene<'_>, face: &BodyFace, facing: Facing, out: &mut Vec<BoundaryEdge>) {
-        let table = scene.table;
+        let signs = Signs::new(scene.table, &self.signs);
         for (i, &edge) in self.region.edges.iter().enumerate() {
             let line = Line { plane: face.plane, edge };
             self.pieces.clear();
@@ -352,7 +356,7 @@ impl FaceWorker {
                 let polygon = &section.polygon;
                 if let Some(k) = polygon.edges.iter().position(|other| *other == edge) {
                     let covered = Piece::of_edge(polygon, k);
-                    line.subtract(table, &mut self.pieces, &covered);
+                    line.subtract(signs, &mut self.pieces, &covered);
                 }
             }
             out.extend(self.pieces.iter().map(|piece| BoundaryEdge::left(face, facing, edge, piece.start, piece.end)));
@@ -361,6 +365,7 @@ impl FaceWorker {
 
     /// The pieces of section edges outside of which nothing is covered: there the boundary ends, too.
     fn emit_section_edges(&mut self, scene: &Scene<'_>, face: &BodyFace, facing: Facing, out: &mut Vec<BoundaryEdge>) {
+        let signs = Signs::new(scene.table, &self.signs);
         let sections = &self.sections[..self.live];
         let boxes = || Boxes::new(sections.iter().map(|section| section.bounds).collect());
         let boxes = (sections.len() > MANY_SECTIONS).then(boxes);
@@ -377,7 +382,7 @@ impl FaceWorker {
                 let line = Line { plane: face.plane, edge };
                 self.pieces.clear();
                 self.pieces.push(Piece::of_edge(&section.polygon, i));
-                subtract_others(scene.table, line, sections, &self.beside, [k, i], &mut self.pieces);
+                subtract_others(signs, line, sections, &self.beside, [k, i], &mut self.pieces);
                 let right = |piece: &Piece| BoundaryEdge::right(face, facing, edge, piece.start, piece.end);
                 out.extend(self.pieces.iter().map(right));
             }
@@ -385,15 +390,15 @@ impl FaceWorker {
     }
 }
 
-fn cutter<'a>(scene: &'a Scene<'a>, face: &'a BodyFace, by: &Reaching) -> Cutter<'a> {
-    Cutter { scene, face, body: by.body, place: by.place }
+fn cutter<'a>(scene: &'a Scene<'a>, signs: &'a KeptSigns, face: &'a BodyFace, by: &Reaching) -> Cutter<'a> {
+    Cutter { scene, signs: Signs::new(scene.table, signs), face, body: by.body, place: by.place }
 }
 
 /// Takes out of `pieces`, which lie on edge `edge` of section `own`, what others cover on the outer side of those `beside`.
 ///
 /// Along a shared edge line a section on the outer side covers; of two on the same side the first keeps the edge.
 fn subtract_others(
-    table: &PlaneTable,
+    signs: Signs<'_>,
     line: Line,
     sections: &[Section],
     beside: &[u32],
@@ -406,12 +411,12 @@ fn subtract_others(
         if k == own || pieces.is_empty() || !other.bounds.touches(&bounds) {
             continue;
         }
-        match line.cover(table, &whole, &other.polygon) {
+        match line.cover(signs, &whole, &other.polygon) {
             Cover::Apart => {}
-            Cover::Across(part) => line.subtract(table, pieces, &part),
+            Cover::Across(part) => line.subtract(signs, pieces, &part),
             Cover::Along(part, edge) => {
-                if !line.is_same_side(table, edge) || k < own {
-                    line.subtract(table, pieces, &part);
+                if !line.is_same_side(signs.table, edge) || k < own {
+                    line.subtract(signs, pieces, &part);
                 }
             }
         }

@@ -16,6 +16,7 @@ mod face;
 mod ownership;
 mod role;
 mod section;
+mod signs;
 mod splice;
 mod sweep;
 

@@ -5,8 +5,9 @@ use std::cmp::Ordering;
 use planecut_kernel::sign::Sign;
 
 use super::BoundaryEdge;
+use super::signs::Signs;
 use crate::base::Bounds;
-use crate::body::{Corner, PlaneFilter, exact_side};
+use crate::body::{Corner, PlaneFilter};
 use crate::plane_table::{PlaneId, PlaneTable};
 
 /// A convex polygon on `plane`: edge `i` lies on the line of `edges[i]`, whose normal points away from the polygon;
@@ -46,16 +47,16 @@ impl Polygon {
     }
 
     /// Keeps what lies inside `cut`. The sign at each corner is the true three-way one.
-    pub(super) fn clip(&mut self, table: &PlaneTable, plane: PlaneId, cut: PlaneId, spare: &mut Self) -> Clip {
+    pub(super) fn clip(&mut self, signs: Signs<'_>, plane: PlaneId, cut: PlaneId, spare: &mut Self) -> Clip {
         let n = self.edges.len();
         let (mut some_inside, mut some_outside) = (false, false);
         // Which corners are strictly inside; polygons of more than 128 corners take the slow way.
         let mut inside = Inside::new(n);
-        let filter = PlaneFilter::new(table.half_space(cut));
+        let filter = PlaneFilter::new(signs.table.half_space(cut));
         for i in 0..n {
             let corner = &self.corners[i];
             let side = match filter.side(corner) {
-                Sign::Zero => exact_side(table, self.corner(plane, i), cut),
+                Sign::Zero => signs.exact_side(self.corner(plane, i), cut),
                 certain => certain,
             };
             match side {
@@ -89,8 +90,8 @@ impl Polygon {
         let (leaving, entering) = (self.edges[(last + 1) % n], self.edges[first]);
         spare.edges.extend([self.edges[last], leaving, cut]);
         spare.corners.push(self.corners[last]);
-        spare.corners.push(Corner::new(&table.homogeneous([plane, leaving, cut])));
-        spare.corners.push(Corner::new(&table.homogeneous([plane, cut, entering])));
+        spare.corners.push(meet(signs.table, [plane, leaving, cut]));
+        spare.corners.push(meet(signs.table, [plane, cut, entering]));
         std::mem::swap(self, spare);
         Clip::Part
     }
@@ -158,12 +159,12 @@ impl Piece {
         Self { start, end, start_point, end_point }
     }
 
-    pub(super) fn start_side(&self, table: &PlaneTable, line: Line, plane: PlaneId) -> Sign {
-        self.start_point.side(table, line.start(self.start), plane)
+    pub(super) fn start_side(&self, signs: Signs<'_>, line: Line, plane: PlaneId) -> Sign {
+        signs.side(&self.start_point, line.start(self.start), plane)
     }
 
-    pub(super) fn end_side(&self, table: &PlaneTable, line: Line, plane: PlaneId) -> Sign {
-        self.end_point.side(table, line.end(self.end), plane)
+    pub(super) fn end_side(&self, signs: Signs<'_>, line: Line, plane: PlaneId) -> Sign {
+        signs.side(&self.end_point, line.end(self.end), plane)
     }
 
     /// The same seen along the line the other way.
@@ -231,16 +232,16 @@ impl Line {
     }
 
     /// On which side of a plane a point of the line lies.
-    pub(super) fn side(self, table: &PlaneTable, at: &Meeting, plane: PlaneId) -> Sign {
-        at.point.side(table, self.planes_at(at.plane, at.looks_back), plane)
+    pub(super) fn side(self, signs: Signs<'_>, at: &Meeting, plane: PlaneId) -> Sign {
+        signs.side(&at.point, self.planes_at(at.plane, at.looks_back), plane)
     }
 
     /// The exact order of two points along the line.
-    pub(super) fn compare(self, table: &PlaneTable, a: &Meeting, b: &Meeting) -> Ordering {
+    pub(super) fn compare(self, signs: Signs<'_>, a: &Meeting, b: &Meeting) -> Ordering {
         if a.plane.index() == b.plane.index() {
             return Ordering::Equal;
         }
-        match (self.side(table, a, b.plane), b.looks_back) {
+        match (self.side(signs, a, b.plane), b.looks_back) {
             (Sign::Zero, _) => Ordering::Equal,
             (Sign::Positive, false) | (Sign::Negative, true) => Ordering::Greater,
             (Sign::Negative, false) | (Sign::Positive, true) => Ordering::Less,
@@ -253,18 +254,18 @@ impl Line {
     }
 
     /// The part of a piece that lies in a convex polygon on the same plane.
-    pub(super) fn cover(self, table: &PlaneTable, piece: &Piece, polygon: &Polygon) -> Cover {
+    pub(super) fn cover(self, signs: Signs<'_>, piece: &Piece, polygon: &Polygon) -> Cover {
         let mut part = *piece;
         let mut along = None;
         for &edge in &polygon.edges {
             // most edges are far away, and plain numbers tell on which side
-            let filter = PlaneFilter::new(table.half_space(edge));
+            let filter = PlaneFilter::new(signs.table.half_space(edge));
             let (start, end) = (filter.side(&part.start_point), filter.side(&part.end_point));
             if start == Sign::Negative && end == Sign::Negative {
                 continue;
             }
             let exactly = |side: Sign, planes: [PlaneId; 3]| match side {
-                Sign::Zero => exact_side(table, planes, edge),
+                Sign::Zero => signs.exact_side(planes, edge),
                 certain => certain,
             };
             let (start, end) = (exactly(start, self.start(part.start)), exactly(end, self.end(part.end)));
@@ -280,14 +281,14 @@ impl Line {
                         return Cover::Apart;
                     }
                     part.start = edge;
-                    part.start_point = meet(table, self.start(edge));
+                    part.start_point = meet(signs.table, self.start(edge));
                 }
                 (false, true) => {
                     if start == Sign::Zero {
                         return Cover::Apart;
                     }
                     part.end = edge;
-                    part.end_point = meet(table, self.end(edge));
+                    part.end_point = meet(signs.table, self.end(edge));
                 }
             }
         }
@@ -298,23 +299,29 @@ impl Line {
     }
 
     /// Takes `cover` out of `pieces`; both lie on this line.
-    pub(super) fn subtract(self, table: &PlaneTable, pieces: &mut Vec<Piece>, cover: &Piece) {
+    pub(super) fn subtract(self, signs: Signs<'_>, pieces: &mut Vec<Piece>, cover: &Piece) {
         let mut k = 0;
         while k < pieces.len() {
             let piece = pieces[k];
             // outward normals: the start plane of the cover looks back along the line, its end plane looks ahead
-            let ends_before = piece.end_side(table, self, cover.start) != Sign::Negative;
-            let starts_after = piece.start_side(table, self, cover.end) != Sign::Negative;
+            let ends_before = piece.end_side(signs, self, cover.start) != Sign::Negative;
+            let starts_after = piece.start_side(signs, self, cover.end) != Sign::Negative;
             if ends_before || starts_after {
                 k += 1;
                 continue;
             }
-            let head = piece.start_side(table, self, cover.start) == Sign::Positive;
-            let tail = piece.end_side(table, self, cover.end) == Sign::Positive;
-            let before =
-                || Piece { end: cover.start.flipped(), end_point: self.turned(table, cover.start, true), ..piece };
-            let after =
-                || Piece { start: cover.end.flipped(), start_point: self.turned(table, cover.end, false), ..piece };
+            let head = piece.start_side(signs, self, cover.start) == Sign::Positive;
+            let tail = piece.end_side(signs, self, cover.end) == Sign::Positive;
+            let before = || Piece {
+                end: cover.start.flipped(),
+                end_point: self.turned(signs.table, cover.start, true),
+                ..piece
+            };
+            let after = || Piece {
+                start: cover.end.flipped(),
+                start_point: self.turned(signs.table, cover.end, false),
+                ..piece
+            };
             match (head, tail) {
                 (true, true) => {
                     pieces[k] = before();

@@ -14,6 +14,7 @@ use smallvec::SmallVec;
 
 use super::BoundaryEdge;
 use super::section::{Line, Piece};
+use super::signs::Signs;
 use crate::base::Bounds;
 use crate::ids::EdgeId;
 use crate::plane_table::{PlaneId, PlaneTable};
@@ -217,6 +218,6 @@ impl<'a> Order<'a> {
             let looks_back = !self.line.looks_ahead(self.table, plane);
             self.line.meeting(self.table, plane, looks_back)
         });
-        self.line.compare(self.table, &a, &b)
+        self.line.compare(Signs::of(self.table), &a, &b)
     }
 }

@@ -8,6 +8,7 @@ use super::contact::Facing;
 use super::face::Section;
 use super::ownership::{EdgeSide, Ownership};
 use super::section::{Cover, Line, Meeting, Piece, Polygon};
+use super::signs::Signs;
 use super::{BoundaryEdge, Scene};
 use crate::body::BodyFace;
 use crate::expression::{Expression, Restriction};
@@ -39,6 +40,7 @@ pub(super) struct Sweep {
 /// What stays the same during the sweep over one face.
 pub(super) struct Context<'a> {
     pub(super) scene: &'a Scene<'a>,
+    pub(super) signs: Signs<'a>,
     pub(super) face: &'a BodyFace,
     pub(super) sections: &'a [Section],
     /// As many sections at the front cover the face whatever the others do.
@@ -81,7 +83,7 @@ impl Sweep {
         let whole = self.pieces[0];
         let bounds = whole.bounds();
         self.beside.clear();
-        let cover = |k: SectionId| line.cover(context.scene.table, &whole, &context.sections[k.index()].polygon);
+        let cover = |k: SectionId| line.cover(context.signs, &whole, &context.sections[k.index()].polygon);
         let is_near = |k: SectionId| own != Some(k) && context.sections[k.index()].bounds.touches(&bounds);
         let mut last = self.last.filter(|last| is_near(*last)).map(|last| (last, cover(last)));
         if last.as_ref().is_some_and(|(_, cover)| cover.is_whole(&whole)) {
@@ -103,8 +105,8 @@ impl Sweep {
                 self.last = Some(k);
             }
             match cover {
-                Cover::Along(part, _) if is_earlier => line.subtract(context.scene.table, &mut self.pieces, &part),
-                Cover::Across(part) if covers => line.subtract(context.scene.table, &mut self.pieces, &part),
+                Cover::Along(part, _) if is_earlier => line.subtract(context.signs, &mut self.pieces, &part),
+                Cover::Across(part) if covers => line.subtract(context.signs, &mut self.pieces, &part),
                 Cover::Apart => {}
                 Cover::Along(..) | Cover::Across(_) => self.beside.push(k),
             }
@@ -127,7 +129,7 @@ impl Sweep {
             self.covering.clear();
             self.covering.extend(own.map(|own| (own, [true, false])));
             self.find_events(context, line, &piece);
-            self.events.sort_by(|a, b| line.compare(context.scene.table, &a.at, &b.at));
+            self.events.sort_by(|a, b| line.compare(context.signs, &a.at, &b.at));
             let expression = context.scene.expression;
             let mut walk =
                 Walk { context, restriction, ownership, edge, outer: own.is_none(), start: piece.start, now: None };
@@ -139,7 +141,7 @@ impl Sweep {
             while at < self.events.len() {
                 let (place, first) = (self.events[at], at);
                 while let Some(event) =
-                    self.events.get(at).filter(|e| line.compare(context.scene.table, &e.at, &place.at).is_eq())
+                    self.events.get(at).filter(|e| line.compare(context.signs, &e.at, &place.at).is_eq())
                 {
                     walk.change(expression, event.section, event.sides, event.at.looks_back);
                     self.note(*event);
@@ -165,7 +167,6 @@ impl Sweep {
 
     /// Finds what covers the beginning of a piece, and where that changes.
     fn find_events(&mut self, context: &Context<'_>, line: Line, piece: &Piece) {
-        let table = context.scene.table;
         let bounds = piece.bounds();
         self.events.clear();
         for &section in &self.beside {
@@ -173,10 +174,10 @@ impl Sweep {
             if !other.bounds.touches(&bounds) {
                 continue;
             }
-            let (part, sides) = match line.cover(table, piece, &other.polygon) {
+            let (part, sides) = match line.cover(context.signs, piece, &other.polygon) {
                 Cover::Apart => continue,
                 Cover::Across(part) => (part, [true, true]),
-                Cover::Along(part, edge) if line.is_same_side(table, edge) => (part, [true, false]),
+                Cover::Along(part, edge) if line.is_same_side(context.scene.table, edge) => (part, [true, false]),
                 Cover::Along(part, _) => (part, [false, true]),
             };
             if part.start == piece.start {

@@ -1,6 +1,7 @@
 //! The boundary on the faces that an edit touches.
 
 use std::ops::Range;
+use std::sync::{Mutex, PoisonError};
 
 use smallvec::SmallVec;
 
@@ -137,7 +138,7 @@ impl LiveModel {
         surroundings: Option<&Surroundings>,
     ) -> Vec<Found> {
         let mut place = std::mem::take(&mut self.buffers.place);
-        let mut buffers = std::mem::take(&mut self.buffers.emit);
+        let mut buffers = std::mem::take(self.buffers.emit.get_mut().unwrap_or_else(PoisonError::into_inner));
         // what is near the faces of each body
         let mut near: SmallVec<[Member; 32]> = SmallVec::new();
         let mut groups: SmallVec<[FaceBatch; 16]> = SmallVec::new();
@@ -252,7 +253,7 @@ impl LiveModel {
         for member in &members {
             place[member.operand.index()] = BodyId::NONE;
         }
-        (self.buffers.place, self.buffers.emit) = (place, buffers);
+        (self.buffers.place, self.buffers.emit) = (place, Mutex::new(buffers));
         parts
     }
 

@@ -42,7 +42,7 @@ mod tree;
 use crate::ids::number32;
 use std::collections::{BTreeMap, BTreeSet};
 use std::num::NonZeroU32;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 
 use planecut_kernel::PlaneIdx;
 use rustc_hash::FxHashSet;
@@ -182,7 +182,8 @@ struct Buffers {
     place: Vec<BodyId>,
     /// The face on each plane of a body.
     face_on_plane: Vec<BodyFaceId>,
-    emit: EmitBuffers,
+    /// One thread works with it; it is in a lock that is never taken, so that threads may share a model.
+    emit: Mutex<EmitBuffers>,
 }
 
 impl LiveModel {

@@ -5,7 +5,7 @@
 
 use super::filter::{BEFORE, NEXT};
 use super::{Row, Sign};
-use crate::arithmetic::{decompose, exponent, lowest_bit};
+use crate::arithmetic::{decompose_odd, exponent};
 
 /// Normal components are below two to this power, so that a product of two fits `i128`, and a sum of two such.
 const NORMAL_BITS: i32 = 62;
@@ -90,46 +90,49 @@ struct Integers {
     offset: i128,
 }
 
-/// `v / 2^unit`, an integer below `2¹²⁷`.
-#[inline(always)]
-fn integer(v: f64, unit: i32) -> i128 {
+/// A number as an odd integer, its exponent, and how many bits the integer has; zero has the largest exponent.
+type Odd = (i64, i32, i32);
+
+fn odd(v: f64) -> Odd {
     if v == 0.0 {
-        return 0;
+        return (0, i32::MAX, 0);
     }
-    let (mantissa, exponent) = decompose(v);
-    let shift = exponent - unit;
-    // what is shifted out is zero: no bit of the value lies below the unit
-    if shift < 0 { i128::from(mantissa >> -shift) } else { i128::from(mantissa) << shift }
+    let (integer, exponent) = decompose_odd(v);
+    (integer, exponent, (u64::BITS - integer.unsigned_abs().leading_zeros()) as i32)
 }
 
 /// The rows as integers, and the exponent of the determinant's unit.
 fn integers(rows: [&Row; 4]) -> Option<([Integers; 4], i32)> {
-    let mut units = [0; 4];
+    let parts = rows.map(|row| row.coefficients().map(odd));
+    let units = parts.map(|[x, y, z, _]| x.1.min(y.1).min(z.1));
     let mut unit_of_offsets = i32::MAX;
-    for (row, unit) in rows.into_iter().zip(&mut units) {
-        let [x, y, z, offset] = *row.coefficients();
-        let normal = || [x, y, z].into_iter().filter(|v| *v != 0.0);
-        *unit = normal().map(lowest_bit).min()?;
-        if normal().any(|v| exponent(v) - *unit >= NORMAL_BITS) {
-            return None;
-        }
-        if offset != 0.0 {
-            unit_of_offsets = unit_of_offsets.min(lowest_bit(offset) - *unit);
+    for ([.., offset], unit) in parts.iter().zip(units) {
+        if offset.0 != 0 {
+            unit_of_offsets = unit_of_offsets.min(offset.1 - unit);
         }
     }
-    if unit_of_offsets == i32::MAX {
-        unit_of_offsets = 0;
-    }
-    let mut integers = [Integers { normal: [0; 3], offset: 0 }; 4];
-    for ((row, unit), integers) in rows.into_iter().zip(units).zip(&mut integers) {
-        let [x, y, z, offset] = *row.coefficients();
-        if offset != 0.0 && exponent(offset) - unit - unit_of_offsets >= OFFSET_BITS {
-            return None;
+    let mut found = [Integers { normal: [0; 3], offset: 0 }; 4];
+    for (k, [x, y, z, offset]) in parts.into_iter().enumerate() {
+        for (component, (integer, exponent, bits)) in found[k].normal.iter_mut().zip([x, y, z]) {
+            if integer != 0 {
+                let shift = exponent - units[k];
+                if shift + bits > NORMAL_BITS {
+                    return None;
+                }
+                *component = integer << shift;
+            }
         }
-        let normal = [x, y, z].map(|v| integer(v, unit) as i64);
-        *integers = Integers { normal, offset: integer(offset, unit + unit_of_offsets) };
+        let (integer, exponent, bits) = offset;
+        if integer != 0 {
+            let shift = exponent - units[k] - unit_of_offsets;
+            if shift + bits > OFFSET_BITS {
+                return None;
+            }
+            found[k].offset = i128::from(integer) << shift;
+        }
     }
-    Some((integers, units.into_iter().sum::<i32>() + unit_of_offsets))
+    let unit_of_offsets = if unit_of_offsets == i32::MAX { 0 } else { unit_of_offsets };
+    Some((found, units.into_iter().sum::<i32>() + unit_of_offsets))
 }
 
 /// On which side of `h` the meeting point of three planes lies, times the sign of `W`, of which it is known that its magnitude is at most
