@@ -1,6 +1,7 @@
 //! One face of one body: which part of it is boundary, and where that part ends.
 
 use planecut_kernel::DVec3;
+use planecut_kernel::sign::Sign;
 
 use super::clip::{Clipper, Cutter};
 use super::contact::{Contact, Facing, misses};
@@ -12,9 +13,10 @@ use super::signs::{KeptSigns, Signs};
 use super::sweep::{Context, Sweep};
 use super::{BoundaryEdge, EdgeChange, KnownEdge, Scene};
 use crate::base::{Bounds, Boxes};
-use crate::body::BodyFace;
+use crate::body::{BodyFace, PlaneFilter};
 use crate::expression::{OneLevel, Restriction};
 use crate::ids::{BodyFaceId, BodyId, EdgeId, Id, KeptLeafId, LeafId, NearId, holds, number32};
+use crate::plane_table::PlaneTable;
 
 /// Number of sections from which those near one are looked up: few are compared one by one.
 const MANY_SECTIONS: usize = 32;
@@ -38,6 +40,17 @@ pub(super) struct Section {
     pub(super) polygon: Polygon,
     pub(super) bounds: Bounds,
     pub(super) of: Reaching,
+}
+
+impl Section {
+    /// Whether another surely lies strictly within this one.
+    fn surely_holds(&self, table: &PlaneTable, other: &Self) -> bool {
+        self.bounds.holds(&other.bounds)
+            && self.polygon.edges.iter().all(|edge| {
+                let filter = PlaneFilter::new(table.half_space(*edge));
+                other.polygon.corners.iter().all(|corner| filter.side(corner) == Sign::Negative)
+            })
+    }
 }
 
 /// Emits the boundary edges of faces, reusing its buffers.
@@ -189,7 +202,26 @@ impl FaceWorker {
                 Clip::Nothing => {}
             }
         }
+        self.drop_held_sections(scene.table);
         true
+    }
+
+    /// Leaves out what covering bodies cover strictly within what another covers: none of its edges is one of the boundary.
+    fn drop_held_sections(&mut self, table: &PlaneTable) {
+        if self.live > MANY_SECTIONS {
+            return;
+        }
+        let mut k = 0;
+        while k < self.live {
+            let (section, others) = (&self.sections[k], (0..self.live).filter(|other| *other != k));
+            if others.map(|other| &self.sections[other]).any(|other| other.surely_holds(table, section)) {
+                // the others stay in order
+                self.sections[k..self.live].rotate_left(1);
+                self.live -= 1;
+            } else {
+                k += 1;
+            }
+        }
     }
 
     /// What [`sort_out`](Self::sort_out) finds in a union, or where the tree has one level and no other face lies on the plane; and which

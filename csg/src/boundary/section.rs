@@ -194,6 +194,7 @@ pub(super) struct Meeting {
 }
 
 /// How a convex polygon covers a piece of a line.
+#[derive(Debug, Clone, Copy)]
 pub(super) enum Cover {
     /// Nowhere along it.
     Apart,
@@ -303,6 +304,10 @@ impl Line {
         let mut k = 0;
         while k < pieces.len() {
             let piece = pieces[k];
+            if (piece.start, piece.end) == (cover.start, cover.end) {
+                pieces.swap_remove(k);
+                continue;
+            }
             // outward normals: the start plane of the cover looks back along the line, its end plane looks ahead
             let ends_before = piece.end_side(signs, self, cover.start) != Sign::Negative;
             let starts_after = piece.start_side(signs, self, cover.end) != Sign::Negative;

@@ -77,12 +77,18 @@ impl<'a> Signs<'a> {
     }
 
     /// The same where plain numbers leave it open.
-    #[cold]
-    #[inline(never)]
+    #[inline]
     pub(super) fn exact_side(&self, planes: [PlaneId; 3], plane: PlaneId) -> Sign {
         if planes.iter().any(|other| other.index() == plane.index()) {
             return Sign::Zero;
         }
+        self.side_of_other(planes, plane)
+    }
+
+    /// The same for a plane that is none of those of the corner.
+    #[cold]
+    #[inline(never)]
+    fn side_of_other(&self, planes: [PlaneId; 3], plane: PlaneId) -> Sign {
         let side = || side_left_open(planes.map(|plane| self.table.row(plane)), self.table.row(plane));
         let Some(kept) = self.kept else { return side() };
         // the sign is that of a determinant: rows that change places turn it, and so do rows of opposite sides

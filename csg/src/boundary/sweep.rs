@@ -28,8 +28,10 @@ struct Event {
 #[derive(Debug, Default)]
 pub(super) struct Sweep {
     pieces: Vec<Piece>,
-    /// The sections that may cover parts of the pieces.
-    beside: Vec<SectionId>,
+    /// The planes that end the whole edge.
+    ends: Option<[PlaneId; 2]>,
+    /// The sections that may cover parts of the pieces, and how each covers the whole edge, where that is known.
+    beside: Vec<(SectionId, Option<Cover>)>,
     events: Vec<Event>,
     /// The sections that cover sides of the piece, until each is let go.
     covering: Vec<(SectionId, [bool; 2])>,
@@ -82,6 +84,7 @@ impl Sweep {
         let line = Line { plane: context.face.plane, edge };
         let whole = self.pieces[0];
         let bounds = whole.bounds();
+        self.ends = Some([whole.start, whole.end]);
         self.beside.clear();
         let cover = |k: SectionId| line.cover(context.signs, &whole, &context.sections[k.index()].polygon);
         let is_near = |k: SectionId| own != Some(k) && context.sections[k.index()].bounds.touches(&bounds);
@@ -93,11 +96,14 @@ impl Sweep {
         for k in SectionId::all(context.sections.len()) {
             let covers = k.index() < context.covering;
             let is_earlier = own.is_some_and(|own| k < own);
-            if self.pieces.is_empty() || !is_near(k) {
+            if self.pieces.is_empty() {
+                break;
+            }
+            if !is_near(k) {
                 continue;
             }
             if !covers && !is_earlier {
-                self.beside.push(k);
+                self.beside.push((k, None));
                 continue;
             }
             let (_, cover) = last.take_if(|(last, _)| *last == k).unwrap_or_else(|| (k, cover(k)));
@@ -108,7 +114,7 @@ impl Sweep {
                 Cover::Along(part, _) if is_earlier => line.subtract(context.signs, &mut self.pieces, &part),
                 Cover::Across(part) if covers => line.subtract(context.signs, &mut self.pieces, &part),
                 Cover::Apart => {}
-                Cover::Along(..) | Cover::Across(_) => self.beside.push(k),
+                Cover::Along(..) | Cover::Across(_) => self.beside.push((k, Some(cover))),
             }
         }
     }
@@ -168,13 +174,15 @@ impl Sweep {
     /// Finds what covers the beginning of a piece, and where that changes.
     fn find_events(&mut self, context: &Context<'_>, line: Line, piece: &Piece) {
         let bounds = piece.bounds();
+        let is_whole = self.ends == Some([piece.start, piece.end]);
         self.events.clear();
-        for &section in &self.beside {
+        for &(section, known) in &self.beside {
             let other = &context.sections[section.index()];
             if !other.bounds.touches(&bounds) {
                 continue;
             }
-            let (part, sides) = match line.cover(context.signs, piece, &other.polygon) {
+            let known = known.filter(|_| is_whole);
+            let (part, sides) = match known.unwrap_or_else(|| line.cover(context.signs, piece, &other.polygon)) {
                 Cover::Apart => continue,
                 Cover::Across(part) => (part, [true, true]),
                 Cover::Along(part, edge) if line.is_same_side(context.scene.table, edge) => (part, [true, false]),

@@ -5,7 +5,7 @@
 
 use super::filter::{BEFORE, NEXT};
 use super::{Row, Sign};
-use crate::arithmetic::{decompose_odd, exponent};
+use crate::arithmetic::exponent;
 
 /// Normal components are below two to this power, so that a product of two fits `i128`, and a sum of two such.
 const NORMAL_BITS: i32 = 62;
@@ -90,49 +90,58 @@ struct Integers {
     offset: i128,
 }
 
-/// A number as an odd integer, its exponent, and how many bits the integer has; zero has the largest exponent.
-type Odd = (i64, i32, i32);
+/// The bits of the fraction of a number.
+const FRACTION_BITS: u32 = f64::MANTISSA_DIGITS - 1;
 
-fn odd(v: f64) -> Odd {
+/// The exponent of a number's last bit, with [`BIAS`]; zero has the largest, as if it had none.
+fn last_bit(v: f64) -> i32 {
+    if v == 0.0 { i32::MAX } else { ((v.to_bits() >> FRACTION_BITS) & 0x7ff) as i32 }
+}
+
+/// What is added to the exponent of a number's last bit.
+const BIAS: i32 = 1075;
+
+/// A number that is not below the normal range, divided by its last bit.
+fn mantissa(v: f64) -> i64 {
+    let bits = v.to_bits();
+    let magnitude = (bits & ((1 << FRACTION_BITS) - 1) | 1 << FRACTION_BITS) as i64;
     if v == 0.0 {
-        return (0, i32::MAX, 0);
+        0
+    } else if v < 0.0 {
+        -magnitude
+    } else {
+        magnitude
     }
-    let (integer, exponent) = decompose_odd(v);
-    (integer, exponent, (u64::BITS - integer.unsigned_abs().leading_zeros()) as i32)
 }
 
 /// The rows as integers, and the exponent of the determinant's unit.
 fn integers(rows: [&Row; 4]) -> Option<([Integers; 4], i32)> {
-    let parts = rows.map(|row| row.coefficients().map(odd));
-    let units = parts.map(|[x, y, z, _]| x.1.min(y.1).min(z.1));
-    let mut unit_of_offsets = i32::MAX;
-    for ([.., offset], unit) in parts.iter().zip(units) {
-        if offset.0 != 0 {
-            unit_of_offsets = unit_of_offsets.min(offset.1 - unit);
-        }
+    let last = rows.map(|row| row.coefficients().map(last_bit));
+    let units = last.map(|[x, y, z, _]| x.min(y).min(z));
+    let of_offset = |k: usize| last[k][3].saturating_sub(units[k]);
+    let unit_of_offsets = (0..4).map(of_offset).min().filter(|unit| *unit < BIAS + BIAS).unwrap_or(0);
+    // the exponent of a number below the normal range is not that of its last bit
+    if last.iter().flatten().any(|exponent| *exponent == 0) {
+        return None;
     }
     let mut found = [Integers { normal: [0; 3], offset: 0 }; 4];
-    for (k, [x, y, z, offset]) in parts.into_iter().enumerate() {
-        for (component, (integer, exponent, bits)) in found[k].normal.iter_mut().zip([x, y, z]) {
-            if integer != 0 {
-                let shift = exponent - units[k];
-                if shift + bits > NORMAL_BITS {
-                    return None;
-                }
-                *component = integer << shift;
-            }
-        }
-        let (integer, exponent, bits) = offset;
-        if integer != 0 {
-            let shift = exponent - units[k] - unit_of_offsets;
-            if shift + bits > OFFSET_BITS {
+    for (k, row) in rows.into_iter().enumerate() {
+        let coefficients = row.coefficients();
+        for axis in 0..3 {
+            // a shift of zero may be any
+            let shift = last[k][axis] - units[k];
+            if shift > NORMAL_BITS - f64::MANTISSA_DIGITS as i32 && coefficients[axis] != 0.0 {
                 return None;
             }
-            found[k].offset = i128::from(integer) << shift;
+            found[k].normal[axis] = mantissa(coefficients[axis]) << (shift & 63);
         }
+        let shift = of_offset(k) - unit_of_offsets;
+        if shift > OFFSET_BITS - f64::MANTISSA_DIGITS as i32 && coefficients[3] != 0.0 {
+            return None;
+        }
+        found[k].offset = i128::from(mantissa(coefficients[3])) << (shift & 127);
     }
-    let unit_of_offsets = if unit_of_offsets == i32::MAX { 0 } else { unit_of_offsets };
-    Some((found, units.into_iter().sum::<i32>() + unit_of_offsets))
+    Some((found, units.into_iter().map(|unit| unit - BIAS).sum::<i32>() + unit_of_offsets))
 }
 
 /// On which side of `h` the meeting point of three planes lies, times the sign of `W`, of which it is known that its magnitude is at most
