@@ -317,16 +317,8 @@ impl Line {
             }
             let head = piece.start_side(signs, self, cover.start) == Sign::Positive;
             let tail = piece.end_side(signs, self, cover.end) == Sign::Positive;
-            let before = || Piece {
-                end: cover.start.flipped(),
-                end_point: self.turned(signs.table, cover.start, true),
-                ..piece
-            };
-            let after = || Piece {
-                start: cover.end.flipped(),
-                start_point: self.turned(signs.table, cover.end, false),
-                ..piece
-            };
+            let before = || Piece { end: cover.start.flipped(), end_point: cover.start_point, ..piece };
+            let after = || Piece { start: cover.end.flipped(), start_point: cover.end_point, ..piece };
             match (head, tail) {
                 (true, true) => {
                     pieces[k] = before();
@@ -359,12 +351,6 @@ impl Line {
             (table.cross_component(self.plane, self.edge, axis), table.cross_component(self.plane, other, axis))
         };
         (0..3).map(along).find(|(a, _)| *a != Sign::Zero).is_none_or(|(a, b)| a == b)
-    }
-
-    /// Where the start of a cover becomes the end of what is left before it (or its end the start of what is left after).
-    fn turned(self, table: &PlaneTable, plane: PlaneId, is_end: bool) -> Corner {
-        let planes = if is_end { self.end(plane.flipped()) } else { self.start(plane.flipped()) };
-        meet(table, planes)
     }
 }
 

@@ -2,11 +2,13 @@
 //!
 //! Half-edge `3 t + k` runs from corner `k` of triangle `t` to the next corner. Only indices are looked at, never positions.
 
-use crate::ids::number32;
+use std::ops::Range;
+
 use planecut_parallel::prelude::*;
 use smallvec::SmallVec;
 
 use crate::base::by_group;
+use crate::ids::number32;
 
 /// The twin of a half-edge that has none.
 pub const NO_TWIN: u32 = u32::MAX;
@@ -59,6 +61,46 @@ impl Ends {
         let count = |ends: &[u32], end: u32| ends.iter().map(|other| u32::from(*other == end)).sum::<u32>();
         let is_paired = |end: &u32| *end != vertex && count(&self.leaving, *end) == 1 && count(&self.coming, *end) == 1;
         self.leaving.iter().all(is_paired)
+    }
+}
+
+/// The half-edges that leave a vertex and those that come to it, each after its other end.
+#[derive(Default)]
+struct EndsAt {
+    leaving: Vec<(u32, u32)>,
+    coming: Vec<(u32, u32)>,
+}
+
+impl EndsAt {
+    /// Adds the twin of each half-edge that leaves a vertex, in order.
+    fn find_twins(&mut self, half_edges: &HalfEdges<'_>, vertex: u32, found: &mut Vec<u32>) {
+        self.leaving.clear();
+        self.coming.clear();
+        for &half_edge in half_edges.leaving(vertex) {
+            let [_, to, from] = half_edges.turned(half_edge);
+            self.leaving.push((to, half_edge));
+            self.coming.push((from, previous(half_edge)));
+        }
+        if self.leaving.len() <= FEW {
+            let count = |ends: &[(u32, u32)], end: u32| ends.iter().map(|other| u32::from(other.0 == end)).sum::<u32>();
+            found.extend(self.leaving.iter().map(|(end, _)| {
+                let is_paired = count(&self.leaving, *end) == 1 && count(&self.coming, *end) == 1;
+                let twin = self.coming.iter().find(|(other, _)| is_paired && other == end);
+                twin.map_or(NO_TWIN, |(_, twin)| *twin)
+            }));
+            return;
+        }
+        self.leaving.sort_unstable();
+        self.coming.sort_unstable();
+        let only = |ends: &[(u32, u32)], end: u32| {
+            let first = ends.partition_point(|other| other.0 < end);
+            let is_again = ends.get(first + 1).is_some_and(|other| other.0 == end);
+            ends.get(first).filter(|other| other.0 == end && !is_again).map(|other| other.1)
+        };
+        found.extend(half_edges.leaving(vertex).iter().map(|half_edge| {
+            let end = half_edges.to(*half_edge);
+            only(&self.leaving, end).and_then(|_| only(&self.coming, end)).unwrap_or(NO_TWIN)
+        }));
     }
 }
 
@@ -118,29 +160,26 @@ impl<'a> HalfEdges<'a> {
     }
 
     /// The twin of each half-edge: the one in the opposite direction, where no other joins the same two vertices; otherwise [`NO_TWIN`].
-    ///
-    /// Each is sought around that end which has fewer half-edges.
     #[must_use]
     pub fn twins(&self) -> Vec<u32> {
-        let all = (0..number32(self.leaving.len())).into_par_iter().with_min_len(1 << 13);
-        all.map(|half_edge| self.twin(half_edge)).collect()
+        let of_chunk = |vertices: Range<u32>| {
+            let range = self.starts[vertices.start as usize] as usize..self.starts[vertices.end as usize] as usize;
+            let (mut ends, mut found) = (EndsAt::default(), Vec::with_capacity(range.len()));
+            vertices.for_each(|vertex| ends.find_twins(self, vertex, &mut found));
+            found
+        };
+        let found: Vec<Vec<u32>> = self.chunks().into_par_iter().map(of_chunk).collect();
+        let mut twins = vec![NO_TWIN; self.leaving.len()];
+        for (half_edge, twin) in self.leaving.iter().zip(found.iter().flatten()) {
+            twins[*half_edge as usize] = *twin;
+        }
+        twins
     }
 
-    fn twin(&self, half_edge: u32) -> u32 {
-        let (from, to) = (self.from(half_edge), self.to(half_edge));
-        let (vertex, other) = if self.degree(from) <= self.degree(to) { (from, to) } else { (to, from) };
-        let (mut out, mut back) = (NO_TWIN, NO_TWIN);
-        for &leaving in self.leaving(vertex) {
-            let coming = previous(leaving);
-            for (found, half_edge, end) in
-                [(&mut out, leaving, self.to(leaving)), (&mut back, coming, self.from(coming))]
-            {
-                if end == other && std::mem::replace(found, half_edge) != NO_TWIN {
-                    return NO_TWIN;
-                }
-            }
-        }
-        if vertex == from { back } else { out }
+    /// The vertices in ranges, each for one thread.
+    fn chunks(&self) -> Vec<Range<u32>> {
+        let end = |first: u32| self.vertices().min(first.saturating_add(VERTICES_OF_CHUNK));
+        (0..self.vertices()).step_by(VERTICES_OF_CHUNK as usize).map(|first| first..end(first)).collect()
     }
 
     /// How many half-edges start at a vertex.
@@ -152,13 +191,11 @@ impl<'a> HalfEdges<'a> {
     /// Whether every half-edge has a twin: every directed edge occurs once, and so does its opposite. True without triangles.
     #[must_use]
     pub fn are_all_paired(&self) -> bool {
-        let chunks: Vec<u32> = (0..self.vertices()).step_by(VERTICES_OF_CHUNK as usize).collect();
-        let of_chunk = |first: &u32| {
-            let end = self.vertices().min(first.saturating_add(VERTICES_OF_CHUNK));
+        let of_chunk = |mut vertices: Range<u32>| {
             let mut ends = Ends::default();
-            (*first..end).all(|vertex| ends.are_paired(self, vertex))
+            vertices.all(|vertex| ends.are_paired(self, vertex))
         };
-        let are_paired: Vec<bool> = chunks.par_iter().map(of_chunk).collect();
+        let are_paired: Vec<bool> = self.chunks().into_par_iter().map(of_chunk).collect();
         are_paired.into_iter().all(|are| are)
     }
 
@@ -189,6 +226,8 @@ impl<'a> HalfEdges<'a> {
 
 #[cfg(test)]
 mod tests {
+    use planecut_testkit::random::Rng;
+
     use super::*;
 
     const TETRAHEDRON: [[u32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
@@ -202,6 +241,36 @@ mod tests {
             assert_eq!(previous(next(half_edge)), half_edge);
         }
         assert_eq!(half_edges.between(1, 3).collect::<Vec<u32>>(), [4]);
+    }
+
+    /// Around vertices of few and of many edges, with edges that are there several times, or once, or begin and end in one vertex: as looking at all pairs of half-edges tells.
+    #[test]
+    fn twins_are_those_that_all_pairs_of_half_edges_tell() {
+        let mut rng = Rng::new(3);
+        let mut told = [0; 2];
+        for sides in [3, 5, FEW as u32 - 1, FEW as u32, FEW as u32 + 1, 50] {
+            for _ in 0..60 {
+                let next = |k: u32| (k + 1) % sides;
+                let up = (0..sides).map(|k| [k, next(k), sides]);
+                let mut triangles: Vec<[u32; 3]> = up.chain((0..sides).map(|k| [next(k), k, sides + 1])).collect();
+                for _ in 0..rng.below(6) {
+                    let place = rng.below(triangles.len());
+                    triangles[place][rng.below(3)] = rng.below(sides as usize + 2) as u32;
+                }
+                let half_edges = HalfEdges::new(sides as usize + 2, &triangles);
+                let all = || 0..3 * number32(triangles.len());
+                let joins = |half_edge: u32| [half_edges.from(half_edge), half_edges.to(half_edge)];
+                for (half_edge, twin) in all().zip(half_edges.twins()) {
+                    let [a, b] = joins(half_edge);
+                    let there: Vec<u32> = all().filter(|other| joins(*other) == [a, b]).collect();
+                    let back: Vec<u32> = all().filter(|other| joins(*other) == [b, a]).collect();
+                    let expected = if there.len() == 1 && back.len() == 1 { back[0] } else { NO_TWIN };
+                    assert_eq!(twin, expected, "half-edge {half_edge} of {triangles:?}");
+                    told[usize::from(twin == NO_TWIN)] += 1;
+                }
+            }
+        }
+        assert!(told.iter().all(|count| *count > 1_000), "twins, none: {told:?}");
     }
 
     #[test]

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use planecut_kernel::DVec2;
 
-use super::sides::{Sides, Vertex};
+use super::sides::{Placed, Sides, Vertex};
 use crate::outline::signed_area;
 use crate::primitives::cells::PlaneSide;
 
@@ -52,18 +52,16 @@ enum Hit {
 /// Cuts polygons until they are convex.
 pub(super) struct Cutter<'a> {
     sides: Sides<'a>,
-    vertices: Vec<Vertex>,
+    vertices: Vec<Placed>,
     /// Of each line the number of reflex corners on it.
     reflex_on_line: Vec<u32>,
-    /// On which side of a ray the vertices of a polygon are; a buffer.
-    turns: Vec<Ordering>,
 }
 
 impl<'a> Cutter<'a> {
     pub(super) fn new(sides: Sides<'a>) -> Self {
-        let vertices: Vec<Vertex> = (0..sides.len()).map(Vertex::Corner).collect();
+        let vertices: Vec<Placed> = (0..sides.len()).map(|k| sides.placed(Vertex::Corner(k))).collect();
         let lines = (0..sides.len()).map(|side| sides.line(side) as usize + 1).max().unwrap_or(0);
-        Self { sides, vertices, reflex_on_line: vec![0; lines], turns: Vec::new() }
+        Self { sides, vertices, reflex_on_line: vec![0; lines] }
     }
 
     /// Convex polygons that together are the loop; `None` where a ray does not leave a polygon.
@@ -102,7 +100,7 @@ impl<'a> Cutter<'a> {
     }
 
     fn position(&self, vertex: u32) -> DVec2 {
-        self.sides.position(self.vertices[vertex as usize])
+        self.sides.position(&self.vertices[vertex as usize])
     }
 
     /// The loop itself.
@@ -110,7 +108,7 @@ impl<'a> Cutter<'a> {
         let n = self.sides.len();
         let edge = |k: u32| {
             let before = (k + n - 1) % n;
-            let is_reflex = self.sides.turn(before, Vertex::Corner((k + 1) % n)) == Ordering::Less;
+            let is_reflex = self.sides.turn(before, &self.vertices[((k + 1) % n) as usize]) == Ordering::Less;
             // two sides on one line go on straight
             let is_reflex = is_reflex && self.sides.line(before) != self.sides.line(k);
             Edge { side: k, is_outer: false, from: k, is_reflex, is_tried: false }
@@ -125,7 +123,7 @@ impl<'a> Cutter<'a> {
     }
 
     /// A cut from one reflex corner to another, along the lines of sides of both.
-    fn double_cut(&mut self, polygon: &mut [Edge]) -> Option<(usize, Ray, Hit)> {
+    fn double_cut(&self, polygon: &mut [Edge]) -> Option<(usize, Ray, Hit)> {
         for at in 0..polygon.len() {
             if !polygon[at].is_reflex || polygon[at].is_tried {
                 continue;
@@ -158,13 +156,15 @@ impl<'a> Cutter<'a> {
     }
 
     /// The shorter one of the two cuts from a reflex corner.
-    fn single_cut(&mut self, polygon: &[Edge], at: usize) -> Option<(usize, Ray, Hit)> {
+    fn single_cut(&self, polygon: &[Edge], at: usize) -> Option<(usize, Ray, Hit)> {
         let mut best: Option<(f64, Ray, Hit)> = None;
         for ray in rays(polygon, at) {
             let Some(hit) = self.exit(polygon, at, ray) else { continue };
             let end = match hit {
                 Hit::Vertex(end) => self.position(polygon[end].from),
-                Hit::Within(edge) => self.sides.position(Vertex::Meet(ray.side, polygon[edge].side)),
+                Hit::Within(edge) => {
+                    self.sides.position(&self.sides.placed(Vertex::Meet(ray.side, polygon[edge].side)))
+                }
             };
             let length = end.distance(self.position(polygon[at].from));
             if best.is_none_or(|(shortest, ..)| length < shortest) {
@@ -175,24 +175,24 @@ impl<'a> Cutter<'a> {
     }
 
     /// Where a ray from a reflex corner first leaves the polygon.
-    fn exit(&mut self, polygon: &[Edge], at: usize, ray: Ray) -> Option<Hit> {
-        let mut turns = std::mem::take(&mut self.turns);
-        turns.clear();
+    fn exit(&self, polygon: &[Edge], at: usize, ray: Ray) -> Option<Hit> {
         let line = self.sides.along(ray.side);
-        let turn = |edge: &Edge| oriented(line.turn(self.vertices[edge.from as usize]), ray.is_back);
-        turns.extend(polygon.iter().map(turn));
+        let turn_at = |edge: &Edge| oriented(line.turn(&self.vertices[edge.from as usize]), ray.is_back);
         let start = polygon[at].from;
         let mut best: Option<(usize, Hit)> = None;
+        let mut turn = turn_at(&polygon[0]);
         for (k, edge) in polygon.iter().enumerate() {
             let next = if k + 1 == polygon.len() { 0 } else { k + 1 };
+            let turns = [turn, turn_at(&polygon[next])];
+            turn = turns[1];
             // the polygon is to the left of the edge, which the ray crosses from left to right
-            let crosses = turns[k] != Ordering::Greater && turns[next] != Ordering::Less && turns[k] != turns[next];
+            let crosses = turns[0] < turns[1];
             if !crosses || self.turn(edge, start) != Ordering::Greater {
                 continue;
             }
-            let hit = match (turns[k], turns[next]) {
-                (Ordering::Equal, _) => Hit::Vertex(k),
-                (_, Ordering::Equal) => Hit::Vertex(next),
+            let hit = match turns {
+                [Ordering::Equal, _] => Hit::Vertex(k),
+                [_, Ordering::Equal] => Hit::Vertex(next),
                 _ => Hit::Within(k),
             };
             if let Hit::Vertex(end) = hit
@@ -200,16 +200,15 @@ impl<'a> Cutter<'a> {
             {
                 continue;
             }
-            let meet = Vertex::Meet(ray.side, edge.side);
+            let meet = self.sides.placed(Vertex::Meet(ray.side, edge.side));
             let is_nearer = |(nearest, _): (usize, Hit)| {
                 let nearest = &polygon[nearest];
-                oriented(self.sides.turn(nearest.side, meet), nearest.is_outer) == Ordering::Greater
+                oriented(self.sides.turn(nearest.side, &meet), nearest.is_outer) == Ordering::Greater
             };
             if best.is_none_or(is_nearer) {
                 best = Some((k, hit));
             }
         }
-        self.turns = turns;
         best.map(|(_, hit)| hit)
     }
 
@@ -222,7 +221,7 @@ impl<'a> Cutter<'a> {
 
     /// On which side of an edge a vertex lies.
     fn turn(&self, edge: &Edge, vertex: u32) -> Ordering {
-        oriented(self.sides.turn(edge.side, self.vertices[vertex as usize]), edge.is_outer)
+        oriented(self.sides.turn(edge.side, &self.vertices[vertex as usize]), edge.is_outer)
     }
 
     /// The parts to the right and to the left of a cut.
@@ -241,7 +240,7 @@ impl<'a> Cutter<'a> {
                 (before(polygon, end), first, (end + 1) % polygon.len(), self.corners_at_end(polygon, at, end))
             }
             Hit::Within(edge) => {
-                self.vertices.push(Vertex::Meet(ray.side, polygon[edge].side));
+                self.vertices.push(self.sides.placed(Vertex::Meet(ray.side, polygon[edge].side)));
                 let from = self.vertices.len() as u32 - 1;
                 (edge, Edge { from, is_reflex: false, ..polygon[edge] }, (edge + 1) % polygon.len(), [false; 2])
             }

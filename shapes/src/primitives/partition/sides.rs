@@ -13,13 +13,21 @@ pub(super) enum Vertex {
     Meet(u32, u32),
 }
 
+/// A vertex, and what mostly tells on which side of a line it lies.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Placed {
+    vertex: Vertex,
+    /// No number for a point in which lines meet, of which this would be rounded.
+    at: DVec2,
+    /// The lines that it lies on.
+    lines: [u32; 2],
+}
+
 /// The sides of a loop; side `k` runs from corner `k` to the next.
 pub(super) struct Sides<'a> {
     corners: &'a [DVec2],
     /// Of each side the number of its line; sides on one line have the same.
     lines: &'a [u32],
-    /// Of each corner the lines of the sides before and after it.
-    lines_at: Vec<[u32; 2]>,
 }
 
 /// The line of a side, beside which many vertices are sought.
@@ -43,8 +51,7 @@ const ERROR: f64 = 4.0 * f64::EPSILON;
 
 impl<'a> Sides<'a> {
     pub(super) fn new(corners: &'a [DVec2], lines: &'a [u32]) -> Self {
-        let before = lines.last().into_iter().chain(lines);
-        Self { corners, lines, lines_at: before.zip(lines).map(|(before, after)| [*before, *after]).collect() }
+        Self { corners, lines }
     }
 
     pub(super) fn len(&self) -> u32 {
@@ -53,6 +60,17 @@ impl<'a> Sides<'a> {
 
     pub(super) fn line(&self, side: u32) -> u32 {
         self.lines[side as usize]
+    }
+
+    /// What is known of a vertex.
+    pub(super) fn placed(&self, vertex: Vertex) -> Placed {
+        match vertex {
+            Vertex::Corner(k) => {
+                let before = (k + self.len() - 1) % self.len();
+                Placed { vertex, at: self.corners[k as usize], lines: [before, k].map(|side| self.line(side)) }
+            }
+            Vertex::Meet(a, b) => Placed { vertex, at: DVec2::NAN, lines: [a, b].map(|side| self.line(side)) },
+        }
     }
 
     fn ends(&self, side: u32) -> [DVec2; 2] {
@@ -66,7 +84,7 @@ impl<'a> Sides<'a> {
     }
 
     /// On which side of the line of a side a vertex lies; as [`SideLine::turn`].
-    pub(super) fn turn(&self, side: u32, vertex: Vertex) -> Ordering {
+    pub(super) fn turn(&self, side: u32, vertex: &Placed) -> Ordering {
         self.along(side).turn(vertex)
     }
 
@@ -93,8 +111,8 @@ impl<'a> Sides<'a> {
     }
 
     /// Where a vertex is, but for rounding.
-    pub(super) fn position(&self, vertex: Vertex) -> DVec2 {
-        match vertex {
+    pub(super) fn position(&self, vertex: &Placed) -> DVec2 {
+        match vertex.vertex {
             Vertex::Corner(k) => self.corners[k as usize],
             Vertex::Meet(a, b) => {
                 let ([a0, a1], other) = (self.ends(a), self.ends(b));
@@ -108,20 +126,22 @@ impl<'a> Sides<'a> {
 impl SideLine<'_> {
     /// On which side of the line a vertex lies: greater is to the left. A vertex at an end of a side on the same line lies on it.
     #[inline]
-    pub(super) fn turn(&self, vertex: Vertex) -> Ordering {
-        let (sides, line) = (self.sides, self.line);
-        match vertex {
-            Vertex::Corner(k) if sides.lines_at[k as usize].contains(&line) => Ordering::Equal,
-            Vertex::Corner(k) => {
-                let corner = sides.corners[k as usize];
-                let exactly = || {
-                    let [p, q] = self.ends;
-                    sign(orient2d(at(p), at(q), at(corner)))
-                };
-                rounded(self.ends, corner).sign().unwrap_or_else(exactly)
+    pub(super) fn turn(&self, vertex: &Placed) -> Ordering {
+        if vertex.lines.contains(&self.line) {
+            return Ordering::Equal;
+        }
+        rounded(self.ends, vertex.at).sign().unwrap_or_else(|| self.exact_turn(vertex))
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn exact_turn(&self, vertex: &Placed) -> Ordering {
+        match vertex.vertex {
+            Vertex::Corner(_) => {
+                let [p, q] = self.ends;
+                sign(orient2d(at(p), at(q), at(vertex.at)))
             }
-            Vertex::Meet(a, b) if sides.line(a) == line || sides.line(b) == line => Ordering::Equal,
-            Vertex::Meet(a, b) => sides.turn_at_meet(self.side, a, b),
+            Vertex::Meet(a, b) => self.sides.turn_at_meet(self.side, a, b),
         }
     }
 }
