@@ -1,11 +1,13 @@
 //! From nodes to one tree.
 //!
 //! Nodes are listed before those within them. So what they inherit is handed down in the order of the list, and what they make
-//! is handed up in the reverse order: when a node's turn comes, its children have had theirs.
+//! is handed up in the reverse order: when a node's turn comes, its children have had theirs. Outlines that are drawn up, which takes long, wait until there are no others: they are
+//! drawn up by all threads.
 
 use std::num::NonZeroU32;
 
 use planecut_csg::{Model, Tree};
+use planecut_parallel::prelude::*;
 use planecut_shapes::Outline;
 
 use super::error::Fault;
@@ -40,6 +42,18 @@ const MAKERS: [&str; 10] = [
 /// Nodes that make something of their children in a frame of its own, and put that in place.
 const IN_PLACE_LATER: [&str; 6] = ["minkowski", "linear_extrude", "rotate_extrude", "projection", "offset", "resize"];
 
+/// Number of outlines that are drawn up at the same time.
+const EXTRUSIONS_AT_A_TIME: usize = 64;
+
+/// What a node of some number gave.
+type Numbered = (usize, Option<Geometry>);
+
+/// What nodes gave, in the order of the text.
+fn in_order(mut made: Vec<Numbered>) -> Vec<Option<Geometry>> {
+    made.sort_unstable_by_key(|(number, _)| *number);
+    made.into_iter().map(|(_, made)| made).collect()
+}
+
 /// Makes the model of a list of nodes.
 pub(super) struct Evaluator<'s, 'a> {
     nodes: &'s [Node<'a>],
@@ -48,8 +62,10 @@ pub(super) struct Evaluator<'s, 'a> {
     frames: Vec<Frame>,
     materials: Materials,
     fonts: text::Fonts,
-    /// What the children of each node gave, last one first.
-    made: Vec<Vec<Option<Geometry>>>,
+    /// What the children of each node gave, each with its number.
+    made: Vec<Vec<Numbered>>,
+    /// What the outermost nodes gave.
+    outermost: Vec<Numbered>,
     pub(super) warnings: Vec<Warning>,
     /// How many planes, convex bodies and corners of outlines were made.
     planes: usize,
@@ -72,6 +88,7 @@ impl<'s, 'a> Evaluator<'s, 'a> {
             materials: Materials::new(),
             fonts: text::Fonts::default(),
             made,
+            outermost: Vec::new(),
             warnings: Vec::new(),
             planes: 0,
             bodies: 0,
@@ -84,25 +101,62 @@ impl<'s, 'a> Evaluator<'s, 'a> {
     /// [`Fault`] of a node that cannot be made, where that is to end it.
     pub(super) fn run(mut self) -> Result<ScadImport, Fault> {
         self.hand_down();
-        let mut outermost = Vec::new();
-        for number in (0..self.nodes.len()).rev() {
-            let turn = Turn { node: &self.nodes[number], frame: self.frames[number] };
-            if turn.frame.is_left_out {
-                continue;
-            }
-            let mut children = std::mem::take(&mut self.made[number]);
-            children.reverse();
-            let made = self.make(turn, children)?;
-            match self.parent(number) {
-                Some(parent) => self.made[parent].push(made),
-                None => outermost.push(made),
-            }
+        let mut left: Vec<usize> = (0..self.nodes.len()).rev().filter(|k| !self.frames[*k].is_left_out).collect();
+        while !left.is_empty() {
+            left = self.make_some(&left)?;
         }
-        outermost.reverse();
+        let outermost = in_order(std::mem::take(&mut self.outermost));
         let tree = self.outermost(outermost);
         // they were noticed from the end of the text to its begin
         self.warnings.sort_by_key(|warning| warning.line);
         Ok(ScadImport { model: Model { materials: self.materials.into_all(), tree }, warnings: self.warnings })
+    }
+
+    /// Makes of some nodes, last one first, all that do not wait for outlines to be drawn up, and draws these up, several at a time. Gives those that waited.
+    fn make_some(&mut self, left: &[usize]) -> Result<Vec<usize>, Fault> {
+        let (mut outlines, mut waiting) = (Vec::new(), Vec::new());
+        let mut waits = vec![false; self.nodes.len()];
+        for &number in left {
+            let turn = self.turn(number);
+            let is_extrusion = turn.node.name == "linear_extrude";
+            if (waits[number] || is_extrusion)
+                && let Some(parent) = self.parent(number)
+            {
+                waits[parent] = true;
+            }
+            if waits[number] {
+                waiting.push(number);
+                continue;
+            }
+            let children = in_order(std::mem::take(&mut self.made[number]));
+            if is_extrusion {
+                let operands = children.len();
+                outlines.push((number, operands, self.flat_union(turn, children)));
+            } else {
+                let operands = children.len();
+                let made = self.make(turn, children);
+                self.hand_up(number, operands, made)?;
+            }
+        }
+        while !outlines.is_empty() {
+            // those of one step count towards the limits when all of it are made
+            let some = outlines.drain(..outlines.len().min(EXTRUSIONS_AT_A_TIME)).collect::<Vec<_>>();
+            let (nodes, frames) = (self.nodes, &self.frames);
+            let draw_up = |(number, operands, outline): (usize, usize, Result<Outline, Problem>)| {
+                let turn = Turn { node: &nodes[number], frame: frames[number] };
+                let made = outline.and_then(|outline| extrusion::linear(turn, &outline));
+                (number, operands, made.and_then(|made| turn.place(made)))
+            };
+            let made: Vec<(usize, usize, Made)> = some.into_par_iter().map(draw_up).collect();
+            for (number, operands, made) in made {
+                self.hand_up(number, operands, made)?;
+            }
+        }
+        Ok(waiting)
+    }
+
+    fn turn(&self, number: usize) -> Turn<'s, 'a> {
+        Turn { node: &self.nodes[number], frame: self.frames[number] }
     }
 
     /// Works out what each node inherits.
@@ -139,10 +193,9 @@ impl<'s, 'a> Evaluator<'s, 'a> {
         }
     }
 
-    /// What a node makes of what its children made.
-    fn make(&mut self, turn: Turn<'s, 'a>, children: Vec<Option<Geometry>>) -> Result<Option<Geometry>, Fault> {
-        let operands = children.len();
-        let made = match turn.node.name {
+    /// What a node makes of what its children made; of an outline that is drawn up this is not asked.
+    fn make(&mut self, turn: Turn<'s, 'a>, children: Vec<Option<Geometry>>) -> Made {
+        match turn.node.name {
             "multmatrix" => self.moved(turn, children),
             "group" | "union" | "render" | "color" => self.combine(turn, children, Combination::Union),
             "difference" => self.combine(turn, children, Combination::Difference),
@@ -150,7 +203,12 @@ impl<'s, 'a> Evaluator<'s, 'a> {
             "hull" => self.combine(turn, children, Combination::Hull),
             name if IN_PLACE_LATER.contains(&name) => self.unplaced(turn, children).and_then(|made| turn.place(made)),
             _ => self.leaf(turn).and_then(|made| turn.place(made)),
-        };
+        }
+    }
+
+    /// Hands up what a node made of as many operands.
+    fn hand_up(&mut self, number: usize, operands: usize, made: Made) -> Result<(), Fault> {
+        let turn = self.turn(number);
         let mut made = made.or_else(|problem| self.fail(turn, problem))?;
         self.count(turn, operands, made.as_ref())?;
         if let Some(Geometry::Solid(body)) = &mut made
@@ -160,7 +218,11 @@ impl<'s, 'a> Evaluator<'s, 'a> {
             let line = self.lines.line_of(turn.node.offset);
             body.tree = std::mem::take(&mut body.tree).with_source_line(NonZeroU32::new(line));
         }
-        Ok(made)
+        match self.parent(number) {
+            Some(parent) => self.made[parent].push((number, made)),
+            None => self.outermost.push((number, made)),
+        }
+        Ok(())
     }
 
     /// Counts what a node made of its operands; what is handed up as it is counts as little as it costs.
@@ -198,7 +260,6 @@ impl<'s, 'a> Evaluator<'s, 'a> {
                 self.combine(turn, children, Combination::Minkowski)
             }
             "resize" => solid::resized(turn.node, self.combine(turn, children, Combination::Union)?),
-            "linear_extrude" => extrusion::linear(turn, &self.flat_union(turn, children)?),
             "rotate_extrude" => {
                 let flat = self.flat_union(turn, children)?;
                 extrusion::rotational(self, turn, flat)
