@@ -21,8 +21,6 @@ pub(super) struct Convex {
     pub(super) corners: Vec<DVec3>,
     /// The edges that are longer than rounding.
     pub(super) edges: Vec<Edge>,
-    /// The corners of each face in order.
-    polygons: Vec<Vec<DVec3>>,
 }
 
 /// An edge: two planes through it, between whose normals there is none of another face, and an end.
@@ -33,9 +31,19 @@ pub(super) struct Edge {
     pub(super) end: DVec3,
 }
 
-impl Convex {
-    /// The body of half-spaces; `None` where it has no interior.
-    pub(super) fn new(half_spaces: &[HalfSpace]) -> Result<Option<Self>, ShapeError> {
+/// The faces of a bounded convex body with interior.
+struct Faces {
+    polytope: IncrementalPolytope,
+    /// Each with the planes of its edges in order.
+    facets: Vec<(PlaneIdx, Vec<PlaneIdx>)>,
+    half_spaces: Vec<HalfSpace>,
+    /// The corners of each in order.
+    polygons: Vec<Vec<DVec3>>,
+}
+
+impl Faces {
+    /// Those of half-spaces; `None` where these have no interior.
+    fn of(half_spaces: &[HalfSpace]) -> Result<Option<Self>, ShapeError> {
         let polytope = build(half_spaces);
         if polytope.is_empty() {
             return Ok(None);
@@ -57,11 +65,19 @@ impl Convex {
             let next = edges.iter().cycle().skip(1);
             edges.iter().zip(next).map(|(edge, next)| position([*plane, *edge, *next])).collect()
         };
-        let polygons: Vec<Vec<DVec3>> = facets.iter().map(polygon).collect();
+        let polygons = facets.iter().map(polygon).collect();
+        Ok(Some(Self { polytope, facets, half_spaces, polygons }))
+    }
+}
+
+impl Convex {
+    /// The body of half-spaces; `None` where it has no interior.
+    pub(super) fn new(half_spaces: &[HalfSpace]) -> Result<Option<Self>, ShapeError> {
+        let Some(Faces { polytope, facets, half_spaces, polygons }) = Faces::of(half_spaces)? else { return Ok(None) };
         let size = extent(&polygons);
         let edges = edges_of(&polytope, &facets, &polygons, size * MERGED_VERTICES);
         let corners = merged(polygons.iter().flatten().copied(), size * MERGED_VERTICES);
-        Ok(Some(Self { half_spaces, corners, edges, polygons }))
+        Ok(Some(Self { half_spaces, corners, edges }))
     }
 
     pub(super) fn of_brush(brush: &Brush) -> Result<Option<Self>, ShapeError> {
@@ -119,12 +135,12 @@ fn merged(points: impl Iterator<Item = DVec3>, grid: f64) -> Vec<DVec3> {
 /// Planes through corners that nearly lie on a line, and across edges that are no longer than an ulp, touch the body and have no
 /// say in it.
 pub(super) fn wide_faces(half_spaces: &[HalfSpace]) -> Result<Vec<HalfSpace>, ShapeError> {
-    let Some(body) = Convex::new(half_spaces)? else { return Ok(Vec::new()) };
+    let Some(body) = Faces::of(half_spaces)? else { return Ok(Vec::new()) };
     let least = extent(&body.polygons) * MERGED_VERTICES;
     let faces = body.half_spaces.iter().zip(&body.polygons);
     let wide: Vec<HalfSpace> = faces.filter(|(_, polygon)| width(polygon) > least).map(|(face, _)| *face).collect();
     // a body that is all needles keeps its planes
-    let is_enough = wide.len() == body.half_spaces.len() || build(&wide).is_bounded();
+    let is_enough = wide.len() == body.half_spaces.len() || are_bounded(&wide);
     Ok(if is_enough { wide } else { body.half_spaces })
 }
 
@@ -134,6 +150,15 @@ fn width(corners: &[DVec3]) -> f64 {
     let spread = corners.iter().map(|p| p.distance(*first)).fold(0.0, f64::max);
     let area: DVec3 = corners.windows(2).map(|pair| (pair[0] - first).cross(pair[1] - first)).sum();
     if spread > 0.0 { area.length() / spread } else { 0.0 }
+}
+
+/// Whether half-spaces have no more than a bounded body in common: mostly the first of them tell.
+fn are_bounded(half_spaces: &[HalfSpace]) -> bool {
+    let mut polytope = IncrementalPolytope::with_epsilon(0.0);
+    half_spaces.iter().any(|half_space| {
+        polytope.add_plane(*half_space);
+        polytope.is_bounded()
+    })
 }
 
 fn build(half_spaces: &[HalfSpace]) -> IncrementalPolytope {
