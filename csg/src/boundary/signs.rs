@@ -170,9 +170,9 @@ mod tests {
         kept.round.set(u32::MAX);
         kept.forget();
         kept.forget();
-        let other = std::iter::repeat_with(|| planes(&mut rng).0)
-            .find(|table| Signs::of(table).exact_side([a, b, c], plane) != sign)
-            .expect("there is no end of them");
-        assert_eq!(Signs::new(&other, &kept).exact_side([a, b, c], plane), sign.flip());
+        let of_table = |table: &PlaneTable| Signs::of(table).exact_side([a, b, c], plane);
+        let mut others = std::iter::repeat_with(|| planes(&mut rng).0);
+        let other = others.find(|table| of_table(table) != sign).expect("there is no end of them");
+        assert_eq!(Signs::new(&other, &kept).exact_side([a, b, c], plane), of_table(&other));
     }
 }

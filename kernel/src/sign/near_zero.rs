@@ -93,10 +93,13 @@ struct Integers {
 /// The bits of the fraction of a number.
 const FRACTION_BITS: u32 = f64::MANTISSA_DIGITS - 1;
 
-/// The exponent of a number's last bit, with [`BIAS`]; zero has the largest, as if it had none.
+/// The exponent of a number's last bit, with [`BIAS`]; that of zero is [`OF_ZERO`].
 fn last_bit(v: f64) -> i32 {
-    if v == 0.0 { i32::MAX } else { ((v.to_bits() >> FRACTION_BITS) & 0x7ff) as i32 }
+    if v == 0.0 { OF_ZERO } else { ((v.to_bits() >> FRACTION_BITS) & 0x7ff) as i32 }
 }
+
+/// More than any difference of exponents and any exponent.
+const OF_ZERO: i32 = 1 << 16;
 
 /// What is added to the exponent of a number's last bit.
 const BIAS: i32 = 1075;
@@ -118,8 +121,9 @@ fn mantissa(v: f64) -> i64 {
 fn integers(rows: [&Row; 4]) -> Option<([Integers; 4], i32)> {
     let last = rows.map(|row| row.coefficients().map(last_bit));
     let units = last.map(|[x, y, z, _]| x.min(y).min(z));
-    let of_offset = |k: usize| last[k][3].saturating_sub(units[k]);
-    let unit_of_offsets = (0..4).map(of_offset).min().filter(|unit| *unit < BIAS + BIAS).unwrap_or(0);
+    let of_offset = |k: usize| last[k][3] - units[k];
+    // where all are zero, the unit is any
+    let unit_of_offsets = (0..4).map(of_offset).min().filter(|unit| *unit < OF_ZERO / 2).unwrap_or(0);
     // the exponent of a number below the normal range is not that of its last bit
     if last.iter().flatten().any(|exponent| *exponent == 0) {
         return None;

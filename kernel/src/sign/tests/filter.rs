@@ -9,7 +9,7 @@ use super::super::filter::{
     self, Ascent, DET3_BOUND, DET4_BOUND, Homogeneous, OffsetColumn, Slope, certain_det3, side_left_open,
 };
 use super::super::{Corner, FaceCorners, Probe, Row, Sign, near_zero};
-use super::{DRAWS, dense_rows, exact, magnitude, normal, rows, shifted, sign_of, sum, terms_of_det3};
+use super::{DRAWS, dense_rows, exact, magnitude, normal, row, rows, shifted, sign_of, sum, terms_of_det3};
 use crate::arithmetic::DoubleDouble;
 
 /// Below `2^-SURE` of the permanent a filter may leave the sign of dense rows open, above it may not.
@@ -160,6 +160,31 @@ fn what_double_doubles_decide_is_the_side() {
     }
     assert!(behind > DRAWS / 20 && open > DRAWS / 20, "{behind} behind the filter, {open} open");
     assert!(short > open / 2, "{short} of {open} by three words");
+}
+
+#[test]
+fn determinants_with_zeros_are_exact() {
+    // of planes through the origin, near it and far away, and across axes
+    let (normals, offsets) = ([0.0, 0.0, 1.0, -1.0, 0.3, 0.01, 1.0 + f64::EPSILON], [0.0, 0.0, 1e-9, 0.3, 1e6]);
+    let mut rng = Rng::new(10);
+    let (mut found, mut zeros) = (0, 0);
+    for _ in 0..2 * DRAWS {
+        let planes: [[f64; 4]; 4] = std::array::from_fn(|_| {
+            std::array::from_fn(|k| if k < 3 { rng.pick(&normals) } else { rng.pick(&offsets) })
+        });
+        if planes.iter().any(|plane| plane[..3].iter().all(|v| *v == 0.0)) {
+            continue;
+        }
+        let [a, b, c, h] = planes.map(row);
+        let [value, _] = Meeting::of(&[a, b, c], &h, OffsetColumn::Finite).side;
+        let bound = (magnitude(&value).to_f64().value() * (1.0 + 4.0 * f64::EPSILON)).max(1e-200);
+        let side = near_zero::side([&a, &b, &c], &h, bound);
+        assert!(side.is_none_or(|side| side == sign_of(&value)), "{a:?} {b:?} {c:?} {h:?}: {side:?}");
+        assert_eq!(side_left_open([&a, &b, &c], &h), sign_of(&value), "{a:?} {b:?} {c:?} {h:?}");
+        found += usize::from(side.is_some());
+        zeros += usize::from(side == Some(Sign::Zero));
+    }
+    assert!(found > DRAWS / 10 && zeros > DRAWS / 10, "{found} found, {zeros} zeros");
 }
 
 /// Of any rows, with the determinant itself as the bound: up to the longest that three words hold.
