@@ -1,8 +1,7 @@
 //! From nodes to one tree.
 //!
 //! Nodes are listed before those within them. So what they inherit is handed down in the order of the list, and what they make
-//! is handed up in the reverse order: when a node's turn comes, its children have had theirs. Outlines that are drawn up, which takes long, wait until there are no others: they are
-//! drawn up by all threads.
+//! is handed up in the reverse order: when a node's turn comes, its children have had theirs. Linear extrusions, which take long, wait until no other node can be made: they are made by all threads.
 
 use std::num::NonZeroU32;
 
@@ -42,7 +41,7 @@ const MAKERS: [&str; 10] = [
 /// Nodes that make something of their children in a frame of its own, and put that in place.
 const IN_PLACE_LATER: [&str; 6] = ["minkowski", "linear_extrude", "rotate_extrude", "projection", "offset", "resize"];
 
-/// Number of outlines that are drawn up at the same time.
+/// Number of linear extrusions that are made at the same time.
 const EXTRUSIONS_AT_A_TIME: usize = 64;
 
 /// What a node of some number gave.
@@ -112,7 +111,7 @@ impl<'s, 'a> Evaluator<'s, 'a> {
         Ok(ScadImport { model: Model { materials: self.materials.into_all(), tree }, warnings: self.warnings })
     }
 
-    /// Makes of some nodes, last one first, all that do not wait for outlines to be drawn up, and draws these up, several at a time. Gives those that waited.
+    /// Makes of some nodes, last one first, all that do not wait for a linear extrusion, then these extrusions, several at a time. Gives the nodes that waited.
     fn make_some(&mut self, left: &[usize]) -> Result<Vec<usize>, Fault> {
         let (mut outlines, mut waiting) = (Vec::new(), Vec::new());
         let mut waits = vec![false; self.nodes.len()];
@@ -129,25 +128,25 @@ impl<'s, 'a> Evaluator<'s, 'a> {
                 continue;
             }
             let children = in_order(std::mem::take(&mut self.made[number]));
+            let operands = children.len();
             if is_extrusion {
-                let operands = children.len();
                 outlines.push((number, operands, self.flat_union(turn, children)));
             } else {
-                let operands = children.len();
                 let made = self.make(turn, children);
                 self.hand_up(number, operands, made)?;
             }
         }
-        while !outlines.is_empty() {
-            // those of one step count towards the limits when all of it are made
-            let some = outlines.drain(..outlines.len().min(EXTRUSIONS_AT_A_TIME)).collect::<Vec<_>>();
+        let mut outlines = outlines.into_iter();
+        while !outlines.as_slice().is_empty() {
+            // they count towards the limits when all of a step are made
+            let some: Vec<_> = outlines.by_ref().take(EXTRUSIONS_AT_A_TIME).collect();
             let (nodes, frames) = (self.nodes, &self.frames);
-            let draw_up = |(number, operands, outline): (usize, usize, Result<Outline, Problem>)| {
+            let extrude = |(number, operands, outline): (usize, usize, Result<Outline, Problem>)| {
                 let turn = Turn { node: &nodes[number], frame: frames[number] };
                 let made = outline.and_then(|outline| extrusion::linear(turn, &outline));
                 (number, operands, made.and_then(|made| turn.place(made)))
             };
-            let made: Vec<(usize, usize, Made)> = some.into_par_iter().map(draw_up).collect();
+            let made: Vec<(usize, usize, Made)> = some.into_par_iter().map(extrude).collect();
             for (number, operands, made) in made {
                 self.hand_up(number, operands, made)?;
             }
@@ -193,7 +192,7 @@ impl<'s, 'a> Evaluator<'s, 'a> {
         }
     }
 
-    /// What a node makes of what its children made; of an outline that is drawn up this is not asked.
+    /// What a node makes of what its children made; not asked of linear extrusions.
     fn make(&mut self, turn: Turn<'s, 'a>, children: Vec<Option<Geometry>>) -> Made {
         match turn.node.name {
             "multmatrix" => self.moved(turn, children),

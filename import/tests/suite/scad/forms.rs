@@ -2,6 +2,8 @@
 
 use std::num::NonZeroU32;
 
+use planecut_kernel::DVec3;
+
 use super::{assert_volume, read, refused};
 
 #[test]
@@ -73,4 +75,35 @@ fn texts_keep_what_was_escaped() {
 fn letters_need_a_feature() {
     let error = refused(b"linear_extrude(height = 1) { text(text = \"A\", size = 10); }").to_string();
     assert!(error.contains("found a text, and a program built without the feature `text`"), "{error}");
+}
+
+/// More of them than are made at a time, in the order of the text, among nodes that do not wait for any, and one that is made of the shadow of another.
+#[test]
+fn linear_extrusions_that_are_made_together_stay_in_order() {
+    const COUNT: u32 = 150;
+    let at = |x: u32, what: &str| format!("multmatrix([[1,0,0,{x}],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) {what}\n");
+    let mut text = String::from("linear_extrude(height = 2) projection() linear_extrude(height = 7) square([1, 3]);\n");
+    for k in 1..COUNT {
+        let solid = format!("linear_extrude(height = {k}) square([1, 2]);");
+        text += &at(2 * k, if k % 7 == 0 { "cube([1, 2, 1]);" } else { &solid });
+    }
+    let import = read(&text);
+    assert!(import.model.tree.source_lines().eq((1..=COUNT).map(NonZeroU32::new)));
+    let heights = (1..COUNT).map(|k| if k % 7 == 0 { 1 } else { k });
+    let bounds = import.model.tree.brushes().iter().map(|brush| {
+        let of = |normal: DVec3| brush.faces.iter().find(|face| face.half_space.normal().normalize() == normal);
+        let offset =
+            |normal: DVec3| of(normal).map(|face| face.half_space.offset() / face.half_space.normal().length());
+        [offset(DVec3::NEG_X), offset(DVec3::Z)]
+    });
+    let expected =
+        [[0.0, 2.0]].into_iter().chain((1..).zip(heights).map(|(k, height)| [-2.0 * f64::from(k), f64::from(height)]));
+    assert!(bounds.eq(expected.map(|bounds| bounds.map(Some))));
+}
+
+#[test]
+fn a_fault_in_one_of_several_linear_extrusions_is_told_with_its_line() {
+    let text = b"linear_extrude(height = 1) square(1);\nlinear_extrude(height = 1, file = \"x.dxf\") square(1);\ncube(1);\nlinear_extrude(height = 1) square(2);\n";
+    let error = refused(text).to_string();
+    assert!(error.contains("test.csg:2"), "{error}");
 }
