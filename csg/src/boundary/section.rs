@@ -54,12 +54,7 @@ impl Polygon {
         let mut inside = Inside::new(n);
         let filter = PlaneFilter::new(signs.table.half_space(cut));
         for i in 0..n {
-            let corner = &self.corners[i];
-            let side = match filter.side(corner) {
-                Sign::Zero => signs.exact_side(self.corner(plane, i), cut),
-                certain => certain,
-            };
-            match side {
+            match signs.settled(filter.side(&self.corners[i]), || self.corner(plane, i), cut) {
                 Sign::Negative => {
                     some_inside = true;
                     inside.set(i);
@@ -265,11 +260,8 @@ impl Line {
             if start == Sign::Negative && end == Sign::Negative {
                 continue;
             }
-            let exactly = |side: Sign, planes: [PlaneId; 3]| match side {
-                Sign::Zero => signs.exact_side(planes, edge),
-                certain => certain,
-            };
-            let (start, end) = (exactly(start, self.start(part.start)), exactly(end, self.end(part.end)));
+            let start = signs.settled(start, || self.start(part.start), edge);
+            let end = signs.settled(end, || self.end(part.end), edge);
             match (start == Sign::Positive, end == Sign::Positive) {
                 (false, false) => {
                     if start == Sign::Zero && end == Sign::Zero {

@@ -70,15 +70,21 @@ impl<'a> Signs<'a> {
     /// On which side of a plane a corner lies; `planes` are those that meet in it, right-handed.
     #[inline]
     pub(super) fn side(&self, corner: &Corner, planes: [PlaneId; 3], plane: PlaneId) -> Sign {
-        match PlaneFilter::new(self.table.half_space(plane)).side(corner) {
-            Sign::Zero => self.exact_side(planes, plane),
+        self.settled(PlaneFilter::new(self.table.half_space(plane)).side(corner), || planes, plane)
+    }
+
+    /// The same of a corner of which plain numbers told a side, or left it open: only then it is asked for its planes.
+    #[inline]
+    pub(super) fn settled(&self, side: Sign, planes: impl FnOnce() -> [PlaneId; 3], plane: PlaneId) -> Sign {
+        match side {
+            Sign::Zero => self.exact_side(planes(), plane),
             certain => certain,
         }
     }
 
     /// The same where plain numbers leave it open.
     #[inline]
-    pub(super) fn exact_side(&self, planes: [PlaneId; 3], plane: PlaneId) -> Sign {
+    fn exact_side(&self, planes: [PlaneId; 3], plane: PlaneId) -> Sign {
         if planes.iter().any(|other| other.index() == plane.index()) {
             return Sign::Zero;
         }

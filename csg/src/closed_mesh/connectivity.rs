@@ -41,9 +41,8 @@ struct Ends {
 }
 
 impl Ends {
-    /// Whether each half-edge at a vertex has a twin. As many come to it as leave it: it is enough that all of these end differently, and
-    /// that of those each begins where one of these ends.
-    fn are_paired(&mut self, half_edges: &HalfEdges<'_>, vertex: u32) -> bool {
+    /// Those at a vertex, in the order of the half-edges that leave it.
+    fn look_at(&mut self, half_edges: &HalfEdges<'_>, vertex: u32) {
         self.leaving.clear();
         self.coming.clear();
         for half_edge in half_edges.leaving(vertex) {
@@ -51,6 +50,18 @@ impl Ends {
             self.leaving.push(to);
             self.coming.push(from);
         }
+    }
+
+    /// Whether one half-edge leaves for an end, and one comes from there.
+    fn are_one_each(&self, end: u32) -> bool {
+        let count = |ends: &[u32]| ends.iter().map(|other| u32::from(*other == end)).sum::<u32>();
+        count(&self.leaving) == 1 && count(&self.coming) == 1
+    }
+
+    /// Whether each half-edge at a vertex has a twin. As many come to it as leave it: it is enough that all of these end differently, and
+    /// that of those each begins where one of these ends.
+    fn are_paired(&mut self, half_edges: &HalfEdges<'_>, vertex: u32) -> bool {
+        self.look_at(half_edges, vertex);
         if self.leaving.len() > FEW {
             self.leaving.sort_unstable();
             self.coming.sort_unstable();
@@ -58,48 +69,34 @@ impl Ends {
             // an edge from a vertex to itself is nobody's twin
             return are_different && self.leaving == self.coming && self.leaving.binary_search(&vertex).is_err();
         }
-        let count = |ends: &[u32], end: u32| ends.iter().map(|other| u32::from(*other == end)).sum::<u32>();
-        let is_paired = |end: &u32| *end != vertex && count(&self.leaving, *end) == 1 && count(&self.coming, *end) == 1;
-        self.leaving.iter().all(is_paired)
+        self.leaving.iter().all(|end| *end != vertex && self.are_one_each(*end))
     }
-}
 
-/// The half-edges that leave a vertex and those that come to it, each after its other end.
-#[derive(Default)]
-struct EndsAt {
-    leaving: Vec<(u32, u32)>,
-    coming: Vec<(u32, u32)>,
-}
-
-impl EndsAt {
     /// Adds the twin of each half-edge that leaves a vertex, in order.
     fn find_twins(&mut self, half_edges: &HalfEdges<'_>, vertex: u32, found: &mut Vec<u32>) {
-        self.leaving.clear();
-        self.coming.clear();
-        for &half_edge in half_edges.leaving(vertex) {
-            let [_, to, from] = half_edges.turned(half_edge);
-            self.leaving.push((to, half_edge));
-            self.coming.push((from, previous(half_edge)));
-        }
-        if self.leaving.len() <= FEW {
-            let count = |ends: &[(u32, u32)], end: u32| ends.iter().map(|other| u32::from(other.0 == end)).sum::<u32>();
-            found.extend(self.leaving.iter().map(|(end, _)| {
-                let is_paired = count(&self.leaving, *end) == 1 && count(&self.coming, *end) == 1;
-                let twin = self.coming.iter().find(|(other, _)| is_paired && other == end);
-                twin.map_or(NO_TWIN, |(_, twin)| *twin)
+        self.look_at(half_edges, vertex);
+        let half_edges = half_edges.leaving(vertex);
+        if half_edges.len() <= FEW {
+            found.extend(self.leaving.iter().map(|end| {
+                let place = self.coming.iter().position(|other| other == end).filter(|_| self.are_one_each(*end));
+                place.map_or(NO_TWIN, |place| previous(half_edges[place]))
             }));
             return;
         }
-        self.leaving.sort_unstable();
-        self.coming.sort_unstable();
-        let only = |ends: &[(u32, u32)], end: u32| {
-            let first = ends.partition_point(|other| other.0 < end);
-            let is_again = ends.get(first + 1).is_some_and(|other| other.0 == end);
-            ends.get(first).filter(|other| other.0 == end && !is_again).map(|other| other.1)
+        let in_order = |ends: &[u32]| {
+            let mut places: Vec<(u32, u32)> = ends.iter().copied().zip(half_edges.iter().copied()).collect();
+            places.sort_unstable();
+            places
         };
-        found.extend(half_edges.leaving(vertex).iter().map(|half_edge| {
-            let end = half_edges.to(*half_edge);
-            only(&self.leaving, end).and_then(|_| only(&self.coming, end)).unwrap_or(NO_TWIN)
+        let (leaving, coming) = (in_order(&self.leaving), in_order(&self.coming));
+        let only = |places: &[(u32, u32)], end: u32| {
+            let first = places.partition_point(|other| other.0 < end);
+            let is_again = places.get(first + 1).is_some_and(|other| other.0 == end);
+            places.get(first).filter(|other| other.0 == end && !is_again).map(|other| other.1)
+        };
+        found.extend(self.leaving.iter().map(|end| {
+            let twin = only(&leaving, *end).and_then(|_| only(&coming, *end));
+            twin.map_or(NO_TWIN, previous)
         }));
     }
 }
@@ -164,7 +161,7 @@ impl<'a> HalfEdges<'a> {
     pub fn twins(&self) -> Vec<u32> {
         let of_chunk = |vertices: Range<u32>| {
             let range = self.starts[vertices.start as usize] as usize..self.starts[vertices.end as usize] as usize;
-            let (mut ends, mut found) = (EndsAt::default(), Vec::with_capacity(range.len()));
+            let (mut ends, mut found) = (Ends::default(), Vec::with_capacity(range.len()));
             vertices.for_each(|vertex| ends.find_twins(self, vertex, &mut found));
             found
         };

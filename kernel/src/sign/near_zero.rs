@@ -5,7 +5,7 @@
 
 use super::filter::{BEFORE, NEXT};
 use super::{Row, Sign};
-use crate::arithmetic::exponent;
+use crate::arithmetic::{decompose, exponent};
 
 /// Normal components are below two to this power, so that a product of two fits `i128`, and a sum of two such.
 const NORMAL_BITS: i32 = 62;
@@ -90,62 +90,31 @@ struct Integers {
     offset: i128,
 }
 
-/// The bits of the fraction of a number.
-const FRACTION_BITS: u32 = f64::MANTISSA_DIGITS - 1;
-
-/// The exponent of a number's last bit, with [`BIAS`]; that of zero is [`OF_ZERO`].
-fn last_bit(v: f64) -> i32 {
-    if v == 0.0 { OF_ZERO } else { ((v.to_bits() >> FRACTION_BITS) & 0x7ff) as i32 }
-}
-
-/// More than any difference of exponents and any exponent.
-const OF_ZERO: i32 = 1 << 16;
-
-/// What is added to the exponent of a number's last bit.
-const BIAS: i32 = 1075;
-
-/// A number that is not below the normal range, divided by its last bit.
-fn mantissa(v: f64) -> i64 {
-    let bits = v.to_bits();
-    let magnitude = (bits & ((1 << FRACTION_BITS) - 1) | 1 << FRACTION_BITS) as i64;
-    if v == 0.0 {
-        0
-    } else if v < 0.0 {
-        -magnitude
-    } else {
-        magnitude
-    }
-}
-
 /// The rows as integers, and the exponent of the determinant's unit.
 fn integers(rows: [&Row; 4]) -> Option<([Integers; 4], i32)> {
-    let last = rows.map(|row| row.coefficients().map(last_bit));
-    let units = last.map(|[x, y, z, _]| x.min(y).min(z));
-    let of_offset = |k: usize| last[k][3] - units[k];
+    let parts = rows.map(|row| row.coefficients().map(decompose));
+    let mut units = [0; 4];
+    for ([normal @ .., _], unit) in parts.iter().zip(&mut units) {
+        *unit = normal.iter().filter(|(mantissa, _)| *mantissa != 0).map(|(_, exponent)| *exponent).min()?;
+    }
+    let offsets = parts.iter().zip(units).map(|([.., offset], unit)| (offset.0, offset.1 - unit));
     // where all are zero, the unit is any
-    let unit_of_offsets = (0..4).map(of_offset).min().filter(|unit| *unit < OF_ZERO / 2).unwrap_or(0);
-    // the exponent of a number below the normal range is not that of its last bit
-    if last.iter().flatten().any(|exponent| *exponent == 0) {
-        return None;
-    }
+    let unit_of_offsets =
+        offsets.filter(|(mantissa, _)| *mantissa != 0).map(|(_, exponent)| exponent).min().unwrap_or(0);
     let mut found = [Integers { normal: [0; 3], offset: 0 }; 4];
-    for (k, row) in rows.into_iter().enumerate() {
-        let coefficients = row.coefficients();
-        for axis in 0..3 {
-            // a shift of zero may be any
-            let shift = last[k][axis] - units[k];
-            if shift > NORMAL_BITS - f64::MANTISSA_DIGITS as i32 && coefficients[axis] != 0.0 {
-                return None;
-            }
-            found[k].normal[axis] = mantissa(coefficients[axis]) << (shift & 63);
+    for ((found, [normal @ .., offset]), unit) in found.iter_mut().zip(&parts).zip(units) {
+        for (component, part) in found.normal.iter_mut().zip(normal) {
+            *component = part.0 << shift(part, unit, NORMAL_BITS)?;
         }
-        let shift = of_offset(k) - unit_of_offsets;
-        if shift > OFFSET_BITS - f64::MANTISSA_DIGITS as i32 && coefficients[3] != 0.0 {
-            return None;
-        }
-        found[k].offset = i128::from(mantissa(coefficients[3])) << (shift & 127);
+        found.offset = i128::from(offset.0) << shift(offset, unit + unit_of_offsets, OFFSET_BITS)?;
     }
-    Some((found, units.into_iter().map(|unit| unit - BIAS).sum::<i32>() + unit_of_offsets))
+    Some((found, units.into_iter().sum::<i32>() + unit_of_offsets))
+}
+
+/// By how many bits a mantissa is shifted to count units; nothing where it would have more bits than it may.
+fn shift((mantissa, exponent): &(i64, i32), unit: i32, bits: i32) -> Option<i32> {
+    let shift = if *mantissa == 0 { 0 } else { exponent - unit };
+    (shift <= bits - f64::MANTISSA_DIGITS as i32).then_some(shift)
 }
 
 /// On which side of `h` the meeting point of three planes lies, times the sign of `W`, of which it is known that its magnitude is at most
