@@ -38,13 +38,20 @@ pub(crate) struct PolarDual {
     duals: Vec<DVec3>,
     /// Where the neighbours of each face begin.
     starts: Vec<u32>,
-    neighbours: Vec<BodyFaceId>,
+    neighbours: Vec<Neighbour>,
     /// For each face of many neighbours boxes around the duals of these, by its place.
     runs: FxHashMap<BodyFaceId, Runs>,
     /// The largest sum of a dual's magnitudes.
     reach: f64,
     /// For each octant around the center the face in its middle.
     seeds: [BodyFaceId; 8],
+}
+
+/// A face beside another, with its dual: those of one face are read in a row, over and over.
+#[derive(Debug, Clone, Copy)]
+struct Neighbour {
+    dual: DVec3,
+    face: BodyFaceId,
 }
 
 /// A bound for the error of the values of a point, relative to the larger of 1 and the value: for the reach of a dual, the error of the point, and the sum of the
@@ -73,9 +80,9 @@ const RUN: usize = 16;
 const LEAST_RUNS: usize = 3 * RUN;
 
 impl Runs {
-    fn of(duals: &[DVec3], neighbours: &[BodyFaceId]) -> Self {
-        let bounds = |run: &[BodyFaceId]| {
-            let at = run.iter().map(|face| duals[face.index()]);
+    fn of(neighbours: &[Neighbour]) -> Self {
+        let bounds = |run: &[Neighbour]| {
+            let at = run.iter().map(|next| next.dual);
             at.fold(Bounds::EMPTY, |bounds, at| bounds.union(&Bounds { min: at, max: at }))
         };
         let short: Vec<Bounds> = neighbours.chunks(RUN).map(bounds).collect();
@@ -172,11 +179,12 @@ impl PolarDual {
                 edges.iter().all(|plane| face_of[plane.0].is_some()),
                 "an edge without a face on its other side"
             );
-            dual.neighbours.extend(edges.iter().filter_map(|plane| face_of[plane.0]));
+            let faces = edges.iter().filter_map(|plane| face_of[plane.0]);
+            dual.neighbours.extend(faces.map(|face| Neighbour { dual: dual.duals[face.index()], face }));
             dual.starts.push(number32(dual.neighbours.len()));
         }
         let large = BodyFaceId::all(dual.duals.len()).filter(|face| dual.neighbours(*face).len() >= LEAST_RUNS);
-        dual.runs = large.map(|face| (face, Runs::of(&dual.duals, dual.neighbours(face)))).collect();
+        dual.runs = large.map(|face| (face, Runs::of(dual.neighbours(face)))).collect();
         for octant in 0..8_usize {
             let sign = |axis: usize| if octant >> axis & 1 == 1 { -1.0 } else { 1.0 };
             let before = dual.seeds[octant.saturating_sub(1)];
@@ -230,7 +238,7 @@ impl PolarDual {
         let level = 1.0 - 4.0 * room;
         found.clear();
         found.push(face);
-        self.spread(at, level, 0, found);
+        self.spread(at, level, found);
     }
 
     /// A point seen from the center, and a [bound](room) for the error of its values.
@@ -243,7 +251,7 @@ impl PolarDual {
         self.duals[face.index()].dot(at)
     }
 
-    fn neighbours(&self, face: BodyFaceId) -> &[BodyFaceId] {
+    fn neighbours(&self, face: BodyFaceId) -> &[Neighbour] {
         &self.neighbours[self.starts[face.index()] as usize..self.starts[face.index() + 1] as usize]
     }
 
@@ -251,7 +259,7 @@ impl PolarDual {
     #[inline]
     fn for_each_neighbour(&self, face: BodyFaceId, at: DVec3, level: f64, mut visit: impl FnMut(BodyFaceId, f64)) {
         let all = self.neighbours(face);
-        let mut visit_all = |some: &[BodyFaceId]| some.iter().for_each(|next| visit(*next, self.value(*next, at)));
+        let mut visit_all = |some: &[Neighbour]| some.iter().for_each(|next| visit(next.face, next.dual.dot(at)));
         match if all.len() < LEAST_RUNS { None } else { self.runs.get(&face) } {
             None => visit_all(all),
             Some(runs) => {
@@ -263,27 +271,27 @@ impl PolarDual {
     /// The face with the largest value, and this; where a point is surely outside, one from which no neighbour leads on may do.
     fn climb(&self, at: DVec3, from: BodyFaceId, room: f64) -> (BodyFaceId, f64) {
         let (mut best, mut value) = (from, self.value(from, at));
-        let mut level_faces = SomeFaces::new();
         loop {
             let start = best;
             let level = value - 2.0 * room * value.abs().max(1.0);
-            level_faces.clear();
-            level_faces.push(start);
+            let mut is_alone = true;
             self.for_each_neighbour(start, at, level, |next, other| {
                 if other > value {
                     (best, value) = (next, other);
                 } else if other >= level {
-                    level_faces.push(next);
+                    is_alone = false;
                 }
             });
             if best != start {
                 continue;
             }
-            if level_faces.len() == 1 || value > 1.0 + room * value {
+            if is_alone || value > 1.0 + room * value {
                 return (best, value);
             }
             // a neighbour that is as good within the error may lead on
-            self.spread(at, level, 1, &mut level_faces);
+            let mut level_faces = SomeFaces::new();
+            level_faces.push(start);
+            self.spread(at, level, &mut level_faces);
             for &face in &level_faces {
                 let other = self.value(face, at);
                 if other > value {
@@ -296,9 +304,9 @@ impl PolarDual {
         }
     }
 
-    /// Adds the faces with values above a level that are connected to those found, but the neighbours of the first `done`, which are known.
-    fn spread(&self, at: DVec3, level: f64, done: usize, found: &mut SomeFaces) {
-        let mut next = done;
+    /// Adds the faces with values above a level that are connected to those found.
+    fn spread(&self, at: DVec3, level: f64, found: &mut SomeFaces) {
+        let mut next = 0;
         while next < found.len() {
             self.for_each_neighbour(found[next], at, level, |other, value| {
                 if value >= level && !holds(found, other) {
@@ -341,7 +349,8 @@ mod tests {
                     found.push(face);
                 }
             });
-            let each = dual.neighbours(cap).iter().copied().filter(|face| dual.duals[face.index()].dot(at) >= level);
+            let each = dual.neighbours(cap).iter().map(|next| next.face);
+            let each = each.filter(|face| dual.duals[face.index()].dot(at) >= level);
             assert!(each.eq(found), "point {at}");
         }
         assert!(visited > 0 && visited < 200 * 100, "{visited} neighbours for 200 points");
