@@ -43,7 +43,7 @@ impl Polygon {
 
     /// The three planes of corner `i`.
     pub(super) fn corner(&self, plane: PlaneId, i: usize) -> [PlaneId; 3] {
-        [plane, self.edges[i], self.edges[(i + 1) % self.edges.len()]]
+        [plane, self.edges[i], self.edges[after(i, self.edges.len())]]
     }
 
     /// Keeps what lies inside `cut`. The sign at each corner is the true three-way one.
@@ -53,8 +53,8 @@ impl Polygon {
         // Which corners are strictly inside; polygons of more than 128 corners take the slow way.
         let mut inside = Inside::new(n);
         let filter = PlaneFilter::new(signs.table.half_space(cut));
-        for i in 0..n {
-            match signs.settled(filter.side(&self.corners[i]), || self.corner(plane, i), cut) {
+        for (i, corner) in self.corners.iter().enumerate() {
+            match signs.settled(filter.side(corner), || self.corner(plane, i), cut) {
                 Sign::Negative => {
                     some_inside = true;
                     inside.set(i);
@@ -69,22 +69,18 @@ impl Polygon {
         if !some_inside {
             return Clip::Nothing;
         }
+        // The last corner strictly inside before the cut begins; edge `i` runs from corner `i − 1` to corner `i`.
+        let (first, last) = inside.run(n);
+        let (leaving, entering) = (self.edges[after(last, n)], self.edges[first]);
+        // Kept are the edges that touch a corner strictly inside: from edge `first` to edge `last + 1`.
         spare.edges.clear();
         spare.corners.clear();
-        // The last corner strictly inside before the cut begins; edge `i` runs from corner `i − 1` to corner `i`.
-        let last = (0..n).find(|i| inside.get(*i) && !inside.get((i + 1) % n));
-        let last = last.expect("some corners are strictly inside and some are not");
-        let first = (1..=n).map(|k| (last + k) % n).find(|i| inside.get(*i)).expect("the last corner inside is one");
-        // Kept are the edges that touch a corner strictly inside: from edge `first` to edge `last + 1`.
-        let mut i = first;
-        while i != last {
-            spare.edges.push(self.edges[i]);
-            spare.corners.push(self.corners[i]);
-            i = (i + 1) % n;
+        let runs = if first <= last { [first..last + 1, 0..0] } else { [first..n, 0..last + 1] };
+        for run in runs {
+            spare.edges.extend_from_slice(&self.edges[run.clone()]);
+            spare.corners.extend_from_slice(&self.corners[run]);
         }
-        let (leaving, entering) = (self.edges[(last + 1) % n], self.edges[first]);
-        spare.edges.extend([self.edges[last], leaving, cut]);
-        spare.corners.push(self.corners[last]);
+        spare.edges.extend([leaving, cut]);
         spare.corners.push(meet(signs.table, [plane, leaving, cut]));
         spare.corners.push(meet(signs.table, [plane, cut, entering]));
         std::mem::swap(self, spare);
@@ -97,8 +93,7 @@ impl Polygon {
 
     /// A box around edge `i`.
     pub(super) fn edge_bounds(&self, i: usize) -> Bounds {
-        let before = (i + self.corners.len() - 1) % self.corners.len();
-        Bounds::EMPTY.with_corner(&self.corners[before]).with_corner(&self.corners[i])
+        Bounds::EMPTY.with_corner(&self.corners[before(i, self.corners.len())]).with_corner(&self.corners[i])
     }
 }
 
@@ -120,12 +115,36 @@ impl Inside {
         }
     }
 
-    fn get(&self, i: usize) -> bool {
+    /// The first and the last of some corners that follow one another around a polygon of `n`, and after which there is one that is not of
+    /// the set; some are, and some are not.
+    fn run(&self, n: usize) -> (usize, usize) {
         match self {
-            Self::Few(bits) => bits >> i & 1 == 1,
-            Self::Many(flags) => flags[i],
+            Self::Few(bits) => {
+                let next = bits >> 1 | (bits & 1) << (n - 1);
+                let last = (bits & !next).trailing_zeros();
+                // in two steps: all bits at once are too many to shift by
+                let later = bits >> last >> 1;
+                let first = if later == 0 { bits.trailing_zeros() } else { last + 1 + later.trailing_zeros() };
+                (first as usize, last as usize)
+            }
+            Self::Many(flags) => {
+                let last = (0..n).find(|i| flags[*i] && !flags[after(*i, n)]);
+                let last = last.expect("some corners are strictly inside and some are not");
+                let first = (1..=n).map(|k| (last + k) % n).find(|i| flags[*i]).expect("the last corner inside is one");
+                (first, last)
+            }
         }
     }
+}
+
+/// The number after another around a polygon of `n`.
+fn after(i: usize, n: usize) -> usize {
+    if i + 1 == n { 0 } else { i + 1 }
+}
+
+/// The number before another around a polygon of `n`.
+fn before(i: usize, n: usize) -> usize {
+    if i == 0 { n - 1 } else { i - 1 }
 }
 
 /// A piece of the line of `plane` and `edge`, directed along `n_plane × n_edge`, between two planes that end it.
@@ -140,8 +159,7 @@ pub(super) struct Piece {
 impl Piece {
     /// The piece of edge `i` of a polygon.
     pub(super) fn of_edge(Polygon { edges, corners }: &Polygon, i: usize) -> Self {
-        let n = edges.len();
-        let (before, after) = ((i + n - 1) % n, (i + 1) % n);
+        let (before, after) = (before(i, edges.len()), after(i, edges.len()));
         Self { start: edges[before], end: edges[after], start_point: corners[before], end_point: corners[i] }
     }
 
