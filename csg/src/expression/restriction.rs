@@ -42,6 +42,8 @@ pub(crate) struct Restriction {
     root_negated: bool,
     base: bool,
     order: Vec<TreeNodeId>,
+    /// Nodes above the leaves that were looked at last, each above those that follow.
+    above: Vec<TreeNodeId>,
     stack: Vec<BranchId>,
 }
 
@@ -132,13 +134,28 @@ impl Restriction {
     }
 
     /// The nodes at which ways of leaves meet, and the leaves, each before what is below it.
+    ///
+    /// From the last leaf to the first: a node above some leaves comes right before the first of them, which is known once a shallower one
+    /// is above it and the leaf before.
     fn collect_nodes(&mut self, expression: &Expression, leaves: &[LeafId]) {
-        let nodes = &expression.nodes;
+        let depth = |node: TreeNodeId| expression.nodes[node.index()].depth;
         self.order.clear();
-        self.order.extend(leaves.iter().map(|leaf| expression.leaves[leaf.index()]));
-        self.order.extend(leaves.windows(2).map(|pair| expression.lowest_above(pair[0], pair[1])));
-        self.order.sort_unstable_by_key(|k| (nodes[k.index()].first_leaf, nodes[k.index()].depth));
-        self.order.dedup();
+        self.above.clear();
+        for (k, leaf) in leaves.iter().enumerate().rev() {
+            self.order.push(expression.leaves[leaf.index()]);
+            let before = k.checked_sub(1).map(|before| expression.lowest_above(leaves[before], *leaf));
+            while let Some(top) = self.above.last()
+                && before.is_none_or(|before| depth(*top) > depth(before))
+            {
+                self.order.extend(self.above.pop());
+            }
+            if let Some(before) = before
+                && self.above.last() != Some(&before)
+            {
+                self.above.push(before);
+            }
+        }
+        self.order.reverse();
     }
 
     /// Makes the branches and finds the parent of each.
