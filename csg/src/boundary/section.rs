@@ -368,3 +368,31 @@ impl Line {
 fn meet(table: &PlaneTable, planes: [PlaneId; 3]) -> Corner {
     Corner::new(&table.homogeneous(planes))
 }
+
+#[cfg(test)]
+mod tests {
+    use planecut_testkit::random::Rng;
+
+    use super::*;
+
+    /// Few corners are told by bits, of which runs that go on at the front, and all 128 at once, are the hard ones.
+    #[test]
+    fn runs_of_few_corners_are_those_of_many() {
+        let mut rng = Rng::new(7);
+        let mut around_the_end = 0;
+        for n in (2..=128_usize).chain([127, 128].repeat(200)) {
+            let start = rng.below(n);
+            let length = 1 + rng.below(n - 1);
+            let (mut few, mut many) = (Inside::new(n), Inside::Many(vec![false; n]));
+            for i in (start..start + length).map(|i| i % n) {
+                few.set(i);
+                many.set(i);
+            }
+            assert!(matches!(few, Inside::Few(_)));
+            assert_eq!(few.run(n), (start, (start + length - 1) % n), "{length} of {n} from {start}");
+            assert_eq!(few.run(n), many.run(n), "{length} of {n} from {start}");
+            around_the_end += usize::from(start + length > n);
+        }
+        assert!(around_the_end > 50, "{around_the_end} runs go on at the front");
+    }
+}
