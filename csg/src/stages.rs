@@ -10,6 +10,6 @@
 
 pub use crate::base::{Bounds, Boxes, CompensatedSum, DisjointSets, Ray, RayCaster};
 pub use crate::body::Body;
-pub use crate::closed_mesh::connectivity::{HalfEdges, NO_TWIN, next, previous};
+pub use crate::closed_mesh::connectivity::{HalfEdges, NO_TWIN, are_all_paired, next, previous};
 pub use crate::evaluate::{check_materials, evaluate_shape, material_ranks, mesh_of_union};
 pub use crate::plane_table::{KnownPlanes, compare, curve_number, size_of, smallest_size};

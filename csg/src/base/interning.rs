@@ -1,90 +1,115 @@
 //! Numbers for keys: equal keys get one number, and keys sort as integers.
 
-use crate::ids::number32;
 use std::hash::{BuildHasher, Hash};
+use std::ops::Range;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use planecut_parallel::prelude::*;
 use rustc_hash::{FxBuildHasher, FxHashMap};
 
-/// Number of keys, about, that are numbered in a row: their map stays in the cache.
-const BUCKET: usize = 1 << 13;
+use super::concat_owned;
+use crate::ids::number32;
+
+/// Number of keys, about, that a thread numbers in a row.
+const KEYS_OF_CHUNK: usize = 1 << 13;
+
+/// Of fewer keys that may be equal, each is compared with those before it; more are hashed.
+const FEW: usize = 48;
 
 /// By which four numbers are multiplied and summed up to one that tells most of them apart: none is a short sum of the others.
 pub(crate) const WEIGHTS: [f64; 4] = [0.731_592_653_589, 0.467_182_818_284, 0.618_033_988_749, 0.914_213_562_373];
 
 /// The different keys, and for each key given the place of its like among them.
 ///
-/// Keys are numbered bucket by bucket. `key` gives each from its place, and is asked twice, so that a long list of keys need not be kept. `near`
-/// tells which keys go together: equal ones have the same number below `bound`, and those of near numbers are best found near
-/// each other. `number_of` gives the number of a key from its place.
+/// `key` gives each from its place, and is asked twice, so that a long list of keys need not be kept. `group` gives a number below `bound` which equal keys
+/// share: keys are numbered group by group, and those of groups near each other lie near each other. `number_of` gives the number of a key from its place.
 pub(crate) fn intern<K: Copy + Eq + Hash + Send + Sync, N: Send>(
     keys: usize,
     key: impl Fn(usize) -> K + Sync,
     bound: usize,
-    near: impl Fn(&K) -> usize + Sync,
+    group: impl Fn(&K) -> usize + Sync,
     number_of: impl Fn(usize) -> N + Sync,
 ) -> (Vec<K>, Vec<N>) {
-    // a function of the keys alone, so that the numbers do not depend on the number of threads
-    let count = keys.div_ceil(BUCKET);
-    if count < 2 {
-        let mut bucket = Bucket::default();
-        let numbers = (0..keys).map(|place| number_of(bucket.number(key(place)) as usize)).collect();
-        return (bucket.keys, numbers);
-    }
-    let width = bound.div_ceil(count).max(1);
-    let bucket_of = |place: usize| number32((near(&key(place)) / width).min(count - 1));
-    let of_key: Vec<u32> = (0..keys).into_par_iter().with_min_len(BUCKET).map(bucket_of).collect();
-    let (starts, members) = by_group(count, of_key.iter().map(|bucket| *bucket as usize), number32);
-    let numbers: Vec<AtomicU32> = (0..keys).into_par_iter().with_min_len(BUCKET).map(|_| AtomicU32::new(0)).collect();
-    let buckets: Vec<Vec<K>> = starts
-        .par_windows(2)
-        .map(|ends| {
-            let mut bucket = Bucket::default();
-            for &place in &members[ends[0] as usize..ends[1] as usize] {
-                numbers[place as usize].store(bucket.number(key(place as usize)), Ordering::Relaxed);
+    let group_of = |place: usize| number32(group(&key(place)));
+    let of_key: Vec<u32> = (0..keys).into_par_iter().with_min_len(KEYS_OF_CHUNK / 4).map(group_of).collect();
+    let (starts, members) = by_group(bound, of_key.iter().map(|group| *group as usize), number32);
+    let numbers: Vec<AtomicU32> =
+        (0..keys).into_par_iter().with_min_len(KEYS_OF_CHUNK).map(|_| AtomicU32::new(0)).collect();
+    // groups in runs of about as many keys
+    let count = keys.div_ceil(KEYS_OF_CHUNK);
+    let first_group = |chunk: usize| match chunk {
+        0 => 0,
+        _ if chunk == count => bound,
+        _ => starts[..bound].partition_point(|start| (*start as usize) < chunk * KEYS_OF_CHUNK),
+    };
+    let runs: Vec<Range<usize>> = (0..count).map(|chunk| first_group(chunk)..first_group(chunk + 1)).collect();
+    let different: Vec<Vec<K>> = runs
+        .par_iter()
+        .map(|groups| {
+            let mut different = Different::default();
+            for ends in starts[groups.start..=groups.end].windows(2) {
+                let members = &members[ends[0] as usize..ends[1] as usize];
+                different.begin_group(members.len());
+                for &place in members {
+                    numbers[place as usize].store(different.number(key(place as usize)), Ordering::Relaxed);
+                }
             }
-            bucket.keys
+            different.keys
         })
         .collect();
-    drop(members);
-    let mut first = vec![0; count];
-    for k in 1..count {
-        first[k] = first[k - 1] + number32(buckets[k - 1].len());
+    drop((members, starts));
+    let (mut first, mut end) = (vec![0; bound], 0);
+    for (groups, different) in runs.into_iter().zip(&different) {
+        first[groups].fill(end);
+        end += number32(different.len());
     }
-    let number =
-        |(number, bucket): (AtomicU32, u32)| number_of((number.into_inner() + first[bucket as usize]) as usize);
-    let numbers = numbers.into_par_iter().with_min_len(BUCKET).zip(of_key).map(number).collect();
-    (buckets.concat(), numbers)
+    let number = |(number, group): (AtomicU32, u32)| number_of((number.into_inner() + first[group as usize]) as usize);
+    let numbers = numbers.into_par_iter().with_min_len(KEYS_OF_CHUNK / 4).zip(of_key).map(number).collect();
+    (concat_owned(different), numbers)
 }
 
-/// Keys that are numbered in a row.
-struct Bucket<K> {
+/// The different keys of some groups.
+struct Different<K> {
     keys: Vec<K>,
+    /// Where those of the group at hand begin.
+    first: usize,
+    /// The numbers of these, where keys of the group are many.
     number: FxHashMap<K, u32>,
-    /// The last key and its number: the same key often comes twice in a row.
-    last: Option<(K, u32)>,
+    are_many: bool,
 }
 
-impl<K> Default for Bucket<K> {
+impl<K> Default for Different<K> {
     fn default() -> Self {
-        Self { keys: Vec::new(), number: FxHashMap::default(), last: None }
+        Self { keys: Vec::new(), first: 0, number: FxHashMap::default(), are_many: false }
     }
 }
 
-impl<K: Copy + Eq + Hash> Bucket<K> {
-    fn number(&mut self, key: K) -> u32 {
-        if let Some((last, number)) = self.last
-            && last == key
-        {
-            return number;
+impl<K: Copy + Eq + Hash> Different<K> {
+    /// Begins with another group, of some keys.
+    fn begin_group(&mut self, keys: usize) {
+        self.first = self.keys.len();
+        self.are_many = keys > FEW;
+        if self.are_many {
+            self.number.clear();
         }
-        let number = *self.number.entry(key).or_insert_with(|| {
-            self.keys.push(key);
-            number32(self.keys.len()) - 1
-        });
-        self.last = Some((key, number));
-        number
+    }
+
+    fn number(&mut self, key: K) -> u32 {
+        // the same key often comes twice in a row
+        if self.are_many && self.keys[self.first..].last() != Some(&key) {
+            return *self.number.entry(key).or_insert_with(|| {
+                self.keys.push(key);
+                number32(self.keys.len()) - 1
+            });
+        }
+        let known = self.keys[self.first..].iter().rposition(|known| *known == key);
+        number32(known.map_or_else(
+            || {
+                self.keys.push(key);
+                self.keys.len() - 1
+            },
+            |place| self.first + place,
+        ))
     }
 }
 
@@ -130,14 +155,20 @@ mod tests {
 
     #[test]
     fn equal_keys_share_a_number_however_many_there_are() {
-        for count in [0, 1, 100, BUCKET as u64 - 1, BUCKET as u64 + 1, 5 * BUCKET as u64 + 3] {
+        const CHUNK: u64 = KEYS_OF_CHUNK as u64;
+        for count in [0, 1, 100, CHUNK - 1, CHUNK + 1, 5 * CHUNK + 3] {
             let keys: Vec<u64> = (0..count).map(|k| k.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 50).collect();
-            let (found, numbers) = intern(keys.len(), |place| keys[place], 1 << 14, |key| *key as usize, |place| place);
-            assert!(keys.iter().zip(&numbers).all(|(key, number)| found[*number] == *key));
-            let mut sorted = found.clone();
-            sorted.sort_unstable();
-            sorted.dedup();
-            assert_eq!(sorted.len(), found.len());
+            // groups of one key, of some keys, and of very many
+            for shift in [0, 4, 12] {
+                let group = |key: &u64| (*key >> shift) as usize;
+                let (found, numbers) = intern(keys.len(), |place| keys[place], 1 << 14, group, |place| place);
+                assert!(keys.iter().zip(&numbers).all(|(key, number)| found[*number] == *key));
+                assert!(found.is_sorted_by_key(group));
+                let mut sorted = found.clone();
+                sorted.sort_unstable();
+                sorted.dedup();
+                assert_eq!(sorted.len(), found.len());
+            }
         }
     }
 

@@ -33,6 +33,70 @@ pub fn previous(half_edge: u32) -> u32 {
     if half_edge.is_multiple_of(3) { half_edge + 2 } else { half_edge - 1 }
 }
 
+/// Whether every half-edge of triangles whose indices are below `vertices` has a twin: every directed edge occurs once, and so does its opposite. True
+/// without triangles. Linear.
+#[must_use]
+pub fn are_all_paired(vertices: usize, triangles: &[[u32; 3]]) -> bool {
+    let sides = |[a, b, c]: [u32; 3]| [[a, b], [b, c], [c, a]];
+    // each is looked at where its lower end is: those that run up from there, and those that run down to it
+    let mut starts = [0; 2].map(|_| vec![0_u32; vertices + 1]);
+    for [from, to] in triangles.iter().copied().flat_map(sides) {
+        if from == to {
+            return false;
+        }
+        starts[usize::from(from > to)][from.min(to) as usize + 1] += 1;
+    }
+    let [mut starts, down_to] = starts;
+    if starts != down_to {
+        return false;
+    }
+    drop(down_to);
+    for vertex in 0..vertices {
+        starts[vertex + 1] += starts[vertex];
+    }
+    let count = starts[vertices] as usize;
+    let (mut next, mut ends) = ([starts.clone(), starts.clone()], [vec![0_u32; count], vec![0_u32; count]]);
+    for [from, to] in triangles.iter().copied().flat_map(sides) {
+        let way = usize::from(from > to);
+        let next = &mut next[way][from.min(to) as usize];
+        ends[way][*next as usize] = from.max(to);
+        *next += 1;
+    }
+    drop(next);
+    let [up, down] = &ends;
+    let of_chunk = |mut vertices: Range<u32>| {
+        let (mut sorted_up, mut sorted_down) = (Vec::new(), Vec::new());
+        vertices.all(|vertex| {
+            let range = starts[vertex as usize] as usize..starts[vertex as usize + 1] as usize;
+            let (up, down) = (&up[range.clone()], &down[range]);
+            if up.len() <= FEW {
+                return up.iter().all(|end| occurrences(up, *end) == 1 && occurrences(down, *end) == 1);
+            }
+            for (sorted, ends) in [(&mut sorted_up, up), (&mut sorted_down, down)] {
+                sorted.clear();
+                sorted.extend_from_slice(ends);
+                sorted.sort_unstable();
+            }
+            sorted_up == sorted_down && sorted_up.windows(2).all(|pair| pair[0] != pair[1])
+        })
+    };
+    let are_paired: Vec<bool> = chunks_of(number32(vertices)).into_par_iter().map(of_chunk).collect();
+    are_paired.into_iter().all(|are| are)
+}
+
+/// How often an end is among some.
+#[inline]
+fn occurrences(ends: &[u32], end: u32) -> u32 {
+    // without a branch, several at a time
+    ends.iter().map(|other| u32::from(*other == end)).sum()
+}
+
+/// The vertices in ranges, each for one thread.
+fn chunks_of(vertices: u32) -> Vec<Range<u32>> {
+    let end = |first: u32| vertices.min(first.saturating_add(VERTICES_OF_CHUNK));
+    (0..vertices).step_by(VERTICES_OF_CHUNK as usize).map(|first| first..end(first)).collect()
+}
+
 /// The other ends of the half-edges at a vertex: of those that leave it, and of those that come to it.
 #[derive(Default)]
 struct Ends {
@@ -54,22 +118,7 @@ impl Ends {
 
     /// Whether one half-edge leaves for an end, and one comes from there.
     fn are_one_each(&self, end: u32) -> bool {
-        let count = |ends: &[u32]| ends.iter().map(|other| u32::from(*other == end)).sum::<u32>();
-        count(&self.leaving) == 1 && count(&self.coming) == 1
-    }
-
-    /// Whether each half-edge at a vertex has a twin. As many come to it as leave it: it is enough that all of these end differently, and
-    /// that of those each begins where one of these ends.
-    fn are_paired(&mut self, half_edges: &HalfEdges<'_>, vertex: u32) -> bool {
-        self.look_at(half_edges, vertex);
-        if self.leaving.len() > FEW {
-            self.leaving.sort_unstable();
-            self.coming.sort_unstable();
-            let are_different = self.leaving.windows(2).all(|pair| pair[0] != pair[1]);
-            // an edge from a vertex to itself is nobody's twin
-            return are_different && self.leaving == self.coming && self.leaving.binary_search(&vertex).is_err();
-        }
-        self.leaving.iter().all(|end| *end != vertex && self.are_one_each(*end))
+        occurrences(&self.leaving, end) == 1 && occurrences(&self.coming, end) == 1
     }
 
     /// Adds the twin of each half-edge that leaves a vertex, in order.
@@ -165,7 +214,7 @@ impl<'a> HalfEdges<'a> {
             vertices.for_each(|vertex| ends.find_twins(self, vertex, &mut found));
             found
         };
-        let found: Vec<Vec<u32>> = self.chunks().into_par_iter().map(of_chunk).collect();
+        let found: Vec<Vec<u32>> = chunks_of(self.vertices()).into_par_iter().map(of_chunk).collect();
         let mut twins = vec![NO_TWIN; self.leaving.len()];
         for (half_edge, twin) in self.leaving.iter().zip(found.iter().flatten()) {
             twins[*half_edge as usize] = *twin;
@@ -173,27 +222,10 @@ impl<'a> HalfEdges<'a> {
         twins
     }
 
-    /// The vertices in ranges, each for one thread.
-    fn chunks(&self) -> Vec<Range<u32>> {
-        let end = |first: u32| self.vertices().min(first.saturating_add(VERTICES_OF_CHUNK));
-        (0..self.vertices()).step_by(VERTICES_OF_CHUNK as usize).map(|first| first..end(first)).collect()
-    }
-
     /// How many half-edges start at a vertex.
     #[inline]
     pub(crate) fn degree(&self, vertex: u32) -> u32 {
         self.starts[vertex as usize + 1] - self.starts[vertex as usize]
-    }
-
-    /// Whether every half-edge has a twin: every directed edge occurs once, and so does its opposite. True without triangles.
-    #[must_use]
-    pub fn are_all_paired(&self) -> bool {
-        let of_chunk = |mut vertices: Range<u32>| {
-            let mut ends = Ends::default();
-            vertices.all(|vertex| ends.are_paired(self, vertex))
-        };
-        let are_paired: Vec<bool> = self.chunks().into_par_iter().map(of_chunk).collect();
-        are_paired.into_iter().all(|are| are)
     }
 
     /// The edges `a < b` along which more than one half-edge runs from `a` to `b`, in ascending order.
@@ -272,7 +304,7 @@ mod tests {
 
     #[test]
     fn a_tetrahedron_is_paired_and_its_damaged_forms_are_not() {
-        let is_paired = |triangles: &[[u32; 3]]| HalfEdges::new(4, triangles).are_all_paired();
+        let is_paired = |triangles: &[[u32; 3]]| are_all_paired(4, triangles);
         assert!(is_paired(&TETRAHEDRON) && is_paired(&[]));
         assert!(!is_paired(&TETRAHEDRON[1..]), "an open edge");
         let mut flipped = TETRAHEDRON;
@@ -304,7 +336,7 @@ mod tests {
             let next = |k: u32| (k + 1) % sides;
             let up = (0..sides).map(|k| [k, next(k), sides]);
             let triangles: Vec<[u32; 3]> = up.chain((0..sides).map(|k| [next(k), k, sides + 1])).collect();
-            let is_paired = |triangles: &[[u32; 3]]| HalfEdges::new(sides as usize + 2, triangles).are_all_paired();
+            let is_paired = |triangles: &[[u32; 3]]| are_all_paired(sides as usize + 2, triangles);
             assert!(is_paired(&triangles) && is_each_edge_there_once_each_way(&triangles));
             for (place, corner) in (0..triangles.len()).flat_map(|place| [0, 1, 2].map(|corner| (place, corner))) {
                 for other in 0..sides + 2 {

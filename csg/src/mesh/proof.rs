@@ -9,7 +9,7 @@ use planecut_parallel::prelude::*;
 use super::flip_caps::is_flat;
 use super::noise::{largest_coordinate, longest_noise};
 use super::{Mesh, Noise, SolidMeasures, without_noise};
-use crate::closed_mesh::connectivity::HalfEdges;
+use crate::closed_mesh::connectivity::are_all_paired;
 use crate::model::MaterialId;
 use crate::tolerances::PROOF;
 
@@ -96,7 +96,7 @@ pub(crate) fn proven(
 
 /// Whether every edge of a mesh is used once each way.
 fn is_each_edge_paired(mesh: &Mesh) -> bool {
-    HalfEdges::new(mesh.positions.len(), &mesh.triangles).are_all_paired()
+    are_all_paired(mesh.positions.len(), &mesh.triangles)
 }
 
 /// The middle of a solid, and how far a vertex of it may be from where it is exactly.

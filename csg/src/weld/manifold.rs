@@ -11,7 +11,7 @@ use rustc_hash::FxHashSet;
 
 use super::cancel::HalfEdge;
 use crate::base::concat_owned;
-use crate::closed_mesh::connectivity::HalfEdges;
+use crate::closed_mesh::connectivity::{HalfEdges, are_all_paired};
 use crate::ids::{HalfEdgeId, Id, PointId, VertexId, number32};
 use crate::mesh::Mesh;
 
@@ -53,9 +53,13 @@ pub(crate) type RepeatedEdges = Vec<[Vec<TriangleSide>; 2]>;
 
 /// The edges of a mesh that are there more than once; nothing where each is used once each way.
 pub(crate) fn repeated_edges(mesh: &Mesh) -> Option<RepeatedEdges> {
-    let half_edges = HalfEdges::new(mesh.positions.len(), &mesh.triangles);
+    let vertices = mesh.positions.len();
+    if are_all_paired(vertices, &mesh.triangles) {
+        return None;
+    }
+    let half_edges = HalfEdges::new(vertices, &mesh.triangles);
     let along = |(a, b)| [(a, b), (b, a)].map(|(a, b)| half_edges.between(a, b).collect());
-    (!half_edges.are_all_paired()).then(|| half_edges.repeated().into_iter().map(along).collect())
+    Some(half_edges.repeated().into_iter().map(along).collect())
 }
 
 /// Splits every edge that joins the same two vertices as another one, in both of its triangles, at a midpoint, until all

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 use planecut_csg::Mesh;
-use planecut_csg::stages::HalfEdges;
+use planecut_csg::stages::are_all_paired;
 use planecut_parallel::prelude::*;
 
 use super::rounding::Rounding;
@@ -119,7 +119,7 @@ impl<'a> Geometry<'a> {
     /// Whether the triangles are a closed, oriented 2-manifold.
     fn is_manifold(&self) -> bool {
         let (vertices, all) = (self.mesh.positions.len(), &self.mesh.triangles);
-        let are_paired = |triangles: &[[u32; 3]]| HalfEdges::new(vertices, triangles).are_all_paired();
+        let are_paired = |triangles: &[[u32; 3]]| are_all_paired(vertices, triangles);
         if self.vertices.corners.len() == 3 * all.len() {
             return are_paired(all);
         }
