@@ -40,8 +40,8 @@ impl IncrementalPolytope {
         }
     }
 
-    /// Climbs until a vertex is outside of `plane`, whose row is `normal` and whose probe is given, or else until the top; tells whether the vertex is outside.
-    /// What begins at `start`, which is inside, mostly comes outside before it is at the top.
+    /// The first vertex outside of `plane` on a climb from `start`, which is inside, or else the top; and whether it is outside. `normal` is the row of the plane.
+    /// Mostly a vertex is outside before the top.
     pub(super) fn climb_outside(&self, normal: &Row, start: u32, plane: u32, probe: &Probe) -> (u32, bool) {
         let (mut ascent, mut slope) = Ascent::begin(normal, self.vertices.planes(start).map(|plane| self.row(plane)));
         let (mut vertex, mut entered) = (start, 0);
