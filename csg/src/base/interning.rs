@@ -95,21 +95,18 @@ impl<K: Copy + Eq + Hash> Different<K> {
     }
 
     fn number(&mut self, key: K) -> u32 {
-        // the same key often comes twice in a row
-        if self.are_many && self.keys[self.first..].last() != Some(&key) {
-            return *self.number.entry(key).or_insert_with(|| {
-                self.keys.push(key);
-                number32(self.keys.len()) - 1
-            });
+        let fresh = number32(self.keys.len());
+        let number = if self.are_many {
+            *self.number.entry(key).or_insert(fresh)
+        } else {
+            // the same key often comes twice in a row
+            let known = self.keys[self.first..].iter().rposition(|known| *known == key);
+            known.map_or(fresh, |place| number32(self.first + place))
+        };
+        if number == fresh {
+            self.keys.push(key);
         }
-        let known = self.keys[self.first..].iter().rposition(|known| *known == key);
-        number32(known.map_or_else(
-            || {
-                self.keys.push(key);
-                self.keys.len() - 1
-            },
-            |place| self.first + place,
-        ))
+        number
     }
 }
 

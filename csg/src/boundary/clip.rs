@@ -9,7 +9,6 @@ use super::Scene;
 use super::corner_sides::CornerSides;
 use super::section::{Clip, Polygon};
 use super::signs::Signs;
-use crate::base::Bounds;
 use crate::body::{Body, BodyFace, Corner, Place, PlaneFilter, PolarDual, SomeFaces};
 use crate::ids::{BodyFaceId, BodyId, Id, NearId};
 use crate::plane_table::PlaneId;
@@ -67,10 +66,6 @@ impl Clipper {
         if self.sides.is_empty() {
             self.push_near(first..first);
             return true;
-        }
-        // most are told apart by a plane and a box
-        if is_box_beyond(scene, other, &own.bounds) || is_box_beyond(scene, body, &solid.bounds) {
-            return false;
         }
         let (is_apart, is_within) = match scene.polar_dual(other) {
             Some(dual) => self.add_some_planes(scene, own, solid, dual),
@@ -332,15 +327,6 @@ impl Clipper {
             Place::Unknown => Found::Unknown,
         }
     }
-}
-
-/// Whether a box surely lies beyond a plane of a body of few faces.
-fn is_box_beyond(scene: &Scene<'_>, body: BodyId, bounds: &Bounds) -> bool {
-    let is_beyond = |face: &BodyFace| {
-        let half_space = scene.table.half_space(face.plane);
-        bounds.extent_along(half_space.normal(), half_space.offset()).0 > 0.0
-    };
-    scene.polar_dual(body).is_none() && scene.body(body).faces.iter().any(is_beyond)
 }
 
 /// Whether a plane of a body is found beyond which all corners of another surely lie.

@@ -37,58 +37,28 @@ pub fn previous(half_edge: u32) -> u32 {
 /// without triangles. Linear.
 #[must_use]
 pub fn are_all_paired(vertices: usize, triangles: &[[u32; 3]]) -> bool {
-    let sides = |[a, b, c]: [u32; 3]| [[a, b], [b, c], [c, a]];
-    // each is looked at where its lower end is: those that run up from there, and those that run down to it
-    let mut starts = [0; 2].map(|_| vec![0_u32; vertices + 1]);
-    for [from, to] in triangles.iter().copied().flat_map(sides) {
-        if from == to {
-            return false;
-        }
-        starts[usize::from(from > to)][from.min(to) as usize + 1] += 1;
-    }
-    let [mut starts, down_to] = starts;
-    if starts != down_to {
-        return false;
-    }
-    drop(down_to);
-    for vertex in 0..vertices {
-        starts[vertex + 1] += starts[vertex];
-    }
-    let count = starts[vertices] as usize;
-    let (mut next, mut ends) = ([starts.clone(), starts.clone()], [vec![0_u32; count], vec![0_u32; count]]);
-    for [from, to] in triangles.iter().copied().flat_map(sides) {
-        let way = usize::from(from > to);
-        let next = &mut next[way][from.min(to) as usize];
-        ends[way][*next as usize] = from.max(to);
-        *next += 1;
-    }
-    drop(next);
-    let [up, down] = &ends;
+    let sides = triangles.iter().flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]);
+    let lower_end = sides.map(|[from, to]| *from.min(to) as usize);
+    // the higher end of a half-edge, and in the last bit whether it comes down from there
+    let other_end = |half_edge: usize| {
+        let triangle = triangles[half_edge / 3];
+        let (from, to) = (triangle[half_edge % 3], triangle[(half_edge + 1) % 3]);
+        u64::from(from.max(to)) << 1 | u64::from(from > to)
+    };
+    let (starts, ends) = by_group(vertices, lower_end, other_end);
     let of_chunk = |mut vertices: Range<u32>| {
-        let (mut sorted_up, mut sorted_down) = (Vec::new(), Vec::new());
+        let mut sorted: Vec<u64> = Vec::new();
         vertices.all(|vertex| {
-            let range = starts[vertex as usize] as usize..starts[vertex as usize + 1] as usize;
-            let (up, down) = (&up[range.clone()], &down[range]);
-            if up.len() <= FEW {
-                return up.iter().all(|end| occurrences(up, *end) == 1 && occurrences(down, *end) == 1);
-            }
-            for (sorted, ends) in [(&mut sorted_up, up), (&mut sorted_down, down)] {
-                sorted.clear();
-                sorted.extend_from_slice(ends);
-                sorted.sort_unstable();
-            }
-            sorted_up == sorted_down && sorted_up.windows(2).all(|pair| pair[0] != pair[1])
+            sorted.clear();
+            sorted.extend(&ends[starts[vertex as usize] as usize..starts[vertex as usize + 1] as usize]);
+            sorted.sort_unstable();
+            // of each other end one goes up, right before the one that comes down; an edge from a vertex to itself goes up alone
+            let (pairs, rest) = sorted.as_chunks();
+            rest.is_empty() && pairs.iter().all(|[up, down]| up & 1 == 0 && *down == up + 1)
         })
     };
     let are_paired: Vec<bool> = chunks_of(number32(vertices)).into_par_iter().map(of_chunk).collect();
     are_paired.into_iter().all(|are| are)
-}
-
-/// How often an end is among some.
-#[inline]
-fn occurrences(ends: &[u32], end: u32) -> u32 {
-    // without a branch, several at a time
-    ends.iter().map(|other| u32::from(*other == end)).sum()
 }
 
 /// The vertices in ranges, each for one thread.
@@ -118,7 +88,8 @@ impl Ends {
 
     /// Whether one half-edge leaves for an end, and one comes from there.
     fn are_one_each(&self, end: u32) -> bool {
-        occurrences(&self.leaving, end) == 1 && occurrences(&self.coming, end) == 1
+        let count = |ends: &[u32]| ends.iter().map(|other| u32::from(*other == end)).sum::<u32>();
+        count(&self.leaving) == 1 && count(&self.coming) == 1
     }
 
     /// Adds the twin of each half-edge that leaves a vertex, in order.
