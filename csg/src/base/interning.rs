@@ -127,6 +127,9 @@ pub(crate) fn by_group<M: Copy>(
         starts[k + 1] += starts[k];
     }
     let mut next = starts.clone();
+    if members == 0 {
+        return (starts, Vec::new());
+    }
     let mut sorted = vec![number(0); members];
     for (member, group) in of_member.enumerate() {
         sorted[next[group] as usize] = number(member);
@@ -175,5 +178,8 @@ mod tests {
         let (starts, sorted) = by_group(5, groups.iter().copied(), |place| place);
         assert_eq!(starts, [0, 2, 2, 5, 6, 6]);
         assert_eq!(sorted, [1, 4, 0, 2, 5, 3]);
+        let nobody: [u32; 0] = [];
+        // nobody is asked for a number
+        assert_eq!(by_group(2, std::iter::empty(), |place| nobody[place]), (vec![0, 0, 0], vec![]));
     }
 }

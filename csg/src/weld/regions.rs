@@ -88,9 +88,6 @@ impl ByRegion {
     /// Lists half-edges whose regions are in the order of their numbers.
     pub(super) fn of(pieces: &[HalfEdge], regions: usize) -> Self {
         let order: Vec<RegionId> = RegionId::all(regions).collect();
-        if pieces.is_empty() {
-            return Self { starts: vec![0; order.len() + 1], members: Vec::new(), order };
-        }
         let regions = pieces.iter().map(|piece| piece.region.index());
         let (starts, mut members) = by_group(order.len(), regions, |number| {
             (pieces[number].from, pieces[number].to, HalfEdgeId::from_index(number))
