@@ -9,17 +9,33 @@ impl Delaunay {
     /// Flips what has to be flipped among the doubtful half-edges and around what was.
     pub(super) fn flip_doubtful(&mut self) {
         while let Some(half_edge) = self.doubtful.pop() {
-            if self.is_free(half_edge / 3) || self.side(half_edge) != Side::Free || self.twin(half_edge) == NONE {
-                continue;
-            }
-            let [a, b, c] = [self.from(half_edge), self.to(half_edge), self.apex(half_edge)].map(|site| self.at(site));
-            let d = self.at(self.apex(self.twin(half_edge)));
-            if is_in_circle(a, b, c, d) {
+            if !self.is_free(half_edge / 3) && self.must_flip(half_edge) {
                 let twin = self.twin(half_edge);
                 self.flip(half_edge);
                 self.doubtful.extend([next(half_edge), previous(half_edge), next(twin), previous(twin)]);
             }
         }
+    }
+
+    /// The same after a site came into a Delaunay triangulation, where the doubtful half-edges are those across from it: the edges that end at the site are Delaunay at once
+    /// (de Berg et al., lemma 9.10), so of each flip only the two sides across from the site may have to be flipped.
+    pub(super) fn flip_around_new_site(&mut self) {
+        while let Some(half_edge) = self.doubtful.pop() {
+            if self.must_flip(half_edge) {
+                let twin = self.twin(half_edge);
+                self.flip(half_edge);
+                self.doubtful.extend([previous(half_edge), next(twin)]);
+            }
+        }
+    }
+
+    /// Whether a half-edge is that of a diagonal which is not Delaunay.
+    fn must_flip(&self, half_edge: u32) -> bool {
+        if self.side(half_edge) != Side::Free || self.twin(half_edge) == NONE {
+            return false;
+        }
+        let [a, b, c] = [self.from(half_edge), self.to(half_edge), self.apex(half_edge)].map(|site| self.at(site));
+        is_in_circle(a, b, c, self.at(self.apex(self.twin(half_edge))))
     }
 
     /// Puts the other diagonal of the quadrilateral, which is convex, of two triangles in the place of the one of a half-edge.

@@ -21,13 +21,13 @@ impl Delaunay {
             Place::Within(half_edge) => {
                 let site = self.new_site(at);
                 self.split_triangle(half_edge, site);
-                self.flip_doubtful();
+                self.flip_around_new_site();
                 Ok(site)
             }
             Place::On(half_edge) => {
                 let site = self.new_site(at);
                 self.split_edge(half_edge, site);
-                self.flip_doubtful();
+                self.flip_around_new_site();
                 Ok(site)
             }
         }
