@@ -98,7 +98,22 @@ struct Contraction {
     /// The live triangles at vertices where they have changed.
     changed: Vec<Changed>,
     is_removed: Vec<bool>,
+    /// For each vertex which [`Mark`] of which test it got last.
+    marks: Vec<u64>,
+    /// The number of tests so far.
+    tests: u64,
 }
+
+/// What a test of an edge found of a vertex; less than [`MARKS`].
+#[derive(Clone, Copy)]
+enum Mark {
+    BesideA = 1,
+    BesideB = 2,
+    BesideBoth = 3,
+}
+
+/// Marks of one test are told from those of others by this times its number.
+const MARKS: u64 = 4;
 
 impl Contraction {
     fn new(mesh: &Mesh) -> Self {
@@ -113,6 +128,8 @@ impl Contraction {
             place: vec![UNCHANGED; mesh.positions.len()],
             changed: Vec::new(),
             is_removed: vec![false; mesh.triangles.len()],
+            marks: vec![0; mesh.positions.len()],
+            tests: 0,
         }
     }
 
@@ -169,22 +186,36 @@ impl Contraction {
     }
 
     /// The link condition: exactly two triangles share the edge, and their tips are all the neighbours that both ends have.
-    fn keeps_topology(&self, mesh: &Mesh, a: u32, b: u32) -> bool {
+    fn keeps_topology(&mut self, mesh: &Mesh, a: u32, b: u32) -> bool {
         let shared = self.triangles_at(b).iter().filter(|t| mesh.triangles[**t as usize].contains(&a)).count();
         if shared != 2 {
             return false;
         }
-        let around = |v: u32| -> SmallVec<[u32; 32]> {
+        self.tests += 1;
+        let mark = |mark: Mark| MARKS * self.tests + mark as u64;
+        let mut marks = std::mem::take(&mut self.marks);
+        let around = |v: u32| {
             let corners = self.triangles_at(v).iter().flat_map(|t| mesh.triangles[*t as usize]);
-            let mut around: SmallVec<[u32; 32]> = corners.filter(|other| *other != v).collect();
-            around.sort_unstable();
-            around.dedup();
-            around
+            corners.filter(move |other| *other != v).map(|other| other as usize)
         };
-        let (at_a, at_b) = (around(a), around(b));
-        let common = at_a.iter().filter(|vertex| at_b.binary_search(vertex).is_ok()).count();
+        let (mut at_a, mut at_b, mut common) = (0, 0, 0);
+        for vertex in around(a) {
+            at_a += usize::from(marks[vertex] != mark(Mark::BesideA));
+            marks[vertex] = mark(Mark::BesideA);
+        }
+        for vertex in around(b) {
+            let known = marks[vertex];
+            if known == mark(Mark::BesideA) {
+                (at_b, common) = (at_b + 1, common + 1);
+                marks[vertex] = mark(Mark::BesideBoth);
+            } else if known < mark(Mark::BesideA) {
+                at_b += 1;
+                marks[vertex] = mark(Mark::BesideB);
+            }
+        }
+        self.marks = marks;
         // a tetrahedron would fold flat
-        common == 2 && at_a.len() + at_b.len() > 6
+        common == 2 && at_a + at_b > 6
     }
 
     /// Drops what is no longer used and renumbers the rest.
