@@ -7,7 +7,7 @@ use planecut_parallel::prelude::*;
 
 use super::CoarsenError;
 use super::clear::Clear;
-use super::part::{Part, boxes_of};
+use super::part::{Part, boxes_of, mesh_of};
 use super::point_tree::PointTree;
 use crate::solid::convex_union;
 
@@ -22,7 +22,7 @@ pub(super) fn parts_of(tree: &Tree) -> Result<Vec<Part>, CoarsenError> {
 /// The triangles of the boundaries of all parts.
 pub(super) fn triangles_of(parts: &[Part]) -> Vec<[DVec3; 3]> {
     let of_one = |part: &Part| {
-        let (corners, polygons) = part.polytope.to_mesh();
+        let (corners, polygons) = mesh_of(&part.polytope);
         let fan = |polygon: &Vec<usize>| {
             let triangle = |pair: &[usize]| [polygon[0], pair[0], pair[1]].map(|corner| corners[corner]);
             polygon[1..].windows(2).map(triangle).collect::<Vec<_>>()

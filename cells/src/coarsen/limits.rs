@@ -5,7 +5,7 @@ use planecut_kernel::DVec3;
 use super::clear::Clear;
 use super::enclose::enclose;
 use super::lower::lower_beside;
-use super::part::Part;
+use super::part::{Part, mesh_of};
 use super::{CoarsenError, CoarsenOptions};
 use crate::tolerances::{ONE_VERTEX, PARALLEL_EDGES, THICK_ENOUGH};
 
@@ -83,7 +83,7 @@ impl Limits<'_> {
 ///
 /// The least width is found across a face, or across two edges that are not parallel (Houle, Toussaint 1988).
 fn thinnest(body: &Part) -> (DVec3, f64) {
-    let (corners, polygons) = body.polytope.to_mesh();
+    let (corners, polygons) = mesh_of(&body.polytope);
     let mut directions: Vec<DVec3> = body.half_spaces.iter().map(|plane| unit(plane.normal())).collect();
     let edges =
         polygons.iter().flat_map(|polygon| (0..polygon.len()).map(|k| (polygon[k], polygon[(k + 1) % polygon.len()])));

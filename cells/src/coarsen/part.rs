@@ -1,5 +1,6 @@
 //! The convex bodies that are to become fewer.
 
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 use planecut_csg::stages::{Bounds, Boxes};
@@ -51,7 +52,7 @@ impl Part {
         if !polytope.is_bounded() {
             return Err(CoarsenError::Unbounded);
         }
-        let (corners, _) = polytope.to_mesh();
+        let (corners, _) = mesh_of(&polytope);
         let half_spaces: Vec<HalfSpace> =
             polytope.facets().iter().filter_map(|(plane, _)| polytope.plane(*plane).copied()).collect();
         let bounds = bounds_of(&corners);
@@ -121,6 +122,23 @@ pub(super) fn built(half_spaces: impl IntoIterator<Item = HalfSpace>) -> Increme
     polytope
 }
 
+/// The mesh of a bounded polytope: corners in the order of their coordinates, and each polygon from the first of its corners.
+///
+/// In the order of the kernel's numbers, sums would be rounded otherwise after other cuts, and of cuts that are equally good another would be taken.
+pub(super) fn mesh_of(polytope: &IncrementalPolytope) -> (Vec<DVec3>, Vec<Vec<usize>>) {
+    let (found, mut polygons) = polytope.to_mesh();
+    let mut order: Vec<usize> = (0..found.len()).collect();
+    order.sort_by(|a, b| by_coordinates(&found[*a], &found[*b]));
+    let mut numbers = vec![0; found.len()];
+    order.iter().enumerate().for_each(|(number, old)| numbers[*old] = number);
+    for polygon in &mut polygons {
+        polygon.iter_mut().for_each(|corner| *corner = numbers[*corner]);
+        let first = (0..polygon.len()).min_by_key(|place| polygon[*place]).unwrap_or(0);
+        polygon.rotate_left(first);
+    }
+    (order.into_iter().map(|old| found[old]).collect(), polygons)
+}
+
 /// The boxes of parts.
 pub(super) fn boxes_of(parts: &[Part]) -> Boxes {
     Boxes::new(parts.iter().map(|part| part.bounds).collect())
@@ -133,8 +151,12 @@ pub(super) fn bounds_of(points: &[DVec3]) -> Bounds {
 
 /// Puts points in order, each once.
 pub(super) fn sort_and_dedup(points: &mut Vec<DVec3>) {
-    points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z)));
+    points.sort_by(by_coordinates);
     points.dedup();
+}
+
+fn by_coordinates(a: &DVec3, b: &DVec3) -> Ordering {
+    a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z))
 }
 
 /// The material of most of a brush's surface; of several the one with the lowest number.
@@ -163,4 +185,36 @@ pub(super) fn most(shares: impl Iterator<Item = (MaterialId, f64)>) -> MaterialI
     shares.for_each(|(material, share)| *sums.entry(material).or_default() += share);
     let most = sums.into_iter().rev().max_by(|a, b| a.1.total_cmp(&b.1));
     most.map_or(MaterialId(0), |(material, _)| material)
+}
+
+#[cfg(test)]
+mod tests {
+    use planecut_kernel::IncrementalPolytope;
+    use planecut_testkit::generate::ball;
+    use planecut_testkit::random::Rng;
+
+    use super::{built, mesh_of};
+
+    /// Planes that come and go in between leave the same body with other numbers.
+    #[test]
+    fn the_mesh_does_not_depend_on_how_vertices_are_numbered() {
+        let mut renumbered = 0;
+        for seed in 0..20 {
+            let mut rng = Rng::spread(seed);
+            let half_spaces: Vec<_> =
+                ball(&mut rng, glam::DVec3::ZERO, 1.0, 24).faces.iter().map(|face| face.half_space).collect();
+            let direct = built(half_spaces.iter().copied());
+            let mut other = IncrementalPolytope::with_epsilon(0.0);
+            for half_space in &half_spaces {
+                other.add_plane(*half_space);
+                let passing = ball(&mut rng, glam::DVec3::ZERO, 0.5, 1).faces[0].half_space;
+                let handle = other.add_plane(passing).plane();
+                other.remove_plane(handle);
+            }
+            eprintln!("seed {seed}");
+            renumbered += usize::from(direct.to_mesh() != other.to_mesh());
+            assert_eq!(mesh_of(&direct), mesh_of(&other));
+        }
+        assert!(renumbered > 0, "all have the same numbers, so this shows nothing");
+    }
 }

@@ -102,7 +102,7 @@ impl<'a> Search<'a> {
 
     /// The hull of two groups, and whether parts of both are near each other; `None` where it may not be.
     pub(super) fn joined_groups(&self, a: &Group, b: &Group) -> Option<(Hull, bool)> {
-        let is_near = self.gaps.are_near(&a.parts, &b.parts);
+        let is_near = self.are_near(&a.parts, &b.parts);
         if !is_near && self.gaps.is_strict() {
             return None;
         }
@@ -112,6 +112,11 @@ impl<'a> Search<'a> {
         };
         let hull = known.or_else(|| self.joined(&a.hull, &b.hull))?;
         Some((hull, is_near))
+    }
+
+    /// Whether parts of two groups are near each other.
+    pub(super) fn are_near(&self, some: &[u32], others: &[u32]) -> bool {
+        self.gaps.are_near(some, others)
     }
 
     /// The parts that are near one; nothing where that does not matter.

@@ -80,8 +80,13 @@ impl IncrementalPolytope {
         let mut top = start;
         // a vertex that is cut away is as good a beginning as the extreme one
         if !self.violates(start, plane, &probe) {
-            top = known_top.unwrap_or_else(|| self.climb(row, start));
-            if top == start || !self.violates(top, plane, &probe) {
+            let is_outside;
+            (top, is_outside) = match known_top {
+                // it is known to be outside
+                Some(top) => (top, true),
+                None => self.climb_outside(row, start, plane, &probe),
+            };
+            if !is_outside {
                 // a removal looks at these alone, and then changes what would be found
                 if !is_infinity(plane) {
                     self.note_climb();

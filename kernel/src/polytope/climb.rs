@@ -2,7 +2,7 @@
 
 use super::IncrementalPolytope;
 use super::store::{BEFORE, Farthest, NEXT};
-use crate::sign::{Ascent, Row, Sign, Slope, orient3};
+use crate::sign::{Ascent, Probe, Row, Sign, Slope, orient3};
 
 /// Indices counted on from any of the three.
 const INDEX: [usize; 5] = [0, 1, 2, 0, 1];
@@ -38,6 +38,26 @@ impl IncrementalPolytope {
         } else {
             self.climb_quickly(normal, seemingly).ok()
         }
+    }
+
+    /// The first vertex outside of `plane` on a climb from `start`, which is inside, or else the top; and whether it is outside. `normal` is the row of the plane.
+    /// Mostly a vertex is outside before the top.
+    pub(super) fn climb_outside(&self, normal: &Row, start: u32, plane: u32, probe: &Probe) -> (u32, bool) {
+        let (mut ascent, mut slope) = Ascent::begin(normal, self.vertices.planes(start).map(|plane| self.row(plane)));
+        let (mut vertex, mut entered) = (start, 0);
+        while let Slope::Up(k) = slope {
+            let link = self.vertices.link(vertex, INDEX[entered + k]);
+            (vertex, entered) = (link.vertex(), link.index());
+            if self.violates(vertex, plane, probe) {
+                return (vertex, true);
+            }
+            slope = ascent.step(normal, self.row(self.vertices.planes(vertex)[entered]));
+        }
+        if slope == Slope::Top {
+            return (vertex, false);
+        }
+        let top = self.climb(normal, vertex);
+        (top, self.violates(top, plane, probe))
     }
 
     /// Climbs while the filter decides; else the vertex at which it does not.

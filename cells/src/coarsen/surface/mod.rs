@@ -18,6 +18,7 @@ mod cut;
 mod divide;
 mod dividing_plane;
 mod draw_in;
+mod exchange;
 mod extremes;
 mod fragment;
 mod inside;

@@ -1,7 +1,8 @@
 //! Neighbouring groups of pieces cut apart again, by planes in any direction.
 //!
 //! Pieces come from cuts across the axes: where two groups meet there are stairs, so that their hulls overlap and add more than they need to. All that two groups hold is cut by the plane for
-//! which the hulls of both sides are smallest ([`Dividing`]); the sides replace the groups where that costs less.
+//! which the hulls of both sides are smallest ([`Dividing`]); the sides replace the groups where that costs less. When no pair gets better, cells go to where they save more ([`super::exchange`]), and what
+//! is near those is cut apart again.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -20,6 +21,7 @@ use super::Pieces;
 use super::body::Points;
 use super::chunk::{Chunk, Place, rejoined};
 use super::dividing_plane::Dividing;
+use super::fragment::Plane;
 use crate::tolerances::RECUT_MARGIN;
 
 /// Budget of work for each group, and how many groups add to it: the number of corners in all hulls that are tried, about a third of a microsecond each.
@@ -46,11 +48,11 @@ pub(in super::super) struct Recut {
 
 /// What a cell is to hold.
 #[derive(Debug, Clone)]
-struct Cell {
-    chunks: Vec<Arc<Chunk>>,
-    hull: Hull,
+pub(super) struct Cell {
+    pub(super) chunks: Vec<Arc<Chunk>>,
+    pub(super) hull: Hull,
     /// What the hull exceeds its chunks by, each taken for its own hull.
-    empty: f64,
+    pub(super) empty: f64,
     is_new: bool,
 }
 
@@ -74,7 +76,7 @@ impl Pieces {
         let cell = |group: &Group| self.cell(group.parts.iter().map(chunk).collect(), false);
         let mut cells: Vec<Cell> = groups.par_iter().map(cell).collect();
         let before = added(search, &cells);
-        self.cut_pairs(search, &mut cells);
+        self.cut(search, &mut cells);
         let share = f64::from(added(search, &cells)) / f64::from(before.max(1));
         let is_clearly_better = share <= CLEARLY_BETTER;
         let polygons: usize = self.regions.iter().map(|region| region.polygons.len()).sum();
@@ -86,15 +88,31 @@ impl Pieces {
         Some(Recut { groups, is_clearly_better })
     }
 
-    /// Cuts pairs until none gets better, or all work is done that may be.
-    fn cut_pairs(&self, search: &Search, cells: &mut [Cell]) {
+    /// Cuts neighbours apart and divides cells in place of others until nothing gets better, or all work is done that may be.
+    fn cut(&self, search: &Search, cells: &mut [Cell]) {
         let (of_group, most) = WORK;
         let mut work = of_group * cells.len().min(most);
-        let (least, of_groups) = AT_A_TIME;
-        let at_a_time = least + cells.len() / of_groups;
         let worth_it = LEAST_EMPTY * cells.iter().map(|cell| cell.empty).sum::<f64>();
         let mut waiting = near_each_other(search, cells);
         while !waiting.is_empty() && work > 0 {
+            self.cut_pairs(search, cells, waiting, worth_it, &mut work);
+            let changed = self.exchange(search, cells, worth_it, &mut work);
+            waiting = near_some(search, cells, &changed);
+        }
+    }
+
+    /// Cuts pairs apart, and those near a cell that changes by that.
+    fn cut_pairs(
+        &self,
+        search: &Search,
+        cells: &mut [Cell],
+        mut waiting: Vec<[usize; 2]>,
+        worth_it: f64,
+        work: &mut usize,
+    ) {
+        let (least, of_groups) = AT_A_TIME;
+        let at_a_time = least + cells.len() / of_groups;
+        while !waiting.is_empty() && *work > 0 {
             let empty = |pair: &[usize; 2]| pair.iter().map(|place| cells[*place].empty).sum::<f64>();
             waiting.retain(|pair| empty(pair) > worth_it);
             // those first where there is most to gain for the work
@@ -107,7 +125,7 @@ impl Pieces {
                 taken.par_iter().with_max_len(1).map(|pair| self.found(search, view, *pair)).collect();
             let mut changed: BTreeSet<usize> = BTreeSet::new();
             for Found { pair, cells: new, work: done } in found {
-                work = work.saturating_sub(done);
+                *work = work.saturating_sub(done);
                 // others may have changed since it was found
                 let Some(new) = new.filter(|new| gain(search, cells, pair, new) > search.least_gain()) else {
                     continue;
@@ -118,8 +136,7 @@ impl Pieces {
                 }
             }
             if !changed.is_empty() {
-                let is_changed = |pair: &[usize; 2]| pair.iter().any(|place| changed.contains(place));
-                waiting.extend(near_each_other(search, cells).into_iter().filter(is_changed));
+                waiting.extend(near_some(search, cells, &changed));
                 waiting.sort_unstable();
                 waiting.dedup();
             }
@@ -138,26 +155,33 @@ impl Pieces {
         let sides = pair.map(|place| &cells[place].chunks[..]);
         let chunks = rejoined(sides.concat());
         let mut dividing = Dividing::new(&chunks, sides);
-        let plane = dividing.best();
-        let new = plane.and_then(|(normal, offset)| {
-            let margin = RECUT_MARGIN + self.growth.rounding * self.frame.scale;
-            let (mut below, mut above) = (Vec::new(), Vec::new());
-            for chunk in &chunks {
-                match chunk.place((normal, offset), margin) {
-                    Place::Below => below.push(Arc::clone(chunk)),
-                    Place::Above => above.push(Arc::clone(chunk)),
-                    Place::Across => {
-                        let [low, high] = chunk.split((normal, offset), margin, &self.frame);
-                        below.push(low);
-                        above.push(high);
-                    }
-                }
-            }
-            let is_divided = !below.is_empty() && !above.is_empty();
-            is_divided.then(|| [below, above].map(|chunks| self.cell(chunks, true)))
-        });
+        let new = dividing.best().and_then(|plane| self.divided(&chunks, plane));
         let cells = new.filter(|new| gain(search, cells, pair, new) > search.least_gain());
         Found { pair, cells, work: dividing.work }
+    }
+
+    /// What lies on either side of a plane; `None` where that is nothing.
+    pub(super) fn divided(&self, chunks: &[Arc<Chunk>], plane: Plane) -> Option<[Cell; 2]> {
+        let margin = RECUT_MARGIN + self.growth.rounding * self.frame.scale;
+        let (mut below, mut above) = (Vec::new(), Vec::new());
+        for chunk in chunks {
+            match chunk.place(plane, margin) {
+                Place::Below => below.push(Arc::clone(chunk)),
+                Place::Above => above.push(Arc::clone(chunk)),
+                Place::Across => {
+                    let [low, high] = chunk.split(plane, margin, &self.frame);
+                    below.push(low);
+                    above.push(high);
+                }
+            }
+        }
+        let is_divided = !below.is_empty() && !above.is_empty();
+        is_divided.then(|| [below, above].map(|chunks| self.cell(chunks, true)))
+    }
+
+    /// Two cells as one.
+    pub(super) fn united(&self, a: &Cell, b: &Cell) -> Cell {
+        self.cell(rejoined([&a.chunks[..], &b.chunks].concat()), true)
     }
 }
 
@@ -175,23 +199,30 @@ fn added(search: &Search, cells: &[Cell]) -> u32 {
     covered.iter().map(|word| word.count_ones()).sum()
 }
 
-/// What a pair costs less when it is replaced.
-fn gain(search: &Search, cells: &[Cell], pair: [usize; 2], new: &[Cell; 2]) -> f64 {
-    let old = pair.map(|place| &cells[place].hull);
-    let new = new.each_ref().map(|cell| &cell.hull);
-    let bounds = old.iter().chain(&new).fold(Bounds::EMPTY, |all, hull| all.union(&hull.bounds));
-    let covered = covered_beside(search, cells.iter().map(|cell| &cell.hull), &pair, &bounds);
-    cost(search, &covered, old.into_iter()) - cost(search, &covered, new.into_iter())
+/// What a pair, or one cell named twice, costs less when it is replaced.
+pub(super) fn gain(search: &Search, cells: &[Cell], [a, b]: [usize; 2], new: &[Cell]) -> f64 {
+    let old = [a, b].into_iter().take(if a == b { 1 } else { 2 }).map(|place| &cells[place].hull);
+    let new = new.iter().map(|cell| &cell.hull);
+    let bounds = old.clone().chain(new.clone()).fold(Bounds::EMPTY, |all, hull| all.union(&hull.bounds));
+    let covered = covered_beside(search, cells.iter().map(|cell| &cell.hull), &[a, b], &bounds);
+    cost(search, &covered, old) - cost(search, &covered, new)
 }
 
 /// Pairs of cells that are near each other and may exchange what they hold.
-fn near_each_other(search: &Search, cells: &[Cell]) -> Vec<[usize; 2]> {
+pub(super) fn near_each_other(search: &Search, cells: &[Cell]) -> Vec<[usize; 2]> {
     let bounds: Vec<Bounds> = cells.iter().map(|cell| cell.hull.bounds).collect();
     let mut pairs = neighbours(&bounds);
     pairs.retain(|pair| {
         let [a, b] = pair.map(|place| cells[place].chunks[0].piece);
         search.may_join(a, b)
     });
+    pairs
+}
+
+/// The same of pairs of which one cell is among some.
+fn near_some(search: &Search, cells: &[Cell], some: &BTreeSet<usize>) -> Vec<[usize; 2]> {
+    let mut pairs = near_each_other(search, cells);
+    pairs.retain(|pair| pair.iter().any(|place| some.contains(place)));
     pairs
 }
 
