@@ -19,6 +19,10 @@ const FEW: usize = 16;
 /// Vertices that one thread looks at in a row.
 const VERTICES_OF_CHUNK: u32 = 1 << 10;
 
+/// Maximum number of parts in which it is asked whether half-edges are paired, and the number of triangles for each.
+const MOST_PARTS: usize = 16;
+const LEAST_OF_PART: usize = 1 << 11;
+
 /// The half-edge that follows in its triangle.
 #[inline]
 #[must_use]
@@ -37,28 +41,50 @@ pub fn previous(half_edge: u32) -> u32 {
 /// without triangles. Linear.
 #[must_use]
 pub fn are_all_paired(vertices: usize, triangles: &[[u32; 3]]) -> bool {
-    let sides = triangles.iter().flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]);
-    let lower_end = sides.map(|[from, to]| *from.min(to) as usize);
-    // the higher end of a half-edge, and in the last bit whether it comes down from there
-    let other_end = |half_edge: usize| {
-        let triangle = triangles[half_edge / 3];
-        let (from, to) = (triangle[half_edge % 3], triangle[(half_edge + 1) % 3]);
-        u64::from(from.max(to)) << 1 | u64::from(from > to)
+    // each part looks at all triangles
+    let parts = planecut_parallel::current_num_threads().clamp(1, MOST_PARTS).min(1 + triangles.len() / LEAST_OF_PART);
+    let of_part = |part: usize| {
+        let vertices = vertices * part / parts..vertices * (part + 1) / parts;
+        are_paired_at(vertices, triangles)
     };
-    let (starts, ends) = by_group(vertices, lower_end, other_end);
-    let of_chunk = |mut vertices: Range<u32>| {
-        let mut sorted: Vec<u64> = Vec::new();
-        vertices.all(|vertex| {
-            sorted.clear();
-            sorted.extend(&ends[starts[vertex as usize] as usize..starts[vertex as usize + 1] as usize]);
-            sorted.sort_unstable();
-            // of each other end one goes up, right before the one that comes down; an edge from a vertex to itself goes up alone
-            let (pairs, rest) = sorted.as_chunks();
-            rest.is_empty() && pairs.iter().all(|[up, down]| up & 1 == 0 && *down == up + 1)
-        })
-    };
-    let are_paired: Vec<bool> = chunks_of(number32(vertices)).into_par_iter().map(of_chunk).collect();
+    let are_paired: Vec<bool> = (0..parts).into_par_iter().with_max_len(1).map(of_part).collect();
     are_paired.into_iter().all(|are| are)
+}
+
+/// Whether every half-edge with its lower end at one of some vertices has a twin.
+fn are_paired_at(vertices: Range<usize>, triangles: &[[u32; 3]]) -> bool {
+    let count = vertices.len();
+    // a vertex below the first wraps to beyond the last
+    let place = |from: u32, to: u32| (from.min(to) as usize).wrapping_sub(vertices.start);
+    let mut starts = vec![0_u32; count + 1];
+    for &[a, b, c] in triangles {
+        for [from, to] in [[a, b], [b, c], [c, a]] {
+            if let Some(start) = starts[1..].get_mut(place(from, to)) {
+                *start += 1;
+            }
+        }
+    }
+    for k in 0..count {
+        starts[k + 1] += starts[k];
+    }
+    // the higher end of each half-edge, and in the last bit whether it comes down from there
+    let mut ends = vec![0_u64; starts[count] as usize];
+    let mut next = starts[..count].to_vec();
+    for &[a, b, c] in triangles {
+        for [from, to] in [[a, b], [b, c], [c, a]] {
+            if let Some(next) = next.get_mut(place(from, to)) {
+                ends[*next as usize] = u64::from(from.max(to)) << 1 | u64::from(from > to);
+                *next += 1;
+            }
+        }
+    }
+    starts.windows(2).all(|range| {
+        let ends = &mut ends[range[0] as usize..range[1] as usize];
+        ends.sort_unstable();
+        // of each other end one goes up, right before the one that comes down; an edge from a vertex to itself goes up alone
+        let (pairs, rest) = ends.as_chunks();
+        rest.is_empty() && pairs.iter().all(|[up, down]| up & 1 == 0 && *down == up + 1)
+    })
 }
 
 /// The vertices in ranges, each for one thread.
