@@ -333,7 +333,13 @@ mod tests {
             let next = |k: u32| (k + 1) % sides;
             let up = (0..sides).map(|k| [k, next(k), sides]);
             let triangles: Vec<[u32; 3]> = up.chain((0..sides).map(|k| [next(k), k, sides + 1])).collect();
-            let is_paired = |triangles: &[[u32; 3]]| are_all_paired(sides as usize + 2, triangles);
+            let vertices = sides as usize + 2;
+            let is_paired = |triangles: &[[u32; 3]]| {
+                let all = are_all_paired(vertices, triangles);
+                let third = |part: usize| vertices * part / 3..vertices * (part + 1) / 3;
+                assert_eq!((0..3).all(|part| are_paired_at(third(part), triangles)), all, "{triangles:?} in parts");
+                all
+            };
             assert!(is_paired(&triangles) && is_each_edge_there_once_each_way(&triangles));
             for (place, corner) in (0..triangles.len()).flat_map(|place| [0, 1, 2].map(|corner| (place, corner))) {
                 for other in 0..sides + 2 {
