@@ -8,6 +8,8 @@ from dataclasses import dataclass
 _WIDTH, _HEIGHT, _LEFT, _RIGHT, _TOP, _BOTTOM = 960, 460, 78, 236, 80, 58
 _APART = 24.0
 """Least distance of two marks on the axis of cells."""
+_BELOW = 0.05
+"""What may lie below the lowest level, as a part of a step."""
 _INK, _QUIET, _GRID = "#1f2630", "#5b6673", "#e6eaef"
 
 
@@ -41,30 +43,34 @@ def plot(title: str, lines: list[Line]) -> str:
 
 @dataclass(frozen=True)
 class _Axes:
-    """`counts`: the numbers of cells that occur; `step`, `top`: of the parts."""
+    """`counts`: the numbers of cells that occur; `step`, and the numbers of the lowest and the highest level: of the parts."""
 
     counts: list[int]
     step: float
-    top: float
+    bottom: int
+    top: int
 
     @classmethod
     def of(cls, lines: list[Line]) -> "_Axes":
         counts = sorted({count for line in lines for count, _ in line.points})
-        highest = max(part for line in lines for _, part in line.points)
+        parts = [part for line in lines for _, part in line.points]
+        # Cells that miss much of a solid have less volume than it.
+        lowest, highest = min(0.0, *parts), max(parts)
         steps = [base * 10.0**power for power in range(-4, 4) for base in (1.0, 2.0, 5.0)]
-        step = next(step for step in steps if highest / step <= 7.0)
-        return cls(counts, step, step * math.ceil(highest / step))
+        step = next(step for step in steps if (highest - lowest) / step <= 7.0)
+        return cls(counts, step, math.floor(lowest / step + _BELOW), math.ceil(highest / step))
 
     def x(self, count: int) -> float:
         part = math.log(count / self.counts[0]) / math.log(self.counts[-1] / self.counts[0])
         return _LEFT + 14 + part * (_WIDTH - _LEFT - _RIGHT - 28)
 
     def y(self, part: float) -> float:
-        return _HEIGHT - _BOTTOM - part / self.top * (_HEIGHT - _TOP - _BOTTOM)
+        above = (part / self.step - self.bottom) / (self.top - self.bottom)
+        return _HEIGHT - _BOTTOM - above * (_HEIGHT - _TOP - _BOTTOM)
 
     def drawn(self) -> Iterator[str]:
         """Levels with their percents, numbers of cells with their marks, and the names of both."""
-        for number in range(round(self.top / self.step) + 1):
+        for number in range(self.bottom, self.top + 1):
             y = self.y(number * self.step)
             color = _GRID if number else _QUIET
             yield f'<path d="M{_LEFT} {y:.1f}H{_WIDTH - _RIGHT}" stroke="{color}"/>'
