@@ -193,7 +193,7 @@ impl State {
         passed.clear();
         passed.extend(cutter.buffers.surviving.passed.iter().map(|passed| passed.at));
         if !parts.are_all() {
-            passed.extend(line.passed().iter().filter(|at| !parts.hold(along, at.point)));
+            passed.extend(line.passed().iter().filter(|at| !parts.hold_inside(along, at.point)));
         }
         passed.sort_unstable();
         passed.dedup();

@@ -67,17 +67,18 @@ impl Loops {
         points.sort_unstable();
         points.dedup();
         let mut broken: SmallVec<[LoopId; 8]> = region.gone.iter().map(|gone| pieces.loop_of[gone.index()]).collect();
-        let mut outgoing: SmallVec<[HalfEdgeId; 8]> = SmallVec::new();
+        let ends_at = region.ends_at(pieces, &points);
+        let (mut outgoing, mut incoming) = (SmallVec::new(), SmallVec::new());
         let mut followed: SmallVec<[(HalfEdgeId, HalfEdgeId); 16]> = SmallVec::new();
         for point in points {
-            outgoing.clear();
-            outgoing.extend(region.beginning_at(pieces, point));
-            for incoming in region.ending_at(pieces, point) {
+            ends_at.find_beginning(point, &mut outgoing);
+            ends_at.find_ending(point, &mut incoming);
+            for incoming in &incoming {
                 let piece = &pieces.half_edges[incoming.index()];
                 let candidates = outgoing.iter().map(|next| (*next, &pieces.half_edges[next.index()]));
                 let next = first_clockwise(table, plane, piece, candidates).ok_or_else(|| WeldError::open(piece))?;
                 if pieces.following[incoming.index()] != next {
-                    followed.push((incoming, next));
+                    followed.push((*incoming, next));
                 }
             }
         }

@@ -1,9 +1,11 @@
 //! What lies on one line of a boundary that changes, and which part of it is to be looked at again.
 //!
 //! The edges on a line make up parts with gaps between them, and what becomes of the edges of one part does not depend on those of others. So
-//! only parts are cancelled and cut again in which something has changed.
+//! only parts are cancelled and cut again in which something has changed, and of these what lies between two points around it that neither an edge nor what is left of
+//! edges passes: what is cut there already depends on nothing but what is next to it.
 
 use std::cmp::Ordering;
+use std::ops::Range;
 
 use smallvec::SmallVec;
 
@@ -14,6 +16,9 @@ use crate::weld::cancel::HalfEdge;
 
 /// Lines of fewer edges are looked at whole.
 const LEAST_EDGES: usize = 12;
+
+/// Maximum number of edges that are put in their places one by one; more are sorted.
+const MOST_DISPLACED: usize = 16;
 
 /// What lies on a line. There are very many, and little on most of them.
 #[derive(Clone, Default)]
@@ -104,6 +109,13 @@ impl Parts {
         self.touch(along, [point, point])
     }
 
+    /// Whether a point of the line lies inside of one, not at an end.
+    pub(super) fn hold_inside(&self, along: &Along<'_>, point: PointId) -> bool {
+        let Some(intervals) = &self.intervals else { return true };
+        let before = intervals.partition_point(|[other, _]| along.compare(*other, point).is_lt());
+        before > 0 && along.compare(point, intervals[before - 1][1]).is_lt()
+    }
+
     /// Whether something on the line that begins at a point lies in one.
     fn hold_from(&self, along: &Along<'_>, low: PointId) -> bool {
         let Some(intervals) = &self.intervals else { return true };
@@ -182,22 +194,31 @@ impl OnLine {
             return Parts::default();
         }
         let low = |number: &EdgeId| along.of_edge(&edges[number.index()])[0];
-        self.edges.sort_by(|a, b| along.compare(low(a), low(b)));
+        sort_nearly_sorted(&mut self.edges, |a, b| along.compare(low(a), low(b)));
         let mut changed: Intervals = self.rare_mut().changed.drain(..).collect();
         for ends in &mut changed {
             let is_forward = along.compare(ends[0], ends[1]).is_le();
             *ends = low_and_high(*ends, is_forward);
         }
         let changed = Parts::of(along, changed);
+        let is_passed = |point: PointId| {
+            self.pieces.iter().any(|number| {
+                let piece = &half_edges[number.index()];
+                let [low, high] = low_and_high([piece.from, piece.to], piece.forward);
+                along.compare(low, point).is_lt() && along.compare(point, high).is_lt()
+            })
+        };
         let mut intervals = changed.intervals.clone().unwrap_or_default();
         let mut rest = self.edges.as_slice();
         while !rest.is_empty() {
-            let (part, count) = first_part(along, edges, rest);
-            if changed.touch(along, part) {
-                group.extend_from_slice(&rest[..count]);
-                intervals.push(part);
+            let part = first_part(along, edges, rest);
+            let (of_part, further) = rest.split_at(part.edges.end);
+            if changed.touch(along, part.ends) {
+                let part = part.around(along, &changed, is_passed);
+                group.extend_from_slice(&of_part[part.edges]);
+                intervals.push(part.ends);
             }
-            rest = &rest[count..];
+            rest = further;
         }
         let parts = Parts::of(along, intervals);
         self.pieces.retain(|number| {
@@ -213,18 +234,91 @@ impl OnLine {
     }
 }
 
-/// Of some edges, in their order, those up to a gap; and where they begin and end.
-fn first_part(along: &Along<'_>, edges: &[Edge], numbers: &[EdgeId]) -> ([PointId; 2], usize) {
+/// Sorts what mostly is in order but for a few that came last; what is equal keeps its order.
+fn sort_nearly_sorted<T: Copy>(items: &mut [T], compare: impl Fn(&T, &T) -> Ordering) {
+    let mut displaced = 0;
+    for k in 1..items.len() {
+        let item = items[k];
+        if compare(&items[k - 1], &item).is_le() {
+            continue;
+        }
+        displaced += 1;
+        if displaced > MOST_DISPLACED {
+            items.sort_by(compare);
+            return;
+        }
+        let place = items[..k].partition_point(|other| compare(other, &item).is_le());
+        items[place..=k].rotate_right(1);
+    }
+}
+
+/// Some edges of a line, in their order.
+struct Part {
+    edges: Range<usize>,
+    /// Where they begin and end.
+    ends: [PointId; 2],
+    /// Points within that no edge passes, and the first edge from there on.
+    joints: SmallVec<[(PointId, usize); 8]>,
+}
+
+impl Part {
+    /// Those around all that has changed among them, from and to joints that no piece passes either: nothing ends there or goes on because of what has changed, so what is
+    /// beyond stays as it is.
+    fn around(self, along: &Along<'_>, changed: &Parts, is_passed: impl Fn(PointId) -> bool) -> Self {
+        let Some(intervals) = &changed.intervals else { return self };
+        let first = intervals.partition_point(|[_, high]| along.compare(*high, self.ends[0]).is_lt());
+        let end = intervals.partition_point(|[low, _]| along.compare(*low, self.ends[1]).is_le());
+        let [low, high] = [intervals[first][0], intervals[end - 1][1]];
+        let is_end = |joint: &&(PointId, usize)| !is_passed(joint.0);
+        let is_before = |joint: &&(PointId, usize)| along.compare(joint.0, low).is_lt();
+        let is_behind = |joint: &&(PointId, usize)| along.compare(high, joint.0).is_lt();
+        let before = self.joints.iter().rev().filter(is_before).find(is_end);
+        let behind = self.joints.iter().filter(is_behind).find(is_end);
+        let (from, start) = before.map_or((self.ends[0], self.edges.start), |joint| *joint);
+        let (to, end) = behind.map_or((self.ends[1], self.edges.end), |joint| *joint);
+        Self { edges: start..end, ends: [from, to], joints: SmallVec::new() }
+    }
+}
+
+/// Of some edges, in their order, those up to a gap.
+fn first_part(along: &Along<'_>, edges: &[Edge], numbers: &[EdgeId]) -> Part {
     let ends = |number: &EdgeId| along.of_edge(&edges[number.index()]);
     let [low, mut high] = ends(&numbers[0]);
-    let reaches = |number: &&EdgeId| {
+    let mut joints = SmallVec::new();
+    let mut count = 1;
+    for number in &numbers[1..] {
         let [start, end] = ends(number);
-        let is_before = along.compare(start, high).is_le();
-        if is_before {
-            high = along.max(high, end);
+        match along.compare(start, high) {
+            Ordering::Greater => break,
+            Ordering::Equal => {
+                joints.push((start, count));
+                high = end;
+            }
+            Ordering::Less => high = along.max(high, end),
         }
-        is_before
-    };
-    let count = 1 + numbers[1..].iter().take_while(reaches).count();
-    ([low, high], count)
+        count += 1;
+    }
+    Part { edges: 0..count, ends: [low, high], joints }
+}
+
+#[cfg(test)]
+mod tests {
+    use planecut_testkit::random::Rng;
+
+    use super::*;
+
+    #[test]
+    fn what_came_last_is_put_in_its_place_after_what_is_equal() {
+        for seed in 0..300 {
+            let mut rng = Rng::spread(seed);
+            let (ordered, late) = (rng.below(60), rng.below(2 * MOST_DISPLACED));
+            // few keys, so that many are equal, and a number that tells these apart
+            let mut items: Vec<(usize, usize)> = (0..ordered + late).map(|number| (rng.below(20), number)).collect();
+            items[..ordered].sort_by_key(|item| item.0);
+            let mut expected = items.clone();
+            expected.sort_by_key(|item| item.0);
+            sort_nearly_sorted(&mut items, |a, b| a.0.cmp(&b.0));
+            assert_eq!(items, expected, "seed {seed}");
+        }
+    }
 }

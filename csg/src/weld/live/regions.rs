@@ -54,7 +54,7 @@ pub(super) struct Region {
 
 /// Where the half-edges of a region are.
 #[derive(Clone, Default)]
-struct Index {
+pub(super) struct Index {
     /// Those that begin, and that end, in each point.
     at_point: FxHashMap<PointId, [Vec<HalfEdgeId>; 2]>,
     grid: BoxGrid,
@@ -86,33 +86,53 @@ fn rectangle(piece: &HalfEdge, plane: &RegionPlane<'_>) -> Rectangle {
     Rectangle { min: from.min(to), max: from.max(to) }
 }
 
+/// The half-edges of a region by where they begin and end, for some points.
+pub(super) enum EndsAt<'a> {
+    Indexed(&'a Index),
+    /// Those that begin or end in one of the points, and perhaps a few more.
+    Listed(SmallVec<[([PointId; 2], HalfEdgeId); 16]>),
+}
+
+impl EndsAt<'_> {
+    /// Leaves in `found` the half-edges that begin in a point.
+    pub(super) fn find_beginning(&self, point: PointId, found: &mut SmallVec<[HalfEdgeId; 8]>) {
+        self.find(0, point, found);
+    }
+
+    /// The same of those that end there.
+    pub(super) fn find_ending(&self, point: PointId, found: &mut SmallVec<[HalfEdgeId; 8]>) {
+        self.find(1, point, found);
+    }
+
+    fn find(&self, end: usize, point: PointId, found: &mut SmallVec<[HalfEdgeId; 8]>) {
+        found.clear();
+        match self {
+            Self::Indexed(index) => {
+                found.extend_from_slice(index.at_point.get(&point).map_or(&[][..], |ends| &ends[end]));
+            }
+            Self::Listed(listed) => {
+                let ending = listed.iter().filter(|(ends, _)| ends[end] == point);
+                found.extend(ending.map(|(_, number)| *number));
+            }
+        }
+    }
+}
+
 impl Region {
-    /// The half-edges that begin in a point.
-    pub(super) fn beginning_at<'a>(
-        &'a self,
-        pieces: &'a Pieces,
-        point: PointId,
-    ) -> impl Iterator<Item = HalfEdgeId> + 'a {
-        self.at_end(pieces, 0, move |piece| piece.from == point, point)
-    }
-
-    /// Those that end there.
-    pub(super) fn ending_at<'a>(&'a self, pieces: &'a Pieces, point: PointId) -> impl Iterator<Item = HalfEdgeId> + 'a {
-        self.at_end(pieces, 1, move |piece| piece.to == point, point)
-    }
-
-    fn at_end<'a>(
-        &'a self,
-        pieces: &'a Pieces,
-        end: usize,
-        is_there: impl Fn(&HalfEdge) -> bool + 'a,
-        point: PointId,
-    ) -> impl Iterator<Item = HalfEdgeId> + 'a {
-        let listed = match &self.index {
-            Some(index) => index.at_point.get(&point).map_or(&[][..], |ends| &ends[end]),
-            None => &self.pieces,
+    /// What tells which half-edges begin and end in some points.
+    pub(super) fn ends_at(&self, pieces: &Pieces, points: &[PointId]) -> EndsAt<'_> {
+        if let Some(index) = &self.index {
+            return EndsAt::Indexed(index);
+        }
+        // a bit for each point, which few others share
+        let bit = |point: PointId| 1_u64 << (point.number() % u64::BITS);
+        let bits = points.iter().fold(0, |bits, point| bits | bit(*point));
+        let ends = |number: &HalfEdgeId| {
+            let piece = &pieces.half_edges[number.index()];
+            ([piece.from, piece.to], *number)
         };
-        listed.iter().copied().filter(move |number| is_there(&pieces.half_edges[number.index()]))
+        let is_near = |([from, to], _): &([PointId; 2], HalfEdgeId)| (bit(*from) | bit(*to)) & bits != 0;
+        EndsAt::Listed(self.pieces.iter().map(ends).filter(is_near).collect())
     }
 }
 

@@ -6,7 +6,7 @@
 //! - [`drags`]: planes that move by little, and faces of many corners.
 //! - [`growth`]: what an edit costs as the model grows.
 //! - [`meshes`]: models some of whose brushes are closed meshes.
-//! - [`bars`]: faces that very many brushes reach.
+//! - [`bars`]: faces that very many brushes reach; [`rows`]: lines on which many edges lie one after the other.
 //! - [`picks`]: which face a ray meets, [`measures`]: volume and area, [`buffers`]: faces for renderers.
 
 mod bars;
@@ -22,5 +22,6 @@ mod meshes;
 mod picks;
 mod preview;
 mod random;
+mod rows;
 mod steps;
 mod tree;
