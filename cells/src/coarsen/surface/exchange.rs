@@ -86,7 +86,7 @@ impl Pieces {
         *work = work.saturating_sub(found.iter().map(|(_, work)| work).sum());
         let mut changes: Vec<Change> = found.into_iter().filter_map(|(change, _)| change).collect();
         changes.retain(|change| change.gain > search.least_gain());
-        changes.sort_by(|a, b| b.gain.total_cmp(&a.gain).then(a.places.cmp(&b.places)));
+        sort_by_gain(&mut changes);
         changes
     }
 
@@ -105,9 +105,14 @@ impl Pieces {
         };
         let pairs = near_each_other(search, cells);
         let mut changes: Vec<Change> = pairs.par_iter().with_max_len(4).filter_map(united).collect();
-        changes.sort_by(|a, b| b.gain.total_cmp(&a.gain).then(a.places.cmp(&b.places)));
+        sort_by_gain(&mut changes);
         changes
     }
+}
+
+/// Puts the change that gains most first.
+fn sort_by_gain(changes: &mut [Change]) {
+    changes.sort_by(|a, b| b.gain.total_cmp(&a.gain).then(a.places.cmp(&b.places)));
 }
 
 #[cfg(test)]

@@ -67,7 +67,7 @@ fn prism(sides: u32, [x, y]: [f64; 2], radius: f64, [low, high]: [f64; 2]) -> Pl
     (0..sides).map(side).chain([([0.0, 0.0, 1.0], high), ([0.0, 0.0, -1.0], -low)]).collect()
 }
 
-fn cuboid(low: [f64; 3], high: [f64; 3]) -> Planes {
+pub(super) fn cuboid(low: [f64; 3], high: [f64; 3]) -> Planes {
     let sides = |axis: usize| -> [Plane; 2] {
         let normal = |sign: f64| [0, 1, 2].map(|k| if k == axis { sign } else { 0.0 });
         [(normal(1.0), high[axis]), (normal(-1.0), -low[axis])]

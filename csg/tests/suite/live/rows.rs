@@ -5,18 +5,13 @@ use planecut_csg::Role;
 use planecut_testkit::random::Rng;
 use planecut_testkit::scene::scaled;
 
+use super::drags::cuboid;
 use super::edits::{Edit, Faces, Planes, Tally, check};
 
 const SEEDS: u64 = 24;
 
 /// How long rows are.
 const LENGTH: usize = 14;
-
-fn block(min: [f64; 3], max: [f64; 3]) -> Planes {
-    let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    let sides = (0..3).flat_map(|axis| [(axes[axis], max[axis]), (axes[axis].map(|n: f64| -n), -min[axis])]);
-    sides.collect()
-}
 
 /// Blocks of one to four units along a row and of one or a half across, mostly with ends where others end.
 fn any_block(rng: &mut Rng) -> Planes {
@@ -28,12 +23,12 @@ fn any_block(rng: &mut Rng) -> Planes {
         [low, low + if rng.below(5) == 0 { 0.5 } else { 1.0 }]
     };
     let (y, z) = (across(rng), across(rng));
-    block([start, y[0], z[0]], [end, y[1], z[1]])
+    cuboid([start, y[0], z[0]], [end, y[1], z[1]])
 }
 
 fn edits(rng: &mut Rng) -> Vec<Edit> {
     // a full row at first, so that lines have many edges
-    let unit = |k: usize| block([k as f64, 0.0, 0.0], [k as f64 + 1.0, 1.0, 1.0]);
+    let unit = |k: usize| cuboid([k as f64, 0.0, 0.0], [k as f64 + 1.0, 1.0, 1.0]);
     let mut edits: Vec<Edit> = (0..LENGTH).map(|k| Edit::Add(unit(k), (k % 5 / 4) as u32, Role::Add)).collect();
     for _ in 0..36 {
         edits.push(match rng.below(10) {
