@@ -11,68 +11,77 @@
 //!
 //! Which of coplanar faces gives the boundary its material does not depend on what is left out (`docs/weld.md`, "Coplanar faces: who owns the boundary").
 
-use crate::ids::number32;
-use rustc_hash::{FxHashMap, FxHashSet};
-use smallvec::SmallVec;
+use std::cmp::Reverse;
+
+use rustc_hash::FxHashMap;
+use smallvec::{SmallVec, smallvec};
 
 use super::Expression;
-use crate::ids::{Id, LeafId, TreeNodeId};
+use crate::ids::{Id, LeafId, TreeNodeId, number32};
 use crate::model::Operation;
 
-/// Numbers of operands: mostly there are few.
-type Numbers = SmallVec<[u32; 4]>;
+/// What is said of each node, or of each operand of a union: near an edit there are few.
+type List<T> = SmallVec<[T; 32]>;
 
 impl Expression {
     /// For each leaf whether the tree says the same where it is 0; `kinds` gives one number to equal leaves: that of one of them.
     pub(crate) fn repeated_leaves(&self, kinds: &[LeafId]) -> Vec<bool> {
         let mut repeated = vec![false; kinds.len()];
-        let mut sorted: SmallVec<[LeafId; 32]> = kinds.into();
+        let mut sorted: List<LeafId> = kinds.into();
         sorted.sort_unstable();
         if sorted.windows(2).all(|pair| pair[0] != pair[1]) {
             return repeated;
         }
-        let (numbers, unions) = (self.numbers(kinds), self.unions());
+        let ((numbers, end), unions) = (self.numbers(kinds), self.unions());
         let has_leaves = |k: usize| self.nodes[k].first_leaf < self.nodes[k].end_leaf;
         // operands of unions within unions are compared instead of these
         let is_operand = |k: usize| {
             unions[k] != TreeNodeId::NONE && self.nodes[k].operation != Some(Operation::Union) && has_leaves(k)
         };
-        let mut operands: Vec<Numbers> = vec![Numbers::new(); self.nodes.len()];
-        let mut said: FxHashSet<(TreeNodeId, u32)> = FxHashSet::default();
-        let mut is_again = vec![false; self.nodes.len()];
-        // of equal operands of one union the last counts
-        for k in (0..self.nodes.len()).rev().filter(|k| is_operand(*k)) {
-            is_again[k] = !said.insert((unions[k], numbers[k]));
-            if !is_again[k] {
-                operands[unions[k].index()].push(numbers[k]);
-            }
-        }
+        // of each union the numbers of its operands, of equal ones the last one first: that counts
+        let operand = |k: usize| (unions[k], numbers[k], Reverse(k));
+        let mut operands: List<(TreeNodeId, u32, Reverse<usize>)> =
+            (0..self.nodes.len()).filter(|k| is_operand(*k)).map(operand).collect();
+        operands.sort_unstable();
+        let mut is_again: List<bool> = smallvec![false; self.nodes.len()];
+        operands.dedup_by(|(union, number, Reverse(k)), first| {
+            is_again[*k] = (*union, *number) == (first.0, first.1);
+            is_again[*k]
+        });
+        let operands_of = |union: TreeNodeId| {
+            let start = operands.partition_point(|operand| operand.0 < union);
+            operands[start..].iter().take_while(move |operand| operand.0 == union).map(|operand| operand.1 as usize)
+        };
         // from the root down: how many of the unions around a node have an operand of each number
-        let mut around: FxHashMap<u32, u32> = FxHashMap::default();
-        let mut open: Vec<usize> = Vec::new();
-        for (k, node) in self.nodes.iter().enumerate().rev().filter(|(k, _)| has_leaves(*k)) {
-            while let Some(union) = open.pop_if(|union| self.nodes[*union].first_leaf >= node.end_leaf) {
-                for number in &operands[union] {
-                    around.entry(*number).and_modify(|count| *count -= 1);
+        let mut around: List<u32> = smallvec![0; end];
+        let mut open: List<TreeNodeId> = List::new();
+        let nodes = TreeNodeId::all(self.nodes.len()).zip(&self.nodes);
+        for (number, node) in nodes.rev().filter(|(number, _)| has_leaves(number.index())) {
+            while let Some(union) = open.pop() {
+                if self.nodes[union.index()].first_leaf < node.end_leaf {
+                    open.push(union);
+                    break;
                 }
+                operands_of(union).for_each(|number| around[number] -= 1);
             }
-            // a number that no union around has is there no time
-            let others = around.get(&numbers[k]).copied().unwrap_or(0) - u32::from(is_operand(k));
+            let k = number.index();
+            let others = around[numbers[k] as usize] - u32::from(is_operand(k));
             // without its leaves it must come to nothing
             if (is_again[k] || others > 0) && !node.base {
                 repeated[node.first_leaf.index()..node.end_leaf.index()].fill(true);
             }
-            if !operands[k].is_empty() {
-                operands[k].iter().for_each(|number| *around.entry(*number).or_insert(0) += 1);
-                open.push(k);
+            let mut of_union = operands_of(number).peekable();
+            if of_union.peek().is_some() {
+                of_union.for_each(|number| around[number] += 1);
+                open.push(number);
             }
         }
         repeated
     }
 
     /// For each node the one in which it is an operand of a union, that of unions within unions being the outermost.
-    fn unions(&self) -> Vec<TreeNodeId> {
-        let mut unions = vec![TreeNodeId::NONE; self.nodes.len()];
+    fn unions(&self) -> List<TreeNodeId> {
+        let mut unions: List<TreeNodeId> = smallvec![TreeNodeId::NONE; self.nodes.len()];
         for k in (0..self.nodes.len()).rev() {
             let parent = self.parents[k];
             let Some(above) = self.nodes.get(parent.index()) else { continue };
@@ -86,26 +95,29 @@ impl Expression {
         unions
     }
 
-    /// Numbers that are equal for nodes of the same operations on equal leaves.
-    fn numbers(&self, kinds: &[LeafId]) -> Vec<u32> {
-        let mut operands: Vec<Numbers> = vec![Numbers::new(); self.nodes.len()];
-        let mut numbers: Vec<u32> = Vec::with_capacity(self.nodes.len());
-        let mut known: FxHashMap<(Option<Operation>, Numbers), u32> = FxHashMap::default();
-        for (k, node) in self.nodes.iter().enumerate() {
-            let mut key = std::mem::take(&mut operands[k]);
-            match node.operation {
-                None => key.push(kinds[node.first_leaf.index()].number()),
-                Some(Operation::Difference) => key[1.min(node.operands as usize)..].sort_unstable(),
-                Some(_) => key.sort_unstable(),
-            }
-            let next = number32(known.len());
-            let number = *known.entry((node.operation, key)).or_insert(next);
+    /// Numbers that are equal for nodes of the same operations on equal leaves, and one above all of them.
+    fn numbers(&self, kinds: &[LeafId]) -> (List<u32>, usize) {
+        let (mut numbers, mut open): (List<u32>, List<u32>) = (List::new(), List::new());
+        let end_of_leaves = kinds.iter().map(|kind| kind.index() + 1).max().unwrap_or(0);
+        let mut known: FxHashMap<(Operation, SmallVec<[u32; 4]>), u32> = FxHashMap::default();
+        for node in &self.nodes {
+            let number = match node.operation {
+                None => kinds[node.first_leaf.index()].number(),
+                Some(operation) => {
+                    let start = open.len() - node.operands as usize;
+                    let operands = &mut open[start..];
+                    let first = usize::from(operation == Operation::Difference).min(operands.len());
+                    operands[first..].sort_unstable();
+                    let next = number32(end_of_leaves + known.len());
+                    let number = *known.entry((operation, (&*operands).into())).or_insert(next);
+                    open.truncate(start);
+                    number
+                }
+            };
             numbers.push(number);
-            if let Some(above) = operands.get_mut(self.parents[k].index()) {
-                above.push(number);
-            }
+            open.push(number);
         }
-        numbers
+        (numbers, end_of_leaves + known.len())
     }
 }
 

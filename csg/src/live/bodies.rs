@@ -63,9 +63,9 @@ impl LiveModel {
                     body
                 }
                 None => {
-                    let mut builder = std::mem::take(&mut self.buffers.builder);
+                    let mut builder = self.buffers.builder.take().unwrap_or_default();
                     let body = self.body(self.operand(*number), &mut builder);
-                    self.buffers.builder = builder;
+                    self.buffers.builder = Some(builder);
                     body
                 }
             };

@@ -95,7 +95,8 @@ impl LiveModel {
         vicinity: Option<Vicinity>,
         reach: Reach,
     ) -> Vec<Found> {
-        let surroundings = vicinity.and_then(|vicinity| self.surroundings(vicinity));
+        let buffer = std::mem::take(&mut self.buffers.surroundings);
+        let surroundings = self.surroundings(vicinity, buffer);
         let nearby = vicinity.map(Known::Vicinity);
         let covered = match (reach, changed, vicinity) {
             (Reach::Appended, [only], Some(near)) if self.operand(*only).body.is_some() => {
@@ -107,21 +108,24 @@ impl LiveModel {
         let mut left = faces.to_vec();
         for known in covered.into_iter().chain(nearby).chain([Known::Nothing]) {
             if !left.is_empty() {
-                let mut more = self.boundary_changes(&left, changed, known, surroundings.as_ref());
+                let mut more = self.boundary_changes(&left, changed, known, &surroundings);
                 left = more.iter_mut().flat_map(|found| found.unfit.drain(..)).collect();
                 found.append(&mut more);
             }
         }
+        self.buffers.surroundings = surroundings.bodies;
         found
     }
 
-    /// The bodies that reach into a vicinity, or a little further, where these are few.
-    fn surroundings(&self, vicinity: Vicinity) -> Option<Surroundings> {
-        let mut near = self.places.near(&vicinity.around);
+    /// The bodies that reach into a vicinity, or a little further, where these are few: of many, or of none, the box is empty. `bodies` is a buffer.
+    fn surroundings(&self, vicinity: Option<Vicinity>, mut bodies: Vec<(Member, Bounds)>) -> Surroundings {
+        bodies.clear();
+        let Some(Vicinity { around, .. }) = vicinity else { return Surroundings { around: Bounds::EMPTY, bodies } };
+        let mut near = self.places.near(&around);
         let few = near.by_ref().take(FEW_NEAR);
-        let mut bodies = Vec::with_capacity(FEW_NEAR);
         bodies.extend(few.map(|(operand, bounds)| (self.member(operand), bounds)));
-        near.next().is_none().then_some(Surroundings { around: vicinity.around, bodies })
+        let around = if near.next().is_none() { around } else { Bounds::EMPTY };
+        Surroundings { around, bodies }
     }
 
     fn member(&self, operand: OperandId) -> Member {
@@ -135,7 +139,7 @@ impl LiveModel {
         faces: &[OperandFace],
         changed: &[OperandId],
         of_others: Known,
-        surroundings: Option<&Surroundings>,
+        Surroundings { around, bodies: nearby }: &Surroundings,
     ) -> Vec<Found> {
         let mut place = std::mem::take(&mut self.buffers.place);
         let mut buffers = std::mem::take(self.buffers.emit.get_mut().unwrap_or_else(PoisonError::into_inner));
@@ -166,13 +170,13 @@ impl LiveModel {
                 Known::Covered(..) | Known::Vicinity(_) | Known::Nothing => Way::Whole,
             };
             let (start, first) = (near.len(), groups.last().map_or(0, |group| group.faces.end));
-            match (way, surroundings) {
-                (Way::Covered(by), _) => near.extend([number, by].map(|operand| self.member(operand))),
-                (Way::Whole | Way::Within(_), Some(Surroundings { around, bodies })) if around.holds(&bounds) => {
-                    let here = bodies.iter().filter(|(_, other)| other.may_share_area(&bounds));
+            match way {
+                Way::Covered(by) => near.extend([number, by].map(|operand| self.member(operand))),
+                Way::Whole | Way::Within(_) if around.holds(&bounds) => {
+                    let here = nearby.iter().filter(|(_, other)| other.may_share_area(&bounds));
                     near.extend(here.map(|(member, _)| *member));
                 }
-                (Way::Whole | Way::Within(_), _) => {
+                Way::Whole | Way::Within(_) => {
                     near.extend(self.places.near(&bounds).map(|(operand, _)| self.member(operand)));
                 }
             }

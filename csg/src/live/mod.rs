@@ -47,6 +47,7 @@ use std::sync::{Arc, Mutex};
 use planecut_kernel::PlaneIdx;
 use rustc_hash::FxHashSet;
 
+use crate::base::Bounds;
 use crate::body::{Body, BuiltBodies, OuterBox, ShapeBuilder};
 use crate::boundary::BoundaryEdge;
 use crate::evaluate::{EvaluateError, UnboundedBrushes, check_materials, material_ranks};
@@ -73,7 +74,7 @@ pub use preview::{Preview, PreviewFace};
 pub use removal::{ConvexPiece, PlaneRemoval};
 pub use snap::{Snap, SnapOptions, SnapTarget};
 pub use tree::{LiveNode, NodeId, TreeOperand};
-use tree::{LiveTree, Read, read};
+use tree::{LiveTree, Member, Read, read};
 
 /// A brush of a [`LiveModel`]: brushes are numbered from 0 as they are added, and no number is given twice.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -175,13 +176,15 @@ pub struct LiveModel {
 
 #[derive(Default)]
 struct Buffers {
-    builder: ShapeBuilder,
+    builder: Option<ShapeBuilder>,
     /// The faces to be worked out again.
     faces: Vec<OperandFace>,
     /// The body of each brush among those near.
     place: Vec<BodyId>,
     /// The face on each plane of a body.
     face_on_plane: Vec<BodyFaceId>,
+    /// What is around a change.
+    surroundings: Vec<(Member, Bounds)>,
     /// One thread works with it; it is in a lock that is never taken, so that threads may share a model.
     emit: Mutex<EmitBuffers>,
 }

@@ -3,7 +3,7 @@
 use planecut_parallel::prelude::*;
 
 use super::numbers::Context;
-use super::on_line::{Along, OnLine, Parts};
+use super::on_line::{Along, EdgeAlong, OnLine, Parts};
 use super::{Edge, MANY, SHARE, State};
 use crate::ids::{EdgeId, HalfEdgeId, Id, LineId, PointId, PointOfRegion, PointOnLine, RegionId};
 use crate::weld::WeldError;
@@ -25,6 +25,7 @@ pub(super) struct Cutter<'a> {
 pub(super) struct CutBuffers {
     /// Those of the worker, between two updates.
     line: LineBuffers,
+    ordered: Vec<EdgeAlong>,
     members: Vec<EdgeId>,
     group: Vec<Run>,
     surviving: Surviving,
@@ -52,7 +53,8 @@ impl<'a> Cutter<'a> {
     /// Leaves in `members` the edges of the parts of a line in which something has changed, and in `old_pieces` their pieces; gives the parts.
     fn take_changed(&mut self, line: &mut OnLine, number: LineId, half_edges: &[HalfEdge]) -> Parts {
         let along = Along { context: self.context, line: number };
-        line.take_changed(&along, self.edges, half_edges, &mut self.buffers.members, &mut self.buffers.old_pieces)
+        let CutBuffers { ordered, members, old_pieces, .. } = &mut self.buffers;
+        line.take_changed(&along, self.edges, half_edges, ordered, (members, old_pieces))
     }
 
     /// Leaves in `surviving` what is left of the edges of a line, `members` of it.

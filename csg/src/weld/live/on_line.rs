@@ -11,8 +11,15 @@ use smallvec::SmallVec;
 
 use super::Edge;
 use super::numbers::Context;
-use crate::ids::{EdgeId, HalfEdgeId, Id, LineId, PointId, PointOfRegion};
+use crate::ids::{EdgeId, HalfEdgeId, Id, LineId, PointId, PointOfRegion, number32};
 use crate::weld::cancel::HalfEdge;
+
+/// An edge with its ends along its line, the lower one first.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct EdgeAlong {
+    ends: [PointId; 2],
+    number: EdgeId,
+}
 
 /// Lines of fewer edges are looked at whole.
 const LEAST_EDGES: usize = 12;
@@ -174,18 +181,25 @@ impl OnLine {
     }
 
     /// Puts the edges in order. Gives the parts in which something has changed, and the numbers of the edges and of the pieces there; the latter are taken out.
+    /// `ordered` is a buffer.
     pub(super) fn take_changed(
         &mut self,
         along: &Along<'_>,
         edges: &[Edge],
         half_edges: &[HalfEdge],
-        group: &mut Vec<EdgeId>,
-        old: &mut Vec<HalfEdgeId>,
+        ordered: &mut Vec<EdgeAlong>,
+        (group, old): (&mut Vec<EdgeId>, &mut Vec<HalfEdgeId>),
     ) -> Parts {
-        let is_there = |number: &EdgeId| !edges[number.index()].is_gone;
-        self.edges.retain(|number| is_there(number));
+        ordered.clear();
         group.clear();
         old.clear();
+        self.edges.retain(|number| {
+            let edge = &edges[number.index()];
+            if !edge.is_gone {
+                ordered.push(EdgeAlong { ends: along.of_edge(edge), number: *number });
+            }
+            !edge.is_gone
+        });
         let is_whole = std::mem::take(&mut self.is_changed);
         if is_whole || self.edges.len() < LEAST_EDGES || self.has_slits {
             group.extend_from_slice(&self.edges);
@@ -193,8 +207,8 @@ impl OnLine {
             self.rare.iter_mut().for_each(|rare| rare.changed.clear());
             return Parts::default();
         }
-        let low = |number: &EdgeId| along.of_edge(&edges[number.index()])[0];
-        sort_nearly_sorted(&mut self.edges, |a, b| along.compare(low(a), low(b)));
+        sort_nearly_sorted(ordered, |a, b| along.compare(a.ends[0], b.ends[0]));
+        self.edges.iter_mut().zip(&*ordered).for_each(|(number, edge)| *number = edge.number);
         let mut changed: Intervals = self.rare_mut().changed.drain(..).collect();
         for ends in &mut changed {
             let is_forward = along.compare(ends[0], ends[1]).is_le();
@@ -209,13 +223,13 @@ impl OnLine {
             })
         };
         let mut intervals = changed.intervals.clone().unwrap_or_default();
-        let mut rest = self.edges.as_slice();
+        let mut rest = ordered.as_slice();
         while !rest.is_empty() {
-            let part = first_part(along, edges, rest);
+            let part = first_part(along, rest);
             let (of_part, further) = rest.split_at(part.edges.end);
             if changed.touch(along, part.ends) {
                 let part = part.around(along, &changed, is_passed);
-                group.extend_from_slice(&of_part[part.edges]);
+                group.extend(of_part[part.edges].iter().map(|edge| edge.number));
                 intervals.push(part.ends);
             }
             rest = further;
@@ -258,7 +272,7 @@ struct Part {
     /// Where they begin and end.
     ends: [PointId; 2],
     /// Points within that no edge passes, and the first edge from there on.
-    joints: SmallVec<[(PointId, usize); 8]>,
+    joints: SmallVec<[(PointId, u32); 32]>,
 }
 
 impl Part {
@@ -269,29 +283,28 @@ impl Part {
         let first = intervals.partition_point(|[_, high]| along.compare(*high, self.ends[0]).is_lt());
         let end = intervals.partition_point(|[low, _]| along.compare(*low, self.ends[1]).is_le());
         let [low, high] = [intervals[first][0], intervals[end - 1][1]];
-        let is_end = |joint: &&(PointId, usize)| !is_passed(joint.0);
-        let is_before = |joint: &&(PointId, usize)| along.compare(joint.0, low).is_lt();
-        let is_behind = |joint: &&(PointId, usize)| along.compare(high, joint.0).is_lt();
-        let before = self.joints.iter().rev().filter(is_before).find(is_end);
-        let behind = self.joints.iter().filter(is_behind).find(is_end);
-        let (from, start) = before.map_or((self.ends[0], self.edges.start), |joint| *joint);
-        let (to, end) = behind.map_or((self.ends[1], self.edges.end), |joint| *joint);
+        let joints_to = self.joints.partition_point(|joint| along.compare(joint.0, low).is_lt());
+        let joints_from = self.joints.partition_point(|joint| along.compare(joint.0, high).is_le());
+        let is_end = |joint: &&(PointId, u32)| !is_passed(joint.0);
+        let place = |joint: &(PointId, u32)| (joint.0, joint.1 as usize);
+        let before = self.joints[..joints_to].iter().rev().find(is_end);
+        let behind = self.joints[joints_from..].iter().find(is_end);
+        let (from, start) = before.map_or((self.ends[0], self.edges.start), place);
+        let (to, end) = behind.map_or((self.ends[1], self.edges.end), place);
         Self { edges: start..end, ends: [from, to], joints: SmallVec::new() }
     }
 }
 
 /// Of some edges, in their order, those up to a gap.
-fn first_part(along: &Along<'_>, edges: &[Edge], numbers: &[EdgeId]) -> Part {
-    let ends = |number: &EdgeId| along.of_edge(&edges[number.index()]);
-    let [low, mut high] = ends(&numbers[0]);
+fn first_part(along: &Along<'_>, edges: &[EdgeAlong]) -> Part {
+    let [low, mut high] = edges[0].ends;
     let mut joints = SmallVec::new();
     let mut count = 1;
-    for number in &numbers[1..] {
-        let [start, end] = ends(number);
+    for &EdgeAlong { ends: [start, end], .. } in &edges[1..] {
         match along.compare(start, high) {
             Ordering::Greater => break,
             Ordering::Equal => {
-                joints.push((start, count));
+                joints.push((start, number32(count)));
                 high = end;
             }
             Ordering::Less => high = along.max(high, end),
