@@ -142,9 +142,11 @@ impl LiveModel {
         Surroundings { around, bodies: nearby }: &Surroundings,
     ) -> Vec<Found> {
         let mut place = std::mem::take(&mut self.buffers.place);
-        let mut buffers = std::mem::take(self.buffers.emit.get_mut().unwrap_or_else(PoisonError::into_inner));
-        // what is near the faces of each body
-        let mut near: SmallVec<[Member; 32]> = SmallVec::new();
+        let emit_buffers = self.buffers.emit.get_mut().unwrap_or_else(PoisonError::into_inner);
+        let mut emit_buffers = emit_buffers.take().unwrap_or_default();
+        // what is near the faces of each body, and all of these
+        let [mut near, mut members] = std::mem::take(&mut self.buffers.near);
+        near.clear();
         let mut groups: SmallVec<[FaceBatch; 16]> = SmallVec::new();
         // of one body, and of those that a new body may cover or those that it may not
         let is_covered = |entry: &OperandFace| {
@@ -187,7 +189,7 @@ impl LiveModel {
             near[start..].sort_unstable();
             groups.push(FaceBatch { number, near: start..near.len(), faces: first..first + group.len(), way });
         }
-        let mut members = near.to_vec();
+        members.clone_from(&near);
         members.sort_unstable();
         members.dedup();
         let role = |member: &Member| self.operand(member.operand).state.role;
@@ -249,7 +251,7 @@ impl LiveModel {
             found
         };
         let parts = if faces.len() < FACES_FOR_THREADS {
-            vec![emit(&groups, &mut buffers)]
+            vec![emit(&groups, &mut emit_buffers)]
         } else {
             let groups: Vec<FaceBatch> = groups.into_iter().flat_map(FaceBatch::split).collect();
             map_chunks(&groups, 1, |groups| emit(groups, &mut EmitBuffers::default())).0
@@ -257,7 +259,8 @@ impl LiveModel {
         for member in &members {
             place[member.operand.index()] = BodyId::NONE;
         }
-        (self.buffers.place, self.buffers.emit) = (place, Mutex::new(buffers));
+        (self.buffers.place, self.buffers.near) = (place, [near, members]);
+        self.buffers.emit = Mutex::new(Some(emit_buffers));
         parts
     }
 

@@ -185,8 +185,10 @@ struct Buffers {
     face_on_plane: Vec<BodyFaceId>,
     /// What is around a change.
     surroundings: Vec<(Member, Bounds)>,
+    /// What is near the faces of each body, and what is near any.
+    near: [Vec<Member>; 2],
     /// One thread works with it; it is in a lock that is never taken, so that threads may share a model.
-    emit: Mutex<EmitBuffers>,
+    emit: Mutex<Option<Box<EmitBuffers>>>,
 }
 
 impl LiveModel {

@@ -40,6 +40,8 @@ pub(super) struct Numbers {
     free_regions: Vec<RegionId>,
     /// By how many points and lines each plane is known, and those by which none is known any more.
     known_by: Vec<u32>,
+    /// The planes of new points and lines of an edge: a buffer.
+    gained: Vec<PlaneId>,
     unnamed: Vec<u32>,
     /// Points and lines that have moved since they were marked.
     unmarked: (Vec<PointId>, Vec<LineId>),
@@ -68,10 +70,12 @@ impl Numbers {
 
     /// Numbers an edge.
     pub(super) fn take(&mut self, table: &PlaneTable, edge: &BoundaryEdge) -> NumberedEdge {
-        let mut gained = Vec::new();
+        let mut gained = std::mem::take(&mut self.gained);
         let ends = self.points.take(table, edge, &mut gained);
         let line = self.lines.take(table, edge, &mut gained);
         self.gain(&gained);
+        gained.clear();
+        self.gained = gained;
         let region = self.take_region(edge.face, edge.material, 1);
         self.numbered(table, edge, region, ends, line)
     }
