@@ -57,10 +57,19 @@ impl Vicinity {
     }
 }
 
-/// The bodies around a change, with their boxes: those that may share an area with a box.
-struct Surroundings {
+/// The bodies around a change, with their boxes: those that may share an area with a box. Where they are too many to be looked at one by one, or there is no telling
+/// where the change is, that box is empty.
+pub(super) struct Surroundings {
     around: Bounds,
     bodies: Vec<(Member, Bounds)>,
+}
+
+impl Surroundings {
+    /// The bodies that may share an area with a box, where that lies within what is known.
+    pub(super) fn near(&self, bounds: &Bounds) -> Option<impl Iterator<Item = Member>> {
+        let here = self.bodies.iter().filter(|(_, other)| other.may_share_area(bounds)).map(|(member, _)| *member);
+        self.around.holds(bounds).then_some(here)
+    }
 }
 
 /// What is known of a change on the faces of brushes that do not change themselves.
@@ -86,17 +95,15 @@ enum Way {
 }
 
 impl LiveModel {
-    /// Works out how the boundary changes on some faces, sorted, as quickly as what is known of the change allows; `vicinity` is where it is, `changed` are the brushes, sorted, that change
+    /// Works out how the boundary changes on some faces, sorted, as quickly as what is known of the change allows: where it is, and what is around. `changed` are the brushes, sorted, that change
     /// themselves.
     pub(super) fn find_boundary(
         &mut self,
         faces: &[OperandFace],
         changed: &[OperandId],
-        vicinity: Option<Vicinity>,
+        (vicinity, surroundings): (Option<Vicinity>, Surroundings),
         reach: Reach,
     ) -> Vec<Found> {
-        let buffer = std::mem::take(&mut self.buffers.surroundings);
-        let surroundings = self.surroundings(vicinity, buffer);
         let nearby = vicinity.map(Known::Vicinity);
         let covered = match (reach, changed, vicinity) {
             (Reach::Appended, [only], Some(near)) if self.operand(*only).body.is_some() => {
@@ -117,8 +124,9 @@ impl LiveModel {
         found
     }
 
-    /// The bodies that reach into a vicinity, or a little further, where these are few: of many, or of none, the box is empty. `bodies` is a buffer.
-    fn surroundings(&self, vicinity: Option<Vicinity>, mut bodies: Vec<(Member, Bounds)>) -> Surroundings {
+    /// The bodies that reach into a vicinity, or a little further, where these are few.
+    pub(super) fn surroundings(&mut self, vicinity: Option<Vicinity>) -> Surroundings {
+        let mut bodies = std::mem::take(&mut self.buffers.surroundings);
         bodies.clear();
         let Some(Vicinity { around, .. }) = vicinity else { return Surroundings { around: Bounds::EMPTY, bodies } };
         let mut near = self.places.near(&around);
@@ -132,14 +140,14 @@ impl LiveModel {
         Member { at: self.position(operand), operand }
     }
 
-    /// Works out how the boundary changes on some faces, sorted; `changed` are the brushes, sorted, too, that change themselves. Where the bodies around the change are few, they are given: a search
-    /// for each body among them takes longer than to look at each.
+    /// Works out how the boundary changes on some faces, sorted; `changed` are the brushes, sorted, too, that change themselves. The bodies around the change are looked
+    /// at one by one where they are few: a search for each body among them takes longer.
     fn boundary_changes(
         &mut self,
         faces: &[OperandFace],
         changed: &[OperandId],
         of_others: Known,
-        Surroundings { around, bodies: nearby }: &Surroundings,
+        surroundings: &Surroundings,
     ) -> Vec<Found> {
         let mut place = std::mem::take(&mut self.buffers.place);
         let emit_buffers = self.buffers.emit.get_mut().unwrap_or_else(PoisonError::into_inner);
@@ -172,13 +180,10 @@ impl LiveModel {
                 Known::Covered(..) | Known::Vicinity(_) | Known::Nothing => Way::Whole,
             };
             let (start, first) = (near.len(), groups.last().map_or(0, |group| group.faces.end));
-            match way {
-                Way::Covered(by) => near.extend([number, by].map(|operand| self.member(operand))),
-                Way::Whole | Way::Within(_) if around.holds(&bounds) => {
-                    let here = nearby.iter().filter(|(_, other)| other.may_share_area(&bounds));
-                    near.extend(here.map(|(member, _)| *member));
-                }
-                Way::Whole | Way::Within(_) => {
+            match (way, surroundings.near(&bounds)) {
+                (Way::Covered(by), _) => near.extend([number, by].map(|operand| self.member(operand))),
+                (Way::Whole | Way::Within(_), Some(here)) => near.extend(here),
+                (Way::Whole | Way::Within(_), None) => {
                     near.extend(self.places.near(&bounds).map(|(operand, _)| self.member(operand)));
                 }
             }

@@ -37,8 +37,8 @@ impl LiveModel {
         let local = self.local(&changed, &before, extent);
         let bodies = self.build(&changed, &before);
         let old = self.place(bodies);
-        let (faces, vicinity) = self.faces_to_redo(&changed, &old, reach, &local);
-        let found = self.find_boundary(&faces, &changed, vicinity, reach);
+        let (faces, nearby) = self.faces_to_redo(&changed, &old, reach, &local);
+        let found = self.find_boundary(&faces, &changed, nearby, reach);
         let outer = &self.outer;
         let is_outside =
             |edge: &BoundaryEdge| [edge.face, edge.edge, edge.start, edge.end].iter().any(|plane| outer.holds(*plane));

@@ -1,8 +1,10 @@
 //! How far a change of brushes reaches: the faces on which the boundary may be another.
 
+use smallvec::SmallVec;
+
 use super::LiveModel;
-use super::bodies::{MANY, Placed};
-use super::boundary::Vicinity;
+use super::bodies::{Difference, MANY, Placed};
+use super::boundary::{Surroundings, Vicinity};
 use super::history::New;
 use super::operand::Operand;
 use super::tree::Extent;
@@ -56,7 +58,7 @@ impl LiveModel {
     }
 
     /// The faces, sorted, on which the boundary may differ: those of the bodies that have changed, and those of others that
-    /// reach into them or into what they were; and, where that is known, where on the latter it may.
+    /// reach into them or into what they were; and, where that is known, where on the latter it may, with what is around.
     ///
     /// Where a body alone is another, of brushes that do what they did, only the parts in which it differs matter: `local` are
     /// the brushes for which that may be so. It is not where one of several equal bodies changes, or one becomes equal to
@@ -67,55 +69,76 @@ impl LiveModel {
         old: &[Placed],
         reach: Reach,
         local: &[OperandId],
-    ) -> (Vec<OperandFace>, Option<Vicinity>) {
+    ) -> (Vec<OperandFace>, (Option<Vicinity>, Surroundings)) {
         let mut faces = std::mem::take(&mut self.buffers.faces);
         faces.clear();
-        let mut within = Bounds::EMPTY;
-        let mut is_local = true;
-        let body_of = |number: OperandId| self.operands[number.index()].as_ref()?.body.as_ref();
-        let all_of = |operand: OperandId| {
-            let count = body_of(operand).map_or(0, |body| body.faces.len());
-            BodyFaceId::all(count).map(move |face| OperandFace { operand, face })
-        };
         if reach == Reach::Everywhere || (changed.len() >= self.by_id.len() && local.is_empty()) {
-            faces.extend(OperandId::all(self.operands.len()).flat_map(all_of));
-            is_local = false;
-        } else {
-            for placed in old {
-                let number = placed.number;
-                let difference = placed.difference.as_ref();
-                let difference =
-                    difference.filter(|_| local.contains(&number) && self.has_no_equal(self.operand(number)));
-                let bodies = [body_of(number), placed.body.as_ref()];
-                match difference {
-                    Some(difference) if difference.bounds == Bounds::EMPTY => {}
-                    Some(difference) => {
-                        within = within.union(&difference.bounds);
-                        let others = bodies.into_iter().flatten();
-                        others.for_each(|body| self.touch(body, number, &difference.bounds, false, &mut faces));
-                        faces.extend(difference.faces.iter().map(|face| OperandFace { operand: number, face: *face }));
+            faces.extend(OperandId::all(self.operands.len()).flat_map(|operand| self.faces_of(operand)));
+            return (faces, (None, self.surroundings(None)));
+        }
+        let old: SmallVec<[(&Placed, Option<&Difference>); 4]> = old
+            .iter()
+            .map(|placed| {
+                let is_all = || local.contains(&placed.number) && self.has_no_equal(self.operand(placed.number));
+                (placed, placed.difference.as_ref().filter(|_| is_all()))
+            })
+            .collect();
+        let bounds = |(placed, difference): &(&Placed, Option<&Difference>)| match difference {
+            Some(difference) => difference.bounds,
+            None => self.bodies_of(placed).fold(Bounds::EMPTY, |all, body| all.union(&body.bounds)),
+        };
+        let within = old.iter().map(bounds).fold(Bounds::EMPTY, |all, bounds| all.union(&bounds));
+        let vicinity = Vicinity::of(&within);
+        let surroundings = self.surroundings(vicinity);
+        for (placed, difference) in old {
+            let number = placed.number;
+            match difference {
+                Some(difference) if difference.bounds == Bounds::EMPTY => {}
+                Some(Difference { bounds, faces: own }) => {
+                    for body in self.bodies_of(placed) {
+                        self.touch(body, number, (bounds, &surroundings), false, &mut faces);
                     }
-                    None => {
-                        within = bodies.iter().flatten().fold(within, |all, body| all.union(&body.bounds));
-                        for (body, is_last) in bodies.into_iter().zip([reach == Reach::Appended, false]) {
-                            body.into_iter()
-                                .for_each(|body| self.touch(body, number, &body.bounds, is_last, &mut faces));
-                        }
-                        faces.extend(all_of(number));
+                    faces.extend(own.iter().map(|face| OperandFace { operand: number, face: *face }));
+                }
+                None => {
+                    // the body that is there now, and the one before
+                    for (body, is_now) in self.bodies_of(placed).zip([self.operand(number).body.is_some(), false]) {
+                        let is_last = is_now && reach == Reach::Appended;
+                        self.touch(body, number, (&body.bounds, &surroundings), is_last, &mut faces);
                     }
+                    faces.extend(self.faces_of(number));
                 }
             }
         }
         faces.sort_unstable();
         faces.dedup();
-        (faces, if is_local { Vicinity::of(&within) } else { None })
+        (faces, (vicinity, surroundings))
+    }
+
+    /// All faces of the body of a brush.
+    fn faces_of(&self, operand: OperandId) -> impl Iterator<Item = OperandFace> + use<> {
+        let body = self.operands[operand.index()].as_ref().and_then(|operand| operand.body.as_ref());
+        let count = body.map_or(0, |body| body.faces.len());
+        BodyFaceId::all(count).map(move |face| OperandFace { operand, face })
+    }
+
+    /// The body of a brush as it is, and as it was, where there are any.
+    fn bodies_of<'a>(&'a self, placed: &'a Placed) -> impl Iterator<Item = &'a Body> {
+        self.operand(placed.number).body.iter().chain(&placed.body)
     }
 
     /// Notes the faces of other bodies that may reach into a part of a body, in a box. A body that comes last and does not
     /// intersect can only take away from the boundary on them, but where it has a face on their plane.
-    fn touch(&self, by: &Body, own: OperandId, within: &Bounds, is_last: bool, faces: &mut Vec<OperandFace>) {
+    fn touch(
+        &self,
+        by: &Body,
+        own: OperandId,
+        (within, surroundings): (&Bounds, &Surroundings),
+        is_last: bool,
+        faces: &mut Vec<OperandFace>,
+    ) {
         let table = &self.planes.table;
-        for (other, _) in self.places.near(within).filter(|(other, _)| *other != own) {
+        let mut note = |other: OperandId| {
             let (body, edges) = (self.body_at(other), &self.operand(other).edges);
             let reaches = |(number, face): &(BodyFaceId, &BodyFace)| {
                 let half_space = table.half_space(face.plane);
@@ -127,6 +150,10 @@ impl LiveModel {
             };
             let reaching = BodyFaceId::all(body.faces.len()).zip(&body.faces).filter(reaches);
             faces.extend(reaching.map(|(face, _)| OperandFace { operand: other, face }));
+        };
+        match surroundings.near(within) {
+            Some(here) => here.map(|member| member.operand).filter(|other| *other != own).for_each(&mut note),
+            None => self.places.near(within).map(|(other, _)| other).filter(|other| *other != own).for_each(&mut note),
         }
     }
 }
