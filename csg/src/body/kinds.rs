@@ -9,9 +9,6 @@ use crate::ids::{Id, LeafId};
 use crate::model::MaterialId;
 use crate::plane_table::PlaneId;
 
-/// The planes and materials of a body's faces.
-type Faces = SmallVec<[(PlaneId, MaterialId); 16]>;
-
 /// For the body of each leaf the first leaf with an equal one: equal for bodies with the same faces of the same materials, and for no others; `faces` gives the planes
 /// and materials of those of a body, and `mark` a [`mark_of`] them.
 pub(crate) fn kinds<I: Iterator<Item = (PlaneId, MaterialId)>>(
@@ -20,23 +17,24 @@ pub(crate) fn kinds<I: Iterator<Item = (PlaneId, MaterialId)>>(
     mark: impl Fn(LeafId) -> u64,
 ) -> Vec<LeafId> {
     let sorted = |number: LeafId| {
-        let mut faces: Faces = faces(number).collect();
+        let mut faces: SmallVec<[(PlaneId, MaterialId); 16]> = faces(number).collect();
         faces.sort_unstable();
         faces
     };
+    // those of bodies that were made alike are in the same order
+    let are_equal = |a: LeafId, b: LeafId| faces(a).eq(faces(b)) || sorted(a) == sorted(b);
     let is_body = |number: &LeafId| faces(*number).next().is_some();
     let mut marked: SmallVec<[(u64, LeafId); 32]> =
         LeafId::all(bodies).filter(is_body).map(|number| (mark(number), number)).collect();
     marked.sort_unstable();
     let mut kinds: Vec<LeafId> = LeafId::all(bodies).collect();
-    let mut different: SmallVec<[(LeafId, Faces); 2]> = SmallVec::new();
+    let mut different: SmallVec<[LeafId; 8]> = SmallVec::new();
     for alike in marked.chunk_by(|a, b| a.0 == b.0).filter(|alike| alike.len() > 1) {
         different.clear();
-        for (_, number) in alike {
-            let own = sorted(*number);
-            match different.iter().find(|(_, other)| *other == own) {
-                Some((first, _)) => kinds[number.index()] = *first,
-                None => different.push((*number, own)),
+        for &(_, number) in alike {
+            match different.iter().find(|first| are_equal(**first, number)) {
+                Some(first) => kinds[number.index()] = *first,
+                None => different.push(number),
             }
         }
     }

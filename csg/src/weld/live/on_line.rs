@@ -60,7 +60,11 @@ pub(super) struct Along<'a> {
 }
 
 impl Along<'_> {
+    #[inline]
     fn compare(&self, p: PointId, q: PointId) -> Ordering {
+        if p == q {
+            return Ordering::Equal;
+        }
         let Context { table, numbers } = self.context;
         numbers.lines()[self.line.index()].compare(table, numbers.points(), p, q)
     }
@@ -300,7 +304,14 @@ fn first_part(along: &Along<'_>, edges: &[EdgeAlong]) -> Part {
     let [low, mut high] = edges[0].ends;
     let mut joints = SmallVec::new();
     let mut count = 1;
-    for &EdgeAlong { ends: [start, end], .. } in &edges[1..] {
+    let mut last = edges[0].ends;
+    for &EdgeAlong { ends, .. } in &edges[1..] {
+        // mostly several faces end between two points
+        if std::mem::replace(&mut last, ends) == ends {
+            count += 1;
+            continue;
+        }
+        let [start, end] = ends;
         match along.compare(start, high) {
             Ordering::Greater => break,
             Ordering::Equal => {
