@@ -16,6 +16,11 @@ const ELEMENTS_OF_CHUNK: usize = 2048;
 /// Number of bytes from which lists are not kept longer than they must.
 const MUCH_MEMORY: usize = 1 << 25;
 
+/// Whether a list is so long that it should not be there twice.
+pub(crate) fn takes_much_memory<T>(count: usize) -> bool {
+    count * size_of::<T>() >= MUCH_MEMORY
+}
+
 /// The outcome of `work` for each chunk of some items, at least `least` in each, in their order. What a chunk holds depends on
 /// the number of threads: outcomes must not.
 pub(crate) fn map_chunks<T: Sync, R: Send>(
@@ -123,7 +128,7 @@ pub(crate) fn concat_owned<T: Copy + Send + Sync>(parts: Vec<Vec<T>>) -> Vec<T> 
 pub(crate) fn concat_made<S: Send + Sync, T: Send>(parts: Vec<Vec<S>>, make: impl Fn(usize, &S) -> T + Sync) -> Vec<T> {
     let lengths = || parts.iter().map(Vec::len);
     let count = lengths().sum();
-    if planecut_parallel::current_num_threads() > 1 && count * size_of::<T>() < MUCH_MEMORY {
+    if planecut_parallel::current_num_threads() > 1 && !takes_much_memory::<T>(count) {
         return by_parts(lengths(), |part, k| make(part, &parts[part][k]));
     }
     let mut all = Vec::with_capacity(count);

@@ -154,10 +154,10 @@ pub(crate) fn weld(
     let (regions, points, sorted, mut signs) = half_edges(table, edges, rank)?;
     let (nested, counted) = nest(table, &regions, &points, &sorted)?;
     signs += counted;
-    let RegionPieces { pieces, .. } = sorted;
+    let RegionPieces { pieces, ranges } = sorted;
     let Nested { following, faces, solid } = nested;
     let (vertex, point) = manifold::vertices(&pieces, &following);
-    drop(following);
+    drop((following, ranges));
 
     let begin = Clock::start();
     let (filled, counted) = filled_faces(table, &regions, &points, &pieces, &faces, &vertex);
@@ -226,9 +226,8 @@ fn half_edges(
     };
     let mut by_region = ByRegion::of(&pieces, regions.planes.len());
     regions.sort(table, &mut by_region);
-    let (mut sorted, pinches, counted) = RegionPieces::sort(table, &points, &regions.planes, &pieces, &by_region);
+    let (mut sorted, pinches, counted) = RegionPieces::sort(table, &points, &regions.planes, pieces, by_region);
     signs += counted;
-    drop((pieces, by_region));
     if !pinches.is_empty() {
         sorted.cut(table, &points, &lines, &pinches);
     }

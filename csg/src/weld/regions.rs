@@ -9,7 +9,7 @@ use planecut_parallel::prelude::*;
 use super::cancel::HalfEdge;
 use super::pinches::PinchFinder;
 use super::points::Points;
-use crate::base::{by_group, counted, split_by, weighed_runs};
+use crate::base::{by_group, counted, split_by, takes_much_memory, weighed_runs};
 use crate::boundary::BoundaryEdge;
 use crate::ids::{HalfEdgeId, Id, PointId, PointOnLine, RegionId};
 use crate::model::MaterialId;
@@ -106,6 +106,44 @@ impl ByRegion {
         let region = region.index();
         &self.members[self.starts[region] as usize..self.starts[region + 1] as usize]
     }
+
+    /// What it takes to put the half-edges in order.
+    fn into_order(self) -> Order {
+        let (mut regions, mut ranges, mut end) = (Vec::new(), Vec::new(), 0);
+        for (new, old) in RegionId::all(self.order.len()).zip(&self.order) {
+            let count = self.of_region(*old).len();
+            if count > 0 {
+                regions.push(new);
+                ranges.push(end..end + count);
+                end += count;
+            }
+        }
+        let runs = weighed_runs(ranges.len(), PIECES_OF_CHUNK, |k| ranges[k].len());
+        let mut order = Order { regions, ranges, runs, old: vec![HalfEdgeId::NONE; end] };
+        let parts = split_by(&mut order.old, lengths_of(&order.ranges, &order.runs));
+        let fill = |(run, part): (&Range<usize>, &mut [HalfEdgeId])| {
+            let members = order.regions[run.clone()].iter().flat_map(|new| self.of_region(self.order[new.index()]));
+            part.iter_mut().zip(members).for_each(|(old, (.., number))| *old = *number);
+        };
+        order.runs.par_iter().zip(parts).with_max_len(1).for_each(fill);
+        order
+    }
+}
+
+/// The order of half-edges by region and place.
+struct Order {
+    /// The regions that have any, and where those of each begin and end.
+    regions: Vec<RegionId>,
+    ranges: Vec<Range<usize>>,
+    /// Regions that a thread looks at in a row.
+    runs: Vec<Range<usize>>,
+    /// The number that each half-edge had before.
+    old: Vec<HalfEdgeId>,
+}
+
+/// How many half-edges the regions of each run have.
+fn lengths_of(ranges: &[Range<usize>], runs: &[Range<usize>]) -> impl Iterator<Item = usize> {
+    runs.iter().map(|run| ranges[run.end - 1].end - ranges[run.start].start)
 }
 
 /// Half-edges, region by region.
@@ -122,31 +160,29 @@ impl RegionPieces {
         table: &PlaneTable,
         points: &Points,
         planes: &[PlaneId],
-        pieces: &[HalfEdge],
-        by_region: &ByRegion,
+        mut pieces: Vec<HalfEdge>,
+        by_region: ByRegion,
     ) -> (Self, Vec<PointOnLine>, Counts) {
-        let (mut regions, mut ranges, mut end) = (Vec::new(), Vec::new(), 0);
-        for (new, old) in RegionId::all(by_region.order.len()).zip(&by_region.order) {
-            let members = by_region.of_region(*old);
-            if !members.is_empty() {
-                regions.push((new, members));
-                ranges.push(end..end + members.len());
-                end += members.len();
-            }
+        let Order { regions, ranges, runs, old } = by_region.into_order();
+        let mut sorted: Vec<HalfEdge> = Vec::new();
+        if takes_much_memory::<HalfEdge>(pieces.len()) {
+            permute(&mut pieces, &old);
+            std::mem::swap(&mut sorted, &mut pieces);
+        } else if let Some(first) = pieces.first() {
+            sorted.resize(pieces.len(), *first);
         }
-        let mut sorted: Vec<HalfEdge> = pieces.first().map_or_else(Vec::new, |first| vec![*first; pieces.len()]);
-        let place: Vec<AtomicU32> = pieces.par_iter().with_min_len(1 << 14).map(|_| AtomicU32::new(0)).collect();
-        let runs = weighed_runs(ranges.len(), PIECES_OF_CHUNK, |k| ranges[k].len());
-        let lengths = runs.iter().map(|run| ranges[run.end - 1].end - ranges[run.start].start);
-        let slices = split_by(&mut sorted, lengths);
+        let place: Vec<AtomicU32> = old.par_iter().with_min_len(1 << 14).map(|_| AtomicU32::new(0)).collect();
+        let slices = split_by(&mut sorted, lengths_of(&ranges, &runs));
         let jobs: Vec<_> = runs.iter().zip(slices).collect();
         let work = |(run, sorted): (&Range<usize>, &mut [HalfEdge])| {
             let mut finder = PinchFinder::new(table, points);
             let first = ranges[run.start].start;
-            for ((number, members), range) in regions[run.clone()].iter().zip(&ranges[run.clone()]) {
+            for (number, range) in regions[run.clone()].iter().zip(&ranges[run.clone()]) {
                 let sorted = &mut sorted[range.start - first..range.end - first];
-                for ((sorted, (.., old)), new) in sorted.iter_mut().zip(*members).zip(range.clone()) {
-                    *sorted = HalfEdge { region: *number, ..pieces[old.index()] };
+                for ((sorted, old), new) in sorted.iter_mut().zip(&old[range.clone()]).zip(range.clone()) {
+                    // where there is one list, it is there already
+                    let piece = pieces.get(old.index()).copied().unwrap_or(*sorted);
+                    *sorted = HalfEdge { region: *number, ..piece };
                     place[old.index()].store(HalfEdgeId::from_index(new).number(), Ordering::Relaxed);
                 }
                 finder.search(sorted, planes[number.index()]);
@@ -155,6 +191,7 @@ impl RegionPieces {
         };
         let parts: Vec<(Vec<PointOnLine>, Counts)> =
             jobs.into_par_iter().with_max_len(1).map(|job| counted(|| work(job))).collect();
+        drop((pieces, old));
         let new_place = |old: HalfEdgeId| HalfEdgeId::from_index(place[old.index()].load(Ordering::Relaxed) as usize);
         sorted.par_iter_mut().with_min_len(1 << 13).for_each(|piece| piece.twin = new_place(piece.twin));
         let (mut pinches, mut counts) = (Vec::new(), Counts::default());
@@ -165,5 +202,58 @@ impl RegionPieces {
         pinches.sort_unstable();
         pinches.dedup();
         (Self { pieces: sorted, ranges }, pinches, counts)
+    }
+}
+
+/// Puts half-edges in the order of their `old` numbers, but for their regions: a part of each at a time, so that they are not there twice.
+fn permute(pieces: &mut [HalfEdge], old: &[HalfEdgeId]) {
+    let first = |piece: &HalfEdge| (piece.line, piece.edge, piece.from);
+    permute_part(pieces, old, first, |piece, part| (piece.line, piece.edge, piece.from) = part);
+    let second = |piece: &HalfEdge| (piece.to, piece.forward, piece.twin);
+    permute_part(pieces, old, second, |piece, part| (piece.to, piece.forward, piece.twin) = part);
+}
+
+fn permute_part<P: Send>(
+    pieces: &mut [HalfEdge],
+    old: &[HalfEdgeId],
+    get: impl Fn(&HalfEdge) -> P + Sync,
+    set: impl Fn(&mut HalfEdge, P) + Sync,
+) {
+    let parts: Vec<P> = old.par_iter().with_min_len(1 << 13).map(|old| get(&pieces[old.index()])).collect();
+    pieces.par_iter_mut().with_min_len(1 << 13).zip(parts).for_each(|(piece, part)| set(piece, part));
+}
+
+#[cfg(test)]
+mod tests {
+    use planecut_testkit::random::Rng;
+
+    use super::*;
+    use crate::ids::{LineId, number32};
+
+    #[test]
+    fn half_edges_change_places_in_one_list() {
+        for seed in 0..20 {
+            let mut rng = Rng::spread(seed);
+            let count = rng.below(5_000);
+            let mut number = || rng.below(1 << 20);
+            let made = |_| HalfEdge {
+                region: RegionId::from_index(7),
+                line: LineId::from_index(number()),
+                edge: PlaneId::of_index(number32(number())),
+                from: PointId::from_index(number()),
+                to: PointId::from_index(number()),
+                forward: number() % 2 == 0,
+                twin: HalfEdgeId::from_index(number()),
+            };
+            let pieces: Vec<HalfEdge> = (0..count).map(made).collect();
+            let mut order: Vec<(usize, HalfEdgeId)> = HalfEdgeId::all(count).map(|old| (number(), old)).collect();
+            order.sort_unstable();
+            let old: Vec<HalfEdgeId> = order.into_iter().map(|(_, old)| old).collect();
+            let mut permuted = pieces.clone();
+            permute(&mut permuted, &old);
+            let expected: Vec<String> = old.iter().map(|old| format!("{:?}", pieces[old.index()])).collect();
+            let found: Vec<String> = permuted.iter().map(|piece| format!("{piece:?}")).collect();
+            assert!(found == expected, "seed {seed}");
+        }
     }
 }
