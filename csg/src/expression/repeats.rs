@@ -57,11 +57,10 @@ impl Expression {
         let mut open: List<TreeNodeId> = List::new();
         let nodes = TreeNodeId::all(self.nodes.len()).zip(&self.nodes);
         for (number, node) in nodes.rev().filter(|(number, _)| has_leaves(number.index())) {
-            while let Some(union) = open.pop() {
-                if self.nodes[union.index()].first_leaf < node.end_leaf {
-                    open.push(union);
-                    break;
-                }
+            while let Some(union) = open.last().copied()
+                && self.nodes[union.index()].first_leaf >= node.end_leaf
+            {
+                open.pop();
                 operands_of(union).for_each(|number| around[number] -= 1);
             }
             let k = number.index();

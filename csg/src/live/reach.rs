@@ -139,6 +139,9 @@ impl LiveModel {
     ) {
         let table = &self.planes.table;
         let mut note = |other: OperandId| {
+            if other == own {
+                return;
+            }
             let (body, edges) = (self.body_at(other), &self.operand(other).edges);
             let reaches = |(number, face): &(BodyFaceId, &BodyFace)| {
                 let half_space = table.half_space(face.plane);
@@ -152,8 +155,8 @@ impl LiveModel {
             faces.extend(reaching.map(|(face, _)| OperandFace { operand: other, face }));
         };
         match surroundings.near(within) {
-            Some(here) => here.map(|member| member.operand).filter(|other| *other != own).for_each(&mut note),
-            None => self.places.near(within).map(|(other, _)| other).filter(|other| *other != own).for_each(&mut note),
+            Some(here) => here.for_each(|member| note(member.operand)),
+            None => self.places.near(within).for_each(|(other, _)| note(other)),
         }
     }
 }

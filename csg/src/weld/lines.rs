@@ -185,10 +185,13 @@ impl Line {
     /// The exact order of two points of the line along its direction.
     ///
     /// Coordinates are correctly rounded: where they differ, the points are in that order.
+    #[inline]
     pub(super) fn compare(&self, table: &PlaneTable, points: &Points, p: PointId, q: PointId) -> Ordering {
-        if p == q {
-            return Ordering::Equal;
-        }
+        // along a line the same points come again and again
+        if p == q { Ordering::Equal } else { self.compare_different(table, points, p, q) }
+    }
+
+    fn compare_different(&self, table: &PlaneTable, points: &Points, p: PointId, q: PointId) -> Ordering {
         let (at_p, at_q) = (points.positions[p.index()], points.positions[q.index()]);
         for axis in 0..3 {
             if at_p[axis] != at_q[axis] && self.direction[axis] != Sign::Zero {

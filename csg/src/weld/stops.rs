@@ -37,7 +37,6 @@ impl Stops {
         let end = |(number, point): (u32, PointId)| End { along: line.height(points, point), point, number };
         self.ends.extend((0..).zip(ends).map(end));
         self.ends.sort_unstable_by(|a, b| match a.along.partial_cmp(&b.along) {
-            Some(Ordering::Equal) | None if a.point == b.point => Ordering::Equal,
             Some(Ordering::Equal) | None => line.compare(table, points, a.point, b.point),
             Some(order) => order,
         });

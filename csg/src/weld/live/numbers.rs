@@ -40,9 +40,9 @@ pub(super) struct Numbers {
     free_regions: Vec<RegionId>,
     /// By how many points and lines each plane is known, and those by which none is known any more.
     known_by: Vec<u32>,
+    unnamed: Vec<u32>,
     /// The planes of new points and lines of an edge: a buffer.
     gained: Vec<PlaneId>,
-    unnamed: Vec<u32>,
     /// Points and lines that have moved since they were marked.
     unmarked: (Vec<PointId>, Vec<LineId>),
 }

@@ -62,9 +62,6 @@ pub(super) struct Along<'a> {
 impl Along<'_> {
     #[inline]
     fn compare(&self, p: PointId, q: PointId) -> Ordering {
-        if p == q {
-            return Ordering::Equal;
-        }
         let Context { table, numbers } = self.context;
         numbers.lines()[self.line.index()].compare(table, numbers.points(), p, q)
     }
