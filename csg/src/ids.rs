@@ -196,6 +196,31 @@ pub(crate) struct PointOnLine {
     pub(crate) point: PointId,
 }
 
+/// A line in one of its two directions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(crate) struct DirectedLine(u32);
+
+impl DirectedLine {
+    /// A line along its own direction, or back.
+    #[inline]
+    pub(crate) fn new(line: LineId, forward: bool) -> Self {
+        assert!(line.0 <= u32::MAX >> 1, "too many lines for numbers of 31 bits");
+        Self(line.0 << 1 | u32::from(forward))
+    }
+
+    /// The line in either direction.
+    #[inline]
+    pub(crate) fn line(self) -> LineId {
+        LineId(self.0 >> 1)
+    }
+
+    /// Whether it has the line's own direction.
+    #[inline]
+    pub(crate) fn is_forward(self) -> bool {
+        self.0 & 1 == 1
+    }
+}
+
 /// A point at the border of a region.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) struct PointOfRegion {
@@ -213,6 +238,23 @@ mod tests {
         let sorted: Vec<PointId> = PointId::all(3).chain([PointId::NONE]).collect();
         assert!(sorted.is_sorted_by(|a, b| a < b));
         assert_eq!(sorted.iter().take(3).map(|id| id.index()).collect::<Vec<_>>(), [0, 1, 2]);
+    }
+
+    #[test]
+    fn directed_lines_keep_line_and_direction() {
+        assert_eq!(size_of::<DirectedLine>(), size_of::<u32>());
+        for index in [0, 1, 12_345, (1 << 31) - 1] {
+            for forward in [false, true] {
+                let along = DirectedLine::new(LineId::from_index(index), forward);
+                assert_eq!((along.line().index(), along.is_forward()), (index, forward));
+            }
+        }
+    }
+
+    #[test]
+    #[should_panic(expected = "too many lines")]
+    fn no_line_has_a_number_of_32_bits() {
+        let _ = DirectedLine::new(LineId::from_index(1 << 31), true);
     }
 
     #[test]

@@ -45,8 +45,8 @@ pub enum HalfSpaceError {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "[f64; 4]", into = "[f64; 4]"))]
 pub struct HalfSpace {
-    normal: DVec3,
-    offset: f64,
+    /// The normal and the offset.
+    coefficients: [f64; 4],
 }
 
 impl HalfSpace {
@@ -102,41 +102,55 @@ impl HalfSpace {
         if out_of_range {
             return Err(HalfSpaceError::OutOfRange { normal, offset });
         }
-        Ok(Self { normal, offset })
+        Ok(Self { coefficients: [normal.x, normal.y, normal.z, offset] })
     }
 
     /// The outward normal, as given (not normalised).
     #[inline]
     #[must_use]
     pub fn normal(&self) -> DVec3 {
-        self.normal
+        let [x, y, z, _] = self.coefficients;
+        DVec3::new(x, y, z)
     }
 
     /// The offset `d` of `n·x ≤ d`, as given.
     #[inline]
     #[must_use]
     pub fn offset(&self) -> f64 {
-        self.offset
+        self.coefficients[3]
     }
 
     /// The four numbers `[nx, ny, nz, d]`, as given.
     #[inline]
     #[must_use]
     pub fn to_array(&self) -> [f64; 4] {
-        [self.normal.x, self.normal.y, self.normal.z, self.offset]
+        self.coefficients
+    }
+
+    /// The four numbers `[nx, ny, nz, d]`, where they are.
+    #[inline(always)]
+    pub(crate) fn coefficients(&self) -> &[f64; 4] {
+        &self.coefficients
+    }
+
+    /// The half-space of numbers that are those of one, scaled or with its sides exchanged: within the accepted range.
+    #[inline(always)]
+    pub(crate) fn of_valid(coefficients: [f64; 4]) -> Self {
+        debug_assert!(Self::from_array(coefficients).is_ok());
+        Self { coefficients }
     }
 
     /// The complement's closure, `-n·x ≤ -d`.
     #[inline]
     #[must_use]
     pub fn flipped(&self) -> Self {
-        Self { normal: -self.normal, offset: -self.offset }
+        Self { coefficients: self.coefficients.map(|v| -v) }
     }
 
     /// Signed Euclidean distance of a point from the plane, positive outside. For display, never for decisions.
     #[must_use]
     pub fn signed_distance(&self, point: impl Into<DVec3>) -> f64 {
-        (self.normal.dot(point.into()) - self.offset) / self.normal.length()
+        (self.normal().dot(point.into()) - self.offset()) / self.normal().length()
     }
 }
 

@@ -174,7 +174,7 @@ fn shape_of<'a>(
 }
 
 fn shape_in_table(table: &PlaneTable, planes: &[PlaneId], builder: &mut ShapeBuilder) -> BrushShape {
-    builder.shape(planes.len(), |k| (table.row(planes[k]), table.half_space(planes[k])))
+    builder.shape(planes.len(), |k| table.row(planes[k]))
 }
 
 /// The body of a brush, whose planes have ids in a table.
@@ -207,10 +207,7 @@ pub(crate) fn read(
     material: impl Fn(usize) -> MaterialId,
     place_of: impl Fn(PlaneIdx) -> usize,
 ) -> BrushBody {
-    let plane = |idx: PlaneIdx| {
-        let plane = planes[place_of(idx)];
-        (table.row(plane), table.half_space(plane))
-    };
+    let plane = |idx: PlaneIdx| table.row(planes[place_of(idx)]);
     let mut shape = built::shape_of_polytope(polytope, plane);
     if let BrushShape::Bounded(shape) = &mut shape {
         shape.sort_faces(&place_of);

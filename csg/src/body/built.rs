@@ -12,7 +12,6 @@ use super::build::least_of_chunk;
 use super::pattern::Pattern;
 use crate::base::map_chunks;
 use crate::model::{Brush, BrushFace};
-use crate::plane_table::half_space_of;
 
 /// What a brush is, in numbers of its own.
 #[derive(Debug, Clone)]
@@ -106,13 +105,8 @@ fn shape_among<'a>(bodies: &'a [BuiltBody], faces: &[BrushFace]) -> Option<&'a B
 
 fn ahead(brush: &Brush, builder: &mut ShapeBuilder) -> BuiltBody {
     let half_spaces: Vec<HalfSpace> = brush.faces.iter().map(|face| face.half_space).collect();
-    // as a table has them
-    let in_table = |half_space: &HalfSpace| {
-        let row = Row::new(half_space);
-        (row, half_space_of(&row))
-    };
-    let planes: Vec<(Row, HalfSpace)> = half_spaces.iter().map(in_table).collect();
-    let shape = builder.shape(planes.len(), |k| (&planes[k].0, &planes[k].1));
+    let planes: Vec<Row> = half_spaces.iter().map(Row::new).collect();
+    let shape = builder.shape(planes.len(), |k| &planes[k]);
     (half_spaces, shape)
 }
 
@@ -137,8 +131,8 @@ impl ShapeBuilder {
         &self.pattern
     }
 
-    /// What planes bound: the coefficients of each, exact ones and the same as a half-space.
-    pub(super) fn shape<'a>(&mut self, count: usize, plane: impl Fn(usize) -> (&'a Row, &'a HalfSpace)) -> BrushShape {
+    /// What planes bound, of each of which the coefficients are given.
+    pub(super) fn shape<'a>(&mut self, count: usize, plane: impl Fn(usize) -> &'a Row) -> BrushShape {
         if let Some(shape) = self.pattern.shape(count, &plane) {
             return BrushShape::Bounded(shape);
         }
@@ -153,24 +147,21 @@ impl ShapeBuilder {
     }
 }
 
-/// What planes bound: the coefficients of each, exact ones and the same as a half-space; `polytope` is a buffer.
+/// What planes bound, of each of which the coefficients are given; `polytope` is a buffer.
 pub(super) fn shape_of_planes<'a>(
     count: usize,
-    plane: impl Fn(usize) -> (&'a Row, &'a HalfSpace),
+    plane: impl Fn(usize) -> &'a Row,
     polytope: &mut IncrementalPolytope,
 ) -> BrushShape {
     polytope.clear();
     for k in 0..count {
-        polytope.add_plane(*plane(k).1);
+        polytope.add_plane(*plane(k).half_space());
     }
     shape_of_polytope(polytope, |idx| plane(idx.0))
 }
 
 /// What a polytope is, whose planes have these coefficients.
-pub(super) fn shape_of_polytope<'a>(
-    polytope: &IncrementalPolytope,
-    plane: impl Fn(PlaneIdx) -> (&'a Row, &'a HalfSpace),
-) -> BrushShape {
+pub(super) fn shape_of_polytope<'a>(polytope: &IncrementalPolytope, plane: impl Fn(PlaneIdx) -> &'a Row) -> BrushShape {
     if polytope.is_empty() {
         return BrushShape::Empty;
     }

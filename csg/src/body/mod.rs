@@ -73,10 +73,7 @@ impl Body {
         if !polytope.is_bounded() {
             return None;
         }
-        let plane = |handle: PlaneIdx| {
-            let id = face_of(handle).0;
-            (table.row(id), table.half_space(id))
-        };
+        let plane = |handle: PlaneIdx| table.row(face_of(handle).0);
         Some(Self::new(&Shape::of(polytope, plane)?, face_of))
     }
 

@@ -8,8 +8,8 @@
 
 use std::sync::{Arc, OnceLock};
 
+use planecut_kernel::PlaneIdx;
 use planecut_kernel::sign::{Homogeneous, Row, Sign};
-use planecut_kernel::{HalfSpace, PlaneIdx};
 
 use super::shape::{Corners, Structure};
 use super::{Corner, Shape};
@@ -45,16 +45,16 @@ impl Pattern {
     }
 
     /// Makes a shape the pattern; `plane` gives the coefficients of its planes, of which there are `count`.
-    pub(super) fn set<'a>(&mut self, shape: &Shape, count: usize, plane: impl Fn(usize) -> (&'a Row, &'a HalfSpace)) {
+    pub(super) fn set<'a>(&mut self, shape: &Shape, count: usize, plane: impl Fn(usize) -> &'a Row) {
         self.normals.clear();
-        self.normals.extend((0..count).map(|k| normal(plane(k).0)));
+        self.normals.extend((0..count).map(|k| normal(plane(k))));
         self.shape = Some(shape.clone());
         self.structure.take();
     }
 
     /// What some planes bound, where it has the normals and the structure of the pattern.
-    pub(super) fn shape<'a>(&self, count: usize, plane: impl Fn(usize) -> (&'a Row, &'a HalfSpace)) -> Option<Shape> {
-        if count != self.normals.len() || (0..count).any(|k| normal(plane(k).0) != self.normals[k]) {
+    pub(super) fn shape<'a>(&self, count: usize, plane: impl Fn(usize) -> &'a Row) -> Option<Shape> {
+        if count != self.normals.len() || (0..count).any(|k| normal(plane(k)) != self.normals[k]) {
             return None;
         }
         let shape = self.shape.as_ref()?;
@@ -107,8 +107,8 @@ impl SimpleStructure {
     }
 
     /// What planes with the same normals bound, where it has this structure.
-    fn shape<'a>(&self, plane: impl Fn(usize) -> (&'a Row, &'a HalfSpace)) -> Option<Shape> {
-        let row = |idx: &PlaneIdx| plane(idx.0).0;
+    fn shape<'a>(&self, plane: impl Fn(usize) -> &'a Row) -> Option<Shape> {
+        let row = |idx: &PlaneIdx| plane(idx.0);
         let points: Vec<Homogeneous> = self.corners.iter().map(|planes| meet(planes.each_ref().map(row))).collect();
         let is_long = |(corner, end): &(CornerId, PlaneIdx)| {
             let planes = self.corners[corner.index()].each_ref().map(row);
@@ -127,16 +127,10 @@ impl SimpleStructure {
 mod tests {
     use super::super::built::{BrushShape, ShapeBuilder, shape_of_planes};
     use super::*;
-    use crate::plane_table::half_space_of;
-    use planecut_kernel::{DVec3, IncrementalPolytope};
+    use planecut_kernel::{DVec3, HalfSpace, IncrementalPolytope};
 
-    type Plane = (Row, HalfSpace);
-
-    fn planes(normals: &[DVec3], offsets: &[f64]) -> Vec<Plane> {
-        let plane = |(normal, offset): (&DVec3, &f64)| {
-            let row = Row::new(&HalfSpace::new(*normal, *offset).expect("a plane"));
-            (row, half_space_of(&row))
-        };
+    fn planes(normals: &[DVec3], offsets: &[f64]) -> Vec<Row> {
+        let plane = |(normal, offset): (&DVec3, &f64)| Row::new(&HalfSpace::new(*normal, *offset).expect("a plane"));
         normals.iter().zip(offsets).map(plane).collect()
     }
 
@@ -160,7 +154,7 @@ mod tests {
             // short numbers, so that corners of more than three planes are frequent
             let offsets: Vec<f64> = normals.iter().map(|_| 4.0 + (random() * 3.0).floor()).collect();
             let planes = planes(normals, &offsets);
-            let plane = |k: usize| (&planes[k].0, &planes[k].1);
+            let plane = |k: usize| &planes[k];
             let made = builder.pattern_for_tests().shape(planes.len(), plane);
             let fresh = shape_of_planes(planes.len(), plane, &mut IncrementalPolytope::with_epsilon(0.0));
             if let Some(made) = made {

@@ -66,12 +66,8 @@ impl Corners {
 }
 
 impl Shape {
-    /// That of a bounded polytope; nothing where it is not bounded. `plane` gives the coefficients of its planes: exact ones,
-    /// and the same as a half-space.
-    pub(crate) fn of<'a>(
-        polytope: &IncrementalPolytope,
-        plane: impl Fn(PlaneIdx) -> (&'a Row, &'a HalfSpace),
-    ) -> Option<Self> {
+    /// That of a bounded polytope; nothing where it is not bounded. `plane` gives the coefficients of its planes.
+    pub(crate) fn of<'a>(polytope: &IncrementalPolytope, plane: impl Fn(PlaneIdx) -> &'a Row) -> Option<Self> {
         let (mut ends, mut different, mut numbers) = (Vec::new(), Vec::new(), Vec::new());
         let mut structure = Structure::default();
         let mut is_bounded = true;
@@ -94,7 +90,7 @@ impl Shape {
                 let known = edge.corner.and_then(|number| shared[number]);
                 let number = known.unwrap_or_else(|| {
                     let triple = [own, structure.edges[start + i], structure.edges[start + (i + 1) % count]];
-                    let [a, b, c] = triple.map(|idx| plane(idx).0);
+                    let [a, b, c] = triple.map(&plane);
                     different.push(Corner::new(&Homogeneous::meet(a, b, c)));
                     CornerId::from_index(different.len() - 1)
                 });
@@ -112,11 +108,7 @@ impl Shape {
     }
 
     /// The shape of known corners: boxes of its faces, of which each ends at an entry of the edges, and volume.
-    pub(super) fn measured<'a>(
-        ends: &[u32],
-        corners: Corners,
-        plane: impl Fn(PlaneIdx) -> (&'a Row, &'a HalfSpace),
-    ) -> Self {
+    pub(super) fn measured<'a>(ends: &[u32], corners: Corners, plane: impl Fn(PlaneIdx) -> &'a Row) -> Self {
         let mut volume = Volume::default();
         let mut start = 0;
         let structure = &*corners.structure;
@@ -129,7 +121,7 @@ impl Shape {
                 let corner = &corners.different[number.index()];
                 bounds = bounds.with_corner(corner);
                 let exactly = || {
-                    let [a, b, c] = [own, edges[i], edges[(i + 1) % edges.len()]].map(|idx| plane(idx).0);
+                    let [a, b, c] = [own, edges[i], edges[(i + 1) % edges.len()]].map(&plane);
                     meet(a, b, c)
                 };
                 volume.add(if corner.is_well_known() { Some(corner.at) } else { exactly() });
@@ -138,7 +130,7 @@ impl Shape {
         };
         let faces = ends.iter().zip(&structure.planes).map(face).collect();
         let mut shape = Self { faces, corners: Arc::new(corners), bounds: Bounds::EMPTY, volume: volume.six / 6.0 };
-        shape.tighten_bounds(|idx| plane(idx).1);
+        shape.tighten_bounds(|idx| plane(idx).half_space());
         shape
     }
 

@@ -12,7 +12,7 @@ use rustc_hash::FxHashMap;
 
 use super::near::{NearPlanes, unit};
 use super::same::{Key, compare_coefficients, first_side, is_exact, key, settling_order};
-use super::{PlaneId, PlaneTable, half_space_of};
+use super::{PlaneId, PlaneTable};
 use crate::base::{WEIGHTS, by_parts, runs_apart, starts_of};
 use crate::ids::number32;
 use crate::tolerances::SNAP_TOLERANCE;
@@ -74,16 +74,9 @@ impl PlaneTable {
         };
         let given = || (0..2 * planes.len()).into_par_iter().with_min_len(CHUNK);
         let first = |side: usize| &sides[planes[side / 2] as usize].0;
-        let is_first = |side: usize| side.is_multiple_of(2);
-        let row = |side: usize| if is_first(side) { *first(side) } else { first(side).flipped() };
-        let half_space = |side: usize| {
-            let half_space = half_space_of(first(side));
-            // as `push` has it, to the signs of zeros
-            if is_first(side) { half_space } else { half_space.flipped() }
-        };
+        let row = |side: usize| if side.is_multiple_of(2) { *first(side) } else { first(side).flipped() };
         let table = Self {
             rows: given().map(row).collect(),
-            half_spaces: given().map(half_space).collect(),
             replaced: parts.iter().zip(&firsts).flat_map(|(part, first)| part.replaced(*first)).collect(),
             reach,
             size,

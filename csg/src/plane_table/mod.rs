@@ -77,7 +77,6 @@ impl PlaneId {
 pub struct PlaneTable {
     /// Two rows a plane: the side with the positive first coefficient, and the other.
     rows: Vec<Row>,
-    half_spaces: Vec<HalfSpace>,
     /// The planes that were replaced by one that was nearly the same: their sides with a positive first coefficient.
     replaced: Vec<(Row, PlaneId)>,
     /// The largest distance of a plane from the origin, exactly inserted planes left out.
@@ -134,10 +133,8 @@ impl PlaneTable {
         for place in 0..new_at.len() {
             while new_at[place] as usize != place {
                 let new = new_at[place] as usize;
-                for side in 0..2 {
-                    self.rows.swap(2 * place + side, 2 * new + side);
-                    self.half_spaces.swap(2 * place + side, 2 * new + side);
-                }
+                self.rows.swap(2 * place, 2 * new);
+                self.rows.swap(2 * place + 1, 2 * new + 1);
                 new_at.swap(place, new);
             }
         }
@@ -197,7 +194,7 @@ impl PlaneTable {
     #[inline]
     #[must_use]
     pub fn half_space(&self, plane: PlaneId) -> &HalfSpace {
-        &self.half_spaces[plane.0 as usize]
+        self.row(plane).half_space()
     }
 
     /// The meeting point of three planes, for asking sides.
@@ -277,25 +274,15 @@ impl PlaneTable {
     /// Adds a plane without looking for it; only for tables to which [`insert`](Self::insert) adds nothing.
     pub(crate) fn push(&mut self, row: &Row) -> PlaneId {
         let id = PlaneId::new(self.len(), false);
-        let half_space = half_space_of(row);
-        self.half_spaces.extend([half_space, half_space.flipped()]);
         self.rows.extend([*row, row.flipped()]);
         id
     }
 
     /// Puts another plane in the place of one; only for tables to which [`insert`](Self::insert) adds nothing.
     pub(crate) fn put(&mut self, index: u32, row: &Row) {
-        let half_space = half_space_of(row);
         let at = 2 * index as usize;
-        (self.half_spaces[at], self.half_spaces[at + 1]) = (half_space, half_space.flipped());
         (self.rows[at], self.rows[at + 1]) = (*row, row.flipped());
     }
-}
-
-/// The half-space of a row that was made from one.
-pub(crate) fn half_space_of(row: &Row) -> HalfSpace {
-    let [x, y, z, d] = *row.coefficients();
-    HalfSpace::new(DVec3::new(x, y, z), d).expect("scaled from a valid half-space")
 }
 
 /// Finds planes of a table.

@@ -73,8 +73,8 @@ impl AroundLine<'_> {
     pub(super) fn pair(&self, around: &mut [HalfEdgeId], out: &mut [HalfEdge]) -> Result<(), WeldError> {
         check_sum(around, out)?;
         let sheet = |k: HalfEdgeId| {
-            let HalfEdge { region, forward, .. } = out[k.index()];
-            Sheet { region, forward }
+            let piece = &out[k.index()];
+            Sheet { region: piece.region, forward: piece.is_forward() }
         };
         if around.len() > 2 {
             self.sort(around, sheet);
@@ -86,7 +86,7 @@ impl AroundLine<'_> {
         around.rotate_left(start % around.len());
         for pair in around.chunks(2) {
             let &[a, b] = pair else { continue };
-            if out[a.index()].forward == out[b.index()].forward {
+            if out[a.index()].is_forward() == out[b.index()].is_forward() {
                 return Err(WeldError::wedge(&out[a.index()]));
             }
             out[a.index()].twin = b;
@@ -99,7 +99,7 @@ impl AroundLine<'_> {
 /// Pairs the half-edges of one elementary interval with no regard to what they bound.
 pub(super) fn pair_anyhow(around: &mut [HalfEdgeId], out: &mut [HalfEdge]) -> Result<(), WeldError> {
     check_sum(around, out)?;
-    around.sort_by_key(|k| out[k.index()].forward);
+    around.sort_by_key(|k| out[k.index()].is_forward());
     let (back, along) = around.split_at(around.len() / 2);
     for (a, b) in back.iter().zip(along) {
         out[a.index()].twin = *b;
@@ -110,6 +110,6 @@ pub(super) fn pair_anyhow(around: &mut [HalfEdgeId], out: &mut [HalfEdge]) -> Re
 
 /// As many half-edges of an interval must point along the line as back.
 fn check_sum(around: &[HalfEdgeId], out: &[HalfEdge]) -> Result<(), WeldError> {
-    let forward = around.iter().filter(|k| out[k.index()].forward).count();
+    let forward = around.iter().filter(|k| out[k.index()].is_forward()).count();
     if 2 * forward == around.len() { Ok(()) } else { Err(WeldError::open(&out[around[0].index()])) }
 }

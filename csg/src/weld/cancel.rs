@@ -11,11 +11,12 @@ use super::around::{self, AroundLine};
 use super::crossings::Passed;
 use super::large_face::FaceEdge;
 use super::lines::Line;
+use super::numbered_edges::NumberedEdges;
 use super::points::Points;
 use super::slits::SlitFinder;
 use super::stops::Stops;
 use crate::base::{concat_made, map_chunks, starts_of};
-use crate::ids::{EdgeId, HalfEdgeId, Id, LineId, PointId, PointOfRegion, RegionId};
+use crate::ids::{DirectedLine, EdgeId, HalfEdgeId, Id, LineId, PointId, PointOfRegion, RegionId};
 use crate::plane_table::{PlaneId, PlaneTable};
 
 /// A directed piece of a line along which one region ends on one side: a boundary edge, or after cancelling a maximal run.
@@ -89,7 +90,7 @@ pub(super) fn pieces(
     points: &Points,
     lines: &[Line],
     planes: &[PlaneId],
-    edges: &[Run],
+    edges: &NumberedEdges,
     (starts, by_line): &(Vec<u32>, Vec<EdgeId>),
 ) -> Result<(Vec<Pieces>, Counts), WeldError> {
     let numbers: Vec<LineId> = LineId::all(lines.len()).collect();
@@ -101,7 +102,7 @@ pub(super) fn pieces(
         for line in numbers {
             let members = starts[line.index()] as usize..starts[line.index() + 1] as usize;
             group.clear();
-            group.extend(by_line[members].iter().map(|k| edges[k.index()]));
+            group.extend(by_line[members].iter().map(|k| edges.run(*k)));
             if worker.pair_alone(&group, &mut pieces) {
                 continue;
             }
@@ -272,11 +273,11 @@ impl Sweep {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct HalfEdge {
     pub(super) region: RegionId,
-    pub(super) line: LineId,
+    /// The line in the direction in which it runs.
+    pub(super) along: DirectedLine,
     pub(super) edge: PlaneId,
     pub(super) from: PointId,
     pub(super) to: PointId,
-    pub(super) forward: bool,
     /// The half-edge that bounds the same wedge of solid, [`Id::NONE`] until it is known.
     pub(super) twin: HalfEdgeId,
 }
@@ -284,7 +285,19 @@ pub(super) struct HalfEdge {
 impl HalfEdge {
     fn of(run: &Run, twin: HalfEdgeId) -> Self {
         let Run { line, region, edge, from, to, forward } = *run;
-        Self { region, line, edge, from, to, forward, twin }
+        Self { region, along: DirectedLine::new(line, forward), edge, from, to, twin }
+    }
+
+    /// Its line.
+    #[inline]
+    pub(super) fn line(&self) -> LineId {
+        self.along.line()
+    }
+
+    /// Whether it points along its line.
+    #[inline]
+    pub(super) fn is_forward(&self) -> bool {
+        self.along.is_forward()
     }
 
     /// What it is as the boundary of its face; `piece` is its own number.

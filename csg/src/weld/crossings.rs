@@ -8,6 +8,7 @@ use rustc_hash::FxHashMap;
 use super::WeldError;
 use super::cancel::{Crossed, HalfEdge, LineWorker, Run, Surviving};
 use super::lines::Line;
+use super::numbered_edges::NumberedEdges;
 use super::points::Points;
 use super::stops::sort_along;
 use crate::ids::{EdgeId, Id, LineId, PointId, PointOfRegion};
@@ -39,14 +40,14 @@ pub(super) fn pieces(
     points: &mut Points,
     lines: &[Line],
     planes: &[PlaneId],
-    edges: &[Run],
+    edges: &NumberedEdges,
     (starts, by_line): &(Vec<u32>, Vec<EdgeId>),
 ) -> Result<Vec<HalfEdge>, WeldError> {
     let mut surviving = Surviving::default();
     let mut worker = LineWorker::new(table, points, lines, planes);
     for ends in starts.windows(2) {
         let members = &by_line[ends[0] as usize..ends[1] as usize];
-        let mut group: Vec<Run> = members.iter().map(|k| edges[k.index()]).collect();
+        let mut group: Vec<Run> = members.iter().map(|k| edges.run(*k)).collect();
         worker.cancel(&mut group, &mut surviving)?;
     }
     let Surviving { runs, slits, passed } = surviving;

@@ -47,9 +47,9 @@ pub(super) fn first_clockwise<'a, T>(
 /// Directions are `n × e`, edge normals turned by a right angle, so the edge normals are compared instead.
 fn is_earlier(table: &PlaneTable, plane: PlaneId, incoming: &HalfEdge, a: &HalfEdge, b: &HalfEdge) -> bool {
     let quarter = |piece: &HalfEdge| {
-        if piece.line == incoming.line {
+        if piece.line() == incoming.line() {
             // straight on is half a turn from the reversed edge; straight back is a whole one
-            return if piece.forward == incoming.forward { 1 } else { 3 };
+            return if piece.is_forward() == incoming.is_forward() { 1 } else { 3 };
         }
         match table.orient3(plane, incoming.edge.flipped(), piece.edge) {
             Sign::Negative => 0,

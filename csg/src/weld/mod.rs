@@ -26,6 +26,7 @@ mod loops;
 pub(crate) mod manifold;
 mod measure;
 mod nest;
+mod numbered_edges;
 mod pinch_cuts;
 mod pinches;
 mod points;
@@ -48,12 +49,13 @@ use crate::ids::{EdgeId, HalfEdgeId, Id, PointId, RegionId};
 use crate::mesh::{Flaw, Mesh, Noise, SolidMeasures, proven};
 use crate::model::{Material, MaterialId};
 use crate::plane_table::PlaneTable;
-use cancel::{HalfEdge, Run};
+use cancel::HalfEdge;
 use filled_faces::filled_faces;
 pub(crate) use live::LiveWeld;
 pub(crate) use live::WeldedFace;
 pub(crate) use nest::Projection;
 use nest::{Faces, Nester};
+use numbered_edges::NumberedEdges;
 use points::Points;
 use region_corners::RegionCorners;
 use regions::{ByRegion, RegionPieces, Regions};
@@ -203,25 +205,17 @@ fn half_edges(
     let ((mut points, ends, mut signs), ((mut regions, of_edge), (lines, line_of_edge, by_line, counted))) =
         (found, others);
     signs += counted;
-    let run = |(k, edge): (usize, &BoundaryEdge)| Run {
-        line: line_of_edge[k],
-        region: of_edge[k],
-        edge: edge.edge,
-        from: ends[k][0],
-        to: ends[k][1],
-        forward: lines[line_of_edge[k].index()].is_along(table, edge.face, edge.edge),
-    };
-    let runs: Vec<Run> = edges.par_iter().enumerate().with_min_len(1024).map(run).collect();
+    let numbered = NumberedEdges::of(table, &edges, &lines, &line_of_edge, of_edge, ends);
     // each of these is as large as the mesh of a large model
-    drop((edges, ends, of_edge, line_of_edge));
-    let (parts, counted) = cancel::pieces(table, &points, &lines, &regions.planes, &runs, &by_line)?;
+    drop((edges, line_of_edge));
+    let (parts, counted) = cancel::pieces(table, &points, &lines, &regions.planes, &numbered, &by_line)?;
     signs += counted;
     let is_crossed =
         parts.iter().any(|part| part.is_slit) || crossings::any(parts.iter().flat_map(|part| &part.passed));
     let pieces = if is_crossed {
-        crossings::pieces(table, &mut points, &lines, &regions.planes, &runs, &by_line)?
+        crossings::pieces(table, &mut points, &lines, &regions.planes, &numbered, &by_line)?
     } else {
-        drop((runs, by_line));
+        drop((numbered, by_line));
         cancel::joined(parts)
     };
     let mut by_region = ByRegion::of(&pieces, regions.planes.len());

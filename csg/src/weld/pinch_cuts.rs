@@ -42,7 +42,7 @@ impl RegionPieces {
         let mut is_cut = vec![false; lines];
         cuts.iter().for_each(|cut| is_cut[cut.line.index()] = true);
         let is_concerned = |(number, piece): (usize, &HalfEdge)| {
-            (piece.forward && is_cut[piece.line.index()]).then(|| (piece.line, HalfEdgeId::from_index(number)))
+            (piece.is_forward() && is_cut[piece.line().index()]).then(|| (piece.line(), HalfEdgeId::from_index(number)))
         };
         let pieces = self.pieces.par_iter().enumerate().with_min_len(1 << 12);
         let mut on_lines: Vec<(LineId, HalfEdgeId)> = pieces.filter_map(is_concerned).collect();
@@ -215,7 +215,7 @@ mod tests {
         for (number, piece) in pieces.iter().enumerate() {
             let twin = pieces[piece.twin.index()];
             assert_eq!(twin.twin.index(), number);
-            assert_eq!((twin.line, twin.from, twin.to), (piece.line, piece.to, piece.from));
+            assert_eq!((twin.line(), twin.from, twin.to), (piece.line(), piece.to, piece.from));
         }
     }
 }

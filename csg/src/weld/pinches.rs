@@ -194,7 +194,7 @@ impl<'a> PinchFinder<'a> {
                 && point != piece.to
                 && self.points.side(self.table, point, piece.edge) == Sign::Zero
             {
-                self.found.push(PointOnLine { line: piece.line, point });
+                self.found.push(PointOnLine { line: piece.line(), point });
             }
         }
     }

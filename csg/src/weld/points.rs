@@ -176,8 +176,8 @@ impl Points {
 
     /// The corner of a face at which a half-edge begins.
     pub(super) fn corner(&self, piece: HalfEdgeId, half_edge: &HalfEdge) -> LoopCorner {
-        let HalfEdge { from: point, line, .. } = *half_edge;
-        LoopCorner { point, at: self.positions[point.index()], line, piece }
+        let point = half_edge.from;
+        LoopCorner { point, at: self.positions[point.index()], line: half_edge.line(), piece }
     }
 
     /// Whether two coordinates of a point are its own, not rounded.

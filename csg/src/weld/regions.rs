@@ -207,10 +207,10 @@ impl RegionPieces {
 
 /// Puts half-edges in the order of their `old` numbers, but for their regions: a part of each at a time, so that they are not there twice.
 fn permute(pieces: &mut [HalfEdge], old: &[HalfEdgeId]) {
-    let first = |piece: &HalfEdge| (piece.line, piece.edge, piece.from);
-    permute_part(pieces, old, first, |piece, part| (piece.line, piece.edge, piece.from) = part);
-    let second = |piece: &HalfEdge| (piece.to, piece.forward, piece.twin);
-    permute_part(pieces, old, second, |piece, part| (piece.to, piece.forward, piece.twin) = part);
+    let first = |piece: &HalfEdge| (piece.along, piece.edge, piece.from);
+    permute_part(pieces, old, first, |piece, part| (piece.along, piece.edge, piece.from) = part);
+    let second = |piece: &HalfEdge| (piece.to, piece.twin);
+    permute_part(pieces, old, second, |piece, part| (piece.to, piece.twin) = part);
 }
 
 fn permute_part<P: Send>(
@@ -228,7 +228,7 @@ mod tests {
     use planecut_testkit::random::Rng;
 
     use super::*;
-    use crate::ids::{LineId, number32};
+    use crate::ids::{DirectedLine, LineId, number32};
 
     #[test]
     fn half_edges_change_places_in_one_list() {
@@ -238,11 +238,10 @@ mod tests {
             let mut number = || rng.below(1 << 20);
             let made = |_| HalfEdge {
                 region: RegionId::from_index(7),
-                line: LineId::from_index(number()),
+                along: DirectedLine::new(LineId::from_index(number()), number() % 2 == 0),
                 edge: PlaneId::of_index(number32(number())),
                 from: PointId::from_index(number()),
                 to: PointId::from_index(number()),
-                forward: number() % 2 == 0,
                 twin: HalfEdgeId::from_index(number()),
             };
             let pieces: Vec<HalfEdge> = (0..count).map(made).collect();

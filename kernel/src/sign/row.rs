@@ -15,7 +15,7 @@ const MAX_INTEGER_BITS: i32 = 48;
 /// multiple of the plane it was made from.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Row {
-    coefficients: [f64; 4],
+    half_space: HalfSpace,
     /// Bit length of the largest normal component and of the offset where the row is integer, else [`NOT_INTEGER`].
     bits: [u8; 2],
     at_infinity: bool,
@@ -59,7 +59,8 @@ impl Row {
         debug_assert!(power.abs() <= 1022);
         let factor = f64::from_bits(((1023 + power) as u64) << 52);
         let magnitude = above(largest * factor);
-        Self { coefficients: coefficients.map(|v| v * factor), bits: [NOT_INTEGER; 2], at_infinity: false, magnitude }
+        let half_space = HalfSpace::of_valid(coefficients.map(|v| v * factor));
+        Self { half_space, bits: [NOT_INTEGER; 2], at_infinity: false, magnitude }
     }
 
     /// A plane whose offset is the symbolic `M → ∞`; its finite offset is zero.
@@ -72,7 +73,8 @@ impl Row {
         let normal = length(integers[0]).max(length(integers[1])).max(length(integers[2]));
         let coefficients = integers.map(|v| v as f64);
         let magnitude = above(largest_of_normal(&coefficients));
-        Self { coefficients, bits: [normal, length(integers[3])], at_infinity: false, magnitude }
+        let half_space = HalfSpace::of_valid(coefficients);
+        Self { half_space, bits: [normal, length(integers[3])], at_infinity: false, magnitude }
     }
 
     /// At least the largest magnitude in the normal, and hardly more.
@@ -91,20 +93,27 @@ impl Row {
     #[inline]
     #[must_use]
     pub fn coefficients(&self) -> &[f64; 4] {
-        &self.coefficients
+        self.half_space.coefficients()
+    }
+
+    /// The half-space of the scaled coefficients: that which the row was made from, up to a positive factor.
+    #[inline]
+    #[must_use]
+    pub fn half_space(&self) -> &HalfSpace {
+        &self.half_space
     }
 
     /// The row of the opposite half-space.
     #[inline]
     #[must_use]
     pub fn flipped(&self) -> Self {
-        Self { coefficients: self.coefficients.map(|v| 0.0 - v), ..*self }
+        Self { half_space: HalfSpace::of_valid(self.coefficients().map(|v| 0.0 - v)), ..*self }
     }
 
     /// Whether the rows describe one plane, up to any scale, positive or negative: all 2×2 minors are zero.
     #[must_use]
     pub fn is_same_plane(&self, other: &Self) -> bool {
-        let (a, b) = (&self.coefficients, &other.coefficients);
+        let (a, b) = (self.coefficients(), other.coefficients());
         (0..4).all(|i| (i + 1..4).all(|j| exact_product(a[i], b[j]) == exact_product(a[j], b[i])))
     }
 
@@ -112,7 +121,7 @@ impl Row {
     /// is not zero, and the others divided by it. Division rounds correctly, so equal ratios give equal numbers.
     #[must_use]
     pub fn ratios(&self) -> (usize, [f64; 3]) {
-        let c = &self.coefficients;
+        let c = self.coefficients();
         let first = if c[0] != 0.0 {
             0
         } else if c[1] != 0.0 {
@@ -146,7 +155,7 @@ impl Row {
     /// The coefficients as integers; only for integer rows.
     #[inline]
     pub(super) fn integers(&self) -> [i128; 4] {
-        self.coefficients.map(|v| v as i128)
+        self.coefficients().map(|v| v as i128)
     }
 
     #[inline]

@@ -219,7 +219,7 @@ impl OnLine {
         let is_passed = |point: PointId| {
             self.pieces.iter().any(|number| {
                 let piece = &half_edges[number.index()];
-                let [low, high] = low_and_high([piece.from, piece.to], piece.forward);
+                let [low, high] = low_and_high([piece.from, piece.to], piece.is_forward());
                 along.compare(low, point).is_lt() && along.compare(point, high).is_lt()
             })
         };
@@ -238,7 +238,7 @@ impl OnLine {
         let parts = Parts::of(along, intervals);
         self.pieces.retain(|number| {
             let piece = &half_edges[number.index()];
-            let [low, _] = low_and_high([piece.from, piece.to], piece.forward);
+            let [low, _] = low_and_high([piece.from, piece.to], piece.is_forward());
             let is_old = parts.hold_from(along, low);
             if is_old {
                 old.push(*number);

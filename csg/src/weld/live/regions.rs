@@ -237,7 +237,7 @@ impl Regions {
             let Region { pinches, new, gone, .. } = &mut self.regions[number.index()];
             pinches.retain(|&pinch| {
                 let PointOnLine { line, point } = pinch;
-                let concerns = |piece: &HalfEdge| piece.line == line || piece.from == point || piece.to == point;
+                let concerns = |piece: &HalfEdge| piece.line() == line || piece.from == point || piece.to == point;
                 let is_doubtful = new.iter().chain(&*gone).any(|piece| concerns(&half_edges[piece.index()]));
                 if is_doubtful {
                     doubtful.push((number, pinch));
