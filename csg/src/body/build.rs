@@ -166,8 +166,8 @@ fn shape_of<'a>(
         let row = Row::new(&face.half_space);
         row.coefficients() == table.row(*plane).coefficients() || row.is_same_plane(table.row(*plane))
     };
-    let known = built.shape_of(&brush.faces);
-    match known.filter(|_| brush.faces.iter().zip(planes).all(stays)) {
+    let all_stay = || table.snapped() == 0 || brush.faces.iter().zip(planes).all(stays);
+    match built.shape_of(&brush.faces).filter(|_| all_stay()) {
         Some(known) => Cow::Borrowed(known),
         None => Cow::Owned(shape_in_table(table, planes, builder)),
     }
