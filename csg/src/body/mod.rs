@@ -8,6 +8,7 @@
 mod build;
 mod built;
 mod corner;
+mod face_neighbours;
 mod kinds;
 mod outer;
 mod pattern;
