@@ -52,7 +52,7 @@ pub(super) struct SeenPoint {
     pub(super) at: DVec3,
     /// The same times the reach.
     single: [f32; 3],
-    /// By how much a value may be off in single precision.
+    /// By how much a value may be off in single precision; infinite where such values tell nothing.
     pub(super) slack: f64,
 }
 
@@ -104,9 +104,10 @@ impl FaceNeighbours {
     /// A point as neighbours see it, given from where the duals are seen.
     pub(super) fn seen(&self, at: DVec3) -> SeenPoint {
         let scaled = at * self.reach;
-        let size = scaled.abs().max_element();
+        // no number where one of them is none
+        let size = scaled.abs().element_sum();
         // Of the sum of the products' magnitudes, which is at most the size: a rounding of both factors, of the product, and of two sums.
-        // What is too small for single precision is off by less than that of numbers of size 1.
+        // What is too small for single precision is off by less than the least that is not.
         let slack = if size < FAR { 8.0 * U * size.max(f64::from(f32::MIN_POSITIVE)) } else { f64::INFINITY };
         SeenPoint { at, single: scaled.to_array().map(single), slack }
     }
@@ -122,11 +123,11 @@ impl FaceNeighbours {
     ) {
         // below by more than the rounding of the level as well
         let bound = single(level - point.slack - 2.0 * U * level.abs());
+        let tells_nothing = point.slack.is_infinite();
         self.for_each_four(face, point, level, |four| {
             let values = four.values(point.single);
             for (value, face) in values.into_iter().zip(four.faces) {
-                // what is no number tells nothing
-                if !(value < bound) {
+                if value >= bound || tells_nothing {
                     visit(face);
                 }
             }
@@ -286,7 +287,7 @@ mod tests {
     fn where_numbers_tell_nothing_all_neighbours_are_visited() {
         let (all, duals) = around_one(DVec3::AXES.to_vec());
         let middle = BodyFaceId::from_index(3);
-        for at in [DVec3::splat(f64::NAN), DVec3::X * f64::INFINITY, DVec3::Y * 1e200] {
+        for at in [DVec3::splat(f64::NAN), DVec3::new(f64::NAN, 0.5, 2.0), DVec3::X * f64::INFINITY, DVec3::Y * 1e200] {
             let found = visited(&all, middle, &all.seen(at), 1.0);
             assert!((0..3).all(|face| found.contains(&BodyFaceId::from_index(face))), "{at:?}: {found:?}");
             assert_eq!(all.climb(&all.seen(at), middle, duals[3].dot(at)), (middle, f64::INFINITY));
