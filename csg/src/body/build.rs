@@ -166,6 +166,7 @@ fn shape_of<'a>(
         let row = Row::new(&face.half_space);
         row.coefficients() == table.row(*plane).coefficients() || row.is_same_plane(table.row(*plane))
     };
+    // most tables took no plane for another
     let all_stay = || table.snapped() == 0 || brush.faces.iter().zip(planes).all(stays);
     match built.shape_of(&brush.faces).filter(|_| all_stay()) {
         Some(known) => Cow::Borrowed(known),

@@ -1,7 +1,7 @@
 //! The neighbours of each face of a body in single precision, four at a time: which of them a point may be far beyond.
 //!
 //! A climb from face to face looks at all neighbours of each face on its way, for a few numbers that hardly ever decide anything closely. In
-//! single precision these take a third of the memory, and four are multiplied at once; what is so close that the rounding might matter is left to plain numbers.
+//! single precision these take two thirds of the memory, and four are multiplied at once; what is so close that the rounding might matter is left to plain numbers.
 
 use std::ops::Range;
 
@@ -35,7 +35,7 @@ pub(super) struct FaceNeighbours {
     /// For each face of many neighbours boxes around the duals of these, by its place.
     runs: FxHashMap<BodyFaceId, Runs>,
     /// The largest sum of a dual's magnitudes.
-    reach: f64,
+    pub(super) reach: f64,
 }
 
 /// Four neighbours of a face; where there are fewer, the last one comes again.
@@ -157,11 +157,9 @@ impl FaceNeighbours {
                 }
             });
             if best == start {
-                // of many neighbours, some are not looked at
-                return (
-                    best,
-                    if self.fours_of(start).len() < LEAST_RUNS { f64::from(largest) } else { f64::INFINITY },
-                );
+                // in runs, not all neighbours are looked at
+                let around = if self.runs_of(start).is_none() { f64::from(largest) } else { f64::INFINITY };
+                return (best, around);
             }
         }
     }
@@ -170,10 +168,16 @@ impl FaceNeighbours {
         &self.fours[self.starts[face.index()] as usize..self.starts[face.index() + 1] as usize]
     }
 
+    /// The runs of a face of many neighbours.
+    fn runs_of(&self, face: BodyFaceId) -> Option<&Runs> {
+        // most have few, and are not looked up
+        if self.fours_of(face).len() < LEAST_RUNS { None } else { self.runs.get(&face) }
+    }
+
     #[inline]
     fn for_each_four(&self, face: BodyFaceId, point: &SeenPoint, level: f64, visit: impl FnMut(&Four)) {
         let all = self.fours_of(face);
-        match if all.len() < LEAST_RUNS { None } else { self.runs.get(&face) } {
+        match self.runs_of(face) {
             None => all.iter().for_each(visit),
             Some(runs) => {
                 let some = runs.reaching(point.at, level);

@@ -35,8 +35,6 @@ pub(crate) struct PolarDual {
     /// `nᵢ / (dᵢ − nᵢ·c)` for each face.
     duals: Vec<DVec3>,
     neighbours: FaceNeighbours,
-    /// The largest sum of a dual's magnitudes.
-    reach: f64,
     /// For each octant around the center the face in its middle.
     seeds: [BodyFaceId; 8],
 }
@@ -122,7 +120,7 @@ impl PolarDual {
             edges.iter().filter_map(|plane| face_of[plane.0])
         });
         let neighbours = FaceNeighbours::of(&duals, reach, neighbours);
-        let mut dual = Self { center, reach, duals, neighbours, seeds: [BodyFaceId::from_index(0); 8] };
+        let mut dual = Self { center, duals, neighbours, seeds: [BodyFaceId::from_index(0); 8] };
         for octant in 0..8_usize {
             let sign = |axis: usize| if octant >> axis & 1 == 1 { -1.0 } else { 1.0 };
             let before = dual.seeds[octant.saturating_sub(1)];
@@ -182,7 +180,7 @@ impl PolarDual {
     /// A point seen from the center, and a [bound](room) for the error of its values.
     fn relative(&self, point: &Corner) -> (DVec3, f64) {
         let size = point.at.abs().max_element() + self.center.abs().max_element();
-        (point.at - self.center, room(self.reach, point.error, size))
+        (point.at - self.center, room(self.neighbours.reach, point.error, size))
     }
 
     fn value(&self, face: BodyFaceId, at: DVec3) -> f64 {
