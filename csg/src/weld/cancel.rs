@@ -15,9 +15,12 @@ use super::numbered_edges::NumberedEdges;
 use super::points::Points;
 use super::slits::SlitFinder;
 use super::stops::Stops;
-use crate::base::{concat_made, map_chunks, starts_of};
+use crate::base::{concat_made, map_chunks, split_by, starts_of};
 use crate::ids::{DirectedLine, EdgeId, HalfEdgeId, Id, LineId, PointId, PointOfRegion, RegionId};
 use crate::plane_table::{PlaneId, PlaneTable};
+
+/// Number of lines whose edges are gathered together.
+const LINES_AT_A_TIME: usize = 256;
 
 /// A directed piece of a line along which one region ends on one side: a boundary edge, or after cancelling a maximal run.
 #[derive(Debug, Clone, Copy)]
@@ -94,23 +97,29 @@ pub(super) fn pieces(
     (starts, by_line): &(Vec<u32>, Vec<EdgeId>),
 ) -> Result<(Vec<Pieces>, Counts), WeldError> {
     let numbers: Vec<LineId> = LineId::all(lines.len()).collect();
+    // where the edges of lines that follow one another are in the list
+    let of_lines = |lines: &[LineId]| {
+        let first = lines[0].index();
+        starts[first] as usize..starts[first + lines.len()] as usize
+    };
     let (parts, counts) = map_chunks(&numbers, 256, |numbers| -> Result<Pieces, WeldError> {
         let mut worker = LineWorker::new(table, points, lines, planes);
-        let (mut surviving, mut group) = (Surviving::default(), Vec::new());
-        let (first, end) = (numbers[0].index(), numbers[0].index() + numbers.len());
-        let mut pieces = Vec::with_capacity((starts[end] - starts[first]) as usize);
-        for line in numbers {
-            let members = starts[line.index()] as usize..starts[line.index() + 1] as usize;
-            group.clear();
-            group.extend(by_line[members].iter().map(|k| edges.run(*k)));
-            if worker.pair_alone(&group, &mut pieces) {
-                continue;
-            }
-            surviving.runs.clear();
-            let slits = surviving.slits.len();
-            worker.cancel(&mut group, &mut surviving)?;
-            if surviving.slits.len() == slits {
-                worker.cut(&surviving.runs, &[], &mut pieces, Crossed::No)?;
+        let (mut surviving, mut runs) = (Surviving::default(), Vec::new());
+        let mut pieces = Vec::with_capacity(of_lines(numbers).len());
+        for some in numbers.chunks(LINES_AT_A_TIME) {
+            // edges lie anywhere in memory: in a loop of their own several are on their way at once
+            runs.clear();
+            runs.extend(by_line[of_lines(some)].iter().map(|k| edges.run(*k)));
+            for group in split_by(&mut runs, some.iter().map(|line| of_lines(&[*line]).len())) {
+                if worker.pair_alone(group, &mut pieces) {
+                    continue;
+                }
+                surviving.runs.clear();
+                let slits = surviving.slits.len();
+                worker.cancel(group, &mut surviving)?;
+                if surviving.slits.len() == slits {
+                    worker.cut(&surviving.runs, &[], &mut pieces, Crossed::No)?;
+                }
             }
         }
         Ok(Pieces { pieces, is_slit: !surviving.slits.is_empty(), passed: surviving.passed })

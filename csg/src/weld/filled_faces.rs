@@ -6,7 +6,7 @@ use planecut_kernel::sign::Counts;
 use super::cancel::HalfEdge;
 use super::large_face::{FaceEdge, LargeFace};
 use super::manifold::Labels;
-use super::nest::{Faces, Projection};
+use super::nest::{Face, Faces, Projection};
 use super::points::Points;
 use super::regions::Regions;
 use super::triangulate::{Triangles, Triangulator, WeldPoints};
@@ -40,10 +40,15 @@ pub(super) fn filled_faces(
         let exact = WeldPoints { table, points, half_edges: pieces, planes: &regions.planes };
         let mut triangulator = Triangulator::new(&exact);
         let (mut edges, mut triangles): (Vec<FaceEdge>, _) = (Vec::new(), Triangles::default());
-        let (mut mesh_faces, mut triangle_faces) = (Vec::new(), Vec::new());
-        for face in chunk.iter().flat_map(Faces::iter) {
+        // planes lie anywhere in memory: in a loop of their own several are on their way at once
+        let of_face = |face: Face<'_>| {
             let normal = table.half_space(regions.planes[face.region.index()]).normal();
-            let projection = Projection::new(normal);
+            (mesh_face(regions, face.region, normal), Projection::new(normal))
+        };
+        let all = || chunk.iter().flat_map(Faces::iter);
+        let (mut mesh_faces, projections): (Vec<MeshFace>, Vec<Projection>) = all().map(of_face).unzip();
+        let mut triangle_faces = Vec::new();
+        for (number, (face, projection)) in (0..).zip(all().zip(projections)) {
             edges.clear();
             edges.extend(face.loops().flatten().map(|k| pieces[k.index()].edge_of_face(*k)));
             let at = |point: PointId| projection.of(points.positions[point.index()]);
@@ -57,8 +62,7 @@ pub(super) fn filled_faces(
                     triangulator.triangulate(&mut triangles);
                 }
             }
-            triangle_faces.resize(triangles.corners.len(), number32(mesh_faces.len()));
-            mesh_faces.push(mesh_face(regions, face.region, normal));
+            triangle_faces.resize(triangles.corners.len(), number);
         }
         let corner = |piece: HalfEdgeId| vertex[piece.index()].number();
         let Triangles { corners, mut labels } = triangles;

@@ -20,11 +20,11 @@ const CHUNK: usize = 4096;
 
 /// The vertex at the start of each half-edge; and for each vertex the point it lies on. Vertices are numbered by the first of their half-edges.
 pub(super) fn vertices(pieces: &[HalfEdge], following: &[HalfEdgeId]) -> (Vec<VertexId>, Vec<PointId>) {
-    // around the fan: the twin ends at the corner's point, and its follower starts there
+    // Around the fan: the twin ends at the corner's point, and its follower starts there. In a list of their own several are on their way from memory at once.
+    let turned = |piece: &HalfEdge| following[piece.twin.index()];
+    let turned: &[HalfEdgeId] = &pieces.par_iter().with_min_len(CHUNK).map(turned).collect::<Vec<_>>();
     let around = |first: HalfEdgeId| {
-        let next = move |piece: &HalfEdgeId| {
-            Some(following[pieces[piece.index()].twin.index()]).filter(|piece| *piece != first)
-        };
+        let next = move |piece: &HalfEdgeId| Some(turned[piece.index()]).filter(|piece| *piece != first);
         std::iter::successors(Some(first), next)
     };
     let is_first = |piece: &HalfEdgeId| around(*piece).skip(1).all(|other| other > *piece);

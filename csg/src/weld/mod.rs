@@ -54,7 +54,7 @@ use filled_faces::filled_faces;
 pub(crate) use live::LiveWeld;
 pub(crate) use live::WeldedFace;
 pub(crate) use nest::Projection;
-use nest::{Faces, Nester};
+use nest::{Faces, Nester, RegionPlane};
 use numbered_edges::NumberedEdges;
 use points::Points;
 use region_corners::RegionCorners;
@@ -250,15 +250,18 @@ fn nest(
     let extent = measure::extent(&points.positions, pieces);
     let middle = 0.5 * (extent.0 + extent.1);
     let (parts, counts) = map_weighed_chunks(ranges, 512, Range::len, |chunk| -> Result<_, WeldError> {
-        let (mut nester, mut corners) = (Nester::new(table, points), RegionCorners::default());
+        let (mut nester, mut corners) = (Nester::default(), RegionCorners::default());
         let (mut following, mut faces, mut measures) = (Vec::new(), Faces::default(), Vec::new());
-        for range in chunk {
+        // planes lie anywhere in memory: in a loop of their own several are on their way at once
+        let plane = |range: &Range<usize>| regions.planes[pieces[range.start].region.index()];
+        let planes = chunk.iter().map(|range| RegionPlane::new(table, points, plane(range)));
+        let planes: Vec<RegionPlane<'_>> = planes.collect();
+        for (range, plane) in chunk.iter().zip(&planes) {
             let (region, start) = (&pieces[range.clone()], range.start);
-            let plane = regions.planes[region[0].region.index()];
             let done = following.len();
             corners.set(region);
             let first = |point: PointId| corners.first_at(point).unwrap_or(region.len());
-            loops::follow(table, plane, region, start, first, &mut following)?;
+            loops::follow(table, plane.plane, region, start, first, &mut following)?;
             nester.add_faces(plane, region, start, &following[done..], &mut faces)?;
         }
         measure::of_faces(&points.positions, pieces, &faces, middle, &mut measures);

@@ -120,7 +120,7 @@ impl Extent {
 pub(super) struct RegionPlane<'a> {
     table: &'a PlaneTable,
     points: &'a Points,
-    plane: PlaneId,
+    pub(super) plane: PlaneId,
     at: Projection,
 }
 
@@ -230,9 +230,8 @@ struct Loop {
 }
 
 /// Groups loops into faces, reusing its buffers.
+#[derive(Default)]
 pub(super) struct Nester<'a> {
-    table: &'a PlaneTable,
-    points: &'a Points,
     /// The half-edges of the region, and the number of the first.
     region: &'a [HalfEdge],
     base: usize,
@@ -243,31 +242,26 @@ pub(super) struct Nester<'a> {
 }
 
 impl<'a> Nester<'a> {
-    pub(super) fn new(table: &'a PlaneTable, points: &'a Points) -> Self {
-        Self { table, points, region: &[], base: 0, seen: Vec::new(), pieces: Vec::new(), loops: Vec::new() }
-    }
-
     /// Adds the faces of one region, given by its half-edges, numbered from `base`, and what follows each.
     pub(super) fn add_faces(
         &mut self,
-        plane: PlaneId,
+        plane: &RegionPlane<'_>,
         region: &'a [HalfEdge],
         base: usize,
         following: &[HalfEdgeId],
         faces: &mut Faces,
     ) -> Result<(), WeldError> {
         (self.region, self.base) = (region, base);
-        let plane = RegionPlane::new(self.table, self.points, plane);
         self.seen.clear();
         self.seen.resize(region.len(), false);
         self.pieces.clear();
         self.loops.clear();
         for start in 0..region.len() {
             if !self.seen[start] {
-                self.walk(&plane, start, following);
+                self.walk(plane, start, following);
             }
         }
-        self.group(&plane, region[0].region, faces)
+        self.group(plane, region[0].region, faces)
     }
 
     fn pieces_of(&self, candidate: &Loop) -> &[HalfEdgeId] {

@@ -10,7 +10,7 @@ use super::points::Points;
 use super::region_corners::RegionCorners;
 use crate::base::{Bounds, Boxes};
 use crate::ids::{Id, PointId, PointOnLine, number32};
-use crate::plane_table::{PlaneId, PlaneTable};
+use crate::plane_table::PlaneTable;
 
 /// Regions of fewer corners are searched edge by edge.
 const MANY: usize = 24;
@@ -92,13 +92,12 @@ impl<'a> PinchFinder<'a> {
         }
     }
 
-    /// Finds those of one region, whose half-edges are sorted by place, on a plane.
-    pub(super) fn search(&mut self, region: &[HalfEdge], plane: PlaneId) {
+    /// Finds those of one region, whose half-edges are sorted by place.
+    pub(super) fn search(&mut self, region: &[HalfEdge], projection: Projection) {
         // what touches itself has at least two triangles
         if region.len() <= 4 {
             return;
         }
-        let projection = Projection::new(self.table.half_space(plane).normal());
         self.corners.set(region);
         self.places.clear();
         let place = |corner: &PointId| projection.of(self.points.positions[corner.index()]);
@@ -222,7 +221,8 @@ mod tests {
         let mut finder = PinchFinder::new(&built.table, &points);
         for range in sorted.ranges {
             let region = &sorted.pieces[range];
-            finder.search(region, regions.planes[region[0].region.index()]);
+            let half_space = built.table.half_space(regions.planes[region[0].region.index()]);
+            finder.search(region, Projection::new(half_space.normal()));
         }
         assert!(finder.found.is_empty());
         finder.looked_at as f64 / sorted.pieces.len() as f64

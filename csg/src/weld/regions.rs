@@ -7,6 +7,7 @@ use planecut_kernel::sign::Counts;
 use planecut_parallel::prelude::*;
 
 use super::cancel::HalfEdge;
+use super::nest::Projection;
 use super::pinches::PinchFinder;
 use super::points::Points;
 use crate::base::{by_group, counted, split_by, takes_much_memory, weighed_runs};
@@ -177,6 +178,9 @@ impl RegionPieces {
         let work = |(run, sorted): (&Range<usize>, &mut [HalfEdge])| {
             let mut finder = PinchFinder::new(table, points);
             let first = ranges[run.start].start;
+            // planes and half-edges lie anywhere in memory: in loops of their own several are on their way at once
+            let projection = |number: &RegionId| Projection::new(table.half_space(planes[number.index()]).normal());
+            let projections: Vec<Projection> = regions[run.clone()].iter().map(projection).collect();
             for (number, range) in regions[run.clone()].iter().zip(&ranges[run.clone()]) {
                 let sorted = &mut sorted[range.start - first..range.end - first];
                 for ((sorted, old), new) in sorted.iter_mut().zip(&old[range.clone()]).zip(range.clone()) {
@@ -185,7 +189,9 @@ impl RegionPieces {
                     *sorted = HalfEdge { region: *number, ..piece };
                     place[old.index()].store(HalfEdgeId::from_index(new).number(), Ordering::Relaxed);
                 }
-                finder.search(sorted, planes[number.index()]);
+            }
+            for (projection, range) in projections.into_iter().zip(&ranges[run.clone()]) {
+                finder.search(&sorted[range.start - first..range.end - first], projection);
             }
             finder.found
         };
