@@ -12,7 +12,7 @@ use super::{Arranged, Arrangement};
 use crate::base::map_weighed_chunks;
 use crate::ids::{HalfEdgeId, Id, LineId, PointId, number32};
 use crate::weld::Projection;
-use crate::weld::triangulate::{ExactPoints, LoopCorner, Triangles, Triangulator};
+use crate::weld::triangulate::{ExactPoints, LoopCorner, Triangles, Triangulator, side_bits};
 use glam::DVec3;
 
 /// The triangles of faces, one face after the other.
@@ -111,9 +111,7 @@ impl Arranged<'_> {
                 }
                 let mut triangles = Triangles::default();
                 triangulator.triangulate(&mut triangles);
-                let within = |label: HalfEdgeId, bit: u8| if label == HalfEdgeId::NONE { bit } else { 0 };
-                let bits = |[a, b, c]: &[HalfEdgeId; 3]| within(*a, 1) | within(*b, 2) | within(*c, 4);
-                filled.diagonals.extend(triangles.labels.iter().map(bits));
+                filled.diagonals.extend(triangles.on_loops.iter().map(|on_loops| !on_loops & side_bits([true; 3])));
                 let all: Vec<PointId> = loops.concat();
                 filled
                     .triangles

@@ -10,7 +10,7 @@ use super::nest::{Face, Faces, Projection};
 use super::points::Points;
 use super::regions::Regions;
 use super::triangulate::{Triangles, Triangulator, WeldPoints};
-use crate::base::{concat_made, concat_owned, map_chunks, starts_of};
+use crate::base::{by_parts, concat_made, concat_owned, map_chunks, starts_of};
 use crate::ids::{HalfEdgeId, Id, PointId, RegionId, VertexId, number32};
 use crate::mesh::{Mesh, MeshFace};
 use crate::model::Material;
@@ -18,10 +18,7 @@ use crate::plane_table::PlaneTable;
 
 /// The triangles of some faces.
 pub(super) struct FilledFaces {
-    /// The vertices of each triangle.
-    triangles: Vec<[u32; 3]>,
-    /// The half-edge behind each side.
-    labels: Labels,
+    triangles: Triangles,
     faces: Vec<MeshFace>,
     /// For each triangle the place of its face among these.
     triangle_faces: Vec<u32>,
@@ -34,7 +31,6 @@ pub(super) fn filled_faces(
     points: &Points,
     pieces: &[HalfEdge],
     faces: &[Faces],
-    vertex: &[VertexId],
 ) -> (Vec<FilledFaces>, Counts) {
     let (parts, counts) = map_chunks(faces, 1, |chunk| {
         let exact = WeldPoints { table, points, half_edges: pieces, planes: &regions.planes };
@@ -64,14 +60,12 @@ pub(super) fn filled_faces(
             }
             triangle_faces.resize(triangles.corners.len(), number);
         }
-        let corner = |piece: HalfEdgeId| vertex[piece.index()].number();
-        let Triangles { corners, mut labels } = triangles;
         // room for more may be as much again
-        labels.shrink_to_fit();
+        triangles.corners.shrink_to_fit();
+        triangles.on_loops.shrink_to_fit();
         mesh_faces.shrink_to_fit();
         triangle_faces.shrink_to_fit();
-        let triangles = corners.iter().map(|corners| corners.map(corner)).collect();
-        FilledFaces { triangles, labels, faces: mesh_faces, triangle_faces }
+        FilledFaces { triangles, faces: mesh_faces, triangle_faces }
     });
     (parts, counts)
 }
@@ -81,13 +75,21 @@ fn mesh_face(regions: &Regions, region: RegionId, normal: DVec3) -> MeshFace {
     MeshFace { normal: scaled.normalize(), material: regions.materials[region.index()] }
 }
 
-/// The mesh of faces, without positions; and what is behind the sides of its triangles, in parts.
-pub(super) fn mesh_of(mut parts: Vec<FilledFaces>, materials: &[Material]) -> (Mesh, Vec<Labels>) {
+/// The mesh of faces, of which the triangles are left, without positions; `vertex` gives the vertex at which each half-edge begins.
+pub(super) fn mesh_of(parts: &mut [FilledFaces], vertex: &[VertexId], materials: &[Material]) -> Mesh {
     let first = starts_of(parts.iter().map(|part| part.faces.len()));
     let faces = concat_owned(parts.iter_mut().map(|part| std::mem::take(&mut part.faces)).collect());
-    let triangles = concat_owned(parts.iter_mut().map(|part| std::mem::take(&mut part.triangles)).collect());
     let triangle_faces = parts.iter_mut().map(|part| std::mem::take(&mut part.triangle_faces)).collect();
     let triangle_faces = concat_made(triangle_faces, |part, face| number32(first[part]) + *face);
-    let mesh = Mesh { triangles, triangle_faces, faces, materials: materials.to_vec(), ..Mesh::default() };
-    (mesh, parts.into_iter().map(|part| part.labels).collect())
+    let corner = |piece: HalfEdgeId| vertex[piece.index()].number();
+    let triangle = |part: usize, k: usize| parts[part].triangles.corners[k].map(corner);
+    let triangles = by_parts(parts.iter().map(|part| part.triangles.corners.len()), triangle);
+    Mesh { triangles, triangle_faces, faces, materials: materials.to_vec(), ..Mesh::default() }
+}
+
+/// The half-edge behind each side of each triangle.
+pub(super) fn labels(parts: &[FilledFaces]) -> Labels {
+    let all = parts.iter().flat_map(|part| part.triangles.corners.iter().zip(&part.triangles.on_loops));
+    let label = |corner: HalfEdgeId, is_on_loop: bool| if is_on_loop { corner } else { HalfEdgeId::NONE };
+    all.map(|(corners, on_loops)| [0, 1, 2].map(|k| label(corners[k], on_loops >> k & 1 == 1))).collect()
 }

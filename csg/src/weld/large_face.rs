@@ -6,7 +6,7 @@ use planecut_kernel::DVec2;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::delaunay::{Conflict, Delaunay};
-use super::triangulate::Triangles;
+use super::triangulate::{Triangles, side_bits};
 use crate::ids::{HalfEdgeId, Id, PointId, SiteId};
 
 /// Number of corners from which faces are triangulated so. Smaller ones are triangulated as a whole by [`Triangulator`](super::triangulate::Triangulator),
@@ -27,6 +27,9 @@ pub(super) struct LargeFace {
     delaunay: Delaunay,
     sites: FxHashMap<PointId, SiteId>,
 }
+
+/// A side of a triangle: the half-edge of the boundary that begins at its first corner, and the one that it lies on.
+type Side = (HalfEdgeId, Option<HalfEdgeId>);
 
 impl LargeFace {
     /// Triangulates a face of some boundary edges; `at` gives the places of points in the plane.
@@ -148,10 +151,14 @@ impl LargeFace {
             sides.rotate_left(least);
             sides
         };
-        let mut all: Vec<[(HalfEdgeId, Option<HalfEdgeId>); 3]> = (0..self.triangle_count()).map(triangle).collect();
+        let mut all: Vec<[Side; 3]> = (0..self.triangle_count()).map(triangle).collect();
         all.sort_unstable();
         out.corners.extend(all.iter().map(|sides| sides.map(|side| side.0)));
-        out.labels.extend(all.iter().map(|sides| sides.map(|side| side.1.unwrap_or(HalfEdgeId::NONE))));
+        let is_on_loop = |(corner, along): Side| {
+            debug_assert!(along.is_none_or(|along| along == corner), "a side along a half-edge of another corner");
+            along.is_some()
+        };
+        out.on_loops.extend(all.iter().map(|sides| side_bits(sides.map(is_on_loop))));
     }
 }
 

@@ -162,22 +162,24 @@ pub(crate) fn weld(
     drop((following, ranges));
 
     let begin = Clock::start();
-    let (filled, counted) = filled_faces(table, &regions, &points, &pieces, &faces, &vertex);
+    let (mut filled, counted) = filled_faces(table, &regions, &points, &pieces, &faces);
     signs += counted;
     // of a large model each of these is as large as its mesh
-    drop((faces, vertex));
+    drop(faces);
     let twins: Vec<HalfEdgeId> = pieces.par_iter().with_min_len(4096).map(|piece| piece.twin).collect();
     drop(pieces);
-    let (mut mesh, labels) = filled_faces::mesh_of(filled, materials);
+    let mut mesh = filled_faces::mesh_of(&mut filled, &vertex, materials);
+    drop(vertex);
     mesh.positions = point.par_iter().with_min_len(4096).map(|p| points.positions[p.index()]).collect();
     drop((point, points));
     // an edge that is there twice is not paired
     let repeated = manifold::repeated_edges(&mesh);
     let is_closed = repeated.is_none();
     if let Some(repeated) = repeated {
-        manifold::split_repeated_edges(&mut mesh, &mut labels.concat(), repeated, |piece| twins[piece.index()]);
+        let mut labels = filled_faces::labels(&filled);
+        manifold::split_repeated_edges(&mut mesh, &mut labels, repeated, |piece| twins[piece.index()]);
     }
-    drop((labels, twins));
+    drop((filled, twins));
     let (mesh, noise) = proven(mesh, &solid, walls, is_closed)?;
     Ok(Welded { mesh, solid, noise, signs, triangulation: begin.elapsed() })
 }

@@ -191,7 +191,7 @@ impl<'a> FaceTriangulator<'a> {
                 triangulator.add_loop(members.pieces.iter().map(corner));
             }
             found.corners.clear();
-            found.labels.clear();
+            found.on_loops.clear();
             triangulator.triangulate(&mut found);
             Triangulation::Whole(found.corners.clone())
         };

@@ -13,7 +13,6 @@ mod turn;
 use planecut_kernel::sign::Sign;
 use planecut_kernel::{DVec2, DVec3};
 
-use super::manifold::Labels;
 use super::nest::Projection;
 use crate::ids::{HalfEdgeId, Id, LineId, NodeId, PointId};
 use ears::Ears;
@@ -47,11 +46,17 @@ struct Corner {
     piece: HalfEdgeId,
 }
 
-/// Triangles of faces: for each corner the half-edge of a loop that begins there, and for each side the half-edge it lies on.
+/// Triangles of faces: for each corner the half-edge of a loop that begins there, and which sides lie on these half-edges.
 #[derive(Debug, Default)]
 pub(crate) struct Triangles {
     pub(crate) corners: Vec<[HalfEdgeId; 3]>,
-    pub(crate) labels: Labels,
+    /// A bit for each side that lies on the half-edge that begins at its first corner; the others are diagonals.
+    pub(crate) on_loops: Vec<u8>,
+}
+
+/// The bits of the sides of a triangle for which something holds.
+pub(crate) fn side_bits(sides: [bool; 3]) -> u8 {
+    sides.into_iter().rev().fold(0, |bits, side| bits << 1 | u8::from(side))
 }
 
 /// The line of a bridge or a diagonal.
@@ -150,7 +155,7 @@ impl<'a> Triangulator<'a> {
         if let [a, b, c] = boundary.nodes[..] {
             let pieces = [a, b, c].map(|node| node.corner.piece);
             out.corners.push(pieces);
-            out.labels.push(pieces);
+            out.on_loops.push(side_bits([true; 3]));
             return;
         }
         if let [a, b, c, d] = boundary.nodes[..]
@@ -158,9 +163,10 @@ impl<'a> Triangulator<'a> {
             && let Some(triangles) = convex_quadrilateral([a, b, c, d].map(|node| node.corner.at))
         {
             let pieces = [a, b, c, d].map(|node| node.corner.piece);
-            let label = |from: usize, to: usize| if to == (from + 1) % 4 { pieces[from] } else { HalfEdgeId::NONE };
+            let is_on_loop = |from: usize, to: usize| to == (from + 1) % 4;
             out.corners.extend(triangles.map(|corners| corners.map(|corner| pieces[corner])));
-            out.labels.extend(triangles.map(|[a, b, c]| [label(a, b), label(b, c), label(c, a)]));
+            let on_loop = |[a, b, c]: [usize; 3]| side_bits([is_on_loop(a, b), is_on_loop(b, c), is_on_loop(c, a)]);
+            out.on_loops.extend(triangles.map(on_loop));
             return;
         }
         let start = rings[0];
@@ -172,9 +178,9 @@ impl<'a> Triangulator<'a> {
         flips.improve(&boundary.nodes, triangles);
         let corner = |node: NodeId| &boundary.nodes[node.index()].corner;
         out.corners.extend(triangles.iter().map(|t| t.map(|node| corner(node).piece)));
-        let label =
-            |from: NodeId, to: NodeId| if ahead[from.index()] == to { corner(from).piece } else { HalfEdgeId::NONE };
-        out.labels.extend(triangles.iter().map(|[a, b, c]| [label(*a, *b), label(*b, *c), label(*c, *a)]));
+        let is_on_loop = |from: NodeId, to: NodeId| ahead[from.index()] == to;
+        let on_loop = |&[a, b, c]: &[NodeId; 3]| side_bits([is_on_loop(a, b), is_on_loop(b, c), is_on_loop(c, a)]);
+        out.on_loops.extend(triangles.iter().map(on_loop));
     }
 }
 
