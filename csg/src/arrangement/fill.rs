@@ -21,14 +21,14 @@ pub(super) struct FilledFaces {
     pub(super) triangles: Vec<[u32; 3]>,
     /// The number of triangles of each face.
     pub(super) counts: Vec<u32>,
-    /// For each triangle which of its sides lie within its face, a bit for each.
-    diagonals: Vec<u8>,
+    /// For each triangle which of its sides lie on loops of its face, a bit for each.
+    on_loops: Vec<u8>,
 }
 
 impl FilledFaces {
     /// Whether a half-edge lies within a face, not on a loop of it.
     pub(super) fn is_diagonal(&self, half_edge: u32) -> bool {
-        self.diagonals[half_edge as usize / 3] >> (half_edge % 3) & 1 == 1
+        self.on_loops[half_edge as usize / 3] >> (half_edge % 3) & 1 == 0
     }
 }
 
@@ -56,7 +56,7 @@ impl Arranged<'_> {
         for part in parts {
             all.triangles.extend(part.triangles);
             all.counts.extend(part.counts);
-            all.diagonals.extend(part.diagonals);
+            all.on_loops.extend(part.on_loops);
         }
         all
     }
@@ -96,7 +96,7 @@ impl Arranged<'_> {
             if loops.is_empty() {
                 let [a, b, c] = self.arrangement.surface.corners[kept.facet.index()].map(|point| point.number());
                 filled.triangles.push(if kept.is_flipped { [a, c, b] } else { [a, b, c] });
-                filled.diagonals.push(0);
+                filled.on_loops.push(side_bits([true; 3]));
             } else if let Some(projection) = self.projection(kept) {
                 triangulator.begin(projection);
                 let mut first = 0;
@@ -111,7 +111,7 @@ impl Arranged<'_> {
                 }
                 let mut triangles = Triangles::default();
                 triangulator.triangulate(&mut triangles);
-                filled.diagonals.extend(triangles.on_loops.iter().map(|on_loops| !on_loops & side_bits([true; 3])));
+                filled.on_loops.extend(&triangles.on_loops);
                 let all: Vec<PointId> = loops.concat();
                 filled
                     .triangles

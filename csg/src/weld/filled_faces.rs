@@ -75,21 +75,26 @@ fn mesh_face(regions: &Regions, region: RegionId, normal: DVec3) -> MeshFace {
     MeshFace { normal: scaled.normalize(), material: regions.materials[region.index()] }
 }
 
-/// The mesh of faces, of which the triangles are left, without positions; `vertex` gives the vertex at which each half-edge begins.
-pub(super) fn mesh_of(parts: &mut [FilledFaces], vertex: &[VertexId], materials: &[Material]) -> Mesh {
+/// The mesh of faces, without positions, and their triangles by half-edges, in parts; `vertex` gives the vertex at which each half-edge begins.
+pub(super) fn mesh_of(parts: Vec<FilledFaces>, vertex: &[VertexId], materials: &[Material]) -> (Mesh, Vec<Triangles>) {
     let first = starts_of(parts.iter().map(|part| part.faces.len()));
-    let faces = concat_owned(parts.iter_mut().map(|part| std::mem::take(&mut part.faces)).collect());
-    let triangle_faces = parts.iter_mut().map(|part| std::mem::take(&mut part.triangle_faces)).collect();
+    let (mut filled, mut faces, mut triangle_faces) = (Vec::new(), Vec::new(), Vec::new());
+    for part in parts {
+        filled.push(part.triangles);
+        faces.push(part.faces);
+        triangle_faces.push(part.triangle_faces);
+    }
+    let faces = concat_owned(faces);
     let triangle_faces = concat_made(triangle_faces, |part, face| number32(first[part]) + *face);
     let corner = |piece: HalfEdgeId| vertex[piece.index()].number();
-    let triangle = |part: usize, k: usize| parts[part].triangles.corners[k].map(corner);
-    let triangles = by_parts(parts.iter().map(|part| part.triangles.corners.len()), triangle);
-    Mesh { triangles, triangle_faces, faces, materials: materials.to_vec(), ..Mesh::default() }
+    let triangle = |part: usize, k: usize| filled[part].corners[k].map(corner);
+    let triangles = by_parts(filled.iter().map(|part| part.corners.len()), triangle);
+    (Mesh { triangles, triangle_faces, faces, materials: materials.to_vec(), ..Mesh::default() }, filled)
 }
 
 /// The half-edge behind each side of each triangle.
-pub(super) fn labels(parts: &[FilledFaces]) -> Labels {
-    let all = parts.iter().flat_map(|part| part.triangles.corners.iter().zip(&part.triangles.on_loops));
+pub(super) fn labels(filled: &[Triangles]) -> Labels {
+    let all = filled.iter().flat_map(|part| part.corners.iter().zip(&part.on_loops));
     let label = |corner: HalfEdgeId, is_on_loop: bool| if is_on_loop { corner } else { HalfEdgeId::NONE };
     all.map(|(corners, on_loops)| [0, 1, 2].map(|k| label(corners[k], on_loops >> k & 1 == 1))).collect()
 }

@@ -162,13 +162,13 @@ pub(crate) fn weld(
     drop((following, ranges));
 
     let begin = Clock::start();
-    let (mut filled, counted) = filled_faces(table, &regions, &points, &pieces, &faces);
+    let (filled, counted) = filled_faces(table, &regions, &points, &pieces, &faces);
     signs += counted;
     // of a large model each of these is as large as its mesh
     drop(faces);
     let twins: Vec<HalfEdgeId> = pieces.par_iter().with_min_len(4096).map(|piece| piece.twin).collect();
     drop(pieces);
-    let mut mesh = filled_faces::mesh_of(&mut filled, &vertex, materials);
+    let (mut mesh, filled) = filled_faces::mesh_of(filled, &vertex, materials);
     drop(vertex);
     mesh.positions = point.par_iter().with_min_len(4096).map(|p| points.positions[p.index()]).collect();
     drop((point, points));

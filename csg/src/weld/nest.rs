@@ -72,6 +72,11 @@ impl Projection {
         if normal[axis] > 0.0 { Self { u, v } } else { Self { u: v, v: u } }
     }
 
+    /// That along the normal of a plane.
+    pub(super) fn of_plane(table: &PlaneTable, plane: PlaneId) -> Self {
+        Self::new(table.half_space(plane).normal())
+    }
+
     pub(crate) fn of(self, p: DVec3) -> DVec2 {
         DVec2::new(p[self.u], p[self.v])
     }
@@ -126,7 +131,7 @@ pub(super) struct RegionPlane<'a> {
 
 impl<'a> RegionPlane<'a> {
     pub(super) fn new(table: &'a PlaneTable, points: &'a Points, plane: PlaneId) -> Self {
-        Self { table, points, plane, at: Projection::new(table.half_space(plane).normal()) }
+        Self { table, points, plane, at: Projection::of_plane(table, plane) }
     }
 
     /// Where a point is, rounded.

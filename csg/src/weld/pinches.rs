@@ -221,8 +221,7 @@ mod tests {
         let mut finder = PinchFinder::new(&built.table, &points);
         for range in sorted.ranges {
             let region = &sorted.pieces[range];
-            let half_space = built.table.half_space(regions.planes[region[0].region.index()]);
-            finder.search(region, Projection::new(half_space.normal()));
+            finder.search(region, Projection::of_plane(&built.table, regions.planes[region[0].region.index()]));
         }
         assert!(finder.found.is_empty());
         finder.looked_at as f64 / sorted.pieces.len() as f64

@@ -179,7 +179,7 @@ impl RegionPieces {
             let mut finder = PinchFinder::new(table, points);
             let first = ranges[run.start].start;
             // planes and half-edges lie anywhere in memory: in loops of their own several are on their way at once
-            let projection = |number: &RegionId| Projection::new(table.half_space(planes[number.index()]).normal());
+            let projection = |number: &RegionId| Projection::of_plane(table, planes[number.index()]);
             let projections: Vec<Projection> = regions[run.clone()].iter().map(projection).collect();
             for (number, range) in regions[run.clone()].iter().zip(&ranges[run.clone()]) {
                 let sorted = &mut sorted[range.start - first..range.end - first];

@@ -172,7 +172,7 @@ impl<'a> FaceTriangulator<'a> {
         let half_edge = |piece: HalfEdgeId| &self.pieces.half_edges[piece.index()];
         let mut triangulate = |job: &Job<'_>| {
             let outer = &job.outer.pieces;
-            let projection = Projection::new(table.half_space(numbers.planes[job.region.index()]).normal());
+            let projection = Projection::of_plane(table, numbers.planes[job.region.index()]);
             match outer[..] {
                 [a, b, c] if job.holes.is_empty() => return Triangulation::One([a, b, c]),
                 [a, b, c, d] if job.holes.is_empty() => {
