@@ -8,6 +8,8 @@ pub(crate) const PLANECUT: &str = "planecut";
 /// The same from lists of half-spaces: the bodies are built while the clock runs.
 pub(crate) const PLANECUT_PLANES: &str = "planecut from planes";
 pub(crate) const PLANECUT_BLOCKS: &str = "planecut in blocks";
+/// Ours: they work on half-spaces.
+pub(crate) const OURS: [&str; 3] = [PLANECUT, PLANECUT_PLANES, PLANECUT_BLOCKS];
 pub(crate) const MANIFOLD3D: &str = "manifold3d";
 pub(crate) const OPENSCAD: &str = "openscad";
 
@@ -51,7 +53,7 @@ impl Entrant {
     pub(crate) const IN_BLOCKS: Self = Self { name: PLANECUT_BLOCKS, cores: CORES };
 
     pub(crate) fn is_ours(self) -> bool {
-        [PLANECUT, PLANECUT_PLANES, PLANECUT_BLOCKS].contains(&self.name)
+        OURS.contains(&self.name)
     }
 
     /// Whether it takes part where bodies are meshes that are made of arrays on the clock.

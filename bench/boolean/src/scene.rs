@@ -214,22 +214,45 @@ impl Scene {
 
     /// Reads the file again.
     pub(crate) fn read(path: &Path) -> std::io::Result<Self> {
+        Self::read_with(path, |_| true)
+    }
+
+    /// Reads the file without the meshes of bodies that have half-spaces: what is read and dropped would leave holes among
+    /// what stays, and count as memory of a kernel that has no use for it.
+    pub(crate) fn read_half_spaces(path: &Path) -> std::io::Result<Self> {
+        Self::read_with(path, Body::is_mesh)
+    }
+
+    fn read_with(path: &Path, needs_mesh: impl Fn(&Body) -> bool) -> std::io::Result<Self> {
         let mut file = BufReader::new(File::open(path)?);
         let mut line = String::new();
         file.read_line(&mut line)?;
         let Header { bodies: sizes, matrices, plan } = serde_json::from_str(&line)?;
+        drop(line);
         let mut bodies: Vec<Body> = matrices.into_iter().map(|matrix| Body { matrix, ..Body::default() }).collect();
         for (body, [count, _, _]) in bodies.iter_mut().zip(&sizes) {
             body.planes = (0..*count).map(|_| read_numbers(&mut file)).collect::<Result<_, _>>()?;
         }
         for (body, [_, count, _]) in bodies.iter_mut().zip(&sizes) {
-            body.positions = (0..*count).map(|_| read_numbers(&mut file)).collect::<Result<_, _>>()?;
+            if needs_mesh(body) {
+                body.positions = (0..*count).map(|_| read_numbers(&mut file)).collect::<Result<_, _>>()?;
+            } else {
+                skip::<[f64; 3]>(&mut file, *count)?;
+            }
         }
         for (body, [_, _, count]) in bodies.iter_mut().zip(&sizes) {
-            body.triangles = (0..*count).map(|_| read_corners(&mut file)).collect::<Result<_, _>>()?;
+            if needs_mesh(body) {
+                body.triangles = (0..*count).map(|_| read_corners(&mut file)).collect::<Result<_, _>>()?;
+            } else {
+                skip::<[u32; 3]>(&mut file, *count)?;
+            }
         }
         Ok(Self { bodies, plan })
     }
+}
+
+fn skip<T>(file: &mut BufReader<File>, count: usize) -> std::io::Result<()> {
+    file.seek_relative((count * size_of::<T>()) as i64)
 }
 
 fn read_numbers<const N: usize>(file: &mut impl Read) -> std::io::Result<[f64; N]> {
@@ -272,10 +295,15 @@ mod tests {
             scene.write(&file).unwrap();
             assert_eq!(Scene::read(&file).unwrap(), scene);
         }
+        let half_spaces = Scene::read_half_spaces(&file).unwrap();
+        let planes = |scene: &Scene| scene.bodies.iter().map(|body| body.planes.clone()).collect::<Vec<_>>();
+        assert_eq!(planes(&half_spaces), planes(&scene));
+        assert!(half_spaces.bodies.iter().all(|body| body.positions.is_empty() && body.triangles.is_empty()));
         let matrix = Some([[1.0, 0.1, 0.0, 5.0], [0.0, 1.0, 0.0, 1.0 / 3.0], [0.0, 0.0, 2.0, 0.0]]);
         scene.bodies[0] = Body { planes: Vec::new(), matrix, ..scene.bodies[0].clone() };
         scene.write(&file).unwrap();
         assert_eq!(Scene::read(&file).unwrap(), scene);
+        assert_eq!(Scene::read_half_spaces(&file).unwrap().bodies[0], scene.bodies[0]);
         std::fs::remove_file(file).unwrap();
     }
 
