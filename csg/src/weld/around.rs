@@ -27,7 +27,7 @@ pub(super) struct Sheet {
 
 impl From<&Run> for Sheet {
     fn from(run: &Run) -> Self {
-        Self { region: run.region, forward: run.forward }
+        Self { region: run.region, forward: run.is_forward() }
     }
 }
 

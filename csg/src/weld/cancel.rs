@@ -11,7 +11,6 @@ use super::around::{self, AroundLine};
 use super::crossings::Passed;
 use super::large_face::FaceEdge;
 use super::lines::Line;
-use super::numbered_edges::NumberedEdges;
 use super::points::Points;
 use super::slits::SlitFinder;
 use super::stops::Stops;
@@ -25,15 +24,28 @@ const LINES_AT_A_TIME: usize = 256;
 /// A directed piece of a line along which one region ends on one side: a boundary edge, or after cancelling a maximal run.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Run {
-    pub(super) line: LineId,
+    /// The line in the direction in which it runs.
+    pub(super) along: DirectedLine,
     /// The region: an oriented plane and a material.
     pub(super) region: RegionId,
     /// The plane of the edge, outward from the region.
     pub(super) edge: PlaneId,
     pub(super) from: PointId,
     pub(super) to: PointId,
+}
+
+impl Run {
+    /// Its line.
+    #[inline]
+    pub(super) fn line(&self) -> LineId {
+        self.along.line()
+    }
+
     /// Whether it points along its line.
-    pub(super) forward: bool,
+    #[inline]
+    pub(super) fn is_forward(&self) -> bool {
+        self.along.is_forward()
+    }
 }
 
 /// What cancelling leaves.
@@ -93,7 +105,7 @@ pub(super) fn pieces(
     points: &Points,
     lines: &[Line],
     planes: &[PlaneId],
-    edges: &NumberedEdges,
+    edges: &[Run],
     (starts, by_line): &(Vec<u32>, Vec<EdgeId>),
 ) -> Result<(Vec<Pieces>, Counts), WeldError> {
     let numbers: Vec<LineId> = LineId::all(lines.len()).collect();
@@ -109,7 +121,7 @@ pub(super) fn pieces(
         for some in numbers.chunks(LINES_AT_A_TIME) {
             // edges lie anywhere in memory: in a loop of their own several are on their way at once
             runs.clear();
-            runs.extend(by_line[of_lines(some)].iter().map(|k| edges.run(*k)));
+            runs.extend(by_line[of_lines(some)].iter().map(|k| edges[k.index()]));
             for group in split_by(&mut runs, some.iter().map(|line| of_lines(&[*line]).len())) {
                 if worker.pair_alone(group, &mut pieces) {
                     continue;
@@ -154,7 +166,7 @@ impl<'a> LineWorker<'a> {
     /// Adds what survives of the edges of one line.
     pub(super) fn cancel(&mut self, edges: &mut [Run], out: &mut Surviving) -> Result<(), WeldError> {
         let Some(first) = edges.first() else { return Ok(()) };
-        let line = &self.lines[first.line.index()];
+        let line = &self.lines[first.line().index()];
         let known = out.runs.len();
         edges.sort_unstable_by_key(|edge| edge.region);
         self.buffers.sweep.cancelled.clear();
@@ -191,7 +203,7 @@ impl<'a> LineWorker<'a> {
             out.extend([HalfEdge::of(a, first.plus(1)), HalfEdge::of(b, first)]);
             return Ok(());
         }
-        let line = &self.lines[first.line.index()];
+        let line = &self.lines[first.line().index()];
         let ends = runs.iter().flat_map(|run| [run.from, run.to]).chain(further.iter().copied());
         self.buffers.stops.set(self.table, self.points, line, ends);
         self.buffers.at_interval.clear();
@@ -237,7 +249,7 @@ impl Sweep {
         self.change.clear();
         self.change.resize(stops.len(), (0, 0));
         for (edge, ends) in group.iter().zip(self.stops.places()) {
-            let step = if edge.forward { 1 } else { -1 };
+            let step = if edge.is_forward() { 1 } else { -1 };
             for (place, sign) in std::iter::zip(*ends, [1, -1]) {
                 let change = &mut self.change[place as usize];
                 *change = (change.0 + sign, change.1 + sign * step);
@@ -256,16 +268,15 @@ impl Sweep {
             if now == before {
                 if now.0 != 0 {
                     let at = PointOfRegion { region: group[0].region, point: *stop };
-                    out.passed.push(Passed { at, line: group[0].line });
+                    out.passed.push(Passed { at, line: group[0].line() });
                 }
                 continue;
             }
             let (low, high) = (stops[began], *stop);
             let run = |forward: bool| {
                 let (from, to) = if forward { (low, high) } else { (high, low) };
-                let edge = group.iter().find(|edge| edge.forward == forward);
-                let edge = edge.expect("a sum of edges holds one of its direction").edge;
-                Run { line: group[0].line, region: group[0].region, edge, from, to, forward }
+                let alike = group.iter().find(|edge| edge.is_forward() == forward);
+                Run { from, to, ..*alike.expect("a sum of edges holds one of its direction") }
             };
             match before {
                 (0, true) => self.cancelled.push(run(true)),
@@ -293,8 +304,8 @@ pub(super) struct HalfEdge {
 
 impl HalfEdge {
     fn of(run: &Run, twin: HalfEdgeId) -> Self {
-        let Run { line, region, edge, from, to, forward } = *run;
-        Self { region, along: DirectedLine::new(line, forward), edge, from, to, twin }
+        let Run { along, region, edge, from, to } = *run;
+        Self { region, along, edge, from, to, twin }
     }
 
     /// Its line.
@@ -325,7 +336,7 @@ fn cut_run(
 ) {
     for interval in a.min(b)..a.max(b) {
         let (low, high) = (stops[interval as usize], stops[interval as usize + 1]);
-        let (from, to) = if run.forward { (low, high) } else { (high, low) };
+        let (from, to) = if run.is_forward() { (low, high) } else { (high, low) };
         at_interval.push((interval, HalfEdgeId::from_index(out.len())));
         out.push(HalfEdge { from, to, ..HalfEdge::of(run, HalfEdgeId::NONE) });
     }

@@ -8,10 +8,9 @@ use rustc_hash::FxHashMap;
 use super::WeldError;
 use super::cancel::{Crossed, HalfEdge, LineWorker, Run, Surviving};
 use super::lines::Line;
-use super::numbered_edges::NumberedEdges;
 use super::points::Points;
 use super::stops::sort_along;
-use crate::ids::{EdgeId, Id, LineId, PointId, PointOfRegion};
+use crate::ids::{DirectedLine, EdgeId, Id, LineId, PointId, PointOfRegion};
 use crate::plane_table::{PlaneId, PlaneTable};
 
 /// A point inside a run of a region, at which edges that make it up end, and the line of the run.
@@ -40,14 +39,14 @@ pub(super) fn pieces(
     points: &mut Points,
     lines: &[Line],
     planes: &[PlaneId],
-    edges: &NumberedEdges,
+    edges: &[Run],
     (starts, by_line): &(Vec<u32>, Vec<EdgeId>),
 ) -> Result<Vec<HalfEdge>, WeldError> {
     let mut surviving = Surviving::default();
     let mut worker = LineWorker::new(table, points, lines, planes);
     for ends in starts.windows(2) {
         let members = &by_line[ends[0] as usize..ends[1] as usize];
-        let mut group: Vec<Run> = members.iter().map(|k| edges.run(*k)).collect();
+        let mut group: Vec<Run> = members.iter().map(|k| edges[k.index()]).collect();
         worker.cancel(&mut group, &mut surviving)?;
     }
     let Surviving { runs, slits, passed } = surviving;
@@ -63,7 +62,7 @@ pub(super) fn pieces(
     }
     let mut worker = LineWorker::new(table, points, lines, planes);
     let mut pieces = Vec::new();
-    for group in runs.chunk_by(|a, b| a.line == b.line) {
+    for group in runs.chunk_by(|a, b| a.line() == b.line()) {
         worker.cut(group, &[], &mut pieces, Crossed::No)?;
     }
     Ok(pieces)
@@ -85,10 +84,10 @@ fn cut_runs(table: &PlaneTable, points: &Points, lines: &[Line], mut passed: Vec
     let mut out = Vec::with_capacity(runs.len() + cuts.len());
     let mut stops = Vec::new();
     for run in runs {
-        let start = cuts.partition_point(|cut| (cut.line, cut.at.region) < (run.line, run.region));
-        let own = cuts[start..].iter().take_while(|cut| (cut.line, cut.at.region) == (run.line, run.region));
-        let line = &lines[run.line.index()];
-        let (low, high) = if run.forward { (run.from, run.to) } else { (run.to, run.from) };
+        let start = cuts.partition_point(|cut| (cut.line, cut.at.region) < (run.line(), run.region));
+        let own = cuts[start..].iter().take_while(|cut| (cut.line, cut.at.region) == (run.line(), run.region));
+        let line = &lines[run.line().index()];
+        let (low, high) = if run.is_forward() { (run.from, run.to) } else { (run.to, run.from) };
         stops.clear();
         stops.extend([low, high]);
         stops.extend(own.map(|cut| cut.at.point).filter(|point| {
@@ -96,7 +95,7 @@ fn cut_runs(table: &PlaneTable, points: &Points, lines: &[Line], mut passed: Vec
         }));
         sort_along(table, points, line, &mut stops);
         out.extend(stops.windows(2).map(|ends| {
-            let (from, to) = if run.forward { (ends[0], ends[1]) } else { (ends[1], ends[0]) };
+            let (from, to) = if run.is_forward() { (ends[0], ends[1]) } else { (ends[1], ends[0]) };
             Run { from, to, ..run }
         }));
     }
@@ -114,7 +113,7 @@ fn add_slits(
     if slits.is_empty() {
         return runs;
     }
-    slits.sort_unstable_by_key(|slit| (slit.region, slit.line));
+    slits.sort_unstable_by_key(|slit| (slit.region, slit.line()));
     for region in slits.chunk_by_mut(|a, b| a.region == b.region) {
         let mut pieces = region.to_vec();
         let plane = planes[region[0].region.index()];
@@ -130,11 +129,17 @@ fn add_slits(
             }
         }
         runs.extend(pieces.iter().flat_map(|slit| {
-            let back = Run { from: slit.to, to: slit.from, edge: slit.edge.flipped(), forward: false, ..*slit };
+            let back = Run {
+                from: slit.to,
+                to: slit.from,
+                edge: slit.edge.flipped(),
+                along: DirectedLine::new(slit.line(), false),
+                ..*slit
+            };
             [*slit, back]
         }));
     }
-    runs.sort_by_key(|run| run.line);
+    runs.sort_by_key(Run::line);
     runs
 }
 
@@ -144,6 +149,6 @@ fn crossing(table: &PlaneTable, points: &mut Points, plane: PlaneId, a: &Run, b:
         let [from, to] = [piece.from, piece.to].map(|point| points.side(table, point, edge));
         from != Sign::Zero && to == from.flip()
     };
-    let cross = a.line != b.line && lies_across(a, b.edge) && lies_across(b, a.edge);
+    let cross = a.line() != b.line() && lies_across(a, b.edge) && lies_across(b, a.edge);
     cross.then(|| points.add(table, [plane, a.edge, b.edge]))
 }

@@ -55,7 +55,6 @@ pub(crate) use live::LiveWeld;
 pub(crate) use live::WeldedFace;
 pub(crate) use nest::Projection;
 use nest::{Faces, Nester, RegionPlane};
-use numbered_edges::NumberedEdges;
 use points::Points;
 use region_corners::RegionCorners;
 use regions::{ByRegion, RegionPieces, Regions};
@@ -204,20 +203,20 @@ fn half_edges(
     } else {
         (number_points(), number_others())
     };
-    let ((mut points, ends, mut signs), ((mut regions, of_edge), (lines, line_of_edge, by_line, counted))) =
+    let ((mut points, ends, mut signs), ((mut regions, region_of_edge), (lines, line_of_edge, by_line, counted))) =
         (found, others);
     signs += counted;
-    let numbered = NumberedEdges::of(table, &edges, &lines, &line_of_edge, of_edge, ends);
-    // each of these is as large as the mesh of a large model
-    drop((edges, line_of_edge));
-    let (parts, counted) = cancel::pieces(table, &points, &lines, &regions.planes, &numbered, &by_line)?;
+    let runs = numbered_edges::runs(table, edges, &lines, &line_of_edge, &region_of_edge, &ends);
+    // of a large model each of these is as large as its mesh
+    drop((line_of_edge, region_of_edge, ends));
+    let (parts, counted) = cancel::pieces(table, &points, &lines, &regions.planes, &runs, &by_line)?;
     signs += counted;
     let is_crossed =
         parts.iter().any(|part| part.is_slit) || crossings::any(parts.iter().flat_map(|part| &part.passed));
     let pieces = if is_crossed {
-        crossings::pieces(table, &mut points, &lines, &regions.planes, &numbered, &by_line)?
+        crossings::pieces(table, &mut points, &lines, &regions.planes, &runs, &by_line)?
     } else {
-        drop((numbered, by_line));
+        drop((runs, by_line));
         cancel::joined(parts)
     };
     let mut by_region = ByRegion::of(&pieces, regions.planes.len());

@@ -122,7 +122,8 @@ impl LiveWeld {
     }
 
     fn put(&mut self, numbered: NumberedEdge) -> EdgeId {
-        let Run { line, from, to, .. } = numbered.run;
+        let Run { from, to, .. } = numbered.run;
+        let line = numbered.run.line();
         let number = place(&mut self.edges, &mut self.free_edges, Edge { numbered, is_gone: false });
         self.state.make_room(line);
         self.state.lines[line.index()].add(number, [from, to]);
@@ -136,7 +137,7 @@ impl LiveWeld {
         let edge = &mut self.edges[number.index()];
         edge.is_gone = true;
         let run = &edge.numbered.run;
-        self.state.mark_change(run.line, [run.from, run.to]);
+        self.state.mark_change(run.line(), [run.from, run.to]);
         self.removed.push(number);
     }
 

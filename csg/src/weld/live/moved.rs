@@ -52,7 +52,7 @@ impl LiveWeld {
             let run = self.edges[number.index()].numbered.run;
             let is_line = is_plane(edge.face) || is_plane(edge.edge);
             let known = &self.numbers;
-            if is_line != known.lines()[run.line.index()].planes.into_iter().any(is_plane) {
+            if is_line != known.lines()[run.line().index()].planes.into_iter().any(is_plane) {
                 return false;
             }
             let mut is_moved = is_line;
@@ -67,10 +67,10 @@ impl LiveWeld {
                 }
             }
             if is_line {
-                names_of_lines.push((run.line, lines::pair(edge)));
+                names_of_lines.push((run.line(), lines::pair(edge)));
             }
             if is_moved {
-                along.push(run.line);
+                along.push(run.line());
             }
         }
         along.sort_unstable();

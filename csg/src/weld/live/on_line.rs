@@ -72,7 +72,7 @@ impl Along<'_> {
 
     fn of_edge(&self, edge: &Edge) -> [PointId; 2] {
         let run = &edge.numbered.run;
-        low_and_high([run.from, run.to], run.forward)
+        low_and_high([run.from, run.to], run.is_forward())
     }
 }
 
