@@ -228,31 +228,32 @@ impl Scene {
         let mut line = String::new();
         file.read_line(&mut line)?;
         let Header { bodies: sizes, matrices, plan } = serde_json::from_str(&line)?;
-        drop(line);
         let mut bodies: Vec<Body> = matrices.into_iter().map(|matrix| Body { matrix, ..Body::default() }).collect();
         for (body, [count, _, _]) in bodies.iter_mut().zip(&sizes) {
             body.planes = (0..*count).map(|_| read_numbers(&mut file)).collect::<Result<_, _>>()?;
         }
         for (body, [_, count, _]) in bodies.iter_mut().zip(&sizes) {
-            if needs_mesh(body) {
-                body.positions = (0..*count).map(|_| read_numbers(&mut file)).collect::<Result<_, _>>()?;
-            } else {
-                skip::<[f64; 3]>(&mut file, *count)?;
-            }
+            body.positions = read_or_skip(&mut file, *count, needs_mesh(body), read_numbers)?;
         }
         for (body, [_, _, count]) in bodies.iter_mut().zip(&sizes) {
-            if needs_mesh(body) {
-                body.triangles = (0..*count).map(|_| read_corners(&mut file)).collect::<Result<_, _>>()?;
-            } else {
-                skip::<[u32; 3]>(&mut file, *count)?;
-            }
+            body.triangles = read_or_skip(&mut file, *count, needs_mesh(body), read_corners)?;
         }
         Ok(Self { bodies, plan })
     }
 }
 
-fn skip<T>(file: &mut BufReader<File>, count: usize) -> std::io::Result<()> {
-    file.seek_relative((count * size_of::<T>()) as i64)
+/// Some elements, or none where they are not needed.
+fn read_or_skip<T>(
+    file: &mut BufReader<File>,
+    count: usize,
+    is_needed: bool,
+    read: fn(&mut BufReader<File>) -> std::io::Result<T>,
+) -> std::io::Result<Vec<T>> {
+    if is_needed {
+        return (0..count).map(|_| read(file)).collect();
+    }
+    file.seek_relative((count * size_of::<T>()) as i64)?;
+    Ok(Vec::new())
 }
 
 fn read_numbers<const N: usize>(file: &mut impl Read) -> std::io::Result<[f64; N]> {

@@ -10,7 +10,7 @@ use rustc_hash::FxHashMap;
 use super::points::Points;
 use crate::base::{WEIGHTS, concat_owned, intern, map_chunks, sortable};
 use crate::boundary::BoundaryEdge;
-use crate::ids::{Id, LineId, NameId, PointId};
+use crate::ids::{DirectedLine, Id, LineId, NameId, PointId};
 use crate::plane_table::{PlaneId, PlaneTable};
 
 /// The number of an axis: there are as many lines as a mesh has edges, so that each byte counts.
@@ -165,8 +165,13 @@ impl Line {
         usize::from(self.axis)
     }
 
+    /// This line, of which the number is given, in the direction `n_a × n_b` of two planes through it.
+    pub(super) fn directed(&self, number: LineId, table: &PlaneTable, a: PlaneId, b: PlaneId) -> DirectedLine {
+        DirectedLine::new(number, self.is_along(table, a, b))
+    }
+
     /// Whether `n_a × n_b` of two planes through this line points along it.
-    pub(super) fn is_along(&self, table: &PlaneTable, a: PlaneId, b: PlaneId) -> bool {
+    fn is_along(&self, table: &PlaneTable, a: PlaneId, b: PlaneId) -> bool {
         let [p, q] = self.planes;
         if (a.index(), b.index()) == (p.index(), q.index()) {
             return (a == p) == (b == q);

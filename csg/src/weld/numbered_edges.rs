@@ -6,7 +6,7 @@ use super::cancel::Run;
 use super::lines::Line;
 use crate::base::takes_much_memory;
 use crate::boundary::BoundaryEdge;
-use crate::ids::{DirectedLine, Id, LineId, PointId, RegionId};
+use crate::ids::{Id, LineId, PointId, RegionId};
 use crate::plane_table::PlaneTable;
 
 /// Least number of edges that a thread looks at in a row.
@@ -23,8 +23,8 @@ pub(super) fn runs(
 ) -> Vec<Run> {
     let run = |number: usize, edge: &BoundaryEdge| {
         let (line, [from, to]) = (of_edge[number], ends[number]);
-        let forward = lines[line.index()].is_along(table, edge.face, edge.edge);
-        Run { along: DirectedLine::new(line, forward), region: regions[number], edge: edge.edge, from, to }
+        let along = lines[line.index()].directed(line, table, edge.face, edge.edge);
+        Run { along, region: regions[number], edge: edge.edge, from, to }
     };
     if takes_much_memory::<BoundaryEdge>(edges.len()) {
         // collected in place of the edges, which are as large: a list as long as all edges less

@@ -11,7 +11,7 @@ use super::named_lines::NamedLines;
 use super::named_points::NamedPoints;
 use super::names::place;
 use crate::boundary::BoundaryEdge;
-use crate::ids::{DirectedLine, Id, LineId, NameId, PointId, RegionId, number32};
+use crate::ids::{Id, LineId, NameId, PointId, RegionId, number32};
 use crate::model::MaterialId;
 use crate::plane_table::{PlaneId, PlaneTable};
 use crate::weld::cancel::Run;
@@ -123,8 +123,8 @@ impl Numbers {
     ) -> NumberedEdge {
         let number = self.lines.names.thing(line);
         let [from, to] = ends.map(|end| self.points.names.thing(end));
-        let forward = self.lines.lines[number.index()].is_along(table, edge.face, edge.edge);
-        let run = Run { along: DirectedLine::new(number, forward), region, edge: edge.edge, from, to };
+        let along = self.lines.lines[number.index()].directed(number, table, edge.face, edge.edge);
+        let run = Run { along, region, edge: edge.edge, from, to };
         NumberedEdge { run, ends, line }
     }
 
@@ -260,8 +260,7 @@ impl Numbers {
     pub(super) fn renumber(&mut self, table: &PlaneTable, edge: &mut NumberedEdge, line: LineId) {
         self.lines.names.rename(edge.line, line);
         let face = self.planes[edge.run.region.index()];
-        let forward = self.lines()[line.index()].is_along(table, face, edge.run.edge);
-        edge.run.along = DirectedLine::new(line, forward);
+        edge.run.along = self.lines()[line.index()].directed(line, table, face, edge.run.edge);
     }
 
     /// Forgets a line whose edges are all renumbered.
