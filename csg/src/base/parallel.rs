@@ -14,7 +14,7 @@ const PER_THREAD: usize = 8;
 const ELEMENTS_OF_CHUNK: usize = 2048;
 
 /// Number of bytes from which lists are not kept longer than they must.
-const MUCH_MEMORY: usize = 1 << 25;
+const MUCH_MEMORY: usize = 1 << 24;
 
 /// Whether a list is so long that it should not be there twice.
 pub(crate) fn takes_much_memory<T>(count: usize) -> bool {
@@ -46,6 +46,22 @@ pub(crate) fn map_weighed_chunks<T: Sync, R: Send>(
     let chunks: Vec<&[T]> = runs.into_iter().map(|run| &items[run]).collect();
     let stage = Stage::new(chunks.len());
     in_order(planecut_parallel::map_parts(chunks.len(), |k| stage.counted(|| work(chunks[k]))))
+}
+
+/// The same, where of a list each item fills as many elements as its size is, one after another: `work` is given the part of a chunk.
+pub(crate) fn map_weighed_chunks_into<T: Sync, S: Send, R: Send>(
+    items: &[T],
+    least: usize,
+    size: impl Fn(&T) -> usize,
+    list: &mut [S],
+    work: impl Fn(&[T], &mut [S]) -> R + Sync,
+) -> (Vec<R>, Counts) {
+    let runs = weighed_runs(items.len(), least, |k| size(&items[k]));
+    let parts = split_by(list, runs.iter().map(|run| items[run.clone()].iter().map(&size).sum()));
+    let stage = Stage::new(runs.len());
+    let jobs: Vec<(Range<usize>, &mut [S])> = runs.into_iter().zip(parts).collect();
+    let outcome = |(run, part)| stage.counted(|| work(&items[run], part));
+    in_order(jobs.into_par_iter().with_max_len(1).map(outcome).collect())
 }
 
 /// Runs of items of different sizes, for threads to share: each but the last is at least of size `least`, the sizes of its items added.

@@ -69,7 +69,7 @@ impl CornerSides {
 
     /// Adds a plane as far as plain numbers tell; whether all corners are strictly outside of it.
     pub(super) fn add_plane(&mut self, half_space: &HalfSpace) -> bool {
-        let filter = PlaneFilter::new(half_space);
+        let filter = WideFilter::new(half_space);
         let mut are_all_outside = true;
         for (word, corners) in self.corners.chunks(BITS / LANES).enumerate() {
             let mut sides = Sides::default();
@@ -210,12 +210,30 @@ fn all_bits(corners: usize) -> u64 {
     if corners >= BITS { u64::MAX } else { (1 << corners) - 1 }
 }
 
-impl PlaneFilter {
+/// The numbers of a [`PlaneFilter`], each four times.
+struct WideFilter {
+    normal: [f64x4; 3],
+    offset: f64x4,
+    reach: f64x4,
+    room: f64x4,
+}
+
+impl WideFilter {
+    fn new(half_space: &HalfSpace) -> Self {
+        let [a, b, c, offset, reach, room] = PlaneFilter::new(half_space).numbers();
+        Self {
+            normal: [f64x4::splat(a), f64x4::splat(b), f64x4::splat(c)],
+            offset: f64x4::splat(offset),
+            reach: f64x4::splat(reach),
+            room: f64x4::splat(room),
+        }
+    }
+
     /// Values of the plane's equation at four corners, and bounds for their errors.
     #[inline]
     fn values(&self, [x, y, z, error]: &[f64x4; 4]) -> (f64x4, f64x4) {
-        let [a, b, c, offset, reach, room] = self.numbers().map(f64x4::splat);
-        (a * *x + b * *y + c * *z - offset, reach * *error + room)
+        let [a, b, c] = self.normal;
+        (a * *x + b * *y + c * *z - self.offset, self.reach * *error + self.room)
     }
 }
 

@@ -142,13 +142,13 @@ impl<'a> Scene<'a> {
     }
 }
 
-/// The boundary edges of a tree of bodies.
-pub(crate) fn boundary_edges(scene: &Scene<'_>) -> (Vec<BoundaryEdge>, Counts) {
+/// The boundary edges of a tree of bodies, those on the faces of the bodies that are asked for.
+pub(crate) fn boundary_edges(scene: &Scene<'_>, is_own: impl Fn(BodyId) -> bool) -> (Vec<BoundaryEdge>, Counts) {
     let bodies = &scene.bodies;
     let boxes = Boxes::new(bodies.iter().map(|body| body.bounds).collect());
-    // in the order of space, so that what is near is at hand
-    let in_order: Vec<u32> = boxes.in_order().collect();
     let body_of = |place: &u32| BodyId::from_index(*place as usize);
+    // in the order of space, so that what is near is at hand
+    let in_order: Vec<u32> = boxes.in_order().filter(|place| is_own(body_of(place))).collect();
     let (parts, counts) = map_chunks(&in_order, 1, |chunk| {
         let mut edges = Vec::new();
         let mut worker = FaceWorker::default();
@@ -173,5 +173,5 @@ pub(crate) fn boundary_of_union(table: &PlaneTable, bodies: &[Body], rank: &[u32
     let count = bodies.len();
     let leaves: Vec<LeafId> = LeafId::all(count).collect();
     let expression = Expression::union_of(count);
-    boundary_edges(&Scene::new(table, bodies, &leaves, (&expression, &vec![Polarity::Adds; count]), rank))
+    boundary_edges(&Scene::new(table, bodies, &leaves, (&expression, &vec![Polarity::Adds; count]), rank), |_| true)
 }

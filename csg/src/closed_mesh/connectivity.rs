@@ -44,15 +44,19 @@ pub fn are_all_paired(vertices: usize, triangles: &[[u32; 3]]) -> bool {
     // each part looks at all triangles
     let parts = planecut_parallel::current_num_threads().clamp(1, MOST_PARTS).min(1 + triangles.len() / LEAST_OF_PART);
     let of_part = |part: usize| {
-        let vertices = vertices * part / parts..vertices * (part + 1) / parts;
-        are_paired_at(vertices, triangles)
+        let some = vertices * part / parts..vertices * (part + 1) / parts;
+        // mostly a number and a bit fit into half of a word
+        if vertices < 1 << 31 { are_paired_at::<u32>(some, triangles) } else { are_paired_at::<u64>(some, triangles) }
     };
     let are_paired: Vec<bool> = (0..parts).into_par_iter().with_max_len(1).map(of_part).collect();
     are_paired.into_iter().all(|are| are)
 }
 
-/// Whether every half-edge with its lower end at one of some vertices has a twin.
-fn are_paired_at(vertices: Range<usize>, triangles: &[[u32; 3]]) -> bool {
+/// Whether every half-edge with its lower end at one of some vertices has a twin; `E` holds twice the number of any vertex, and one more.
+fn are_paired_at<E>(vertices: Range<usize>, triangles: &[[u32; 3]]) -> bool
+where
+    E: Copy + Default + Ord + Into<u64> + TryFrom<u64>,
+{
     let count = vertices.len();
     // a vertex below the first wraps to beyond the last
     let place = |from: u32, to: u32| (from.min(to) as usize).wrapping_sub(vertices.start);
@@ -68,22 +72,28 @@ fn are_paired_at(vertices: Range<usize>, triangles: &[[u32; 3]]) -> bool {
         starts[k + 1] += starts[k];
     }
     // the higher end of each half-edge, and in the last bit whether it comes down from there
-    let mut ends = vec![0_u64; starts[count] as usize];
-    let mut next = starts[..count].to_vec();
+    let end = |from: u32, to: u32| E::try_from(u64::from(from.max(to)) << 1 | u64::from(from > to)).ok();
+    let mut ends = vec![E::default(); starts[count] as usize];
     for &[a, b, c] in triangles {
         for [from, to] in [[a, b], [b, c], [c, a]] {
-            if let Some(next) = next.get_mut(place(from, to)) {
-                ends[*next as usize] = u64::from(from.max(to)) << 1 | u64::from(from > to);
+            if let Some(next) = starts[..count].get_mut(place(from, to)) {
+                ends[*next as usize] = end(from, to).expect("there is room for the number of a vertex, and a bit");
                 *next += 1;
             }
         }
     }
-    starts.windows(2).all(|range| {
-        let ends = &mut ends[range[0] as usize..range[1] as usize];
+    // now those of each vertex end where they began before
+    let mut first = 0;
+    starts[..count].iter().all(|last| {
+        let ends = &mut ends[std::mem::replace(&mut first, *last as usize)..*last as usize];
         ends.sort_unstable();
         // of each other end one goes up, right before the one that comes down; an edge from a vertex to itself goes up alone
         let (pairs, rest) = ends.as_chunks();
-        rest.is_empty() && pairs.iter().all(|[up, down]| up & 1 == 0 && *down == up + 1)
+        let is_pair = |[up, down]: &[E; 2]| {
+            let (up, down): (u64, u64) = ((*up).into(), (*down).into());
+            up & 1 == 0 && down == up + 1
+        };
+        rest.is_empty() && pairs.iter().all(is_pair)
     })
 }
 
@@ -337,7 +347,9 @@ mod tests {
             let is_paired = |triangles: &[[u32; 3]]| {
                 let all = are_all_paired(vertices, triangles);
                 let third = |part: usize| vertices * part / 3..vertices * (part + 1) / 3;
-                assert_eq!((0..3).all(|part| are_paired_at(third(part), triangles)), all, "{triangles:?} in parts");
+                let in_parts = (0..3).all(|part| are_paired_at::<u32>(third(part), triangles));
+                let with_long_numbers = (0..3).all(|part| are_paired_at::<u64>(third(part), triangles));
+                assert_eq!((in_parts, with_long_numbers), (all, all), "{triangles:?} in parts");
                 all
             };
             assert!(is_paired(&triangles) && is_each_edge_there_once_each_way(&triangles));

@@ -330,7 +330,19 @@ impl Leaves {
         tree: (&Expression, &[Polarity]),
         rank: &[u32],
     ) -> (Vec<BoundaryEdge>, Counts) {
-        boundary_edges(&Scene::new(table, &self.bodies, &self.leaf_of_body, tree, rank))
+        self.boundary_edges_of(table, tree, rank, |_| true)
+    }
+
+    /// The same of some of them, where all are here that these touch.
+    fn boundary_edges_of(
+        &self,
+        table: &PlaneTable,
+        tree: (&Expression, &[Polarity]),
+        rank: &[u32],
+        is_own: impl Fn(LeafId) -> bool,
+    ) -> (Vec<BoundaryEdge>, Counts) {
+        let scene = Scene::new(table, &self.bodies, &self.leaf_of_body, tree, rank);
+        boundary_edges(&scene, |body| is_own(self.leaf_of_body[body.index()]))
     }
 
     /// The boundary of the tree cut by the outer box, which it must not reach; the box is one of the bodies afterwards.

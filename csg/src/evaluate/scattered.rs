@@ -3,7 +3,8 @@
 //! Where two bodies are apart, neither changes what the tree is near the other. So the bodies fall into groups, those within a group touching one
 //! another by their boxes, and the boundary of the solid is that of one group after another: of a model of a million bodies only the
 //! boxes are kept, and the bodies of some thousand are built again when it is their turn. A group of one body needs no boundary and no weld
-//! ([`convex`](super::convex)).
+//! ([`convex`](super::convex)). Of a group of more than some thousand the boundary is made part by part, so that no more bodies than those of
+//! one part, and those that touch them, are there at once.
 //!
 //! Vertices and faces come group by group, in the order of space, so that their order still depends on the geometry alone.
 
@@ -16,7 +17,8 @@ use crate::base::{Bounds, Boxes, Clock, DisjointSets, map_chunks};
 use crate::body::{
     Body, BrushExtent, BrushExtents, BuiltBodies, ShapeBuilder, brush_extents, built_or_build, kinds, mark_of,
 };
-use crate::expression::Expression;
+use crate::boundary::BoundaryEdge;
+use crate::expression::{Expression, Polarity};
 use crate::ids::{Id, LeafId, number32};
 use crate::mesh::{Mesh, Noise, proven};
 use crate::model::{BrushFace, MaterialId, Model};
@@ -26,7 +28,7 @@ use crate::weld::{Welded, weld};
 /// Models of fewer brushes are evaluated at once.
 pub(super) const LEAST: usize = 1 << 16;
 
-/// Groups are evaluated together until they have this many bodies.
+/// Groups are evaluated together until they have this many bodies; of larger ones the boundary of this many is made together.
 const BODIES_AT_A_TIME: usize = 1 << 13;
 
 /// Number of bodies whose meshes are proven together.
@@ -39,6 +41,17 @@ pub(super) fn evaluate_scattered(
     built: &BuiltBodies,
     others: OtherBrushes<'_>,
 ) -> Result<Option<Evaluation>, EvaluateError> {
+    evaluate_some_at_a_time(model, unbounded, built, others, BODIES_AT_A_TIME)
+}
+
+/// The same with another number of bodies at a time.
+fn evaluate_some_at_a_time(
+    model: &Model,
+    unbounded: UnboundedBrushes,
+    built: &BuiltBodies,
+    others: OtherBrushes<'_>,
+    at_a_time: usize,
+) -> Result<Option<Evaluation>, EvaluateError> {
     let begin = Clock::start();
     let expression = Expression::new(model.tree.nodes());
     if expression.base() {
@@ -50,18 +63,17 @@ pub(super) fn evaluate_scattered(
         return Ok(None);
     }
     let kinds = others.kinds(kinds_of(model, &planes, &extents));
-    let groups = Groups::of(&extents, &expression, &expression.repeated_leaves(&kinds));
+    let Groups { boxes, alone, mut several } = Groups::of(&extents, &expression, &expression.repeated_leaves(&kinds));
     let polarities = others.polarities(&expression, &kinds);
     drop(kinds);
-    let scene = Scattered { model, built, table: &table, planes: &planes, walls: others.walls };
+    let scene = Scattered { model, built, table: &table, planes: &planes, walls: others.walls, at_a_time };
     let evaluated = begin.elapsed();
 
     let welding = Clock::start();
     let rank = ranks(model);
-    let mut solid = Solid::with_room(model, &groups.alone, &extents);
+    let mut solid = Solid::with_room(model, &alone, &extents);
     drop(extents);
-    let mut others = groups.several;
-    for some in groups.alone.chunks(PROVEN_AT_A_TIME * 64) {
+    for some in alone.chunks(PROVEN_AT_A_TIME * 64) {
         let (parts, counted) = map_chunks(some, PROVEN_AT_A_TIME, |chunk| {
             let mut builder = ShapeBuilder::default();
             let parts = chunk.chunks(PROVEN_AT_A_TIME);
@@ -70,19 +82,15 @@ pub(super) fn evaluate_scattered(
         signs += counted;
         for Alone { mesh, noise, rest } in parts.into_iter().flatten() {
             solid.add(mesh.mesh, &mesh.totals, noise);
-            others.extend(rest.into_iter().map(|leaf| vec![leaf]));
+            several.extend(rest.into_iter().map(|leaf| vec![leaf]));
         }
     }
     let mut triangulate = std::time::Duration::ZERO;
-    let mut rest = others.as_slice();
+    let mut rest = several.as_slice();
     while !rest.is_empty() {
-        let (some, after) = rest.split_at(next_groups(rest));
+        let (some, after) = rest.split_at(next_groups(rest, at_a_time));
         rest = after;
-        let mut leaves = some.concat();
-        leaves.sort_unstable();
-        let (edges, counted) =
-            scene.leaves(&leaves, &mut signs).boundary_edges(&table, (&expression, &polarities), &rank);
-        signs += counted;
+        let edges = scene.boundary_edges((&some.concat(), &boxes), (&expression, &polarities), &rank, &mut signs);
         let Welded { mesh, solid: measures, noise, signs: counted, triangulation } =
             weld(&table, edges, &rank, &model.materials, scene.walls)?;
         signs += counted;
@@ -95,12 +103,12 @@ pub(super) fn evaluate_scattered(
 }
 
 /// How many groups are evaluated together.
-fn next_groups(groups: &[Vec<LeafId>]) -> usize {
+fn next_groups(groups: &[Vec<LeafId>], at_a_time: usize) -> usize {
     let bodies = groups.iter().scan(0, |bodies, group| {
         *bodies += group.len();
         Some(*bodies)
     });
-    bodies.take_while(|bodies| *bodies <= BODIES_AT_A_TIME).count().max(1)
+    bodies.take_while(|bodies| *bodies <= at_a_time).count().max(1)
 }
 
 /// What all groups need.
@@ -111,6 +119,8 @@ struct Scattered<'a> {
     planes: &'a [Vec<PlaneId>],
     /// The material of walls of a block.
     walls: Option<MaterialId>,
+    /// Number of bodies whose boundary is made together.
+    at_a_time: usize,
 }
 
 /// The mesh of some bodies that touch nothing.
@@ -143,6 +153,34 @@ impl Scattered<'_> {
         }
     }
 
+    /// The boundary edges of whole groups, given their leaves in the order of space, so that few have neighbours in other parts, and the
+    /// boxes of all.
+    fn boundary_edges(
+        &self,
+        (leaves, boxes): (&[LeafId], &Boxes),
+        tree: (&Expression, &[Polarity]),
+        rank: &[u32],
+        signs: &mut Counts,
+    ) -> Vec<BoundaryEdge> {
+        let mut edges = Vec::new();
+        for part in leaves.chunks(self.at_a_time) {
+            let near = if part.len() == leaves.len() { sorted(part.to_vec()) } else { with_neighbours(part, boxes) };
+            let own = sorted(part.to_vec());
+            let (of_part, counted) = self
+                .leaves(&near, signs)
+                .boundary_edges_of(self.table, tree, rank, |leaf| own.binary_search(&leaf).is_ok());
+            *signs += counted;
+            if edges.is_empty() {
+                edges = of_part;
+                // the memory is taken when it is written to
+                edges.reserve(edges.len() * (leaves.len() - part.len()) / part.len());
+            } else {
+                edges.extend(of_part);
+            }
+        }
+        edges
+    }
+
     /// The bodies of some leaves.
     fn leaves(&self, leaves: &[LeafId], signs: &mut Counts) -> Leaves {
         let (parts, counted) = map_chunks(leaves, 16, |chunk| {
@@ -160,8 +198,32 @@ impl Scattered<'_> {
     }
 }
 
-/// Leaves whose bodies have no point in common with those of other groups, in the order of space.
+fn sorted(mut leaves: Vec<LeafId>) -> Vec<LeafId> {
+    leaves.sort_unstable();
+    leaves
+}
+
+/// Some leaves and those whose boxes touch theirs, ascending.
+fn with_neighbours(leaves: &[LeafId], boxes: &Boxes) -> Vec<LeafId> {
+    let (parts, _) = map_chunks(leaves, 256, |chunk| {
+        let (mut found, mut near) = (Vec::new(), Vec::new());
+        for leaf in chunk {
+            boxes.touching(boxes.get(number32(leaf.index())), &mut found);
+            near.extend(found.iter().map(|other| LeafId::from_index(*other as usize)));
+        }
+        near.sort_unstable();
+        near.dedup();
+        near
+    });
+    let mut near = sorted(parts.concat());
+    near.dedup();
+    near
+}
+
+/// Leaves whose bodies have no point in common with those of other groups, groups and what is in them in the order of space.
 struct Groups {
+    /// The box of each leaf.
+    boxes: Boxes,
     alone: Vec<LeafId>,
     several: Vec<Vec<LeafId>>,
 }
@@ -185,7 +247,7 @@ impl Groups {
         let mut sets = DisjointSets::new(extents.len());
         pairs.into_iter().flatten().for_each(|(a, b)| sets.join(a, b));
         let mut members: Vec<(u32, u32)> = in_order.iter().map(|body| (sets.root(*body), *body)).collect();
-        members.sort_unstable();
+        members.sort_by_key(|(root, _)| *root);
         // a group is where the first of its bodies is; boxes of different groups have no point in common
         let place = |body: u32| {
             let min = boxes.get(body).min;
@@ -196,7 +258,7 @@ impl Groups {
             .map(|group| (group.iter().map(|(_, body)| place(*body)).min(), group))
             .collect();
         groups.sort_unstable();
-        let mut sorted = Self { alone: Vec::new(), several: Vec::new() };
+        let mut sorted = Self { boxes: Boxes::default(), alone: Vec::new(), several: Vec::new() };
         for (_, group) in groups {
             match group {
                 [(_, body)] => sorted.alone.push(LeafId::from_index(*body as usize)),
@@ -207,7 +269,7 @@ impl Groups {
             }
         }
         sorted.alone.retain(|leaf| expression.is_solid_alone(*leaf));
-        sorted
+        Self { boxes, ..sorted }
     }
 }
 
@@ -254,18 +316,27 @@ impl Solid {
         self.totals.add(totals);
         self.noise.collapsed += noise.collapsed;
         self.noise.thickest = self.noise.thickest.max(noise.thickest);
-        if self.mesh.positions.is_empty() {
-            // mostly nearly everything hangs together: it is not kept twice
-            self.mesh = Mesh { materials: std::mem::take(&mut self.mesh.materials), ..part };
-            return;
-        }
+        let Mesh { positions, mut triangles, mut triangle_faces, faces, .. } = part;
         let (vertex, face) = (number32(self.mesh.positions.len()), number32(self.mesh.faces.len()));
-        self.mesh.positions.extend_from_slice(&part.positions);
-        self.mesh.triangles.extend(part.triangles.iter().map(|corners| corners.map(|corner| vertex + corner)));
-        self.mesh.triangle_faces.extend(part.triangle_faces.iter().map(|number| face + number));
-        self.mesh.faces.extend_from_slice(&part.faces);
         // numbers of vertices and faces must fit
-        number32(self.mesh.positions.len());
+        number32(self.mesh.positions.len() + positions.len());
+        triangles.iter_mut().flatten().for_each(|corner| *corner += vertex);
+        triangle_faces.iter_mut().for_each(|number| *number += face);
+        append(&mut self.mesh.positions, positions);
+        append(&mut self.mesh.triangles, triangles);
+        append(&mut self.mesh.triangle_faces, triangle_faces);
+        append(&mut self.mesh.faces, faces);
+    }
+}
+
+/// Adds a list to another, the shorter of them to the longer one: mostly nearly everything hangs together, and is not to be there twice.
+fn append<T: Copy>(list: &mut Vec<T>, mut other: Vec<T>) {
+    if list.len() < other.len() {
+        other.reserve_exact(list.len());
+        other.splice(0..0, list.drain(..));
+        *list = other;
+    } else {
+        list.append(&mut other);
     }
 }
 

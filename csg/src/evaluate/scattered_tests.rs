@@ -6,10 +6,10 @@ use crate::model::{Brush, Material, MaterialId, Tree};
 use crate::plane_table::smallest_size;
 use planecut_kernel::{DVec3, HalfSpace};
 
-fn scattered(model: &Model) -> Option<Evaluation> {
+fn scattered(model: &Model, at_a_time: usize) -> Option<Evaluation> {
     let size = smallest_size(model.tree.brushes().iter().map(Brush::half_spaces));
-    evaluate_scattered(model, UnboundedBrushes::Keep, &BuiltBodies::default(), OtherBrushes::alone(size))
-        .expect("a solid")
+    let (unbounded, others) = (UnboundedBrushes::Keep, OtherBrushes::alone(size));
+    evaluate_some_at_a_time(model, unbounded, &BuiltBodies::default(), others, at_a_time).expect("a solid")
 }
 
 /// Its triangles by what they are, whatever their order and the numbers of their vertices.
@@ -26,7 +26,14 @@ fn area_by_normal(mesh: &Mesh) -> Vec<(String, f64)> {
 
 fn compare(model: &Model) -> Evaluation {
     let at_once = evaluate_with(model, UnboundedBrushes::Keep).expect("a solid");
-    let in_groups = scattered(model).expect("a bounded model");
+    for at_a_time in [1, 9] {
+        compare_with(model, &at_once, at_a_time);
+    }
+    compare_with(model, &at_once, BODIES_AT_A_TIME)
+}
+
+fn compare_with(model: &Model, at_once: &Evaluation, at_a_time: usize) -> Evaluation {
+    let in_groups = scattered(model, at_a_time).expect("a bounded model");
     assert_eq!(in_groups.model.planes, at_once.model.planes);
     assert_eq!(in_groups.model.empty, at_once.model.empty);
     assert_eq!(in_groups.model.redundant_planes, at_once.model.redundant_planes);
@@ -122,16 +129,20 @@ fn the_order_of_brushes_does_not_matter() {
     let mut turned = brushes.clone();
     turned.rotate_left(77);
     turned.swap(3, 150);
-    let mesh = |brushes| scattered(&model(Tree::union_of(brushes))).expect("a bounded model").mesh;
-    let (mesh, other) = (mesh(brushes), mesh(turned));
-    assert_eq!(mesh.positions, other.positions);
-    assert_eq!(mesh.triangles, other.triangles);
+    let mesh = |brushes: &[Brush], at_a_time| {
+        scattered(&model(Tree::union_of(brushes.to_vec())), at_a_time).expect("a bounded model").mesh
+    };
+    for at_a_time in [20, BODIES_AT_A_TIME] {
+        let (mesh, other) = (mesh(&brushes, at_a_time), mesh(&turned, at_a_time));
+        assert_eq!(mesh.positions, other.positions);
+        assert_eq!(mesh.triangles, other.triangles);
+    }
 }
 
 #[test]
 fn what_reaches_infinity_is_evaluated_at_once() {
     let block = Tree::from(Brush::cuboid(DVec3::ZERO, DVec3::ONE, MaterialId(0)));
     let half = Brush::from_half_spaces([HalfSpace::new(DVec3::X, 0.5).expect("a plane")], MaterialId(0));
-    assert!(scattered(&model(block.clone() & half.into())).is_none());
-    assert!(scattered(&model(!block)).is_none());
+    assert!(scattered(&model(block.clone() & half.into()), BODIES_AT_A_TIME).is_none());
+    assert!(scattered(&model(!block), BODIES_AT_A_TIME).is_none());
 }

@@ -43,7 +43,9 @@ pub(super) fn filled_faces(
         };
         let all = || chunk.iter().flat_map(Faces::iter);
         let (mut mesh_faces, projections): (Vec<MeshFace>, Vec<Projection>) = all().map(of_face).unzip();
-        let mut triangle_faces = Vec::new();
+        let count = chunk.iter().map(Faces::triangle_count).sum();
+        triangles.reserve(count);
+        let mut triangle_faces = Vec::with_capacity(count);
         for (number, (face, projection)) in (0..).zip(all().zip(projections)) {
             edges.clear();
             edges.extend(face.loops().flatten().map(|k| pieces[k.index()].edge_of_face(*k)));

@@ -8,7 +8,7 @@ use planecut_parallel::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::points::Points;
-use crate::base::{WEIGHTS, concat_owned, intern, map_chunks, sortable};
+use crate::base::{WEIGHTS, concat_made, concat_owned, intern, map_chunks, sortable, starts_of};
 use crate::boundary::BoundaryEdge;
 use crate::ids::{DirectedLine, Id, LineId, NameId, PointId};
 use crate::plane_table::{PlaneId, PlaneTable};
@@ -51,25 +51,27 @@ pub(super) fn pair_of(planes: [PlaneId; 2]) -> u64 {
 
 /// Numbers the lines of different pairs, each two plane indices.
 fn number(table: &PlaneTable, pairs: &[u64]) -> (Vec<Line>, Vec<LineId>, Counts) {
-    let line = |pair: &u64| {
-        let line = Line::of(table, *pair);
-        (line, mark(table, &line))
-    };
-    let (parts, mut counts) =
-        map_chunks(pairs, 256, |pairs| pairs.iter().map(line).unzip::<_, _, Vec<Line>, Vec<Mark>>());
-    let (lines, marks): (Vec<_>, Vec<_>) = parts.into_iter().unzip();
-    let (mut lines, marks) = (concat_owned(lines), concat_owned(marks));
-    let place = |(k, mark): (usize, &Mark)| (mark.low, NameId::from_index(k));
-    let mut order: Vec<(u64, NameId)> = marks.par_iter().enumerate().with_min_len(1024).map(place).collect();
+    let (parts, mut counts) = map_chunks(pairs, 256, |pairs| {
+        let (mut lines, mut marks) = (Vec::with_capacity(pairs.len()), Vec::with_capacity(pairs.len()));
+        for (number, pair) in NameId::all(pairs.len()).zip(pairs) {
+            let line = Line::of(table, *pair);
+            marks.push(mark(table, &line, number));
+            lines.push(line);
+        }
+        (lines, marks)
+    });
+    let (lines, marks): (Vec<_>, Vec<Vec<Mark>>) = parts.into_iter().unzip();
+    let first = starts_of(marks.iter().map(Vec::len));
+    let mut lines = concat_owned(lines);
+    let mut order = concat_made(marks, |part, mark: &Mark| Mark { line: mark.line.plus(first[part]), ..*mark });
     order.par_sort_unstable();
     // runs of lines that may be equal
-    let mut runs: Vec<&[(u64, NameId)]> = Vec::new();
-    let high = |place: usize| marks[order[place].1.index()].high;
+    let mut runs: Vec<&[Mark]> = Vec::new();
     let mut start = 0;
     while start < order.len() {
-        let (mut end, mut reach) = (start + 1, high(start));
-        while end < order.len() && order[end].0 <= reach {
-            reach = reach.max(high(end));
+        let (mut end, mut reach) = (start + 1, order[start].high());
+        while end < order.len() && order[end].low <= reach {
+            reach = reach.max(order[end].high());
             end += 1;
         }
         if end - start > 1 {
@@ -77,18 +79,18 @@ fn number(table: &PlaneTable, pairs: &[u64]) -> (Vec<Line>, Vec<LineId>, Counts)
         }
         start = end;
     }
-    drop(marks);
     let axes = AxisPlanes::default();
     let (parts, joining) = map_chunks(&runs, 64, |chunk| {
         let (mut some, mut equal) = (Vec::new(), Vec::new());
         for run in chunk {
             some.clear();
-            some.extend(run.iter().map(|(_, k)| *k));
+            some.extend(run.iter().map(|mark| mark.line));
             some.sort_unstable();
             find_equal(table, &axes, &lines, &some, &mut equal);
         }
         equal
     });
+    drop(runs);
     drop(order);
     counts += joining;
     // of lines that are equal, the first in the order given; most are alone
@@ -129,20 +131,41 @@ fn find_equal(
     }
 }
 
-/// A range of numbers: those of equal lines overlap, and of lines that differ hardly any do.
-#[derive(Debug, Clone, Copy)]
+/// A range of numbers: those of equal lines overlap, and of lines that differ hardly any do. In the order of where they begin.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Mark {
     low: u64,
-    high: u64,
+    /// The line that it is of.
+    line: NameId,
+    /// The bits of its width in single precision, rounded up: so marks are as short as a number with its place.
+    width: u32,
 }
 
 impl Mark {
-    /// That around a value; ranges of lines of different axes never overlap.
-    fn new(axis: usize, value: f64, error: f64) -> Self {
+    /// That around a value; ranges of lines of different axes hardly ever overlap.
+    fn new(axis: usize, value: f64, error: f64, line: NameId) -> Self {
         // the last two bits make room for the axis: without them the lower end is lower, and the upper one is made higher
         let number = |value: f64| (axis as u64) << 62 | sortable(value) >> 2;
-        Self { low: number(value - error), high: number(value + error) + 1 }
+        let (low, high) = (number(value - error), number(value + error) + 1);
+        Self { low, line, width: rounded_up(high - low).to_bits() }
     }
+
+    /// Where it ends, or somewhat above.
+    fn high(&self) -> u64 {
+        self.low.saturating_add(whole(f32::from_bits(self.width)))
+    }
+}
+
+/// The least number in single precision that is not below a whole one.
+#[expect(clippy::cast_precision_loss, reason = "rounding is what it is for")]
+fn rounded_up(number: u64) -> f32 {
+    let rounded = number as f32;
+    if whole(rounded) < number { rounded.next_up() } else { rounded }
+}
+
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the number is whole and not negative")]
+fn whole(number: f32) -> u64 {
+    number as u64
 }
 
 impl Line {
@@ -249,9 +272,9 @@ impl AxisPlanes {
     }
 }
 
-fn mark(table: &PlaneTable, line: &Line) -> Mark {
+fn mark(table: &PlaneTable, line: &Line, number: NameId) -> Mark {
     let (value, error) = rounded_mark(table, line).unwrap_or_else(|| exact_mark(table, line));
-    Mark::new(line.axis(), value, error)
+    Mark::new(line.axis(), value, error, number)
 }
 
 /// From the determinants of the planes' columns in plain numbers, where these are well conditioned: each is off by less than
@@ -294,4 +317,29 @@ fn exact_numbers(table: &PlaneTable, line: &Line) -> [f64; 4] {
 /// What equal lines share.
 pub(super) fn key(table: &PlaneTable, line: &Line) -> Key {
     (line.axis(), exact_numbers(table, line).map(f64::to_bits))
+}
+
+#[cfg(test)]
+mod tests {
+    use planecut_testkit::random::Rng;
+
+    use super::*;
+
+    #[test]
+    fn marks_hold_the_range_that_they_are_made_of() {
+        let mut rng = Rng::spread(32);
+        for power in 0..62 {
+            for _ in 0..1000 {
+                let width = (1_u64 << power) + rng.below(1 << power.min(40)) as u64;
+                let rounded = whole(rounded_up(width));
+                assert!(width <= rounded && rounded - width <= width >> 22, "{width} became {rounded}");
+            }
+        }
+        // a range around zero is nearly as wide as all numbers
+        for (value, error) in [(0.0, 0.0), (1.5, 1e-15), (-2.0, 1e-300), (1e-17, 1e-15), (0.0, 1e300)] {
+            let mark = Mark::new(1, value, error, NameId::NONE);
+            let number = |value: f64| 1 << 62 | sortable(value) >> 2;
+            assert!(mark.low <= number(value - error) && number(value + error) <= mark.high(), "{value} {error}");
+        }
+    }
 }

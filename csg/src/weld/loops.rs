@@ -10,7 +10,7 @@ use super::cancel::HalfEdge;
 use crate::ids::{HalfEdgeId, Id, PointId};
 use crate::plane_table::{PlaneId, PlaneTable};
 
-/// The half-edge that follows each half-edge around one region, numbered from `base`; those that begin at one point follow one
+/// Finds the half-edge that follows each half-edge around one region, numbered from `base`; those that begin at one point follow one
 /// another in `region`, and `first` gives the place of the first of them, or that of any other where there is none.
 pub(super) fn follow(
     table: &PlaneTable,
@@ -18,13 +18,13 @@ pub(super) fn follow(
     region: &[HalfEdge],
     base: usize,
     first: impl Fn(PointId) -> usize,
-    following: &mut Vec<HalfEdgeId>,
+    following: &mut [HalfEdgeId],
 ) -> Result<(), WeldError> {
-    for piece in region {
+    for (piece, following) in region.iter().zip(following) {
         let start = first(piece.to);
         let candidates = (start..region.len()).map(|k| (k, &region[k])).take_while(|(_, next)| next.from == piece.to);
         let next = first_clockwise(table, plane, piece, candidates).ok_or_else(|| WeldError::open(piece))?;
-        following.push(HalfEdgeId::from_index(base + next));
+        *following = HalfEdgeId::from_index(base + next);
     }
     Ok(())
 }

@@ -3,7 +3,7 @@
 use planecut_kernel::DVec3;
 
 use super::cancel::HalfEdge;
-use super::nest::Faces;
+use super::nest::{Face, Faces};
 use crate::base::CompensatedSum;
 use crate::ids::Id;
 use crate::mesh::SolidMeasures;
@@ -23,14 +23,8 @@ pub(super) fn extent(positions: &[DVec3], pieces: &[HalfEdge]) -> (DVec3, DVec3)
 }
 
 /// The parts of faces by the divergence theorem, relative to a point near the middle so that little cancels.
-pub(super) fn of_faces(
-    positions: &[DVec3],
-    pieces: &[HalfEdge],
-    faces: &Faces,
-    middle: DVec3,
-    out: &mut Vec<FaceMeasures>,
-) {
-    for face in faces.iter() {
+pub(super) fn of_faces(positions: &[DVec3], pieces: &[HalfEdge], faces: &Faces, middle: DVec3) -> Vec<FaceMeasures> {
+    let of_face = |face: Face<'_>| {
         let mut origin = None;
         let mut twice_area = DVec3::ZERO;
         let mut six_volume = CompensatedSum::default();
@@ -48,8 +42,11 @@ pub(super) fn of_faces(
             }
         }
         let moment = DVec3::from_array(moment.map(CompensatedSum::value));
-        out.push(FaceMeasures { six_volume: six_volume.value(), area: 0.5 * twice_area.length(), moment });
-    }
+        FaceMeasures { six_volume: six_volume.value(), area: 0.5 * twice_area.length(), moment }
+    };
+    let mut measures = Vec::with_capacity(faces.len());
+    measures.extend(faces.iter().map(of_face));
+    measures
 }
 
 /// Volume, area and centroid of a solid within a box.

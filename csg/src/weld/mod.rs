@@ -43,7 +43,7 @@ use planecut_kernel::sign::Counts;
 use planecut_parallel::prelude::*;
 use thiserror::Error;
 
-use crate::base::{Clock, by_group, map_weighed_chunks};
+use crate::base::{Clock, by_group, map_weighed_chunks_into};
 use crate::boundary::BoundaryEdge;
 use crate::ids::{EdgeId, HalfEdgeId, Id, PointId, RegionId};
 use crate::mesh::{Flaw, Mesh, Noise, SolidMeasures, proven};
@@ -196,15 +196,16 @@ fn half_edges(
         let by_line = by_group(lines.len(), of_edge.iter().map(|line| line.index()), EdgeId::from_index);
         (lines, of_edge, by_line, counts)
     };
-    let number_others = || planecut_parallel::join(|| Regions::number(&edges, rank), number_lines);
-    // each has parts for one thread, during which the others go on; of very many edges what both take at once would be much memory
-    let (found, others) = if edges.len() < MANY_EDGES {
-        planecut_parallel::join(number_points, number_others)
+    let number_regions = || Regions::number(&edges, rank);
+    // each has parts for one thread, during which the others go on; of very many edges what all take at once would be much memory
+    let (found, (of_regions, of_lines)) = if edges.len() < MANY_EDGES {
+        planecut_parallel::join(number_points, || planecut_parallel::join(number_regions, number_lines))
     } else {
-        (number_points(), number_others())
+        let (found, of_lines) = (number_points(), number_lines());
+        (found, (number_regions(), of_lines))
     };
-    let ((mut points, ends, mut signs), ((mut regions, region_of_edge), (lines, line_of_edge, by_line, counted))) =
-        (found, others);
+    let (mut points, ends, mut signs) = found;
+    let ((mut regions, region_of_edge), (lines, line_of_edge, by_line, counted)) = (of_regions, of_lines);
     signs += counted;
     let runs = numbered_edges::runs(table, edges, &lines, &line_of_edge, &region_of_edge, &ends);
     // of a large model each of these is as large as its mesh
@@ -244,37 +245,33 @@ fn nest(
     RegionPieces { pieces, ranges }: &RegionPieces,
 ) -> Result<(Nested, Counts), WeldError> {
     let mut nested =
-        Nested { following: Vec::with_capacity(pieces.len()), faces: Vec::new(), solid: SolidMeasures::default() };
+        Nested { following: vec![HalfEdgeId::NONE; pieces.len()], faces: Vec::new(), solid: SolidMeasures::default() };
     if pieces.is_empty() {
         return Ok((nested, Counts::default()));
     }
     let extent = measure::extent(&points.positions, pieces);
     let middle = 0.5 * (extent.0 + extent.1);
-    let (parts, counts) = map_weighed_chunks(ranges, 512, Range::len, |chunk| -> Result<_, WeldError> {
+    let work = |chunk: &[Range<usize>], mut following: &mut [HalfEdgeId]| -> Result<_, WeldError> {
         let (mut nester, mut corners) = (Nester::default(), RegionCorners::default());
-        let (mut following, mut faces, mut measures) = (Vec::new(), Faces::default(), Vec::new());
+        let mut faces = Faces::with_room(following.len(), chunk.len());
         // planes lie anywhere in memory: in a loop of their own several are on their way at once
         let plane = |range: &Range<usize>| regions.planes[pieces[range.start].region.index()];
         let planes = chunk.iter().map(|range| RegionPlane::new(table, points, plane(range)));
         let planes: Vec<RegionPlane<'_>> = planes.collect();
         for (range, plane) in chunk.iter().zip(&planes) {
             let (region, start) = (&pieces[range.clone()], range.start);
-            let done = following.len();
+            let own = following.split_off_mut(..region.len()).expect("there is room for each half-edge");
             corners.set(region);
             let first = |point: PointId| corners.first_at(point).unwrap_or(region.len());
-            loops::follow(table, plane.plane, region, start, first, &mut following)?;
-            nester.add_faces(plane, region, start, &following[done..], &mut faces)?;
+            loops::follow(table, plane.plane, region, start, first, own)?;
+            nester.add_faces(plane, region, start, own, &mut faces)?;
         }
-        measure::of_faces(&points.positions, pieces, &faces, middle, &mut measures);
-        Ok((following, faces, measures))
-    });
-    let mut measures = Vec::new();
-    for part in parts {
-        let (following, faces, measured) = part?;
-        nested.following.extend(following);
-        nested.faces.push(faces);
-        measures.extend(measured);
-    }
-    nested.solid = measure::sum(measures.iter(), extent);
+        let measures = measure::of_faces(&points.positions, pieces, &faces, middle);
+        Ok((faces, measures))
+    };
+    let (parts, counts) = map_weighed_chunks_into(ranges, 512, Range::len, &mut nested.following, work);
+    let parts = parts.into_iter().collect::<Result<Vec<_>, _>>()?;
+    nested.solid = measure::sum(parts.iter().flat_map(|(_, measures)| measures), extent);
+    nested.faces = parts.into_iter().map(|(faces, _)| faces).collect();
     Ok((nested, counts))
 }

@@ -13,7 +13,7 @@ use crate::ids::{HalfEdgeId, Id, PointId, RegionId};
 use crate::plane_table::{PlaneId, PlaneTable};
 
 /// Connected parts of regions, each an outer loop and its holes.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Faces {
     /// Half-edges, loop by loop.
     pieces: Vec<HalfEdgeId>,
@@ -32,6 +32,25 @@ pub(super) struct Face<'a> {
 }
 
 impl Faces {
+    /// With room for the half-edges of some regions.
+    pub(super) fn with_room(half_edges: usize, regions: usize) -> Self {
+        Self {
+            pieces: Vec::with_capacity(half_edges),
+            loops: Vec::with_capacity(regions),
+            faces: Vec::with_capacity(regions),
+        }
+    }
+
+    /// How many there are.
+    pub(super) fn len(&self) -> usize {
+        self.faces.len()
+    }
+
+    /// How many triangles fill them: two less than there are half-edges for the outer loop of each, two more for each hole.
+    pub(super) fn triangle_count(&self) -> usize {
+        (self.pieces.len() + 2 * self.loops.len()).saturating_sub(4 * self.faces.len())
+    }
+
     pub(super) fn iter(&self) -> impl Iterator<Item = Face<'_>> {
         let starts = std::iter::once(0).chain(self.faces.iter().map(|(_, end)| *end as usize));
         self.faces.iter().zip(starts).map(|((region, end), start)| Face {

@@ -11,7 +11,7 @@ use planecut_parallel::prelude::*;
 
 use super::cancel::HalfEdge;
 use super::triangulate::LoopCorner;
-use crate::base::{Bounds, concat_owned, intern, map_chunks, sortable};
+use crate::base::{Bounds, concat_owned, intern, map_chunks, runs_apart, sortable};
 use crate::boundary::BoundaryEdge;
 use crate::ids::{HalfEdgeId, Id, NameId, PointId};
 use crate::plane_table::{PlaneId, PlaneTable, curve_number};
@@ -76,10 +76,11 @@ impl Points {
         let place = |(k, point): (usize, &Named)| (curve_number(point.position), NameId::from_index(k));
         let mut sorted: Vec<(u64, NameId)> = named.par_iter().enumerate().with_min_len(1024).map(place).collect();
         sorted.par_sort_unstable();
-        let close: Vec<&[(u64, NameId)]> = sorted.chunk_by(|a, b| a.0 == b.0).collect();
-        let (parts, joining) = map_chunks(&close, 512, |chunk| {
-            let (mut joined, mut places) = (Vec::with_capacity(chunk.len()), Vec::new());
-            for close in chunk {
+        let runs = runs_apart(&sorted, 512, |a, b| a.0 != b.0);
+        let (parts, joining) = map_chunks(&runs, 1, |chunk| {
+            let count = chunk.iter().map(|run| run.len()).sum();
+            let (mut joined, mut places) = (Vec::with_capacity(count), Vec::new());
+            for close in chunk.iter().flat_map(|run| run.chunk_by(|a, b| a.0 == b.0)) {
                 if let [(_, only)] = close {
                     joined.push((*only, true));
                     continue;
@@ -93,6 +94,7 @@ impl Points {
             joined
         });
         counts += joining;
+        drop(runs);
         drop(sorted);
         let mut points = Self::with_capacity(parts.iter().flatten().filter(|(_, is_first)| *is_first).count());
         let mut of_named = vec![PointId::NONE; named.len()];

@@ -73,8 +73,8 @@ impl Regions {
     }
 }
 
-/// Where a half-edge begins and ends, and its number.
-type PlacedPiece = (PointId, PointId, HalfEdgeId);
+/// Where a half-edge begins, and its number.
+type PlacedPiece = (PointId, HalfEdgeId);
 
 /// Half-edges, listed by region, those of each sorted by their places.
 pub(super) struct ByRegion {
@@ -90,14 +90,19 @@ impl ByRegion {
     pub(super) fn of(pieces: &[HalfEdge], regions: usize) -> Self {
         let order: Vec<RegionId> = RegionId::all(regions).collect();
         let regions = pieces.iter().map(|piece| piece.region.index());
-        let (starts, mut members) = by_group(order.len(), regions, |number| {
-            (pieces[number].from, pieces[number].to, HalfEdgeId::from_index(number))
-        });
+        let (starts, mut members) =
+            by_group(order.len(), regions, |number| (pieces[number].from, HalfEdgeId::from_index(number)));
         let lengths: Vec<usize> = starts.windows(2).map(|ends| (ends[1] - ends[0]) as usize).collect();
         let runs = weighed_runs(lengths.len(), PIECES_OF_CHUNK, |region| lengths[region]);
         let parts = split_by(&mut members, runs.iter().map(|run| lengths[run.clone()].iter().sum()));
+        let sort_region = |members: &mut [PlacedPiece]| {
+            members.sort_unstable();
+            for alike in members.chunk_by_mut(|a, b| a.0 == b.0).filter(|alike| alike.len() > 1) {
+                alike.sort_unstable_by_key(|(_, number)| (pieces[number.index()].to, *number));
+            }
+        };
         let sort = |(run, part): (&Range<usize>, &mut [PlacedPiece])| {
-            split_by(part, lengths[run.clone()].iter().copied()).into_iter().for_each(<[PlacedPiece]>::sort_unstable);
+            split_by(part, lengths[run.clone()].iter().copied()).into_iter().for_each(sort_region);
         };
         runs.par_iter().zip(parts).with_max_len(1).for_each(sort);
         Self { starts, members, order }
@@ -110,7 +115,8 @@ impl ByRegion {
 
     /// What it takes to put the half-edges in order.
     fn into_order(self) -> Order {
-        let (mut regions, mut ranges, mut end) = (Vec::new(), Vec::new(), 0);
+        let count = self.order.len();
+        let (mut regions, mut ranges, mut end) = (Vec::with_capacity(count), Vec::with_capacity(count), 0);
         for (new, old) in RegionId::all(self.order.len()).zip(&self.order) {
             let count = self.of_region(*old).len();
             if count > 0 {
