@@ -19,10 +19,11 @@ use crate::mesh::Mesh;
 const CHUNK: usize = 4096;
 
 /// The vertex at the start of each half-edge; and for each vertex the point it lies on. Vertices are numbered by the first of their half-edges.
-pub(super) fn vertices(pieces: &[HalfEdge], following: &[HalfEdgeId]) -> (Vec<VertexId>, Vec<PointId>) {
+pub(super) fn vertices(pieces: &[HalfEdge], following: Vec<HalfEdgeId>) -> (Vec<VertexId>, Vec<PointId>) {
     // Around the fan: the twin ends at the corner's point, and its follower starts there. In a list of their own several are on their way from memory at once.
     let turned = |piece: &HalfEdge| following[piece.twin.index()];
     let turned: &[HalfEdgeId] = &pieces.par_iter().with_min_len(CHUNK).map(turned).collect::<Vec<_>>();
+    drop(following);
     let around = |first: HalfEdgeId| {
         let next = move |piece: &HalfEdgeId| Some(turned[piece.index()]).filter(|piece| *piece != first);
         std::iter::successors(Some(first), next)
@@ -37,8 +38,9 @@ pub(super) fn vertices(pieces: &[HalfEdge], following: &[HalfEdgeId]) -> (Vec<Ve
         let number = VertexId::from_index(number).number();
         around(*first).for_each(|piece| vertex[piece.index()].store(number, Ordering::Relaxed));
     });
+    // on one thread it is the same memory
     let number = |vertex: AtomicU32| VertexId::from_index(vertex.into_inner() as usize);
-    let vertex = vertex.into_par_iter().with_min_len(CHUNK).map(number).collect();
+    let vertex = vertex.into_iter().map(number).collect();
     (vertex, firsts.into_par_iter().with_min_len(CHUNK).map(|first| pieces[first.index()].from).collect())
 }
 

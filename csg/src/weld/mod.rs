@@ -43,7 +43,7 @@ use planecut_kernel::sign::Counts;
 use planecut_parallel::prelude::*;
 use thiserror::Error;
 
-use crate::base::{Clock, by_group, map_weighed_chunks_into};
+use crate::base::{Clock, by_group, map_weighed_chunks_into, takes_much_memory};
 use crate::boundary::BoundaryEdge;
 use crate::ids::{EdgeId, HalfEdgeId, Id, PointId, RegionId};
 use crate::mesh::{Flaw, Mesh, Noise, SolidMeasures, proven};
@@ -157,20 +157,20 @@ pub(crate) fn weld(
     signs += counted;
     let RegionPieces { pieces, ranges } = sorted;
     let Nested { following, faces, solid } = nested;
-    let (vertex, point) = manifold::vertices(&pieces, &following);
-    drop((following, ranges));
+    drop(ranges);
+    let (vertex, point) = manifold::vertices(&pieces, following);
 
     let begin = Clock::start();
     let (filled, counted) = filled_faces(table, &regions, &points, &pieces, &faces);
     signs += counted;
     // of a large model each of these is as large as its mesh
     drop(faces);
-    let twins: Vec<HalfEdgeId> = pieces.par_iter().with_min_len(4096).map(|piece| piece.twin).collect();
-    drop(pieces);
+    let twins = twins(pieces);
+    let positions = points.into_positions();
     let (mut mesh, filled) = filled_faces::mesh_of(filled, &vertex, materials);
     drop(vertex);
-    mesh.positions = point.par_iter().with_min_len(4096).map(|p| points.positions[p.index()]).collect();
-    drop((point, points));
+    mesh.positions = point.par_iter().with_min_len(4096).map(|p| positions[p.index()]).collect();
+    drop((point, positions));
     // an edge that is there twice is not paired
     let repeated = manifold::repeated_edges(&mesh);
     let is_closed = repeated.is_none();
@@ -181,6 +181,18 @@ pub(crate) fn weld(
     drop((filled, twins));
     let (mesh, noise) = proven(mesh, &solid, walls, is_closed)?;
     Ok(Welded { mesh, solid, noise, signs, triangulation: begin.elapsed() })
+}
+
+/// The half-edge that each is paired with.
+fn twins(pieces: Vec<HalfEdge>) -> Vec<HalfEdgeId> {
+    let twin = |piece: &HalfEdge| piece.twin;
+    if takes_much_memory::<HalfEdge>(pieces.len()) {
+        // in their place
+        let mut twins: Vec<HalfEdgeId> = pieces.into_iter().map(|piece| twin(&piece)).collect();
+        twins.shrink_to_fit();
+        return twins;
+    }
+    pieces.par_iter().with_min_len(4096).map(twin).collect()
 }
 
 /// Numbers regions, points and lines, cancels what is opposite, and cuts and pairs what is left; half-edges are sorted by

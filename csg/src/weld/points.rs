@@ -118,6 +118,11 @@ impl Points {
         }
     }
 
+    /// Where they are.
+    pub(super) fn into_positions(self) -> Vec<DVec3> {
+        self.positions
+    }
+
     /// The number of the meeting point of three independent planes, a new one where it is not known yet. Looks at all points.
     pub(super) fn add(&mut self, table: &PlaneTable, triple: [PlaneId; 3]) -> PointId {
         let named = Named::of(table, triple.map(PlaneId::unsided));
