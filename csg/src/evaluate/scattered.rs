@@ -66,7 +66,7 @@ fn evaluate_some_at_a_time(
     let Groups { boxes, alone, mut several } = Groups::of(&extents, &expression, &expression.repeated_leaves(&kinds));
     let polarities = others.polarities(&expression, &kinds);
     drop(kinds);
-    let scene = Scattered { model, built, table: &table, planes: &planes, walls: others.walls, at_a_time };
+    let mut scene = Scattered { model, built, table: &table, planes, boxes, walls: others.walls, at_a_time };
     let evaluated = begin.elapsed();
 
     let welding = Clock::start();
@@ -90,7 +90,11 @@ fn evaluate_some_at_a_time(
     while !rest.is_empty() {
         let (some, after) = rest.split_at(next_groups(rest, at_a_time));
         rest = after;
-        let edges = scene.boundary_edges((&some.concat(), &boxes), (&expression, &polarities), &rank, &mut signs);
+        let edges = scene.boundary_edges(&some.concat(), (&expression, &polarities), &rank, &mut signs);
+        if rest.is_empty() {
+            // the weld takes most memory, and no body is built any more
+            (scene.planes, scene.boxes) = Default::default();
+        }
         let Welded { mesh, solid: measures, noise, signs: counted, triangulation } =
             weld(&table, edges, &rank, &model.materials, scene.walls)?;
         signs += counted;
@@ -116,7 +120,10 @@ struct Scattered<'a> {
     model: &'a Model,
     built: &'a BuiltBodies,
     table: &'a PlaneTable,
-    planes: &'a [Vec<PlaneId>],
+    /// The planes of each leaf.
+    planes: Vec<Vec<PlaneId>>,
+    /// The box of each leaf.
+    boxes: Boxes,
     /// The material of walls of a block.
     walls: Option<MaterialId>,
     /// Number of bodies whose boundary is made together.
@@ -153,19 +160,18 @@ impl Scattered<'_> {
         }
     }
 
-    /// The boundary edges of whole groups, given their leaves in the order of space, so that few have neighbours in other parts, and the
-    /// boxes of all.
+    /// The boundary edges of whole groups, given their leaves in the order of space, so that few have neighbours in other parts.
     fn boundary_edges(
         &self,
-        (leaves, boxes): (&[LeafId], &Boxes),
+        leaves: &[LeafId],
         tree: (&Expression, &[Polarity]),
         rank: &[u32],
         signs: &mut Counts,
     ) -> Vec<BoundaryEdge> {
         let mut edges = Vec::new();
         for part in leaves.chunks(self.at_a_time) {
-            let near = if part.len() == leaves.len() { sorted(part.to_vec()) } else { with_neighbours(part, boxes) };
             let own = sorted(part.to_vec());
+            let near = if part.len() == leaves.len() { own.clone() } else { with_neighbours(part, &self.boxes) };
             let (of_part, counted) = self
                 .leaves(&near, signs)
                 .boundary_edges_of(self.table, tree, rank, |leaf| own.binary_search(&leaf).is_ok());
