@@ -15,7 +15,7 @@ use rustc_hash::FxHashMap;
 use thiserror::Error;
 
 use crate::arrangement::CombineError;
-use crate::base::Clock;
+use crate::base::{Clock, map_chunks};
 use crate::body::{
     Body, BrushBodies, BrushBody, BuiltBodies, OuterBox, build_bodies, build_other_bodies, kinds, mark_of,
 };
@@ -157,9 +157,19 @@ pub fn evaluate_built(
     unbounded: UnboundedBrushes,
     built: &BuiltBodies,
 ) -> Result<Evaluation, EvaluateError> {
-    let convex = model.tree.brushes().iter().filter(|brush| !brush.is_mesh());
-    let size = smallest_size(convex.map(Brush::half_spaces));
-    evaluate_among(model, unbounded, built, OtherBrushes::alone(size))
+    in_pool_where_large(model, || {
+        let size = smallest_size_of_convex(model.tree.brushes());
+        evaluate_here(model, unbounded, built, OtherBrushes::alone(size))
+    })
+}
+
+/// The [`smallest_size`] of brushes that are not meshes.
+fn smallest_size_of_convex(brushes: &[Brush]) -> f64 {
+    let (sizes, _) = map_chunks(brushes, 256, |chunk| {
+        smallest_size(chunk.iter().filter(|brush| !brush.is_mesh()).map(Brush::half_spaces))
+    });
+    // where a chunk has no body, its size is 0
+    sizes.into_iter().filter(|size| *size > 0.0).reduce(f64::min).unwrap_or(0.0)
 }
 
 /// What the evaluation of some brushes of a model follows from the others, which are not there.
@@ -205,12 +215,16 @@ pub(crate) fn evaluate_among(
     built: &BuiltBodies,
     others: OtherBrushes<'_>,
 ) -> Result<Evaluation, EvaluateError> {
-    let evaluate = || evaluate_here(model, unbounded, built, others);
+    in_pool_where_large(model, || evaluate_here(model, unbounded, built, others))
+}
+
+/// Does some work with a model by the threads of the pool, where it is worth waiting for these.
+fn in_pool_where_large<R: Send>(model: &Model, work: impl FnOnce() -> R + Send) -> R {
     let brushes = model.tree.brushes();
     let is_large = brushes.iter().any(Brush::is_mesh)
         || brushes.len() >= MANY_PLANES
         || brushes.iter().map(|brush| brush.faces.len()).sum::<usize>() >= MANY_PLANES;
-    if is_large { planecut_parallel::in_pool(evaluate) } else { evaluate() }
+    if is_large { planecut_parallel::in_pool(work) } else { work() }
 }
 
 /// The same on the calling thread, and others where there are more parts.

@@ -96,7 +96,9 @@ pub(super) fn mesh_of(parts: Vec<FilledFaces>, vertex: &[VertexId], materials: &
 
 /// The half-edge behind each side of each triangle.
 pub(super) fn labels(filled: &[Triangles]) -> Labels {
-    let all = filled.iter().flat_map(|part| part.corners.iter().zip(&part.on_loops));
-    let label = |corner: HalfEdgeId, is_on_loop: bool| if is_on_loop { corner } else { HalfEdgeId::NONE };
-    all.map(|(corners, on_loops)| [0, 1, 2].map(|k| label(corners[k], on_loops >> k & 1 == 1))).collect()
+    let label = |part: usize, triangle: usize| {
+        let (corners, on_loops) = (filled[part].corners[triangle], filled[part].on_loops[triangle]);
+        [0, 1, 2].map(|k| if on_loops >> k & 1 == 1 { corners[k] } else { HalfEdgeId::NONE })
+    };
+    by_parts(filled.iter().map(|part| part.corners.len()), label)
 }

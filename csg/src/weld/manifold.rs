@@ -126,16 +126,27 @@ fn rotated<T: Copy>(three: [T; 3], first: usize) -> [T; 3] {
     std::array::from_fn(|k| three[(first + k) % 3])
 }
 
-/// Adds triangles so that those of one face still follow one another.
+/// Adds triangles, each after the others of its face; the faces of triangles are ascending.
 fn insert_triangles(mesh: &mut Mesh, labels: &mut Labels, additions: &[Addition]) {
-    mesh.triangles.extend(additions.iter().map(|(triangle, _, _)| *triangle));
-    labels.extend(additions.iter().map(|(_, labels, _)| *labels));
-    mesh.triangle_faces.extend(additions.iter().map(|(_, _, face)| *face));
-    let mut order: Vec<u32> = (0..number32(mesh.triangles.len())).collect();
-    order.sort_by_key(|k| mesh.triangle_faces[*k as usize]);
-    mesh.triangles = order.iter().map(|k| mesh.triangles[*k as usize]).collect();
-    *labels = order.iter().map(|k| labels[*k as usize]).collect();
-    mesh.triangle_faces.sort_unstable();
+    let place = |(number, (_, _, face)): (usize, &Addition)| {
+        (mesh.triangle_faces.partition_point(|other| other <= face), number)
+    };
+    let mut places: Vec<(usize, usize)> = additions.iter().enumerate().map(place).collect();
+    places.sort_unstable();
+    insert(&mut mesh.triangles, &places, |number| additions[number].0);
+    insert(labels, &places, |number| additions[number].1);
+    insert(&mut mesh.triangle_faces, &places, |number| additions[number].2);
+}
+
+/// Inserts elements, given by numbers, before places of a list, which are ascending.
+fn insert<T: Copy>(list: &mut Vec<T>, places: &[(usize, usize)], element: impl Fn(usize) -> T) {
+    let mut end = list.len();
+    list.extend(places.iter().map(|(_, number)| element(*number)));
+    for (before, (place, number)) in places.iter().enumerate().rev() {
+        list.copy_within(*place..end, *place + before + 1);
+        list[*place + before] = element(*number);
+        end = *place;
+    }
 }
 
 /// Pairs the sides of a repeated edge: of the boundary by its half-edges, first; diagonals within their face.
@@ -160,4 +171,43 @@ fn match_sides(
         }
     }
     pairs
+}
+
+#[cfg(test)]
+mod tests {
+    use planecut_testkit::random::Rng;
+
+    use super::*;
+
+    #[test]
+    fn triangles_are_inserted_after_those_of_their_face() {
+        for seed in 0..200 {
+            let mut rng = Rng::spread(seed);
+            let faces = 1 + rng.below(20);
+            let mut triangle_faces: Vec<u32> =
+                (0..faces).chain((0..rng.below(50)).map(|_| rng.below(faces))).map(number32).collect();
+            triangle_faces.sort_unstable();
+            let triangle = |number: usize| [number32(number); 3];
+            let label = |number: usize| [HalfEdgeId::from_index(number); 3];
+            let count = triangle_faces.len();
+            let added: Vec<u32> = (0..rng.below(30)).map(|_| number32(rng.below(faces))).collect();
+            let additions: Vec<Addition> =
+                (count..).zip(&added).map(|(number, face)| (triangle(number), label(number), *face)).collect();
+            // a stable sort of all by their faces
+            let mut expected: Vec<(u32, usize)> =
+                triangle_faces.iter().chain(&added).enumerate().map(|(number, face)| (*face, number)).collect();
+            expected.sort_by_key(|(face, _)| *face);
+            let mut mesh = Mesh { triangles: (0..count).map(triangle).collect(), triangle_faces, ..Mesh::default() };
+            let mut labels: Labels = (0..count).map(label).collect();
+            insert_triangles(&mut mesh, &mut labels, &additions);
+            let numbers: Vec<usize> = expected.iter().map(|(_, number)| *number).collect();
+            assert_eq!(mesh.triangle_faces, expected.iter().map(|(face, _)| *face).collect::<Vec<_>>(), "seed {seed}");
+            assert_eq!(
+                mesh.triangles,
+                numbers.iter().map(|number| triangle(*number)).collect::<Vec<_>>(),
+                "seed {seed}"
+            );
+            assert_eq!(labels, numbers.iter().map(|number| label(*number)).collect::<Vec<_>>(), "seed {seed}");
+        }
+    }
 }
