@@ -32,10 +32,36 @@ impl PlaneFilter {
         [self.normal.x, self.normal.y, self.normal.z, self.offset, self.reach, self.room]
     }
 
+    /// The value of the plane's equation at a corner, and a bound for its error.
+    fn value(&self, corner: &Corner) -> (f64, f64) {
+        (self.normal.dot(corner.at) - self.offset, self.reach * corner.error + self.room)
+    }
+
+    /// Where the plane meets the line through two corners, of which one does not lie beyond it and the other not within; nothing where this would be known much
+    /// worse than they are.
+    ///
+    /// With values `A` and `B` at the corners, `a` and `b` as they are known, the point lies `A / (A − B)` of the way; `a / (a − b)` differs from that by
+    /// `(A (b − B) − B (a − A)) / ((A − B) (a − b))`, and `|A| + |B| = |A − B|`, as their signs are not alike.
+    pub(crate) fn crossing(&self, from: &Corner, to: &Corner) -> Option<Corner> {
+        /// How much worse: where a line and a plane meet at a small angle, that of three planes is known better.
+        const MOST: f64 = 4.0;
+        const ROUNDED_UP: f64 = 1.0 + 8.0 * f64::EPSILON;
+        let ((a, bound_of_a), (b, bound_of_b)) = (self.value(from), self.value(to));
+        let (step, error) = (to.at - from.at, from.error.max(to.error));
+        let way = ROUNDED_UP * bound_of_a.max(bound_of_b) / (a - b).abs();
+        let off = way * (step.abs().max_element() + from.error + to.error);
+        if !(off <= MOST * error && off.is_finite()) {
+            return None;
+        }
+        let at = from.at + step * (a / (a - b));
+        // the difference, the quotient, the product and the sum are rounded, and so is a dot product with the coordinates
+        let rounding = 2.0 * PLANE_VALUE_BOUND * from.at.abs().max(to.at.abs()).max_element();
+        Some(Corner { at, error: error + off + rounding, within: Corner::NOWHERE, number: Corner::NEW })
+    }
+
     /// On which side of the plane a corner certainly is; zero where that is not certain.
     pub(crate) fn side(&self, corner: &Corner) -> Sign {
-        let value = self.normal.dot(corner.at) - self.offset;
-        let bound = self.reach * corner.error + self.room;
+        let (value, bound) = self.value(corner);
         if value > bound {
             Sign::Positive
         } else if value < -bound {
@@ -103,5 +129,78 @@ impl Bounds {
         }
         let margin = DVec3::splat(corner.error);
         Self { min: self.min.min(corner.at - margin), max: self.max.max(corner.at + margin) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use planecut_testkit::random::Rng;
+
+    use super::*;
+    use crate::plane_table::{PlaneId, PlaneTable};
+
+    /// Planes around a place: any, on a grid, and nearly parallel to one another.
+    fn planes(rng: &mut Rng, round: usize) -> (PlaneTable, [PlaneId; 6]) {
+        let mut table = PlaneTable::default();
+        let middle = [DVec3::ZERO, DVec3::new(3e6, -2e5, 7.5), DVec3::splat(1e-7)][round % 3];
+        let size = [1.0, 1e-3, 1e4][round / 3 % 3];
+        let first = rng.unit();
+        let plane = |_| {
+            let normal = match round / 9 % 3 {
+                0 => rng.unit(),
+                1 => loop {
+                    let lattice = DVec3::from_array(rng.lattice(2));
+                    if lattice != DVec3::ZERO {
+                        break lattice;
+                    }
+                },
+                _ if rng.chance(0.5) => first + 10.0_f64.powi(-(rng.below(10) as i32)) * rng.unit(),
+                _ => rng.unit(),
+            };
+            let offset = normal.dot(middle) + size * rng.whole(-2, 2) / 2.0;
+            table.insert_exact(&HalfSpace::new(normal, offset).expect("a plane"))
+        };
+        let planes = [0; 6].map(plane);
+        (table, planes)
+    }
+
+    /// Their meeting point: in which order they are right-handed, where it is, correctly rounded, and as a corner.
+    fn point(table: &PlaneTable, [a, b, c]: [PlaneId; 3]) -> Option<([PlaneId; 3], DVec3, Corner)> {
+        let planes = match table.orient3(a, b, c) {
+            Sign::Positive => [a, b, c],
+            Sign::Negative => [a, c, b],
+            Sign::Zero => return None,
+        };
+        Some((planes, table.position(planes)?, Corner::new(&table.homogeneous(planes))))
+    }
+
+    #[test]
+    fn crossings_are_where_they_are_said_to_be() {
+        let mut rng = Rng::spread(33);
+        let (mut told, mut left_open, mut sides) = (0, 0, 0);
+        for round in 0..60_000 {
+            let (table, [a, b, start, end, cut, other]) = planes(&mut rng, round);
+            let side = |planes: [PlaneId; 3], plane| table.side(planes, &table.homogeneous(planes), plane);
+            let (Some(from), Some(to)) = (point(&table, [a, b, start]), point(&table, [a, b, end])) else { continue };
+            let is_between = side(from.0, cut) == Sign::Negative && side(to.0, cut) != Sign::Negative;
+            let Some(exact) = point(&table, [a, b, cut]).filter(|_| is_between) else { continue };
+            let Some(crossing) = PlaneFilter::new(table.half_space(cut)).crossing(&from.2, &to.2) else {
+                left_open += 1;
+                continue;
+            };
+            told += 1;
+            let context = format!("round {round}: planes {:?}", [a, b, start, end, cut].map(|p| *table.half_space(p)));
+            // the exact point is rounded, too
+            let off = (crossing.at - exact.1).abs().max_element() - f64::EPSILON * exact.1.abs().max_element();
+            assert!(off <= crossing.error, "{context}: off by {off:e}, told {:e}", crossing.error);
+            let least = from.2.error.max(to.2.error);
+            assert!(crossing.error <= 8.0 * least, "{context}: {:e} of {least:e}", crossing.error);
+            let certain = PlaneFilter::new(table.half_space(other)).side(&crossing);
+            if certain != Sign::Zero {
+                sides += 1;
+                assert_eq!(certain, side(exact.0, other), "{context}, side of {:?}", table.half_space(other));
+            }
+        }
+        assert!(told > 5_000 && left_open > 100 && sides > 3_000, "{told} told, {left_open} left open, {sides} sides");
     }
 }

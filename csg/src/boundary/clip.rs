@@ -32,6 +32,8 @@ pub(super) struct Clipper {
     planes: Vec<Range<usize>>,
     /// The planes that cut a polygon.
     cuts: Vec<PlaneId>,
+    /// The same of a body of many faces, each with its face.
+    cut_by: Vec<(PlaneId, BodyFaceId)>,
 }
 
 /// How many corners are placed in a body of many faces to find planes beyond which many others lie.
@@ -147,7 +149,8 @@ impl Clipper {
         let Some(dual) = cutter.scene.polar_dual(cutter.body) else {
             return !self.sides.is_empty() && self.sides.are_known_inside(self.planes[cutter.place.index()].clone());
         };
-        (0..polygon.corners.len()).all(|i| matches!(self.place(cutter, dual, polygon, i), Found::Inside(_)))
+        !self.planes[cutter.place.index()].clone().any(|plane| self.sides.is_one_known_outside(plane))
+            && (0..polygon.corners.len()).all(|i| matches!(self.place(cutter, dual, polygon, i), Found::Inside(_)))
     }
 
     /// By the planes of a body of few faces: those on both sides of which corners lie. The polygon is the one that is looked at.
@@ -221,8 +224,10 @@ impl Clipper {
         out.copy_from(polygon);
         out.corners[..known].iter_mut().for_each(|corner| corner.within = body);
         let mut i = known;
+        self.cut_by.clear();
         loop {
             let cut = scene.body(body).faces[beyond.index()].plane;
+            self.cut_by.push((cut, beyond));
             match out.clip(signs, face.plane, cut, &mut self.spare) {
                 Clip::Nothing => return Clip::Nothing,
                 Clip::Part => {}
@@ -232,11 +237,12 @@ impl Clipper {
             let next = loop {
                 let Some(k) = out.corners.iter().position(|corner| corner.within != body) else { break None };
                 i = k;
-                let is_on_cut = [i, i + 1].iter().any(|k| out.edges[k % out.edges.len()] == cut);
-                let found = if is_on_cut {
-                    self.exact_place(cutter, dual, out, i, dual.place_on(&out.corners[i], beyond))
-                } else {
-                    self.place(cutter, dual, out, i)
+                // on which faces of the body it lies, the last that cut the polygon first
+                let ends = [out.edges[i], out.edges[(i + 1) % out.edges.len()]];
+                let on = self.cut_by.iter().rfind(|(plane, _)| ends.contains(plane));
+                let found = match on.map(|(_, face)| *face) {
+                    Some(on) => self.exact_place(cutter, dual, out, i, dual.place_on(&out.corners[i], on)),
+                    None => self.place(cutter, dual, out, i),
                 };
                 match found {
                     Found::Inside(_) => out.corners[i].within = body,

@@ -160,6 +160,11 @@ impl CornerSides {
         self.cut.is_empty() && self.polygon.iter().zip(self.of_plane(plane)).all(is_outside)
     }
 
+    /// Whether some corner of the polygon is known to lie strictly outside of a plane.
+    pub(super) fn is_one_known_outside(&self, plane: usize) -> bool {
+        self.polygon.iter().zip(self.of_plane(plane)).any(|(bits, sides)| bits & sides.outside != 0)
+    }
+
     fn of_plane(&self, plane: usize) -> &[Sides] {
         &self.sides[plane * self.words..(plane + 1) * self.words]
     }

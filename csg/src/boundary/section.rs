@@ -72,6 +72,12 @@ impl Polygon {
         // The last corner strictly inside before the cut begins; edge `i` runs from corner `i − 1` to corner `i`.
         let (first, last) = inside.run(n);
         let (leaving, entering) = (self.edges[after(last, n)], self.edges[first]);
+        let crossing = |inside: usize, other: usize, planes: [PlaneId; 3]| {
+            let near = filter.crossing(&self.corners[inside], &self.corners[other]);
+            near.unwrap_or_else(|| meet(signs.table, planes))
+        };
+        let cut_off = crossing(last, after(last, n), [plane, leaving, cut]);
+        let cut_in = crossing(first, before(first, n), [plane, cut, entering]);
         // Kept are the edges that touch a corner strictly inside: from edge `first` to edge `last + 1`.
         spare.edges.clear();
         spare.corners.clear();
@@ -81,8 +87,7 @@ impl Polygon {
             spare.corners.extend_from_slice(&self.corners[run]);
         }
         spare.edges.extend([leaving, cut]);
-        spare.corners.push(meet(signs.table, [plane, leaving, cut]));
-        spare.corners.push(meet(signs.table, [plane, cut, entering]));
+        spare.corners.extend([cut_off, cut_in]);
         std::mem::swap(self, spare);
         Clip::Part
     }
@@ -278,6 +283,10 @@ impl Line {
             if start == Sign::Negative && end == Sign::Negative {
                 continue;
             }
+            let crossing = |planes: [PlaneId; 3]| {
+                let near = filter.crossing(&part.start_point, &part.end_point);
+                near.unwrap_or_else(|| meet(signs.table, planes))
+            };
             let start = signs.settled(start, || self.start(part.start), edge);
             let end = signs.settled(end, || self.end(part.end), edge);
             match (start == Sign::Positive, end == Sign::Positive) {
@@ -292,14 +301,14 @@ impl Line {
                         return Cover::Apart;
                     }
                     part.start = edge;
-                    part.start_point = meet(signs.table, self.start(edge));
+                    part.start_point = crossing(self.start(edge));
                 }
                 (false, true) => {
                     if start == Sign::Zero {
                         return Cover::Apart;
                     }
                     part.end = edge;
-                    part.end_point = meet(signs.table, self.end(edge));
+                    part.end_point = crossing(self.end(edge));
                 }
             }
         }
