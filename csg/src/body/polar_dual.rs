@@ -149,12 +149,13 @@ impl PolarDual {
         Place::of(value, room, [face, face])
     }
 
-    /// Where a point lies that is on the plane of a face: within the face unless beyond a neighbour, and so within the body.
-    pub(crate) fn place_on(&self, point: &Corner, face: BodyFaceId) -> Place {
+    /// Where a point lies that is on the plane of a face: within the face unless beyond a neighbour, and so within the body. It may also be on the plane of another
+    /// face, beyond which it is not then.
+    pub(crate) fn place_on(&self, point: &Corner, (face, other_face): (BodyFaceId, Option<BodyFaceId>)) -> Place {
         let (at, room) = self.relative(point);
         let (mut farthest, mut value) = (face, f64::NEG_INFINITY);
         self.for_each_neighbour(face, &self.neighbours.seen(at), 1.0 - 2.0 * room, |next, other| {
-            if other > value {
+            if other > value && Some(next) != other_face {
                 (farthest, value) = (next, other);
             }
         });

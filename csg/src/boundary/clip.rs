@@ -161,6 +161,9 @@ impl Clipper {
             return self.clip_by_all(cutter, out);
         }
         let planes = self.planes[place.index()].clone();
+        if self.sides.are_known_inside(planes.clone()) {
+            return Clip::Whole;
+        }
         self.cuts.clear();
         for (number, other) in planes.zip(&scene.body(body).faces) {
             if other.plane.index() == face.plane.index() {
@@ -239,9 +242,10 @@ impl Clipper {
                 i = k;
                 // on which faces of the body it lies, the last that cut the polygon first
                 let ends = [out.edges[i], out.edges[(i + 1) % out.edges.len()]];
-                let on = self.cut_by.iter().rfind(|(plane, _)| ends.contains(plane));
-                let found = match on.map(|(_, face)| *face) {
-                    Some(on) => self.exact_place(cutter, dual, out, i, dual.place_on(&out.corners[i], on)),
+                let cut_by = self.cut_by.iter().rev().filter(|(plane, _)| ends.contains(plane));
+                let mut on = cut_by.map(|(_, face)| *face);
+                let found = match on.next().map(|face| (face, on.next())) {
+                    Some(faces) => self.exact_place(cutter, dual, out, i, dual.place_on(&out.corners[i], faces)),
                     None => self.place(cutter, dual, out, i),
                 };
                 match found {
