@@ -241,7 +241,7 @@ impl Clipper {
                 let Some(k) = out.corners.iter().position(|corner| corner.within != body) else { break None };
                 i = k;
                 // on which faces of the body it lies, the last that cut the polygon first
-                let ends = [out.edges[i], out.edges[(i + 1) % out.edges.len()]];
+                let [_, ends @ ..] = out.corner(face.plane, i);
                 let cut_by = self.cut_by.iter().rev().filter(|(plane, _)| ends.contains(plane));
                 let mut on = cut_by.map(|(_, face)| *face);
                 let found = match on.next().map(|face| (face, on.next())) {

@@ -72,12 +72,9 @@ impl Polygon {
         // The last corner strictly inside before the cut begins; edge `i` runs from corner `i − 1` to corner `i`.
         let (first, last) = inside.run(n);
         let (leaving, entering) = (self.edges[after(last, n)], self.edges[first]);
-        let crossing = |inside: usize, other: usize, planes: [PlaneId; 3]| {
-            let near = filter.crossing(&self.corners[inside], &self.corners[other]);
-            near.unwrap_or_else(|| meet(signs.table, planes))
-        };
-        let cut_off = crossing(last, after(last, n), [plane, leaving, cut]);
-        let cut_in = crossing(first, before(first, n), [plane, cut, entering]);
+        let ends = |inside: usize, other: usize| [&self.corners[inside], &self.corners[other]];
+        let cut_off = crossing(signs.table, &filter, ends(last, after(last, n)), [plane, leaving, cut]);
+        let cut_in = crossing(signs.table, &filter, ends(first, before(first, n)), [plane, cut, entering]);
         // Kept are the edges that touch a corner strictly inside: from edge `first` to edge `last + 1`.
         spare.edges.clear();
         spare.corners.clear();
@@ -283,10 +280,7 @@ impl Line {
             if start == Sign::Negative && end == Sign::Negative {
                 continue;
             }
-            let crossing = |planes: [PlaneId; 3]| {
-                let near = filter.crossing(&part.start_point, &part.end_point);
-                near.unwrap_or_else(|| meet(signs.table, planes))
-            };
+            let crossing = |planes| crossing(signs.table, &filter, [&part.start_point, &part.end_point], planes);
             let start = signs.settled(start, || self.start(part.start), edge);
             let end = signs.settled(end, || self.end(part.end), edge);
             match (start == Sign::Positive, end == Sign::Positive) {
@@ -371,6 +365,11 @@ impl Line {
         };
         (0..3).map(along).find(|(a, _)| *a != Sign::Zero).is_none_or(|(a, b)| a == b)
     }
+}
+
+/// Where a plane crosses an edge, of which both ends are given, in the meeting point of three planes.
+fn crossing(table: &PlaneTable, filter: &PlaneFilter, [from, to]: [&Corner; 2], planes: [PlaneId; 3]) -> Corner {
+    filter.crossing(from, to).unwrap_or_else(|| meet(table, planes))
 }
 
 /// Where three planes meet.
