@@ -162,7 +162,14 @@ impl Scene {
 
     /// A tree over brushes.
     pub(crate) fn tree(&self, entries: &[Entry]) -> Tree {
-        Self::tree_of(entries, self.bodies.iter().map(Body::brush))
+        let brushes = self.bodies.iter().map(Body::brush);
+        // without a tree for each brush, as whoever has a list of them
+        if let [leaves @ .., Entry::Union(_)] = entries
+            && leaves.iter().all(|entry| matches!(entry, Entry::Leaf))
+        {
+            return Tree::union_of(brushes.collect());
+        }
+        Self::tree_of(entries, brushes)
     }
 
     /// A tree over leaves.

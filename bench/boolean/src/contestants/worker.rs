@@ -23,24 +23,24 @@ pub(crate) enum Answer {
 }
 
 /// Serves until standard input ends.
-pub(crate) fn serve(name: &str, scene: &Path) -> Result<(), String> {
+pub(crate) fn serve(name: &str, file: &Path) -> Result<(), String> {
+    // Read by another thread than works with it: what is dropped before the clock starts would leave holes among what stays, and
+    // count as memory of the kernel.
+    let read = if OURS.contains(&name) { Scene::read_half_spaces } else { Scene::read };
+    let scene = read(file).map_err(|error| error.to_string());
     // recursive kernels need it: a plane for each level
     let thread = std::thread::Builder::new().stack_size(1 << 30);
     let served = thread.spawn({
-        let (name, scene) = (name.to_owned(), scene.to_owned());
-        move || answer(&name, &scene)
+        let (name, file) = (name.to_owned(), file.to_owned());
+        move || answer(&name, scene, &file)
     });
     served.map_err(|error| error.to_string())?.join().map_err(|_| "it panicked".to_owned())
 }
 
-fn answer(name: &str, file: &Path) {
+fn answer(name: &str, scene: Result<Scene, String>, file: &Path) {
+    let prepared = caught(|| prepare(name, scene?, file));
     // for everybody alike: processes that are run again and again
     planecut_csg::keep_freed_memory();
-    let prepared = caught(|| {
-        let read = if OURS.contains(&name) { Scene::read_half_spaces } else { Scene::read };
-        let scene = read(file).map_err(|error| error.to_string())?;
-        prepare(name, scene, file)
-    });
     let mut contestant = match prepared {
         Ok(contestant) => contestant,
         Err(error) => return say(&Answer::Err(error)),
