@@ -7,6 +7,7 @@
 
 use crate::ids::number32;
 use glam::DVec3;
+use planecut_parallel::prelude::*;
 use smallvec::SmallVec;
 
 use super::Mesh;
@@ -78,10 +79,13 @@ fn short_edges(mesh: &Mesh, is_short: impl Fn(DVec3, DVec3) -> bool) -> Vec<[u32
     short.into_iter().map(|(_, edge)| edge).collect()
 }
 
-/// The triangles at a vertex where they have changed.
+/// Elements that a thread copies in a row, at least.
+const CHUNK: usize = 4096;
+
+/// The triangles at a vertex that another was merged into.
 type Changed = SmallVec<[u32; 8]>;
 
-/// A vertex with nothing changed at it.
+/// A vertex that no other was merged into.
 const UNCHANGED: u32 = u32::MAX;
 
 /// Edges contracted so far.
@@ -95,7 +99,7 @@ struct Contraction {
     triangles: Vec<u32>,
     /// For each vertex its place in the next list, or [`UNCHANGED`].
     place: Vec<u32>,
-    /// The live triangles at vertices where they have changed.
+    /// The triangles at vertices that others were merged into.
     changed: Vec<Changed>,
     is_removed: Vec<bool>,
     /// For each vertex which [`Mark`] of which test it got last.
@@ -134,23 +138,21 @@ impl Contraction {
     }
 
     /// The live triangles at a vertex.
-    fn triangles_at(&self, vertex: u32) -> &[u32] {
+    fn triangles_at(&self, vertex: u32) -> impl Iterator<Item = u32> {
+        let before = self.starts[vertex as usize] as usize..self.starts[vertex as usize + 1] as usize;
         let changed = self.changed.get(self.place[vertex as usize] as usize);
-        changed.map_or_else(|| self.triangles_before(vertex), SmallVec::as_slice)
+        let triangles = changed.map_or_else(|| &self.triangles[before], SmallVec::as_slice);
+        triangles.iter().copied().filter(|t| !self.is_removed[*t as usize])
     }
 
-    fn triangles_before(&self, vertex: u32) -> &[u32] {
-        &self.triangles[self.starts[vertex as usize] as usize..self.starts[vertex as usize + 1] as usize]
-    }
-
-    /// The same, to be changed.
-    fn triangles_mut(&mut self, vertex: u32) -> &mut Changed {
-        if self.place[vertex as usize] == UNCHANGED {
-            let before = Changed::from_slice(self.triangles_before(vertex));
-            self.place[vertex as usize] = number32(self.changed.len());
-            self.changed.push(before);
+    fn put_triangles_at(&mut self, vertex: u32, triangles: Changed) {
+        match self.changed.get_mut(self.place[vertex as usize] as usize) {
+            Some(changed) => *changed = triangles,
+            None => {
+                self.place[vertex as usize] = number32(self.changed.len());
+                self.changed.push(triangles);
+            }
         }
-        &mut self.changed[self.place[vertex as usize] as usize]
     }
 
     fn current(&self, mut vertex: u32) -> u32 {
@@ -167,19 +169,19 @@ impl Contraction {
         if a == b || !still_short || !self.keeps_topology(mesh, a, b) {
             return false;
         }
-        let at_b = std::mem::take(self.triangles_mut(b));
-        for t in at_b {
-            let triangle = &mut mesh.triangles[t as usize];
-            if triangle.contains(&a) {
-                self.is_removed[t as usize] = true;
-                for v in *triangle {
-                    self.triangles_mut(v).retain(|other| *other != t);
-                }
+        let mut at_b: Changed = self.triangles_at(b).collect();
+        at_b.retain(|t| {
+            let triangle = &mut mesh.triangles[*t as usize];
+            let is_removed = triangle.contains(&a);
+            if is_removed {
+                self.is_removed[*t as usize] = true;
             } else {
                 *triangle = triangle.map(|v| if v == b { a } else { v });
-                self.triangles_mut(a).push(t);
             }
-        }
+            !is_removed
+        });
+        let at_a = self.triangles_at(a).chain(at_b).collect();
+        self.put_triangles_at(a, at_a);
         self.became[b as usize] = a;
         self.gone.push(b);
         true
@@ -187,7 +189,7 @@ impl Contraction {
 
     /// The link condition: exactly two triangles share the edge, and their tips are all the neighbours that both ends have.
     fn keeps_topology(&mut self, mesh: &Mesh, a: u32, b: u32) -> bool {
-        let shared = self.triangles_at(b).iter().filter(|t| mesh.triangles[**t as usize].contains(&a)).count();
+        let shared = self.triangles_at(b).filter(|t| mesh.triangles[*t as usize].contains(&a)).count();
         if shared != 2 {
             return false;
         }
@@ -195,7 +197,7 @@ impl Contraction {
         let mark = |mark: Mark| MARKS * self.tests + mark as u64;
         let mut marks = std::mem::take(&mut self.marks);
         let around = |v: u32| {
-            let corners = self.triangles_at(v).iter().flat_map(|t| mesh.triangles[*t as usize]);
+            let corners = self.triangles_at(v).flat_map(|t| mesh.triangles[t as usize]);
             corners.filter(move |other| *other != v).map(|other| other as usize)
         };
         let (mut at_a, mut at_b, mut common) = (0, 0, 0);
@@ -221,8 +223,8 @@ impl Contraction {
     /// Drops what is no longer used and renumbers the rest.
     fn compact(&self, mesh: &mut Mesh) {
         let kept: Vec<usize> = (0..mesh.triangles.len()).filter(|t| !self.is_removed[*t]).collect();
-        mesh.triangles = kept.iter().map(|t| mesh.triangles[*t]).collect();
-        mesh.triangle_faces = kept.iter().map(|t| mesh.triangle_faces[*t]).collect();
+        mesh.triangles = kept.par_iter().with_min_len(CHUNK).map(|t| mesh.triangles[*t]).collect();
+        mesh.triangle_faces = kept.par_iter().with_min_len(CHUNK).map(|t| mesh.triangle_faces[*t]).collect();
         let mut number = vec![u32::MAX; mesh.positions.len()];
         for v in mesh.triangles.iter().flatten() {
             number[*v as usize] = 0;
@@ -231,8 +233,9 @@ impl Contraction {
         for (new, old) in used.iter().enumerate() {
             number[*old] = number32(new);
         }
-        mesh.positions = used.iter().map(|v| mesh.positions[*v]).collect();
-        mesh.triangles.iter_mut().flatten().for_each(|v| *v = number[*v as usize]);
+        mesh.positions = used.par_iter().with_min_len(CHUNK).map(|v| mesh.positions[*v]).collect();
+        let renumbered = |triangle: &mut [u32; 3]| *triangle = triangle.map(|v| number[v as usize]);
+        mesh.triangles.par_iter_mut().with_min_len(CHUNK).for_each(renumbered);
         mesh.drop_empty_faces();
     }
 }
