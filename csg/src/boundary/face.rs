@@ -60,8 +60,6 @@ pub(crate) struct FaceWorker {
     body: Option<BodyId>,
     /// The bodies that may touch it, itself among them, ascending.
     near: Vec<BodyId>,
-    /// The body that held the last face that one holds: mostly it holds the next one, too.
-    holder: Option<BodyId>,
     restriction: Restriction,
     bodies: Vec<BodyId>,
     /// The places of these among the bodies near.
@@ -101,7 +99,6 @@ impl FaceWorker {
             }
             self.near.push(other);
         }
-        self.holder = None;
     }
 
     fn own(&self) -> BodyId {
@@ -192,11 +189,9 @@ impl FaceWorker {
     /// Finds what covering bodies leave of the region; false where that is nothing.
     fn cover_region(&mut self, scene: &Scene<'_>, face: &BodyFace) -> bool {
         self.live = 0;
-        let last = self.holder.and_then(|holder| self.covering.iter().position(|covering| covering.body == holder));
-        for k in last.into_iter().chain((0..self.covering.len()).filter(|k| Some(*k) != last)) {
+        for k in 0..self.covering.len() {
             let cutter = cutter(scene, &self.signs, face, &self.covering[k]);
             if self.clipper.surely_holds(cutter, &self.region) {
-                self.holder = Some(self.covering[k].body);
                 return false;
             }
         }
