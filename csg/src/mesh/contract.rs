@@ -225,17 +225,7 @@ impl Contraction {
         let kept: Vec<usize> = (0..mesh.triangles.len()).filter(|t| !self.is_removed[*t]).collect();
         mesh.triangles = kept.par_iter().with_min_len(CHUNK).map(|t| mesh.triangles[*t]).collect();
         mesh.triangle_faces = kept.par_iter().with_min_len(CHUNK).map(|t| mesh.triangle_faces[*t]).collect();
-        let mut number = vec![u32::MAX; mesh.positions.len()];
-        for v in mesh.triangles.iter().flatten() {
-            number[*v as usize] = 0;
-        }
-        let used: Vec<usize> = (0..number.len()).filter(|v| number[*v] == 0).collect();
-        for (new, old) in used.iter().enumerate() {
-            number[*old] = number32(new);
-        }
-        mesh.positions = used.par_iter().with_min_len(CHUNK).map(|v| mesh.positions[*v]).collect();
-        let renumbered = |triangle: &mut [u32; 3]| *triangle = triangle.map(|v| number[v as usize]);
-        mesh.triangles.par_iter_mut().with_min_len(CHUNK).for_each(renumbered);
+        mesh.drop_unused_positions();
         mesh.drop_empty_faces();
     }
 }

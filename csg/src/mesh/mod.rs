@@ -9,6 +9,7 @@ mod proof;
 
 use crate::ids::number32;
 use glam::DVec3;
+use planecut_parallel::prelude::*;
 
 use crate::model::{Material, MaterialId};
 pub use contract::{contract_edges, contract_short_edges};
@@ -77,8 +78,7 @@ impl Mesh {
             old += 1;
             new[old - 1] != u32::MAX
         });
-        for vertex in self.triangles.iter_mut().flatten() {
-            *vertex = new[*vertex as usize];
-        }
+        let renumbered = |triangle: &mut [u32; 3]| *triangle = triangle.map(|vertex| new[vertex as usize]);
+        self.triangles.par_iter_mut().with_min_len(4096).for_each(renumbered);
     }
 }
