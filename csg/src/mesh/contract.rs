@@ -10,8 +10,8 @@ use glam::DVec3;
 use planecut_parallel::prelude::*;
 use smallvec::SmallVec;
 
-use super::Mesh;
 use super::noise::{Noise, NoiseEdge};
+use super::{CHUNK, Mesh};
 use crate::base::by_group;
 
 /// Contracts edges of at most `length` (in the mesh's units) and gives how many went. Edges whose contraction would change
@@ -78,9 +78,6 @@ fn short_edges(mesh: &Mesh, is_short: impl Fn(DVec3, DVec3) -> bool) -> Vec<[u32
     short.sort_by(|p, q| p.0.total_cmp(&q.0).then(p.1.cmp(&q.1)));
     short.into_iter().map(|(_, edge)| edge).collect()
 }
-
-/// Elements that a thread copies in a row, at least.
-const CHUNK: usize = 4096;
 
 /// The triangles at a vertex that another was merged into.
 type Changed = SmallVec<[u32; 8]>;

@@ -19,6 +19,9 @@ pub(crate) use noise::may_be_noise;
 use noise::without_noise;
 pub(crate) use proof::{Flaw, prove_part, proven};
 
+/// Triangles that a thread works on in a row, at least.
+const CHUNK: usize = 4096;
+
 /// One planar, connected region of a [`Mesh`] with one material.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -79,6 +82,6 @@ impl Mesh {
             new[old - 1] != u32::MAX
         });
         let renumbered = |triangle: &mut [u32; 3]| *triangle = triangle.map(|vertex| new[vertex as usize]);
-        self.triangles.par_iter_mut().with_min_len(4096).for_each(renumbered);
+        self.triangles.par_iter_mut().with_min_len(CHUNK).for_each(renumbered);
     }
 }

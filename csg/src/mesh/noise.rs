@@ -8,16 +8,13 @@ use glam::DVec3;
 use planecut_parallel::prelude::*;
 use rustc_hash::FxHashSet;
 
-use super::Mesh;
 use super::collapse::collapse_thin;
 use super::contract::contract_noise;
 use super::flip_caps::{flat_triangles, flip_caps, is_flat};
+use super::{CHUNK, Mesh};
 use crate::base::{by_group, map_chunks};
 use crate::model::MaterialId;
 use crate::tolerances::CONTRACTION;
-
-/// Triangles that a thread looks at in a row, at least.
-const CHUNK: usize = 4096;
 
 /// An edge that is short enough to be noise.
 #[derive(Debug, Clone, Copy)]
@@ -178,7 +175,7 @@ pub(crate) fn may_be_noise(part: &Mesh) -> bool {
         let shortest = a.distance_squared(b).min(b.distance_squared(c)).min(c.distance_squared(a));
         shortest.sqrt() <= longest || is_flat([a, b, c])
     };
-    part.triangles.par_iter().with_min_len(4096).any(is_suspicious)
+    part.triangles.par_iter().with_min_len(CHUNK).any(is_suspicious)
 }
 
 /// The height up to which a triangle is noise, by its own coordinates.
