@@ -40,10 +40,9 @@ pub(super) struct Neighbours {
 impl Neighbours {
     /// From pairs of triangles below a number.
     pub(super) fn new(triangles: usize, pairs: &[[TriangleId; 2]]) -> Self {
-        let both = pairs.iter().flat_map(|[a, b]| [a.index(), b.index()]);
-        let (starts, mut others) = by_group(triangles, both, |member| {
-            pairs.get(member / 2).map_or(TriangleId::NONE, |pair| pair[1 - member % 2])
-        });
+        let triangle = |member: usize| pairs[member / 2][member % 2].index();
+        let other = |member: usize| pairs[member / 2][1 - member % 2];
+        let (starts, mut others) = by_group(triangles, 2 * pairs.len(), triangle, other);
         for ends in starts.windows(2) {
             others[ends[0] as usize..ends[1] as usize].sort_unstable();
         }

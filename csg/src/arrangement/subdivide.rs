@@ -176,7 +176,8 @@ impl Graph<'_> {
 
     /// Links each half-edge to the one that follows it around the cell to its left.
     fn link(&mut self) {
-        let (starts, mut leaving) = by_group(self.nodes.len(), self.ends.iter().map(|ends| ends[0] as usize), number32);
+        let begin = |half_edge: usize| self.ends[half_edge][0] as usize;
+        let (starts, mut leaving) = by_group(self.nodes.len(), self.ends.len(), begin, number32);
         let mut into_boundary = vec![u32::MAX; self.nodes.len()];
         for k in 0..self.boundary {
             into_boundary[self.ends[k][1] as usize] = number32(k);

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use planecut_parallel::prelude::*;
 use rustc_hash::{FxBuildHasher, FxHashMap};
 
-use super::concat_owned;
+use super::{by_group, concat_owned, repeated};
 use crate::ids::number32;
 
 /// Number of keys, about, that a thread numbers in a row.
@@ -32,9 +32,8 @@ pub(crate) fn intern<K: Copy + Eq + Hash + Send + Sync, N: Send>(
 ) -> (Vec<K>, Vec<N>) {
     let group_of = |place: usize| number32(group(&key(place)));
     let of_key: Vec<u32> = (0..keys).into_par_iter().with_min_len(KEYS_OF_CHUNK / 4).map(group_of).collect();
-    let (starts, members) = by_group(bound, of_key.iter().map(|group| *group as usize), number32);
-    let numbers: Vec<AtomicU32> =
-        (0..keys).into_par_iter().with_min_len(KEYS_OF_CHUNK).map(|_| AtomicU32::new(0)).collect();
+    let (starts, members) = by_group(bound, keys, |place| of_key[place] as usize, number32);
+    let numbers = repeated(keys, || AtomicU32::new(0));
     // groups in runs of about as many keys
     let count = keys.div_ceil(KEYS_OF_CHUNK);
     let first_group = |chunk: usize| match chunk {
@@ -110,34 +109,6 @@ impl<K: Copy + Eq + Hash> Different<K> {
     }
 }
 
-/// Sorts the places of groups: for groups numbered from 0 to `count`, where each begins in a list of all members by group, and
-/// that list; members keep their order. `number` gives the number of a member from its place.
-pub(crate) fn by_group<M: Copy>(
-    count: usize,
-    of_member: impl Iterator<Item = usize> + Clone,
-    number: impl Fn(usize) -> M,
-) -> (Vec<u32>, Vec<M>) {
-    let mut starts = vec![0_u32; count + 1];
-    let mut members = 0;
-    for group in of_member.clone() {
-        starts[group + 1] += 1;
-        members += 1;
-    }
-    for k in 0..count {
-        starts[k + 1] += starts[k];
-    }
-    let mut next = starts.clone();
-    if members == 0 {
-        return (starts, Vec::new());
-    }
-    let mut sorted = vec![number(0); members];
-    for (member, group) in of_member.enumerate() {
-        sorted[next[group] as usize] = number(member);
-        next[group] += 1;
-    }
-    (starts, sorted)
-}
-
 /// A hash that is the same in each run.
 pub(crate) fn hash_of(value: &impl Hash) -> u64 {
     FxBuildHasher.hash_one(value)
@@ -170,16 +141,5 @@ mod tests {
                 assert_eq!(sorted.len(), found.len());
             }
         }
-    }
-
-    #[test]
-    fn members_are_listed_by_group_in_their_order() {
-        let groups = [2, 0, 2, 3, 0, 2];
-        let (starts, sorted) = by_group(5, groups.iter().copied(), |place| place);
-        assert_eq!(starts, [0, 2, 2, 5, 6, 6]);
-        assert_eq!(sorted, [1, 4, 0, 2, 5, 3]);
-        let nobody: [u32; 0] = [];
-        // nobody is asked for a number
-        assert_eq!(by_group(2, std::iter::empty(), |place| nobody[place]), (vec![0, 0, 0], vec![]));
     }
 }

@@ -2,6 +2,7 @@
 
 mod bounds;
 mod box_tree;
+mod by_group;
 mod clock;
 mod exact_sum;
 mod interning;
@@ -12,12 +13,13 @@ pub(crate) mod union_find;
 
 pub use bounds::Bounds;
 pub use box_tree::Boxes;
+pub(crate) use by_group::by_group;
 pub(crate) use clock::Clock;
 pub(crate) use exact_sum::ExactSum;
-pub(crate) use interning::{WEIGHTS, by_group, hash_of, intern, sortable};
+pub(crate) use interning::{WEIGHTS, hash_of, intern, sortable};
 pub(crate) use parallel::{
-    by_parts, concat_made, concat_owned, counted, map_chunks, map_weighed_chunks, map_weighed_chunks_into, runs_apart,
-    split_by, starts_of, takes_much_memory, weighed_runs,
+    by_parts, concat_made, concat_owned, counted, map_chunks, map_weighed_chunks, map_weighed_chunks_into, repeated,
+    runs_apart, split_by, starts_of, takes_much_memory, weighed_runs,
 };
 pub(crate) use rays::IN_BOX;
 pub use rays::{Ray, RayCaster};

@@ -7,11 +7,18 @@ use planecut_kernel::sign::Counts;
 use planecut_parallel::job;
 use planecut_parallel::prelude::*;
 
-/// Chunks for each thread, so that none waits long for the last one.
-const PER_THREAD: usize = 8;
+/// Into how many parts, for each thread, what is left to do is divided when a thread takes the next one. Parts become smaller towards the end,
+/// so that no thread waits long for the last one (guided self-scheduling: Polychronopoulos and Kuck 1987).
+const PARTS_OF_REST: usize = 3;
+
+/// Into how many parts of the smallest size all that there is to do would be divided, for each thread.
+const SMALLEST_PARTS: usize = 48;
 
 /// Elements that a thread copies in a row, at least.
 const ELEMENTS_OF_CHUNK: usize = 2048;
+
+/// Equal elements that a thread writes in a row, at least.
+const REPEATED_OF_CHUNK: usize = 1 << 13;
 
 /// Number of bytes from which lists are not kept longer than they must.
 const MUCH_MEMORY: usize = 1 << 24;
@@ -28,11 +35,16 @@ pub(crate) fn map_chunks<T: Sync, R: Send>(
     least: usize,
     work: impl Fn(&[T]) -> R + Sync,
 ) -> (Vec<R>, Counts) {
-    let chunk = (items.len() / (PER_THREAD * planecut_parallel::current_num_threads())).max(least).max(1);
-    let count = items.len().div_ceil(chunk);
-    let stage = Stage::new(count);
-    let chunk_of = |k: usize| &items[k * chunk..items.len().min((k + 1) * chunk)];
-    in_order(planecut_parallel::map_parts(count, |k| stage.counted(|| work(chunk_of(k)))))
+    let shares = Shares::new(items.len(), least);
+    let mut chunks: Vec<&[T]> = Vec::new();
+    let mut rest = items;
+    while !rest.is_empty() {
+        let (chunk, others) = rest.split_at(shares.next(rest.len()).min(rest.len()));
+        chunks.push(chunk);
+        rest = others;
+    }
+    let stage = Stage::new(chunks.len());
+    in_order(planecut_parallel::map_parts(chunks.len(), |k| stage.counted(|| work(chunks[k]))))
 }
 
 /// The same for items of different sizes: each chunk but the last is at least of size `least`, the sizes of its items added.
@@ -64,16 +76,38 @@ pub(crate) fn map_weighed_chunks_into<T: Sync, S: Send, R: Send>(
     in_order(jobs.into_par_iter().with_max_len(1).map(outcome).collect())
 }
 
+/// How much of some work threads do in a row.
+struct Shares {
+    threads: usize,
+    least: usize,
+}
+
+impl Shares {
+    /// Shares of work of a size, each at least of size `least`.
+    fn new(all: usize, least: usize) -> Self {
+        let threads = planecut_parallel::current_num_threads();
+        Self { threads, least: (all / (SMALLEST_PARTS * threads)).max(least).max(1) }
+    }
+
+    /// The size of the next one, where so much is left.
+    fn next(&self, left: usize) -> usize {
+        (left / (PARTS_OF_REST * self.threads)).max(self.least)
+    }
+}
+
 /// Runs of items of different sizes, for threads to share: each but the last is at least of size `least`, the sizes of its items added.
 pub(crate) fn weighed_runs(count: usize, least: usize, size: impl Fn(usize) -> usize) -> Vec<Range<usize>> {
     let all: usize = (0..count).map(&size).sum();
-    let enough = (all / (PER_THREAD * planecut_parallel::current_num_threads())).max(least);
-    let (mut start, mut sum) = (0, 0);
+    let shares = Shares::new(all, least);
+    let (mut start, mut sum, mut left) = (0, 0, all);
+    let mut enough = shares.next(left);
     let mut runs = Vec::new();
     for k in 0..count {
         sum += size(k);
-        if sum >= enough && sum > 0 {
+        if sum >= enough {
             runs.push(start..k + 1);
+            left -= sum;
+            enough = shares.next(left);
             (start, sum) = (k + 1, 0);
         }
     }
@@ -83,11 +117,12 @@ pub(crate) fn weighed_runs(count: usize, least: usize, size: impl Fn(usize) -> u
 
 /// Runs of items, for threads to share, that begin only where an item `is_apart` from the one before: each but the last has at least `least`.
 pub(crate) fn runs_apart<T>(items: &[T], least: usize, is_apart: impl Fn(&T, &T) -> bool) -> Vec<&[T]> {
-    let enough = (items.len() / (PER_THREAD * planecut_parallel::current_num_threads())).max(least);
+    let shares = Shares::new(items.len(), least);
     let mut runs = Vec::new();
     let mut rest = items;
-    while rest.len() > enough {
-        let end = (enough..rest.len()).find(|k| is_apart(&rest[k - 1], &rest[*k])).unwrap_or(rest.len());
+    while rest.len() > shares.next(rest.len()) {
+        let end =
+            (shares.next(rest.len())..rest.len()).find(|k| is_apart(&rest[k - 1], &rest[*k])).unwrap_or(rest.len());
         let (run, others) = rest.split_at(end);
         runs.push(run);
         rest = others;
@@ -133,6 +168,11 @@ pub(crate) fn by_parts<T: Send>(
         make(*part, k - starts[*part])
     };
     (0..starts[starts.len() - 1]).into_par_iter().with_min_len(ELEMENTS_OF_CHUNK).map_init(|| 0, element).collect()
+}
+
+/// A list of elements that are made without regard to their places, by all threads: filling much memory takes time.
+pub(crate) fn repeated<T: Send>(count: usize, element: impl Fn() -> T + Sync) -> Vec<T> {
+    (0..count).into_par_iter().with_min_len(REPEATED_OF_CHUNK).map(|_| element()).collect()
 }
 
 /// The elements of some parts one after another. Where they are many, or there is one thread, each part is dropped when it is copied.

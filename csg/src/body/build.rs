@@ -6,22 +6,46 @@ use planecut_kernel::sign::{Counts, Row};
 use planecut_kernel::{HalfSpace, IncrementalPolytope, PlaneIdx};
 use planecut_parallel::prelude::*;
 use rustc_hash::FxHashMap;
+use smallvec::SmallVec;
 
 use super::built::{self, BrushShape, BuiltBodies, ShapeBuilder};
 use super::{Body, BrushBody, Shape};
-use crate::base::{Bounds, map_chunks};
+use crate::base::{Bounds, map_chunks, starts_of};
 use crate::ids::number32;
 use crate::model::{Brush, BrushFace, MaterialId};
-use crate::plane_table::{PlaneId, PlaneTable, renumber_planes, smallest_size};
+use crate::plane_table::{InternedPlanes, PlaneId, PlaneTable, in_order_of_space, smallest_size};
 
 /// Least number of planes, about, of bodies that are built in a row.
 const PLANES_OF_CHUNK: usize = 100;
 
+/// The planes of brushes, one after another.
+#[derive(Default)]
+pub(crate) struct BrushPlanes {
+    /// Where those of each brush begin, and where the last ones end.
+    starts: Vec<usize>,
+    ids: Vec<PlaneId>,
+}
+
+impl BrushPlanes {
+    fn new(brushes: &[Brush], ids: Vec<PlaneId>) -> Self {
+        Self { starts: starts_of(lengths(brushes)), ids }
+    }
+
+    /// The planes of a brush, in its order.
+    pub(crate) fn of(&self, brush: usize) -> &[PlaneId] {
+        &self.ids[self.starts[brush]..self.starts[brush + 1]]
+    }
+}
+
+/// How many planes each brush has.
+fn lengths(brushes: &[Brush]) -> impl Iterator<Item = usize> {
+    brushes.iter().map(|brush| brush.faces.len())
+}
+
 /// The bodies of the brushes of a model.
 pub(crate) struct BrushBodies {
     pub(crate) table: PlaneTable,
-    /// The planes of each brush, in its order.
-    pub(crate) planes: Vec<Vec<PlaneId>>,
+    pub(crate) planes: BrushPlanes,
     pub(crate) bodies: Vec<BrushBody>,
     pub(crate) signs: Counts,
 }
@@ -34,55 +58,54 @@ pub(crate) fn build_bodies(brushes: &[Brush]) -> BrushBodies {
 /// The same, where some may be built already; `size` is the size of the smallest of these brushes and of all others that their planes are
 /// to be the same with.
 pub(crate) fn build_other_bodies(brushes: &[Brush], built: &BuiltBodies, size: f64) -> BrushBodies {
-    let (mut table, mut planes) = intern_planes(brushes, size);
-    let with_planes: Vec<(&Brush, &Vec<PlaneId>)> = brushes.iter().zip(&planes).collect();
-    let (parts, signs) = map_chunks(&with_planes, least_of_chunk(brushes), |chunk| {
-        let mut builder = ShapeBuilder::default();
-        chunk.iter().map(|&(brush, planes)| shape_of(&table, built, brush, planes, &mut builder)).collect::<Vec<_>>()
-    });
-    let shapes: Vec<Cow<'_, BrushShape>> = parts.into_iter().flatten().collect();
-    let bounds: Vec<Option<Bounds>> = shapes.iter().map(|shape| shape.bounds().copied()).collect();
-    renumber_planes(&mut table, &mut planes, &bounds);
-    let bodies: Vec<BrushBody> = shapes
-        .par_iter()
-        .zip(brushes.par_iter().zip(&planes))
-        .with_min_len(64)
-        .map(|(shape, (brush, planes))| shape.body(planes, |k| brush.faces[k].material))
-        .collect();
+    let half_space = |brush: usize, k: usize| &brushes[brush].faces[k].half_space;
+    let (interned, ids) = InternedPlanes::of(lengths(brushes), half_space, size);
+    let mut planes = BrushPlanes::new(brushes, ids);
+    let (shapes, signs) = of_shapes(brushes, &planes, &interned, built, |_, shape| shape);
+    let order = in_order_of_space(interned.len(), brushes.len(), |k| shapes[k].bounds(), |k| planes.of(k));
+    let table = interned.into_table(&order, &mut planes.ids);
+    let body = |(number, shape): (usize, Cow<'_, BrushShape>)| {
+        shape.body(planes.of(number), |k| brushes[number].faces[k].material)
+    };
+    let bodies = shapes.into_par_iter().enumerate().with_min_len(64).map(body).collect();
     BrushBodies { table, planes, bodies, signs }
 }
 
-/// The planes of brushes in a table, and those of each brush, in its order; `size` as for [`build_other_bodies`].
-fn intern_planes(brushes: &[Brush], size: f64) -> (PlaneTable, Vec<Vec<PlaneId>>) {
-    let lengths = brushes.iter().map(|brush| brush.faces.len());
-    let half_space = |brush: usize, k: usize| &brushes[brush].faces[k].half_space;
-    let (table, ids) = PlaneTable::intern_parts(lengths, half_space, size);
-    let mut rest = ids.as_slice();
-    let of_brush = |brush: &Brush| {
-        let (own, others) = rest.split_at(brush.faces.len());
-        rest = others;
-        own.to_vec()
-    };
-    let planes = brushes.iter().map(of_brush).collect();
-    (table, planes)
+/// What is made of the shape of each brush and its number, in parallel.
+fn of_shapes<'a, R: Send>(
+    brushes: &[Brush],
+    planes: &BrushPlanes,
+    interned: &InternedPlanes,
+    built: &'a BuiltBodies,
+    make: impl Fn(usize, Cow<'a, BrushShape>) -> R + Sync,
+) -> (Vec<R>, Counts) {
+    let numbers: Vec<usize> = (0..brushes.len()).collect();
+    let row = |plane: PlaneId| interned.row(plane);
+    let (parts, signs) = map_chunks(&numbers, least_of_chunk(brushes), |chunk| {
+        let mut builder = ShapeBuilder::default();
+        let shape = |&number: &usize| {
+            make(number, shape_of(row, interned.snapped(), built, &brushes[number], planes.of(number), &mut builder))
+        };
+        chunk.iter().map(shape).collect::<Vec<R>>()
+    });
+    (parts.into_iter().flatten().collect(), signs)
 }
 
-/// The same for brushes many of which have planes in common: what is the same in every bit is looked for first.
-fn intern_repeated_planes(brushes: &[Brush], size: f64) -> (PlaneTable, Vec<Vec<PlaneId>>) {
+/// Interns the planes of brushes many of which have planes in common: what is the same in every bit is looked for first.
+fn intern_repeated_planes(brushes: &[Brush], size: f64) -> (InternedPlanes, BrushPlanes) {
     let mut different: Vec<HalfSpace> = Vec::new();
     let mut known: FxHashMap<[u64; 4], u32> = FxHashMap::default();
-    let mut number = |half_space: &HalfSpace| {
+    let number = |half_space: &HalfSpace| {
         *known.entry(half_space.to_array().map(f64::to_bits)).or_insert_with(|| {
             different.push(*half_space);
             number32(different.len() - 1)
         })
     };
-    let of_brush = |brush: &Brush| brush.half_spaces().map(&mut number).collect();
-    let numbers: Vec<Vec<u32>> = brushes.iter().map(of_brush).collect();
+    let numbers: Vec<u32> = brushes.iter().flat_map(Brush::half_spaces).map(number).collect();
     drop(known);
-    let (table, ids) = PlaneTable::intern_parts(std::iter::once(different.len()), |_, k| &different[k], size);
-    let of_brush = |numbers: Vec<u32>| numbers.into_iter().map(|number| ids[number as usize]).collect();
-    (table, numbers.into_iter().map(of_brush).collect())
+    let (interned, ids) = InternedPlanes::of(std::iter::once(different.len()), |_, k| &different[k], size);
+    let of_brushes = numbers.into_iter().map(|number| ids[number as usize]).collect();
+    (interned, BrushPlanes::new(brushes, of_brushes))
 }
 
 /// What is known of a brush of which nothing but its planes is kept.
@@ -106,8 +129,7 @@ pub(crate) enum BrushExtent {
 /// Where the brushes of a model are.
 pub(crate) struct BrushExtents {
     pub(crate) table: PlaneTable,
-    /// The planes of each brush, in its order.
-    pub(crate) planes: Vec<Vec<PlaneId>>,
+    pub(crate) planes: BrushPlanes,
     pub(crate) extents: Vec<BrushExtent>,
     pub(crate) signs: Counts,
 }
@@ -115,25 +137,19 @@ pub(crate) struct BrushExtents {
 /// Interns the planes of brushes and tells what each is, without keeping the bodies: some kilobytes for each are a lot for a million of
 /// them. They are built again, some of them at a time, by [`built_or_build`].
 pub(crate) fn brush_extents(brushes: &[Brush], built: &BuiltBodies, size: f64) -> BrushExtents {
-    let (mut table, mut planes) = intern_repeated_planes(brushes, size);
-    let with_planes: Vec<(&Brush, &Vec<PlaneId>)> = brushes.iter().zip(&planes).collect();
-    let (parts, signs) = map_chunks(&with_planes, least_of_chunk(brushes), |chunk| {
-        let mut builder = ShapeBuilder::default();
-        let extent =
-            |&(brush, planes): &(&Brush, &Vec<PlaneId>)| match &*shape_of(&table, built, brush, planes, &mut builder) {
-                BrushShape::Bounded(shape) => BrushExtent::Bounded {
-                    bounds: *shape.bounds(),
-                    volume: shape.volume,
-                    redundant: shape.without_face(planes.len()),
-                },
-                BrushShape::Empty => BrushExtent::Empty,
-                BrushShape::Unbounded => BrushExtent::Unbounded,
-            };
-        chunk.iter().map(extent).collect::<Vec<BrushExtent>>()
-    });
-    let extents = parts.concat();
-    let bounds: Vec<Option<Bounds>> = extents.iter().map(|extent| extent.bounds().copied()).collect();
-    renumber_planes(&mut table, &mut planes, &bounds);
+    let (interned, mut planes) = intern_repeated_planes(brushes, size);
+    let extent = |number: usize, shape: Cow<'_, BrushShape>| match &*shape {
+        BrushShape::Bounded(shape) => BrushExtent::Bounded {
+            bounds: *shape.bounds(),
+            volume: shape.volume,
+            redundant: shape.without_face(brushes[number].faces.len()),
+        },
+        BrushShape::Empty => BrushExtent::Empty,
+        BrushShape::Unbounded => BrushExtent::Unbounded,
+    };
+    let (extents, signs) = of_shapes(brushes, &planes, &interned, built, extent);
+    let order = in_order_of_space(interned.len(), brushes.len(), |k| extents[k].bounds(), |k| planes.of(k));
+    let table = interned.into_table(&order, &mut planes.ids);
     BrushExtents { table, planes, extents, signs }
 }
 
@@ -153,29 +169,31 @@ pub(super) fn least_of_chunk<B: Borrow<Brush>>(brushes: &[B]) -> usize {
     PLANES_OF_CHUNK * brushes.len() / planes.max(1)
 }
 
-/// What a brush is, whose planes have ids in a table. It is not built again where that was done and the
-/// table has taken none of the planes for another.
+/// What a brush is, whose planes have ids; `row` gives the coefficients of each. It is not built again where that was done and none of the planes was
+/// taken for another one; `snapped` is the number of planes that were.
 fn shape_of<'a>(
-    table: &PlaneTable,
+    row: impl Fn(PlaneId) -> Row,
+    snapped: usize,
     built: &'a BuiltBodies,
     brush: &Brush,
     planes: &[PlaneId],
     builder: &mut ShapeBuilder,
 ) -> Cow<'a, BrushShape> {
     let stays = |(face, plane): (&BrushFace, &PlaneId)| {
-        let row = Row::new(&face.half_space);
-        row.coefficients() == table.row(*plane).coefficients() || row.is_same_plane(table.row(*plane))
+        let (given, kept) = (Row::new(&face.half_space), row(*plane));
+        given.coefficients() == kept.coefficients() || given.is_same_plane(&kept)
     };
     // most tables took no plane for another
-    let all_stay = || table.snapped() == 0 || brush.faces.iter().zip(planes).all(stays);
+    let all_stay = || snapped == 0 || brush.faces.iter().zip(planes).all(stays);
     match built.shape_of(&brush.faces).filter(|_| all_stay()) {
         Some(known) => Cow::Borrowed(known),
-        None => Cow::Owned(shape_in_table(table, planes, builder)),
+        None => Cow::Owned(shape_of_ids(row, planes, builder)),
     }
 }
 
-fn shape_in_table(table: &PlaneTable, planes: &[PlaneId], builder: &mut ShapeBuilder) -> BrushShape {
-    builder.shape(planes.len(), |k| table.row(planes[k]))
+fn shape_of_ids(row: impl Fn(PlaneId) -> Row, planes: &[PlaneId], builder: &mut ShapeBuilder) -> BrushShape {
+    let rows: SmallVec<[Row; 8]> = planes.iter().map(|plane| row(*plane)).collect();
+    builder.shape(rows.len(), |k| &rows[k])
 }
 
 /// The body of a brush, whose planes have ids in a table.
@@ -186,7 +204,8 @@ pub(crate) fn built_or_build(
     planes: &[PlaneId],
     builder: &mut ShapeBuilder,
 ) -> BrushBody {
-    shape_of(table, built, brush, planes, builder).body(planes, |k| brush.faces[k].material)
+    shape_of(|plane| *table.row(plane), table.snapped(), built, brush, planes, builder)
+        .body(planes, |k| brush.faces[k].material)
 }
 
 /// The body that planes bound, each with the material of its face.
@@ -196,7 +215,7 @@ pub(crate) fn build(
     materials: &[MaterialId],
     builder: &mut ShapeBuilder,
 ) -> BrushBody {
-    shape_in_table(table, planes, builder).body(planes, |k| materials[k])
+    shape_of_ids(|plane| *table.row(plane), planes, builder).body(planes, |k| materials[k])
 }
 
 /// The body of a polytope, its faces in the order of the planes, whatever that in which they were added: `planes` have ids in a

@@ -26,8 +26,8 @@ use crate::model::MaterialId;
 use crate::plane_table::{PlaneId, PlaneTable};
 
 pub(crate) use build::{
-    BrushBodies, BrushExtent, BrushExtents, brush_extents, build, build_bodies, build_other_bodies, built_or_build,
-    read,
+    BrushBodies, BrushExtent, BrushExtents, BrushPlanes, brush_extents, build, build_bodies, build_other_bodies,
+    built_or_build, read,
 };
 pub use built::BuiltBodies;
 pub(crate) use built::ShapeBuilder;

@@ -170,7 +170,8 @@ impl<'a> HalfEdges<'a> {
     /// The half-edges of triangles whose indices are below `vertices`. Linear.
     #[must_use]
     pub fn new(vertices: usize, triangles: &'a [[u32; 3]]) -> Self {
-        let (starts, leaving) = by_group(vertices, triangles.as_flattened().iter().map(|v| *v as usize), number32);
+        let corners = triangles.as_flattened();
+        let (starts, leaving) = by_group(vertices, corners.len(), |corner| corners[corner] as usize, number32);
         Self { triangles, starts, leaving }
     }
 

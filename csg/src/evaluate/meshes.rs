@@ -36,7 +36,7 @@ pub(super) fn evaluate_meshes(
         .map(|(k, body)| match (body, &outer) {
             (BrushBody::Unbounded, Some(outer)) if keeps => {
                 let materials: Vec<MaterialId> = convex[k].materials().collect();
-                outer.cut(&table, &planes[k], &materials).bounded()
+                outer.cut(&table, planes.of(k), &materials).bounded()
             }
             (body, _) => body.bounded(),
         })

@@ -254,7 +254,7 @@ fn evaluate_here(
         (BrushBody::Unbounded, Some(outer)) if keeps => {
             let materials: Vec<MaterialId> =
                 model.tree.brushes()[leaf].faces.iter().map(|face| face.material).collect();
-            outer.cut(&table, &planes[leaf], &materials).bounded()
+            outer.cut(&table, planes.of(leaf), &materials).bounded()
         }
         (body, _) => body.bounded(),
     };

@@ -15,7 +15,8 @@ use super::totals::Totals;
 use super::{EvaluateError, Evaluation, Leaves, ModelSummary, OtherBrushes, StageTimes, UnboundedBrushes, ranks};
 use crate::base::{Bounds, Boxes, Clock, DisjointSets, map_chunks};
 use crate::body::{
-    Body, BrushExtent, BrushExtents, BuiltBodies, ShapeBuilder, brush_extents, built_or_build, kinds, mark_of,
+    Body, BrushExtent, BrushExtents, BrushPlanes, BuiltBodies, ShapeBuilder, brush_extents, built_or_build, kinds,
+    mark_of,
 };
 use crate::boundary::BoundaryEdge;
 use crate::expression::{Expression, Polarity};
@@ -120,8 +121,8 @@ struct Scattered<'a> {
     model: &'a Model,
     built: &'a BuiltBodies,
     table: &'a PlaneTable,
-    /// The planes of each leaf.
-    planes: Vec<Vec<PlaneId>>,
+    /// The planes of the leaves.
+    planes: BrushPlanes,
     /// The box of each leaf.
     boxes: Boxes,
     /// The material of walls of a block.
@@ -142,7 +143,7 @@ impl Scattered<'_> {
     fn body(&self, leaf: LeafId, builder: &mut ShapeBuilder) -> Option<Body> {
         let number = leaf.index();
         let brush = &self.model.tree.brushes()[number];
-        built_or_build(self.table, self.built, brush, &self.planes[number], builder).bounded()
+        built_or_build(self.table, self.built, brush, self.planes.of(number), builder).bounded()
     }
 
     /// Bodies that touch nothing, of which each is its own boundary.
@@ -280,10 +281,10 @@ impl Groups {
 }
 
 /// For each leaf a number that equal ones have in common.
-fn kinds_of(model: &Model, planes: &[Vec<PlaneId>], extents: &[BrushExtent]) -> Vec<LeafId> {
+fn kinds_of(model: &Model, planes: &BrushPlanes, extents: &[BrushExtent]) -> Vec<LeafId> {
     let faces = |leaf: LeafId| {
         let number = leaf.index();
-        let all = planes[number].iter().zip(&model.tree.brushes()[number].faces);
+        let all = planes.of(number).iter().zip(&model.tree.brushes()[number].faces);
         let is_body = extents[number].bounds().is_some();
         all.filter(move |_| is_body).map(|(plane, face): (&PlaneId, &BrushFace)| (*plane, face.material))
     };

@@ -118,8 +118,9 @@ const MARKS: u64 = 4;
 
 impl Contraction {
     fn new(mesh: &Mesh) -> Self {
+        let corners = mesh.triangles.as_flattened();
         let (starts, sides) =
-            by_group(mesh.positions.len(), mesh.triangles.iter().flatten().map(|v| *v as usize), number32);
+            by_group(mesh.positions.len(), corners.len(), |corner| corners[corner] as usize, number32);
         let triangles = sides.into_iter().map(|side| side / 3).collect();
         Self {
             became: (0..number32(mesh.positions.len())).collect(),

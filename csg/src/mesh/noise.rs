@@ -119,8 +119,8 @@ impl FaceSizes {
             *largest = largest.max(*size);
         }
         let at_vertices: Vec<(u32, u32)> = parts.into_iter().flat_map(|(_, at_vertices)| at_vertices).collect();
-        let places = at_vertices.iter().map(|(place, _)| *place as usize);
-        let (starts, mut faces) = by_group(count as usize, places, |k| at_vertices[k].1);
+        let (place_of, face_of) = (|k: usize| at_vertices[k].0 as usize, |k: usize| at_vertices[k].1);
+        let (starts, mut faces) = by_group(count as usize, at_vertices.len(), place_of, face_of);
         for ends in starts.windows(2) {
             faces[ends[0] as usize..ends[1] as usize].sort_unstable();
         }

@@ -13,7 +13,7 @@ use rustc_hash::FxHashMap;
 use super::near::{NearPlanes, unit};
 use super::same::{Key, compare_coefficients, first_side, is_exact, key, settling_order};
 use super::{PlaneId, PlaneTable};
-use crate::base::{WEIGHTS, by_parts, runs_apart, starts_of};
+use crate::base::{WEIGHTS, by_parts, repeated, runs_apart, starts_of};
 use crate::ids::number32;
 use crate::tolerances::SNAP_TOLERANCE;
 
@@ -23,6 +23,9 @@ const APART: f64 = 3.0 * SNAP_TOLERANCE;
 /// Least number of planes that a thread looks at in a row.
 const CHUNK: usize = 256;
 
+/// Least number of ids that a thread renumbers in a row.
+const IDS_OF_CHUNK: usize = 1 << 11;
+
 impl PlaneTable {
     /// Interns half-spaces; gives the table and the id of each half-space in the order given. `size` is the [`smallest_size`](super::smallest_size)
     /// of the bodies that they bound.
@@ -30,21 +33,33 @@ impl PlaneTable {
     /// The numbering depends on the planes alone, not on the order in which they were given.
     #[must_use]
     pub fn intern(half_spaces: &[HalfSpace], size: f64) -> (Self, Vec<PlaneId>) {
-        let (mut table, mut ids) = Self::intern_parts(std::iter::once(half_spaces.len()), |_, k| &half_spaces[k], size);
+        let (interned, mut ids) = InternedPlanes::of(std::iter::once(half_spaces.len()), |_, k| &half_spaces[k], size);
         // in this order cells are cut and merged
-        let row = |index: &u32| table.row(PlaneId::of_index(*index));
-        let mut order: Vec<u32> = (0..number32(table.len())).collect();
-        order.par_sort_unstable_by(|p, q| settling_order(row(p)).cmp(&settling_order(row(q))));
-        let mut new_of_old = vec![0; order.len()];
-        (0..).zip(&order).for_each(|(new, old)| new_of_old[*old as usize] = new);
-        table.renumber(&new_of_old);
-        ids.iter_mut().for_each(|id| *id = id.with_index(new_of_old[id.index() as usize]));
-        (table, ids)
+        let mut order: Vec<u32> = (0..number32(interned.len())).collect();
+        let place = |index: &u32| settling_order(interned.first_side(*index));
+        order.par_sort_unstable_by(|p, q| place(p).cmp(&place(q)));
+        (interned.into_table(&order, &mut ids), ids)
     }
+}
 
-    /// The same, the planes in an order of their own, for half-spaces in parts of some lengths, for instance one for each brush: `half_space` gives
-    /// one from the number of its part and its place there.
-    pub(crate) fn intern_parts<'a>(
+/// The different planes among some half-spaces, before they have their places in a table.
+pub(crate) struct InternedPlanes {
+    /// Of each plane given the side with the positive first coefficient, and whether the other one was given.
+    sides: Vec<(Row, bool)>,
+    /// For each id the place, among those given, of the plane that stands for it.
+    kept: Vec<u32>,
+    /// Those that were replaced by another one, as in [`PlaneTable`].
+    replaced: Vec<(Row, PlaneId)>,
+    reach: f64,
+    size: f64,
+}
+
+impl InternedPlanes {
+    /// Interns half-spaces in parts of some lengths, for instance one for each brush: `half_space` gives one from the number of its part and its place
+    /// there; `size` is the [`smallest_size`](super::smallest_size) of the bodies that they bound. Gives the id of each half-space, too, in the order given.
+    ///
+    /// The numbering depends on the planes alone, not on the order in which they were given.
+    pub(crate) fn of<'a>(
         lengths: impl Iterator<Item = usize>,
         half_space: impl Fn(usize, usize) -> &'a HalfSpace + Sync,
         size: f64,
@@ -60,29 +75,61 @@ impl PlaneTable {
         };
         let parts: Vec<Settled> = runs.par_iter().with_max_len(1).map(settle).collect();
         let firsts = starts_of(parts.iter().map(|part| part.planes.len()));
-        let ids: Vec<AtomicU32> = sides.par_iter().with_min_len(1 << 14).map(|_| AtomicU32::new(0)).collect();
+        let ids = repeated(sides.len(), || AtomicU32::new(0));
         let by_run = || runs.par_iter().zip(&parts).zip(&firsts).with_max_len(1);
         by_run().for_each(|((run, part), first)| {
             for ((_, place), local) in run.iter().zip(&part.ids) {
                 ids[*place as usize].store(local.after(*first).0, Ordering::Relaxed);
             }
         });
-        let planes: Vec<u32> = parts.iter().flat_map(|part| &part.planes).copied().collect();
         let number = |(id, side): (AtomicU32, &(Row, bool))| {
             let id = PlaneId(id.into_inner());
             if side.1 { id.flipped() } else { id }
         };
-        let given = || (0..2 * planes.len()).into_par_iter().with_min_len(CHUNK);
-        let first = |side: usize| &sides[planes[side / 2] as usize].0;
-        let row = |side: usize| if side.is_multiple_of(2) { *first(side) } else { first(side).flipped() };
-        let table = Self {
-            rows: given().map(row).collect(),
-            replaced: parts.iter().zip(&firsts).flat_map(|(part, first)| part.replaced(*first)).collect(),
-            reach,
-            size,
-            index: None,
+        let ids = ids.into_par_iter().zip(&sides).with_min_len(CHUNK).map(number).collect();
+        let kept = parts.iter().flat_map(|part| &part.planes).copied().collect();
+        let replaced = parts.iter().zip(&firsts).flat_map(|(part, first)| part.replaced(*first)).collect();
+        (Self { sides, kept, replaced, reach, size }, ids)
+    }
+
+    /// How many different planes there are.
+    pub(crate) fn len(&self) -> usize {
+        self.kept.len()
+    }
+
+    /// How many were replaced by one that was nearly the same.
+    pub(crate) fn snapped(&self) -> usize {
+        self.replaced.len()
+    }
+
+    /// The exact coefficients of a plane.
+    pub(crate) fn row(&self, plane: PlaneId) -> Row {
+        let first = self.first_side(plane.index());
+        if plane == plane.unsided() { *first } else { first.flipped() }
+    }
+
+    /// The side of a plane with a positive first coefficient.
+    fn first_side(&self, index: u32) -> &Row {
+        &self.sides[self.kept[index as usize] as usize].0
+    }
+
+    /// The table of the planes in an order, which holds the number of each; the planes of some ids get those that they have in the table.
+    pub(crate) fn into_table(self, order: &[u32], ids: &mut [PlaneId]) -> PlaneTable {
+        let mut new_of_old = vec![0; order.len()];
+        (0..).zip(order).for_each(|(new, old)| new_of_old[*old as usize] = new);
+        let renumbered = |id: PlaneId| id.with_index(new_of_old[id.index() as usize]);
+        let row = |side: usize| {
+            let first = self.first_side(order[side / 2]);
+            if side.is_multiple_of(2) { *first } else { first.flipped() }
         };
-        (table, ids.into_par_iter().zip(&sides).with_min_len(CHUNK).map(number).collect())
+        ids.par_iter_mut().with_min_len(IDS_OF_CHUNK).for_each(|id| *id = renumbered(*id));
+        PlaneTable {
+            rows: (0..2 * order.len()).into_par_iter().with_min_len(CHUNK).map(row).collect(),
+            replaced: self.replaced.iter().map(|(row, id)| (*row, renumbered(*id))).collect(),
+            reach: self.reach,
+            size: self.size,
+            index: None,
+        }
     }
 }
 

@@ -15,9 +15,10 @@ use planecut_kernel::{DVec3, HalfSpace, meet};
 use rustc_hash::FxHashMap;
 
 use crate::base::sortable;
+pub(crate) use interning::InternedPlanes;
 pub use known_planes::{KnownPlanes, compare};
 pub use morton::curve_number;
-pub(crate) use morton::{renumber_planes, spread};
+pub(crate) use morton::{in_order_of_space, spread};
 use near::NearPlanes;
 pub(crate) use near::{NearCells, is_nearly_same, unit};
 pub use near::{size_of, smallest_size};
@@ -125,23 +126,6 @@ impl PlaneTable {
     /// that the user gave.
     pub fn insert_exact(&mut self, half_space: &HalfSpace) -> PlaneId {
         self.find_or_add(half_space, |table, (row, id)| table.row(*id).is_same_plane(row), Self::add)
-    }
-
-    /// Gives all planes new indices, each once. Planes change places, as there may be much memory in them.
-    pub(crate) fn renumber(&mut self, new_of_old: &[u32]) {
-        let mut new_at: Vec<u32> = new_of_old.to_vec();
-        for place in 0..new_at.len() {
-            while new_at[place] as usize != place {
-                let new = new_at[place] as usize;
-                self.rows.swap(2 * place, 2 * new);
-                self.rows.swap(2 * place + 1, 2 * new + 1);
-                new_at.swap(place, new);
-            }
-        }
-        for (_, id) in &mut self.replaced {
-            *id = id.with_index(new_of_old[id.index() as usize]);
-        }
-        self.index = None;
     }
 
     /// How many planes there are, both sides counting once.

@@ -6,8 +6,12 @@
 use glam::DVec3;
 use planecut_parallel::prelude::*;
 
-use super::{PlaneId, PlaneTable};
-use crate::base::{Bounds, sortable};
+use super::PlaneId;
+use crate::base::{Bounds, map_chunks, sortable};
+use crate::ids::number32;
+
+/// Least number of brushes that a thread looks at in a row.
+const BRUSHES_OF_CHUNK: usize = 256;
 
 /// A number that is close for places close to each other, and depends on the place alone: the highest bits of its coordinates,
 /// interleaved.
@@ -30,38 +34,42 @@ pub(crate) fn spread(v: u64) -> u64 {
     (v | v << 2) & 0x1249_2492_4924_9249
 }
 
-/// Renumbers the planes of a table by where the brushes are that have them, as far as these are bodies; other planes come last.
-pub(crate) fn renumber_planes(table: &mut PlaneTable, planes: &mut [Vec<PlaneId>], bounds: &[Option<Bounds>]) {
-    let mut order: Vec<(u64, u32)> = (0..)
-        .zip(bounds)
-        .filter_map(|(number, bounds): (u32, _)| bounds.map(|bounds| (curve_number(bounds.center()), number)))
-        .collect();
-    order.par_sort_unstable();
-    let sorted_planes = |number: u32| {
-        let mut sorted = planes[number as usize].clone();
-        sorted.sort_unstable();
-        sorted
+/// The numbers of planes, of which there are `count`, in the order of the brushes that have them, as far as these are bodies; other planes come last. `brushes` is the number of
+/// brushes, `bounds` gives the box of each that is a body, and `planes_of` its planes.
+pub(crate) fn in_order_of_space<'a>(
+    count: usize,
+    brushes: usize,
+    bounds: impl Fn(usize) -> Option<&'a Bounds> + Sync,
+    planes_of: impl Fn(usize) -> &'a [PlaneId] + Sync,
+) -> Vec<u32> {
+    let place = |brush: usize| bounds(brush).map(|bounds| (curve_number(bounds.center()), number32(brush)));
+    let mut brushes: Vec<(u64, u32)> =
+        (0..brushes).into_par_iter().with_min_len(BRUSHES_OF_CHUNK).filter_map(place).collect();
+    brushes.par_sort_unstable();
+    let add_planes = |brush: u32, all: &mut Vec<u32>| {
+        let first = all.len();
+        all.extend(planes_of(brush as usize).iter().map(|plane| plane.index()));
+        all[first..].sort_unstable();
     };
-    for cell in order.chunk_by_mut(|a, b| a.0 == b.0).filter(|cell| cell.len() > 1) {
-        cell.sort_by_cached_key(|(_, number)| sorted_planes(*number));
+    let planes = |brush: u32| {
+        let mut planes = Vec::new();
+        planes_of(brush as usize).clone_into(&mut planes);
+        planes.sort_unstable();
+        planes
+    };
+    for cell in brushes.chunk_by_mut(|a, b| a.0 == b.0).filter(|cell| cell.len() > 1) {
+        cell.sort_by_cached_key(|(_, brush)| planes(*brush));
     }
-    let mut new_of_old: Vec<u32> = vec![u32::MAX; table.len()];
-    let mut count = 0;
-    let mut number = |old: usize| {
-        if new_of_old[old] == u32::MAX {
-            new_of_old[old] = count;
-            count += 1;
+    let (parts, _) = map_chunks(&brushes, BRUSHES_OF_CHUNK, |chunk| {
+        let mut planes = Vec::new();
+        chunk.iter().for_each(|(_, brush)| add_planes(*brush, &mut planes));
+        planes
+    });
+    let (mut order, mut is_there) = (Vec::with_capacity(count), vec![false; count]);
+    for plane in parts.into_iter().flatten().chain(0..number32(count)) {
+        if !std::mem::replace(&mut is_there[plane as usize], true) {
+            order.push(plane);
         }
-    };
-    let mut of_body: Vec<u32> = Vec::new();
-    for (_, body) in order {
-        of_body.clear();
-        of_body.extend(planes[body as usize].iter().map(|plane| plane.index()));
-        of_body.sort_unstable();
-        of_body.iter().for_each(|old| number(*old as usize));
     }
-    (0..table.len()).for_each(number);
-    table.renumber(&new_of_old);
-    let renumbered = |plane: PlaneId| plane.with_index(new_of_old[plane.index() as usize]);
-    planes.par_iter_mut().with_min_len(256).flatten_iter().for_each(|plane| *plane = renumbered(*plane));
+    order
 }

@@ -10,7 +10,7 @@ use planecut_parallel::prelude::*;
 use rustc_hash::FxHashSet;
 
 use super::cancel::HalfEdge;
-use crate::base::concat_owned;
+use crate::base::{concat_owned, repeated};
 use crate::closed_mesh::connectivity::{HalfEdges, are_all_paired};
 use crate::ids::{HalfEdgeId, Id, PointId, VertexId, number32};
 use crate::mesh::Mesh;
@@ -33,7 +33,7 @@ pub(super) fn vertices(pieces: &[HalfEdge], following: Vec<HalfEdgeId>) -> (Vec<
         HalfEdgeId::all(some.len()).map(|piece| piece.plus(chunk * CHUNK)).filter(is_first).collect()
     };
     let firsts = concat_owned(pieces.par_chunks(CHUNK).enumerate().map(firsts_of).collect());
-    let vertex: Vec<AtomicU32> = pieces.par_iter().with_min_len(CHUNK).map(|_| AtomicU32::new(0)).collect();
+    let vertex = repeated(pieces.len(), || AtomicU32::new(0));
     firsts.par_iter().enumerate().with_min_len(1024).for_each(|(number, first)| {
         let number = VertexId::from_index(number).number();
         around(*first).for_each(|piece| vertex[piece.index()].store(number, Ordering::Relaxed));

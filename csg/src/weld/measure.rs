@@ -4,7 +4,7 @@ use planecut_kernel::DVec3;
 
 use super::cancel::HalfEdge;
 use super::nest::{Face, Faces};
-use crate::base::CompensatedSum;
+use crate::base::{CompensatedSum, map_chunks};
 use crate::ids::Id;
 use crate::mesh::SolidMeasures;
 
@@ -16,10 +16,17 @@ pub(super) struct FaceMeasures {
     moment: DVec3,
 }
 
+/// Least number of half-edges that a thread looks at in a row.
+const PIECES_OF_CHUNK: usize = 1 << 12;
+
 /// The box around some half-edges.
 pub(super) fn extent(positions: &[DVec3], pieces: &[HalfEdge]) -> (DVec3, DVec3) {
     let none = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    pieces.iter().map(|piece| positions[piece.from.index()]).fold(none, |(min, max), at| (min.min(at), max.max(at)))
+    let (parts, _) = map_chunks(pieces, PIECES_OF_CHUNK, |chunk| {
+        let positions = chunk.iter().map(|piece| positions[piece.from.index()]);
+        positions.fold(none, |(min, max), at| (min.min(at), max.max(at)))
+    });
+    parts.into_iter().fold(none, |(min, max), part| (min.min(part.0), max.max(part.1)))
 }
 
 /// The parts of faces by the divergence theorem, relative to a point near the middle so that little cancels.

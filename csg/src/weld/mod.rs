@@ -43,7 +43,7 @@ use planecut_kernel::sign::Counts;
 use planecut_parallel::prelude::*;
 use thiserror::Error;
 
-use crate::base::{Clock, by_group, map_weighed_chunks_into, takes_much_memory};
+use crate::base::{Clock, by_group, map_weighed_chunks_into, repeated, takes_much_memory};
 use crate::boundary::BoundaryEdge;
 use crate::ids::{EdgeId, HalfEdgeId, Id, PointId, RegionId};
 use crate::mesh::{Flaw, Mesh, Noise, SolidMeasures, proven};
@@ -205,7 +205,7 @@ fn half_edges(
     let number_points = || Points::identify(table, &edges);
     let number_lines = || {
         let (lines, of_edge, counts) = lines::identify(table, &edges);
-        let by_line = by_group(lines.len(), of_edge.iter().map(|line| line.index()), EdgeId::from_index);
+        let by_line = by_group(lines.len(), of_edge.len(), |edge| of_edge[edge].index(), EdgeId::from_index);
         (lines, of_edge, by_line, counts)
     };
     let number_regions = || Regions::number(&edges, rank);
@@ -256,8 +256,8 @@ fn nest(
     points: &Points,
     RegionPieces { pieces, ranges }: &RegionPieces,
 ) -> Result<(Nested, Counts), WeldError> {
-    let mut nested =
-        Nested { following: vec![HalfEdgeId::NONE; pieces.len()], faces: Vec::new(), solid: SolidMeasures::default() };
+    let following = repeated(pieces.len(), || HalfEdgeId::NONE);
+    let mut nested = Nested { following, faces: Vec::new(), solid: SolidMeasures::default() };
     if pieces.is_empty() {
         return Ok((nested, Counts::default()));
     }

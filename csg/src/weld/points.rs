@@ -2,8 +2,9 @@
 //!
 //! Coordinates are correctly rounded, so equal points have equal coordinates: the coordinates propose, signs decide.
 
-use std::cmp::Ordering;
+use std::cmp;
 use std::hash::Hash;
+use std::sync::atomic::{AtomicU32, Ordering};
 
 use planecut_kernel::sign::{Counts, Sign};
 use planecut_kernel::{DVec3, compare_exactly};
@@ -11,7 +12,7 @@ use planecut_parallel::prelude::*;
 
 use super::cancel::HalfEdge;
 use super::triangulate::LoopCorner;
-use crate::base::{Bounds, concat_owned, intern, map_chunks, runs_apart, sortable};
+use crate::base::{Bounds, concat_owned, intern, map_chunks, repeated, runs_apart, sortable, starts_of};
 use crate::boundary::BoundaryEdge;
 use crate::ids::{HalfEdgeId, Id, NameId, PointId};
 use crate::plane_table::{PlaneId, PlaneTable, curve_number};
@@ -79,10 +80,10 @@ impl Points {
         let runs = runs_apart(&sorted, 512, |a, b| a.0 != b.0);
         let (parts, joining) = map_chunks(&runs, 1, |chunk| {
             let count = chunk.iter().map(|run| run.len()).sum();
-            let (mut joined, mut places) = (Vec::with_capacity(count), Vec::new());
+            let (mut joined, mut places) = (Joined { names: Vec::with_capacity(count), firsts: 0 }, Vec::new());
             for close in chunk.iter().flat_map(|run| run.chunk_by(|a, b| a.0 == b.0)) {
                 if let [(_, only)] = close {
-                    joined.push((*only, true));
+                    joined.add(&[*only]);
                     continue;
                 }
                 places.clear();
@@ -96,25 +97,34 @@ impl Points {
         counts += joining;
         drop(runs);
         drop(sorted);
-        let mut points = Self::with_capacity(parts.iter().flatten().filter(|(_, is_first)| *is_first).count());
-        let mut of_named = vec![PointId::NONE; named.len()];
-        let mut number = PointId::NONE;
-        for (k, is_first) in parts.into_iter().flatten() {
-            if is_first {
-                number = points.push(&named[k.index()]);
+        let starts = starts_of(parts.iter().map(|part| part.firsts));
+        let of_named = repeated(named.len(), || AtomicU32::new(0));
+        let firsts_of = |(part, start): (&Joined, &usize)| {
+            let mut firsts = Vec::with_capacity(part.firsts);
+            for (k, is_first) in &part.names {
+                firsts.extend(is_first.then_some(*k));
+                // the first of those that are equal comes first
+                let number = PointId::from_index(start + firsts.len() - 1);
+                of_named[k.index()].store(number.number(), Ordering::Relaxed);
             }
-            of_named[k.index()] = number;
-        }
+            firsts
+        };
+        let firsts: Vec<Vec<NameId>> = parts.par_iter().zip(&starts).with_max_len(1).map(firsts_of).collect();
+        drop(parts);
+        let points = Self::of_names(&named, &concat_owned(firsts));
         drop(named);
-        let number = |ends: &[NameId]| [ends[0], ends[1]].map(|k| of_named[k.index()]);
-        (points, of_triple.par_chunks_exact(2).with_min_len(1024).map(number).collect(), counts)
+        let number = |k: NameId| PointId::from_index(of_named[k.index()].load(Ordering::Relaxed) as usize);
+        let numbers = |ends: &[NameId]| [ends[0], ends[1]].map(number);
+        (points, of_triple.par_chunks_exact(2).with_min_len(1024).map(numbers).collect(), counts)
     }
 
-    fn with_capacity(count: usize) -> Self {
+    /// Some of the points that were named, in the order given.
+    fn of_names(named: &[Named], names: &[NameId]) -> Self {
+        let names = || names.par_iter().with_min_len(1024).map(|k| &named[k.index()]);
         Self {
-            planes: Vec::with_capacity(count),
-            positions: Vec::with_capacity(count),
-            exact: Vec::with_capacity(count),
+            planes: names().map(|named| named.planes).collect(),
+            positions: names().map(|named| named.position).collect(),
+            exact: names().map(|named| named.exact).collect(),
         }
     }
 
@@ -194,9 +204,9 @@ impl Points {
     }
 
     /// The exact lexicographic order of two points by some of their coordinates.
-    pub(super) fn compare(&self, table: &PlaneTable, p: PointId, q: PointId, axes: &[usize]) -> Ordering {
+    pub(super) fn compare(&self, table: &PlaneTable, p: PointId, q: PointId, axes: &[usize]) -> cmp::Ordering {
         if p == q {
-            return Ordering::Equal;
+            return cmp::Ordering::Equal;
         }
         let (at_p, at_q) = (self.positions[p.index()], self.positions[q.index()]);
         let rows = |point: PointId| self.planes[point.index()].map(|plane| table.row(plane));
@@ -206,7 +216,7 @@ impl Points {
             if by_rounded.is_ne() || is_certain { by_rounded } else { compare_exactly(rows(p), rows(q), &[*axis]) }
         };
         // points that agree in all of these coordinates
-        axes.iter().map(by_axis).find(|order| order.is_ne()).unwrap_or(Ordering::Equal)
+        axes.iter().map(by_axis).find(|order| order.is_ne()).unwrap_or(cmp::Ordering::Equal)
     }
 
     /// On which side of a plane a point lies; positive is outside.
@@ -246,11 +256,26 @@ fn coordinates(position: DVec3) -> [u64; 3] {
     position.to_array().map(sortable)
 }
 
-/// Adds points that round alike in their exact order, each with those that are equal to it; tells of each whether it is the first
-/// of these.
-fn join_equal(table: &PlaneTable, named: &[Named], alike: &[([u64; 3], NameId)], joined: &mut Vec<(NameId, bool)>) {
+/// Names of points in the order of these.
+struct Joined {
+    /// Each with whether it is the first name of its point.
+    names: Vec<(NameId, bool)>,
+    /// How many points they name.
+    firsts: usize,
+}
+
+impl Joined {
+    /// Adds the names of a point.
+    fn add(&mut self, names: &[NameId]) {
+        self.names.extend(names.iter().enumerate().map(|(place, k)| (*k, place == 0)));
+        self.firsts += 1;
+    }
+}
+
+/// Adds points that round alike in their exact order, each with those that are equal to it.
+fn join_equal(table: &PlaneTable, named: &[Named], alike: &[([u64; 3], NameId)], joined: &mut Joined) {
     if let [(_, one)] = alike {
-        joined.push((*one, true));
+        joined.add(&[*one]);
         return;
     }
     let rows = |k: NameId| named[k.index()].planes.map(|plane| table.row(plane));
@@ -264,9 +289,7 @@ fn join_equal(table: &PlaneTable, named: &[Named], alike: &[([u64; 3], NameId)],
         }
     }
     groups.sort_by(|p, q| compare_exactly(rows(p[0]), rows(q[0]), &[0, 1, 2]));
-    for group in groups {
-        joined.extend(group.iter().enumerate().map(|(place, k)| (*k, place == 0)));
-    }
+    groups.iter().for_each(|group| joined.add(group));
 }
 
 /// What names the meeting point of three planes, whatever their order and sides.

@@ -10,7 +10,7 @@ use super::cancel::HalfEdge;
 use super::nest::Projection;
 use super::pinches::PinchFinder;
 use super::points::Points;
-use crate::base::{by_group, counted, split_by, takes_much_memory, weighed_runs};
+use crate::base::{by_group, counted, repeated, split_by, takes_much_memory, weighed_runs};
 use crate::boundary::BoundaryEdge;
 use crate::ids::{HalfEdgeId, Id, PointId, PointOnLine, RegionId};
 use crate::model::MaterialId;
@@ -18,6 +18,9 @@ use crate::plane_table::{PlaneId, PlaneTable};
 
 /// Least number of half-edges that a thread looks at in a row.
 const PIECES_OF_CHUNK: usize = 512;
+
+/// Least number of regions that a thread looks at in a row.
+const REGIONS_OF_CHUNK: usize = 1 << 11;
 
 /// The regions of the boundary: oriented planes with a material.
 pub(super) struct Regions {
@@ -54,8 +57,9 @@ impl Regions {
     /// their points, their planes and materials.
     pub(super) fn sort(&mut self, table: &PlaneTable, by_region: &mut ByRegion) {
         let first = |region: RegionId| by_region.of_region(region).first().map_or(PointId::NONE, |piece| piece.0);
+        let placed = |region: &RegionId| (first(*region), *region);
         let mut order: Vec<(PointId, RegionId)> =
-            by_region.order.iter().map(|region| (first(*region), *region)).collect();
+            by_region.order.par_iter().with_min_len(REGIONS_OF_CHUNK).map(placed).collect();
         order.par_sort_unstable();
         let further =
             |(_, region): &(PointId, RegionId)| (table.order(self.planes[region.index()]), self.ranks[region.index()]);
@@ -66,10 +70,10 @@ impl Regions {
             }
         });
         by_region.order = order.into_iter().map(|(_, region)| region).collect();
-        let order = &by_region.order;
-        self.planes = order.iter().map(|old| self.planes[old.index()]).collect();
-        self.materials = order.iter().map(|old| self.materials[old.index()]).collect();
-        self.ranks = order.iter().map(|old| self.ranks[old.index()]).collect();
+        let order = || by_region.order.par_iter().with_min_len(REGIONS_OF_CHUNK);
+        self.planes = order().map(|old| self.planes[old.index()]).collect();
+        self.materials = order().map(|old| self.materials[old.index()]).collect();
+        self.ranks = order().map(|old| self.ranks[old.index()]).collect();
     }
 }
 
@@ -89,9 +93,9 @@ impl ByRegion {
     /// Lists half-edges whose regions are in the order of their numbers.
     pub(super) fn of(pieces: &[HalfEdge], regions: usize) -> Self {
         let order: Vec<RegionId> = RegionId::all(regions).collect();
-        let regions = pieces.iter().map(|piece| piece.region.index());
-        let (starts, mut members) =
-            by_group(order.len(), regions, |number| (pieces[number].from, HalfEdgeId::from_index(number)));
+        let region = |piece: usize| pieces[piece].region.index();
+        let placed = |piece: usize| (pieces[piece].from, HalfEdgeId::from_index(piece));
+        let (starts, mut members) = by_group(order.len(), pieces.len(), region, placed);
         let lengths: Vec<usize> = starts.windows(2).map(|ends| (ends[1] - ends[0]) as usize).collect();
         let runs = weighed_runs(lengths.len(), PIECES_OF_CHUNK, |region| lengths[region]);
         let parts = split_by(&mut members, runs.iter().map(|run| lengths[run.clone()].iter().sum()));
@@ -176,9 +180,9 @@ impl RegionPieces {
             permute(&mut pieces, &old);
             std::mem::swap(&mut sorted, &mut pieces);
         } else if let Some(first) = pieces.first() {
-            sorted.resize(pieces.len(), *first);
+            sorted = repeated(pieces.len(), || *first);
         }
-        let place: Vec<AtomicU32> = old.par_iter().with_min_len(1 << 14).map(|_| AtomicU32::new(0)).collect();
+        let place = repeated(old.len(), || AtomicU32::new(0));
         let slices = split_by(&mut sorted, lengths_of(&ranges, &runs));
         let jobs: Vec<_> = runs.iter().zip(slices).collect();
         let work = |(run, sorted): (&Range<usize>, &mut [HalfEdge])| {

@@ -189,5 +189,5 @@ fn by_size(boxes: &[SmallBox]) -> Vec<u32> {
         let exponent = usize::try_from(share.to_bits() >> 52 & 0x7FF).expect("eleven bits");
         (ONE_EXPONENT + 3 * CLASSES / 2).saturating_sub(exponent).div_euclid(3).min(CLASSES - 1)
     };
-    by_group(CLASSES, boxes.iter().map(class), number32).1
+    by_group(CLASSES, boxes.len(), |k| class(&boxes[k]), number32).1
 }

@@ -68,8 +68,7 @@ impl Regions {
         }
         parts.iter().flatten().for_each(|[a, b]| sets.join(*a, *b));
         let (of_side, count) = sets.numbered();
-        let regions = of_side.iter().map(|region| *region as usize);
-        let (starts, sides) = by_group(count, regions, number32);
+        let (starts, sides) = by_group(count, of_side.len(), |side| of_side[side] as usize, number32);
         Self { of_side, starts, sides }
     }
 
