@@ -28,7 +28,7 @@ pub fn map_parts<R>(count: usize, work: impl Fn(usize) -> R) -> Vec<R> {
 
 /// The traits that add the methods.
 pub mod prelude {
-    pub use super::{IntoParallelIterator, ParallelIterator, ParallelSlice, ParallelSliceMut};
+    pub use super::{IntoParallelIterator, ParallelExtend, ParallelIterator, ParallelSlice, ParallelSliceMut};
 }
 
 /// Whatever can be iterated over.
@@ -86,6 +86,18 @@ pub trait ParallelIterator: Iterator + Sized {
 }
 
 impl<I: Iterator> ParallelIterator for I {}
+
+/// Lists that grow by all elements of an iterator.
+pub trait ParallelExtend<T> {
+    /// Adds the elements at the end, in order.
+    fn par_extend(&mut self, elements: impl IntoIterator<Item = T>);
+}
+
+impl<T> ParallelExtend<T> for Vec<T> {
+    fn par_extend(&mut self, elements: impl IntoIterator<Item = T>) {
+        self.extend(elements);
+    }
+}
 
 /// Views of slices.
 pub trait ParallelSlice<T> {

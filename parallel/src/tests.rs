@@ -48,6 +48,13 @@ fn states_are_scratch_memory() {
 }
 
 #[test]
+fn lists_grow_by_all_elements_in_order() {
+    let mut numbers = vec![7, 8];
+    numbers.par_extend((0..1000).into_par_iter().with_min_len(10).map(|n| 3 * n));
+    assert!(numbers.into_iter().eq([7, 8].into_iter().chain((0..1000).map(|n| 3 * n))));
+}
+
+#[test]
 fn parts_keep_their_order() {
     for count in [0, 1, 2, 1000] {
         let results = crate::map_parts(count, |part| {

@@ -25,7 +25,9 @@ pub(crate) fn by_group<M: Copy + Send + Sync>(
     // a list of all groups for each part is not to be longer than the members of it
     let most = (members / (groups + 1)).min(members / MEMBERS_OF_CHUNK).min(MOST_PARTS);
     let parts = planecut_parallel::current_num_threads().min(most);
-    if parts > 1 && !takes_much_memory::<M>(members) {
+    // of many members there is no second list
+    let has_room = !takes_much_memory::<M>(members) || size_of::<M>() == size_of::<AtomicU32>();
+    if parts > 1 && has_room {
         by_group_in_parts(groups, members, parts, group_of, number)
     } else {
         by_group_in_a_row(groups, members, group_of, number)
@@ -88,7 +90,13 @@ fn by_group_in_parts<M: Copy + Send + Sync>(
     });
     drop(next);
     let number = |member: AtomicU32| number(member.into_inner() as usize);
-    (starts, sorted.into_par_iter().with_min_len(MEMBERS_OF_CHUNK / 4).map(number).collect())
+    let sorted = if takes_much_memory::<M>(members) {
+        // in its place
+        sorted.into_iter().map(number).collect()
+    } else {
+        sorted.into_par_iter().with_min_len(MEMBERS_OF_CHUNK / 4).map(number).collect()
+    };
+    (starts, sorted)
 }
 
 #[cfg(test)]

@@ -20,6 +20,9 @@ const ELEMENTS_OF_CHUNK: usize = 2048;
 /// Equal elements that a thread writes in a row, at least.
 const REPEATED_OF_CHUNK: usize = 1 << 13;
 
+/// Shares of a long list, about, that are copied by all threads before the parts copied are dropped.
+const SHARES_OF_COPY: usize = 16;
+
 /// Number of bytes from which lists are not kept longer than they must.
 const MUCH_MEMORY: usize = 1 << 24;
 
@@ -159,6 +162,17 @@ pub(crate) fn by_parts<T: Send>(
     lengths: impl Iterator<Item = usize>,
     make: impl Fn(usize, usize) -> T + Sync,
 ) -> Vec<T> {
+    let mut all = Vec::new();
+    extend_by_parts(&mut all, lengths, make);
+    all
+}
+
+/// The same, added to a list.
+fn extend_by_parts<T: Send>(
+    all: &mut Vec<T>,
+    lengths: impl Iterator<Item = usize>,
+    make: impl Fn(usize, usize) -> T + Sync,
+) {
     let starts = starts_of(lengths);
     let element = |part: &mut usize, k: usize| {
         // mostly it is in the same part as the one before
@@ -167,7 +181,8 @@ pub(crate) fn by_parts<T: Send>(
         }
         make(*part, k - starts[*part])
     };
-    (0..starts[starts.len() - 1]).into_par_iter().with_min_len(ELEMENTS_OF_CHUNK).map_init(|| 0, element).collect()
+    let places = (0..starts[starts.len() - 1]).into_par_iter().with_min_len(ELEMENTS_OF_CHUNK);
+    all.par_extend(places.map_init(|| 0, element));
 }
 
 /// A list of elements that are made without regard to their places, by all threads: filling much memory takes time.
@@ -175,7 +190,7 @@ pub(crate) fn repeated<T: Send>(count: usize, element: impl Fn() -> T + Sync) ->
     (0..count).into_par_iter().with_min_len(REPEATED_OF_CHUNK).map(|_| element()).collect()
 }
 
-/// The elements of some parts one after another. Where they are many, or there is one thread, each part is dropped when it is copied.
+/// The elements of some parts one after another. Where they are many, or there is one thread, parts are dropped when they are copied.
 pub(crate) fn concat_owned<T: Copy + Send + Sync>(parts: Vec<Vec<T>>) -> Vec<T> {
     concat_made(parts, |_, element| *element)
 }
@@ -183,13 +198,27 @@ pub(crate) fn concat_owned<T: Copy + Send + Sync>(parts: Vec<Vec<T>>) -> Vec<T> 
 /// The same of what is made of each element and the number of its part.
 pub(crate) fn concat_made<S: Send + Sync, T: Send>(parts: Vec<Vec<S>>, make: impl Fn(usize, &S) -> T + Sync) -> Vec<T> {
     let lengths = || parts.iter().map(Vec::len);
-    let count = lengths().sum();
-    if planecut_parallel::current_num_threads() > 1 && !takes_much_memory::<T>(count) {
+    let (count, last) = (lengths().sum(), parts.len());
+    let threads = planecut_parallel::current_num_threads();
+    if threads > 1 && !takes_much_memory::<T>(count) {
         return by_parts(lengths(), |part, k| make(part, &parts[part][k]));
     }
     let mut all = Vec::with_capacity(count);
-    for (number, part) in parts.into_iter().enumerate() {
-        all.extend(part.iter().map(|element| make(number, element)));
+    if threads == 1 {
+        for (number, part) in parts.into_iter().enumerate() {
+            all.extend(part.iter().map(|element| make(number, element)));
+        }
+        return all;
+    }
+    let (mut some, mut first, mut waiting) = (Vec::new(), 0, 0);
+    for (number, part) in (1..).zip(parts) {
+        waiting += part.len();
+        some.push(part);
+        if waiting >= count / SHARES_OF_COPY || number == last {
+            extend_by_parts(&mut all, some.iter().map(Vec::len), |part, k| make(first + part, &some[part][k]));
+            some.clear();
+            (first, waiting) = (number, 0);
+        }
     }
     all
 }
@@ -231,4 +260,45 @@ pub(crate) fn counted<R>(work: impl FnOnce() -> R) -> (R, Counts) {
     let before = Counts::now();
     let outcome = work();
     (outcome, Counts::since(before))
+}
+
+#[cfg(test)]
+mod tests {
+    use planecut_testkit::random::Rng;
+
+    use super::*;
+
+    #[test]
+    fn lists_of_any_length_are_joined_in_order() {
+        for seed in 0..4 {
+            let mut rng = Rng::spread(seed);
+            // some of them so long that parts are dropped as they are copied
+            let count = (MUCH_MEMORY / size_of::<u64>()) >> (4 * (seed % 2));
+            let (mut parts, mut end): (Vec<Vec<u64>>, u64) = (Vec::new(), 0);
+            while end < 2 * count as u64 {
+                let length = rng.below(count / 3) as u64 >> rng.below(12);
+                parts.push((end..end + length).collect());
+                end += length;
+            }
+            let numbers: Vec<usize> = (0..).zip(&parts).flat_map(|(k, part)| vec![k; part.len()]).collect();
+            let joined = concat_made(parts, |part, element| (part, *element));
+            assert!(joined.into_iter().eq(numbers.into_iter().zip(0..end)), "seed {seed}");
+        }
+    }
+
+    #[test]
+    fn runs_are_all_items_in_order_and_become_smaller() {
+        for seed in 0..50 {
+            let mut rng = Rng::spread(seed);
+            let (count, least) = (rng.below(3_000), 1 + rng.below(60));
+            let sizes: Vec<usize> = (0..count).map(|_| rng.below(9)).collect();
+            let runs = weighed_runs(count, least, |k| sizes[k]);
+            assert!(runs.iter().cloned().flatten().eq(0..count), "seed {seed}");
+            let of_runs: Vec<usize> = runs.iter().map(|run| sizes[run.clone()].iter().sum()).collect();
+            let [before @ .., _] = of_runs.as_slice() else { continue };
+            assert!(before.iter().all(|size| *size >= least), "seed {seed}");
+            // a run ends with the item that makes it large enough
+            assert!(before.windows(2).all(|two| two[1] < two[0] + 9), "seed {seed}");
+        }
+    }
 }

@@ -5,18 +5,23 @@ use std::borrow::{Borrow, Cow};
 use planecut_kernel::sign::{Counts, Row};
 use planecut_kernel::{HalfSpace, IncrementalPolytope, PlaneIdx};
 use planecut_parallel::prelude::*;
-use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
 use super::built::{self, BrushShape, BuiltBodies, ShapeBuilder};
 use super::{Body, BrushBody, Shape};
-use crate::base::{Bounds, map_chunks, starts_of};
+use crate::base::{Bounds, hash_of, intern, map_chunks, starts_of};
 use crate::ids::number32;
 use crate::model::{Brush, BrushFace, MaterialId};
 use crate::plane_table::{InternedPlanes, PlaneId, PlaneTable, in_order_of_space, smallest_size};
 
 /// Least number of planes, about, of bodies that are built in a row.
 const PLANES_OF_CHUNK: usize = 100;
+
+/// Number of planes, about, of which some may be the same.
+const PLANES_OF_GROUP: usize = 4;
+
+/// Least number of planes of brushes that a thread numbers in a row.
+const IDS_OF_CHUNK: usize = 1 << 12;
 
 /// The planes of brushes, one after another.
 #[derive(Default)]
@@ -93,19 +98,25 @@ fn of_shapes<'a, R: Send>(
 
 /// Interns the planes of brushes many of which have planes in common: what is the same in every bit is looked for first.
 fn intern_repeated_planes(brushes: &[Brush], size: f64) -> (InternedPlanes, BrushPlanes) {
-    let mut different: Vec<HalfSpace> = Vec::new();
-    let mut known: FxHashMap<[u64; 4], u32> = FxHashMap::default();
-    let number = |half_space: &HalfSpace| {
-        *known.entry(half_space.to_array().map(f64::to_bits)).or_insert_with(|| {
-            different.push(*half_space);
-            number32(different.len() - 1)
-        })
-    };
-    let numbers: Vec<u32> = brushes.iter().flat_map(Brush::half_spaces).map(number).collect();
-    drop(known);
-    let (interned, ids) = InternedPlanes::of(std::iter::once(different.len()), |_, k| &different[k], size);
-    let of_brushes = numbers.into_iter().map(|number| ids[number as usize]).collect();
-    (interned, BrushPlanes::new(brushes, of_brushes))
+    let all: Vec<&HalfSpace> = brushes.iter().flat_map(Brush::half_spaces).collect();
+    let bits = |place: usize| all[place].to_array().map(f64::to_bits);
+    let groups = 1 + all.len() / PLANES_OF_GROUP;
+    let group_of = |bits: &[u64; 4]| usize::try_from(hash_of(bits) % groups as u64).expect("less than their number");
+    let (different, mut numbers) = intern(all.len(), bits, groups, group_of, number32);
+    // in the order given, as brushes that are near each other mostly are in it
+    let (mut places, mut in_order) = (Vec::with_capacity(different.len()), vec![u32::MAX; different.len()]);
+    drop(different);
+    for (place, number) in numbers.iter_mut().enumerate() {
+        let in_order = &mut in_order[*number as usize];
+        if *in_order == u32::MAX {
+            *in_order = number32(places.len());
+            places.push(place);
+        }
+        *number = *in_order;
+    }
+    let (interned, ids) = InternedPlanes::of(std::iter::once(places.len()), |_, k| all[places[k]], size);
+    let of_brushes = numbers.par_iter().with_min_len(IDS_OF_CHUNK).map(|number| ids[*number as usize]);
+    (interned, BrushPlanes::new(brushes, of_brushes.collect()))
 }
 
 /// What is known of a brush of which nothing but its planes is kept.

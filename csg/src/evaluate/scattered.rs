@@ -9,6 +9,7 @@
 //! Vertices and faces come group by group, in the order of space, so that their order still depends on the geometry alone.
 
 use planecut_kernel::sign::Counts;
+use planecut_parallel::prelude::*;
 
 use super::convex::{ConvexMesh, mesh_of};
 use super::totals::Totals;
@@ -31,6 +32,9 @@ pub(super) const LEAST: usize = 1 << 16;
 
 /// Groups are evaluated together until they have this many bodies; of larger ones the boundary of this many is made together.
 const BODIES_AT_A_TIME: usize = 1 << 13;
+
+/// Least number of boundary edges that a thread copies in a row.
+const EDGES_OF_CHUNK: usize = 1 << 12;
 
 /// Number of bodies whose meshes are proven together.
 const PROVEN_AT_A_TIME: usize = 1 << 9;
@@ -182,7 +186,7 @@ impl Scattered<'_> {
                 // the memory is taken when it is written to
                 edges.reserve(edges.len() * (leaves.len() - part.len()) / part.len());
             } else {
-                edges.extend(of_part);
+                edges.par_extend(of_part.par_iter().with_min_len(EDGES_OF_CHUNK).copied());
             }
         }
         edges

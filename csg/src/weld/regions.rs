@@ -10,13 +10,13 @@ use super::cancel::HalfEdge;
 use super::nest::Projection;
 use super::pinches::PinchFinder;
 use super::points::Points;
-use crate::base::{by_group, counted, repeated, split_by, takes_much_memory, weighed_runs};
+use crate::base::{by_group, concat_owned, counted, repeated, runs_apart, split_by, takes_much_memory, weighed_runs};
 use crate::boundary::BoundaryEdge;
 use crate::ids::{HalfEdgeId, Id, PointId, PointOnLine, RegionId};
 use crate::model::MaterialId;
 use crate::plane_table::{PlaneId, PlaneTable};
 
-/// Least number of half-edges that a thread looks at in a row.
+/// Least number of boundary edges or half-edges that a thread looks at in a row.
 const PIECES_OF_CHUNK: usize = 512;
 
 /// Least number of regions that a thread looks at in a row.
@@ -32,19 +32,29 @@ pub(super) struct Regions {
 
 impl Regions {
     /// The regions, and the number of the region of each edge.
-    pub(super) fn number(edges: &[BoundaryEdge], rank: &[u32]) -> (Self, Vec<RegionId>) {
-        let key = |edge: &BoundaryEdge| (edge.face, rank[edge.material.0 as usize], edge.material);
+    pub(super) fn number<'a>(edges: &'a [BoundaryEdge], rank: &[u32]) -> (Self, Vec<RegionId>) {
+        type Key = (PlaneId, u32, MaterialId);
+        let key = |edges: &[BoundaryEdge]| {
+            let BoundaryEdge { face, material, .. } = edges[0];
+            (face, rank[material.0 as usize], material)
+        };
         // the edges of a face follow one another
-        let same_face = || edges.chunk_by(|a, b| (a.face, a.material) == (b.face, b.material));
-        let mut keys: Vec<(PlaneId, u32, MaterialId)> = same_face().map(|edges| key(&edges[0])).collect();
-        keys.sort_unstable();
+        let is_apart = |a: &BoundaryEdge, b: &BoundaryEdge| (a.face, a.material) != (b.face, b.material);
+        let same_face = |edges: &'a [BoundaryEdge]| edges.chunk_by(move |a, b| !is_apart(a, b));
+        let runs = runs_apart(edges, PIECES_OF_CHUNK, is_apart);
+        let keys_of = |run: usize| same_face(runs[run]).map(key).collect::<Vec<Key>>();
+        let mut keys = concat_owned(planecut_parallel::map_parts(runs.len(), keys_of));
+        keys.par_sort_unstable();
         keys.dedup();
-        let mut numbers = Vec::with_capacity(edges.len());
-        for edges in same_face() {
-            let number = keys.binary_search(&key(&edges[0])).expect("the region of each edge is among the keys");
-            let number = RegionId::from_index(number);
-            numbers.extend(std::iter::repeat_n(number, edges.len()));
-        }
+        let mut numbers = repeated(edges.len(), || RegionId::NONE);
+        let parts = split_by(&mut numbers, runs.iter().map(|run| run.len()));
+        runs.par_iter().zip(parts).with_max_len(1).for_each(|(run, mut numbers)| {
+            for edges in same_face(run) {
+                let number = keys.binary_search(&key(edges)).expect("the region of each edge is among the keys");
+                let own = numbers.split_off_mut(..edges.len()).expect("there is room for each edge");
+                own.fill(RegionId::from_index(number));
+            }
+        });
         let regions = Self {
             planes: keys.iter().map(|k| k.0).collect(),
             materials: keys.iter().map(|k| k.2).collect(),
