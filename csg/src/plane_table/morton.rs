@@ -51,14 +51,13 @@ pub(crate) fn in_order_of_space<'a>(
         all.extend(planes_of(brush as usize).iter().map(|plane| plane.index()));
         all[first..].sort_unstable();
     };
-    let planes = |brush: u32| {
-        let mut planes = Vec::new();
-        planes_of(brush as usize).clone_into(&mut planes);
+    let sorted_planes = |brush: u32| {
+        let mut planes = planes_of(brush as usize).to_vec();
         planes.sort_unstable();
         planes
     };
     for cell in brushes.chunk_by_mut(|a, b| a.0 == b.0).filter(|cell| cell.len() > 1) {
-        cell.sort_by_cached_key(|(_, brush)| planes(*brush));
+        cell.sort_by_cached_key(|(_, brush)| sorted_planes(*brush));
     }
     let (parts, _) = map_chunks(&brushes, BRUSHES_OF_CHUNK, |chunk| {
         let mut planes = Vec::new();
