@@ -14,6 +14,9 @@ const PARTS_OF_REST: usize = 3;
 /// Into how many parts of the smallest size all that there is to do would be divided, for each thread.
 const SMALLEST_PARTS: usize = 48;
 
+/// Number of chunks where it is not to depend on the number of threads.
+const FIXED_CHUNKS: usize = 64;
+
 /// Elements that a thread copies in a row, at least.
 const ELEMENTS_OF_CHUNK: usize = 2048;
 
@@ -48,6 +51,18 @@ pub(crate) fn map_chunks<T: Sync, R: Send>(
     }
     let stage = Stage::new(chunks.len());
     in_order(planecut_parallel::map_parts(chunks.len(), |k| stage.counted(|| work(chunks[k]))))
+}
+
+/// The same in chunks that do not depend on the number of threads, for work that asks for other signs where it follows other items of a chunk.
+pub(crate) fn map_fixed_chunks<T: Sync, R: Send>(
+    items: &[T],
+    least: usize,
+    work: impl Fn(&[T]) -> R + Sync,
+) -> (Vec<R>, Counts) {
+    let chunk = (items.len() / FIXED_CHUNKS).max(least).max(1);
+    let stage = Stage::new(items.len().div_ceil(chunk));
+    let chunk_of = |k: usize| &items[k * chunk..items.len().min((k + 1) * chunk)];
+    in_order(planecut_parallel::map_parts(stage.chunks, |k| stage.counted(|| work(chunk_of(k)))))
 }
 
 /// The same for items of different sizes: each chunk but the last is at least of size `least`, the sizes of its items added.

@@ -9,7 +9,7 @@ use smallvec::SmallVec;
 
 use super::built::{self, BrushShape, BuiltBodies, ShapeBuilder};
 use super::{Body, BrushBody, Shape};
-use crate::base::{Bounds, hash_of, intern, map_chunks, starts_of};
+use crate::base::{Bounds, hash_of, intern, map_fixed_chunks, starts_of};
 use crate::ids::number32;
 use crate::model::{Brush, BrushFace, MaterialId};
 use crate::plane_table::{InternedPlanes, PlaneId, PlaneTable, in_order_of_space, smallest_size};
@@ -86,7 +86,7 @@ fn of_shapes<'a, R: Send>(
 ) -> (Vec<R>, Counts) {
     let numbers: Vec<usize> = (0..brushes.len()).collect();
     let row = |plane: PlaneId| interned.row(plane);
-    let (parts, signs) = map_chunks(&numbers, least_of_chunk(brushes), |chunk| {
+    let (parts, signs) = map_fixed_chunks(&numbers, least_of_chunk(brushes), |chunk| {
         let mut builder = ShapeBuilder::default();
         let shape = |&number: &usize| {
             make(number, shape_of(row, interned.snapped(), built, &brushes[number], planes.of(number), &mut builder))
@@ -277,5 +277,31 @@ impl BrushShape {
             Self::Bounded(shape) => Some(Shape::bounds(shape)),
             Self::Empty | Self::Unbounded => None,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use planecut_kernel::DVec3;
+
+    use super::*;
+
+    /// What a body asks for depends on whether the one before it in its chunk is like it.
+    #[test]
+    fn the_number_of_threads_does_not_change_the_count_of_signs() {
+        let of_size = |k: u32| Brush::cuboid(DVec3::ZERO, DVec3::new(1.0, 1.0 + f64::from(k), 2.0), MaterialId(0));
+        let cut = |k: u32| {
+            let mut brush = of_size(k);
+            let half_space = HalfSpace::new(DVec3::ONE, 3.5 + f64::from(k)).expect("a valid plane");
+            brush.faces.push(BrushFace { half_space, material: MaterialId(0) });
+            brush
+        };
+        let brushes: Vec<Brush> = (0..150).map(|k| if k % 50 < 30 { of_size(k) } else { cut(k) }).collect();
+        let counted = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool of threads");
+            pool.install(|| build_bodies(&brushes).signs)
+        };
+        let one = counted(1);
+        assert!([2, 3, 8].iter().all(|threads| counted(*threads) == one));
     }
 }

@@ -14,7 +14,7 @@ use planecut_parallel::prelude::*;
 use super::convex::{ConvexMesh, mesh_of};
 use super::totals::Totals;
 use super::{EvaluateError, Evaluation, Leaves, ModelSummary, OtherBrushes, StageTimes, UnboundedBrushes, ranks};
-use crate::base::{Bounds, Boxes, Clock, DisjointSets, map_chunks};
+use crate::base::{Bounds, Boxes, Clock, DisjointSets, map_chunks, map_fixed_chunks};
 use crate::body::{
     Body, BrushExtent, BrushExtents, BrushPlanes, BuiltBodies, ShapeBuilder, brush_extents, built_or_build, kinds,
     mark_of,
@@ -79,7 +79,7 @@ fn evaluate_some_at_a_time(
     let mut solid = Solid::with_room(model, &alone, &extents);
     drop(extents);
     for some in alone.chunks(PROVEN_AT_A_TIME * 64) {
-        let (parts, counted) = map_chunks(some, PROVEN_AT_A_TIME, |chunk| {
+        let (parts, counted) = map_fixed_chunks(some, PROVEN_AT_A_TIME, |chunk| {
             let mut builder = ShapeBuilder::default();
             let parts = chunk.chunks(PROVEN_AT_A_TIME);
             parts.map(|leaves| scene.alone(leaves, &mut builder)).collect::<Vec<_>>()
@@ -194,7 +194,7 @@ impl Scattered<'_> {
 
     /// The bodies of some leaves.
     fn leaves(&self, leaves: &[LeafId], signs: &mut Counts) -> Leaves {
-        let (parts, counted) = map_chunks(leaves, 16, |chunk| {
+        let (parts, counted) = map_fixed_chunks(leaves, 16, |chunk| {
             let mut builder = ShapeBuilder::default();
             chunk.iter().map(|leaf| self.body(*leaf, &mut builder)).collect::<Vec<_>>()
         });
