@@ -79,13 +79,9 @@ fn evaluate_some_at_a_time(
     let mut solid = Solid::with_room(model, &alone, &extents);
     drop(extents);
     for some in alone.chunks(PROVEN_AT_A_TIME * 64) {
-        let (parts, counted) = map_fixed_chunks(some, PROVEN_AT_A_TIME, |chunk| {
-            let mut builder = ShapeBuilder::default();
-            let parts = chunk.chunks(PROVEN_AT_A_TIME);
-            parts.map(|leaves| scene.alone(leaves, &mut builder)).collect::<Vec<_>>()
-        });
+        let (parts, counted) = map_fixed_chunks(some, PROVEN_AT_A_TIME, |leaves| scene.alone(leaves));
         signs += counted;
-        for Alone { mesh, noise, rest } in parts.into_iter().flatten() {
+        for Alone { mesh, noise, rest } in parts {
             solid.add(mesh.mesh, &mesh.totals, noise);
             several.extend(rest.into_iter().map(|leaf| vec![leaf]));
         }
@@ -151,9 +147,9 @@ impl Scattered<'_> {
     }
 
     /// Bodies that touch nothing, of which each is its own boundary.
-    fn alone(&self, leaves: &[LeafId], builder: &mut ShapeBuilder) -> Alone {
-        let mut rest = Vec::new();
-        let bodies = leaves.iter().filter_map(|leaf| self.body(*leaf, builder).map(|body| (*leaf, body)));
+    fn alone(&self, leaves: &[LeafId]) -> Alone {
+        let (mut builder, mut rest) = (ShapeBuilder::default(), Vec::new());
+        let bodies = leaves.iter().filter_map(|leaf| self.body(*leaf, &mut builder).map(|body| (*leaf, body)));
         let mut mesh = mesh_of(self.table, bodies, &mut rest);
         match proven(std::mem::take(&mut mesh.mesh), &mesh.totals.measures(), self.walls, false) {
             Ok((proven, noise)) => {

@@ -118,10 +118,7 @@ impl InternedPlanes {
         let mut new_of_old = vec![0; order.len()];
         (0..).zip(order).for_each(|(new, old)| new_of_old[*old as usize] = new);
         let renumbered = |id: PlaneId| id.with_index(new_of_old[id.index() as usize]);
-        let row = |side: usize| {
-            let first = self.first_side(order[side / 2]);
-            if side.is_multiple_of(2) { *first } else { first.flipped() }
-        };
+        let row = |side: usize| self.row(PlaneId::new(order[side / 2] as usize, !side.is_multiple_of(2)));
         ids.par_iter_mut().with_min_len(IDS_OF_CHUNK).for_each(|id| *id = renumbered(*id));
         PlaneTable {
             rows: (0..2 * order.len()).into_par_iter().with_min_len(CHUNK).map(row).collect(),
