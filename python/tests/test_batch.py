@@ -103,7 +103,7 @@ def test_another_engine_is_an_error(folder: Path) -> None:
 
 
 def killed_half_way(out: Path, count: int, victim: Callable[[], int | None]) -> threading.Thread:
-    """Kills a process when so many jobs are done."""
+    """Kills a process as soon as this number of jobs is done."""
 
     def wait_and_kill() -> None:
         results = out / "results.jsonl"

@@ -412,7 +412,7 @@ def test_two_threads_give_the_same(tmp_path: Path, local: dict[str, bytes]) -> N
 
 
 class Killer:
-    """Kills a process when so many blocks are done."""
+    """Kills a process as soon as this number of blocks is done."""
 
     def __init__(self, count: int, victim: Callable[[], int | None]) -> None:
         self.count, self.victim, self.begun = count, victim, threading.Event()

@@ -13,7 +13,7 @@ import { measures, onPage, openText, out, settle, start } from "./browser.mjs";
 
 const expected = fileURLToPath(new URL("./pictures", import.meta.url));
 
-/** Pictures are compared by the means of squares of so many pixels: letters and thin lines lie elsewhere by a pixel in another version of the browser. */
+/** Side of the squares whose means are compared, in pixels: letters and thin lines lie elsewhere by a pixel in another version of the browser. */
 const SQUARE = 4;
 
 /** Share of these that may differ. */

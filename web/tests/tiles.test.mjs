@@ -19,7 +19,7 @@ const root = resolve(here, "../..");
 /** The program: PLANECUT, or what `cargo build` made. */
 const program = process.env.PLANECUT ?? join(process.env.CARGO_TARGET_DIR ?? join(root, "target"), "debug/planecut");
 
-/** A city of so many buildings between streets as a model file, higher towards the middle, some with a tower that is turned; in metres. */
+/** A city of a number of buildings between streets as a model file, higher towards the middle, some with a tower that is turned; in metres. */
 function city(buildings) {
   const [step, street] = [30, 9];
   const side = Math.ceil(Math.sqrt(buildings));
