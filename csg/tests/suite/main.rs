@@ -2,6 +2,7 @@
 
 mod arrangement;
 mod blocks;
+mod fuzz_corpus;
 mod live;
 #[cfg(feature = "serde")]
 mod saved;

@@ -3,7 +3,7 @@
 use planecut_check::{CheckOptions, check_mesh};
 use planecut_csg::{Evaluation, Material, MeshBody, Model, Tree, combine_meshes, evaluate, unite_meshes};
 
-use crate::decode::Scene;
+use super::decode::Scene;
 
 /// How far volumes may be off: they are of order 1, and sums of products of rounded corners.
 const TOLERANCE: f64 = 1e-9;
