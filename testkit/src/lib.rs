@@ -1,6 +1,7 @@
 //! What tests of several crates share. For tests only: no crate of the product depends on it but for its tests.
 //!
 //! - [`random`]: the one seeded generator; a printed seed repeats a test on every machine.
+//! - [`corpus`]: files that the fuzzer found worth keeping;
 //! - [`data`]: files that others made, and tests that are ignored where these are absent;
 //! - [`textured`]: meshes with texture coordinates, as files, and what these must be where;
 //! - with the feature `csg`: [`scene`] builds, draws, shrinks and prints models, [`generate`] draws them at random,
@@ -11,6 +12,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod corpus;
 pub mod data;
 #[cfg(feature = "csg")]
 pub mod edited;

@@ -49,8 +49,7 @@ pub(crate) fn map_chunks<T: Sync, R: Send>(
         chunks.push(chunk);
         rest = others;
     }
-    let stage = Stage::new(chunks.len());
-    in_order(planecut_parallel::map_parts(chunks.len(), |k| stage.counted(|| work(chunks[k]))))
+    map_all(&chunks, work)
 }
 
 /// The same in chunks that do not depend on the number of threads, for work that asks for other signs where it follows other items of a chunk.
@@ -59,10 +58,9 @@ pub(crate) fn map_fixed_chunks<T: Sync, R: Send>(
     least: usize,
     work: impl Fn(&[T]) -> R + Sync,
 ) -> (Vec<R>, Counts) {
-    let chunk = (items.len() / FIXED_CHUNKS).max(least).max(1);
-    let stage = Stage::new(items.len().div_ceil(chunk));
-    let chunk_of = |k: usize| &items[k * chunk..items.len().min((k + 1) * chunk)];
-    in_order(planecut_parallel::map_parts(stage.chunks, |k| stage.counted(|| work(chunk_of(k)))))
+    let size = (items.len() / FIXED_CHUNKS).max(least).max(1);
+    let chunks: Vec<&[T]> = items.chunks(size).collect();
+    map_all(&chunks, work)
 }
 
 /// The same for items of different sizes: each chunk but the last is at least of size `least`, the sizes of its items added.
@@ -74,11 +72,16 @@ pub(crate) fn map_weighed_chunks<T: Sync, R: Send>(
 ) -> (Vec<R>, Counts) {
     let runs = weighed_runs(items.len(), least, |k| size(&items[k]));
     let chunks: Vec<&[T]> = runs.into_iter().map(|run| &items[run]).collect();
+    map_all(&chunks, work)
+}
+
+/// The outcome of `work` for each of some chunks, in their order.
+fn map_all<T: Sync, R: Send>(chunks: &[&[T]], work: impl Fn(&[T]) -> R + Sync) -> (Vec<R>, Counts) {
     let stage = Stage::new(chunks.len());
     in_order(planecut_parallel::map_parts(chunks.len(), |k| stage.counted(|| work(chunks[k]))))
 }
 
-/// The same, where of a list each item fills as many elements as its size is, one after another: `work` is given the part of a chunk.
+/// The same as `map_weighed_chunks`, where of a list each item fills as many elements as its size is, one after another: `work` is given the part of a chunk.
 pub(crate) fn map_weighed_chunks_into<T: Sync, S: Send, R: Send>(
     items: &[T],
     least: usize,

@@ -1,23 +1,19 @@
 //! The fuzzing corpus without the fuzzer; an input that fails is shrunk operation by operation.
 
-use std::fs;
-use std::path::Path;
-
 use planecut_kernel::IncrementalPolytope;
 use planecut_oracle::campaign::Campaign;
 use planecut_oracle::check::check_in_layers;
 use planecut_oracle::decode;
 use planecut_oracle::replay::Tally;
+use planecut_testkit::corpus::fuzz_corpus;
 
 #[test]
 fn corpus_of_the_fuzzer() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fuzz/corpus/operations");
     let start = || IncrementalPolytope::with_epsilon(0.0);
     let campaign = Campaign { operations: 1, cases: 1, capacity: decode::CAPACITY, start, check: check_in_layers };
     let mut total = Tally::default();
-    for file in fs::read_dir(&folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display())) {
-        let path = file.expect("a folder that can be listed").path();
-        let ops = decode::script(&fs::read(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display())));
+    for (path, bytes) in fuzz_corpus("operations") {
+        let ops = decode::script(&bytes);
         match campaign.attempt(&ops) {
             Ok(tally) => total.absorb(&tally),
             Err(error) => panic!("{}: {}", path.display(), campaign.report(ops, &error)),
