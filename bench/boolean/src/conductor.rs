@@ -96,7 +96,7 @@ impl Turn {
     fn run(&mut self, entrant: Entrant, round: usize, is_quick: bool) {
         let limits = entrant.limits(is_quick);
         let Some(process) = &mut self.process else { return };
-        if round > 0 && self.used + self.last > limits.total.as_secs_f64() {
+        if !limits.has_time(round, self.used, self.last) {
             self.process = None;
             return;
         }

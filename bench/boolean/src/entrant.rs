@@ -16,6 +16,9 @@ pub(crate) const OPENSCAD: &str = "openscad";
 /// How many cores the comparison is about.
 pub(crate) const CORES: usize = 2;
 
+/// What a run may take that is made for the sake of [`Limits::warm`].
+const WARM_RUN: Duration = Duration::from_secs(5);
+
 /// A kernel on some cores.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Entrant {
@@ -26,10 +29,20 @@ pub(crate) struct Entrant {
 /// When an entrant has had enough.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Limits {
-    /// No further run begins that would probably end after the time limit.
+    /// No further run begins that would probably end after the time limit, but for [`Self::warm`].
     pub(crate) total: Duration,
+    /// As many runs follow the first, which warms up, whatever they take in all, where each takes no more than [`WARM_RUN`].
+    pub(crate) warm: usize,
     /// A run that takes longer is ended, and its process with it.
     pub(crate) single: Duration,
+}
+
+impl Limits {
+    /// Whether there is time for another run after some, the last of which took `last` of all `used` seconds.
+    pub(crate) fn has_time(&self, runs: usize, used: f64, last: f64) -> bool {
+        let is_warming = runs <= self.warm && last <= WARM_RUN.as_secs_f64();
+        runs == 0 || is_warming || used + last <= self.total.as_secs_f64()
+    }
 }
 
 impl Entrant {
@@ -68,17 +81,17 @@ impl Entrant {
 
     /// The two that the comparison is about have the most time; the others show no more than where they stand.
     pub(crate) fn limits(self, is_quick: bool) -> Limits {
-        let (total, single) = match (self.name, self.cores, is_quick) {
-            (PLANECUT | PLANECUT_PLANES | PLANECUT_BLOCKS | MANIFOLD3D, CORES, false) => (4.0, 120.0),
-            (PLANECUT | MANIFOLD3D, _, false) => (2.0, 25.0),
-            ("manifold-rust", _, false) => (2.0, 15.0),
-            (OPENSCAD, _, false) => (2.0, 40.0),
-            (_, _, false) => (1.5, 5.0),
-            (PLANECUT | MANIFOLD3D, CORES, true) => (2.0, 12.0),
-            (PLANECUT | PLANECUT_PLANES | MANIFOLD3D, _, true) => (0.8, 12.0),
-            (_, _, true) => (0.8, 1.6),
+        let (total, single, warm) = match (self.name, self.cores, is_quick) {
+            (PLANECUT | PLANECUT_PLANES | PLANECUT_BLOCKS | MANIFOLD3D, CORES, false) => (4.0, 120.0, 3),
+            (PLANECUT | MANIFOLD3D, _, false) => (2.0, 25.0, 0),
+            ("manifold-rust", _, false) => (2.0, 15.0, 0),
+            (OPENSCAD, _, false) => (2.0, 40.0, 0),
+            (_, _, false) => (1.5, 5.0, 0),
+            (PLANECUT | MANIFOLD3D, CORES, true) => (2.0, 12.0, 0),
+            (PLANECUT | PLANECUT_PLANES | MANIFOLD3D, _, true) => (0.8, 12.0, 0),
+            (_, _, true) => (0.8, 1.6, 0),
         };
-        Limits { total: Duration::from_secs_f64(total), single: Duration::from_secs_f64(single) }
+        Limits { total: Duration::from_secs_f64(total), single: Duration::from_secs_f64(single), warm }
     }
 
     /// How far a volume may be off, relative. OpenSCAD writes six digits of each coordinate; manifold3d moves the vertices of meshes.

@@ -8,6 +8,7 @@ mod exact_sum;
 mod interning;
 mod parallel;
 mod rays;
+mod sorting;
 pub(crate) mod sum;
 pub(crate) mod union_find;
 
@@ -23,5 +24,6 @@ pub(crate) use parallel::{
 };
 pub(crate) use rays::IN_BOX;
 pub use rays::{Ray, RayCaster};
+pub(crate) use sorting::{number_of_two, sort_by_number};
 pub use sum::CompensatedSum;
 pub use union_find::DisjointSets;

@@ -1,6 +1,7 @@
 //! Sums that lose nothing to rounding but the last digit.
 
-/// A sum that carries its own rounding errors along (Neumaier's variant of Kahan's).
+/// A sum that carries its own rounding errors along (Neumaier's variant of Kahan's), each found without a branch (Knuth, The Art of Computer Programming,
+/// volume 2, section 4.2.2, theorem B).
 #[derive(Debug, Clone, Copy, Default)]
 pub struct CompensatedSum {
     sum: f64,
@@ -12,7 +13,8 @@ impl CompensatedSum {
     #[inline]
     pub fn add(&mut self, term: f64) {
         let total = self.sum + term;
-        self.lost += if self.sum.abs() >= term.abs() { (self.sum - total) + term } else { (term - total) + self.sum };
+        let added = total - self.sum;
+        self.lost += (self.sum - (total - added)) + (term - added);
         self.sum = total;
     }
 

@@ -13,7 +13,7 @@ use rustc_hash::FxHashMap;
 use super::near::{NearPlanes, unit};
 use super::same::{Key, compare_coefficients, first_side, is_exact, key, settling_order};
 use super::{PlaneId, PlaneTable};
-use crate::base::{WEIGHTS, by_parts, repeated, runs_apart, starts_of};
+use crate::base::{WEIGHTS, by_parts, repeated, runs_apart, sort_by_number, starts_of};
 use crate::ids::number32;
 use crate::tolerances::SNAP_TOLERANCE;
 
@@ -152,7 +152,7 @@ fn sort(sides: &[(Row, bool)], size: f64) -> (Vec<(u64, u32)>, f64) {
         ((normal + d / largest * WEIGHTS[3]).abs().to_bits(), number32(place))
     };
     let mut sorted: Vec<(u64, u32)> = parts.par_iter().enumerate().with_min_len(CHUNK).map(number).collect();
-    sorted.par_sort_unstable();
+    sort_by_number(&mut sorted, |plane| plane.0);
     (sorted, reach)
 }
 

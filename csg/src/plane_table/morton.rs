@@ -7,7 +7,7 @@ use glam::DVec3;
 use planecut_parallel::prelude::*;
 
 use super::PlaneId;
-use crate::base::{Bounds, map_chunks, sortable};
+use crate::base::{Bounds, map_chunks, sort_by_number, sortable};
 use crate::ids::number32;
 
 /// Least number of brushes that a thread looks at in a row.
@@ -45,7 +45,7 @@ pub(crate) fn in_order_of_space<'a>(
     let place = |brush: usize| bounds(brush).map(|bounds| (curve_number(bounds.center()), number32(brush)));
     let mut brushes: Vec<(u64, u32)> =
         (0..brushes).into_par_iter().with_min_len(BRUSHES_OF_CHUNK).filter_map(place).collect();
-    brushes.par_sort_unstable();
+    sort_by_number(&mut brushes, |brush| brush.0);
     let add_planes = |brush: u32, all: &mut Vec<u32>| {
         let first = all.len();
         all.extend(planes_of(brush as usize).iter().map(|plane| plane.index()));

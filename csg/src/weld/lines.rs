@@ -8,7 +8,7 @@ use planecut_parallel::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::points::Points;
-use crate::base::{WEIGHTS, concat_made, concat_owned, intern, map_chunks, sortable, starts_of};
+use crate::base::{WEIGHTS, concat_made, concat_owned, intern, map_chunks, sort_by_number, sortable, starts_of};
 use crate::boundary::BoundaryEdge;
 use crate::ids::{DirectedLine, Id, LineId, NameId, PointId};
 use crate::plane_table::{PlaneId, PlaneTable};
@@ -64,7 +64,7 @@ fn number(table: &PlaneTable, pairs: &[u64]) -> (Vec<Line>, Vec<LineId>, Counts)
     let first = starts_of(marks.iter().map(Vec::len));
     let mut lines = concat_owned(lines);
     let mut order = concat_made(marks, |part, mark: &Mark| Mark { line: mark.line.plus(first[part]), ..*mark });
-    order.par_sort_unstable();
+    sort_by_number(&mut order, |mark| mark.low);
     // runs of lines that may be equal
     let mut runs: Vec<&[Mark]> = Vec::new();
     let mut start = 0;

@@ -12,7 +12,9 @@ use planecut_parallel::prelude::*;
 
 use super::cancel::HalfEdge;
 use super::triangulate::LoopCorner;
-use crate::base::{Bounds, concat_owned, intern, map_chunks, repeated, runs_apart, sortable, starts_of};
+use crate::base::{
+    Bounds, concat_owned, intern, map_chunks, repeated, runs_apart, sort_by_number, sortable, starts_of,
+};
 use crate::boundary::BoundaryEdge;
 use crate::ids::{HalfEdgeId, Id, NameId, PointId};
 use crate::plane_table::{PlaneId, PlaneTable, curve_number};
@@ -76,7 +78,7 @@ impl Points {
         drop(different);
         let place = |(k, point): (usize, &Named)| (curve_number(point.position), NameId::from_index(k));
         let mut sorted: Vec<(u64, NameId)> = named.par_iter().enumerate().with_min_len(1024).map(place).collect();
-        sorted.par_sort_unstable();
+        sort_by_number(&mut sorted, |point| point.0);
         let runs = runs_apart(&sorted, 512, |a, b| a.0 != b.0);
         let (parts, joining) = map_chunks(&runs, 1, |chunk| {
             let count = chunk.iter().map(|run| run.len()).sum();

@@ -10,7 +10,10 @@ use super::cancel::HalfEdge;
 use super::nest::Projection;
 use super::pinches::PinchFinder;
 use super::points::Points;
-use crate::base::{by_group, concat_owned, counted, repeated, runs_apart, split_by, takes_much_memory, weighed_runs};
+use crate::base::{
+    by_group, concat_owned, counted, number_of_two, repeated, runs_apart, sort_by_number, split_by, takes_much_memory,
+    weighed_runs,
+};
 use crate::boundary::BoundaryEdge;
 use crate::ids::{HalfEdgeId, Id, PointId, PointOnLine, RegionId};
 use crate::model::MaterialId;
@@ -44,7 +47,7 @@ impl Regions {
         let runs = runs_apart(edges, PIECES_OF_CHUNK, is_apart);
         let keys_of = |run: usize| same_face(runs[run]).map(key).collect::<Vec<Key>>();
         let mut keys = concat_owned(planecut_parallel::map_parts(runs.len(), keys_of));
-        keys.par_sort_unstable();
+        sort_by_number(&mut keys, |key| u64::from(key.0.index()));
         keys.dedup();
         let mut numbers = repeated(edges.len(), || RegionId::NONE);
         let parts = split_by(&mut numbers, runs.iter().map(|run| run.len()));
@@ -70,7 +73,7 @@ impl Regions {
         let placed = |region: &RegionId| (first(*region), *region);
         let mut order: Vec<(PointId, RegionId)> =
             by_region.order.par_iter().with_min_len(REGIONS_OF_CHUNK).map(placed).collect();
-        order.par_sort_unstable();
+        sort_by_number(&mut order, |(first, region)| number_of_two(first.number(), region.number()));
         let further =
             |(_, region): &(PointId, RegionId)| (table.order(self.planes[region.index()]), self.ranks[region.index()]);
         // at a corner three regions meet at least, of all of which it may be the first
