@@ -10,7 +10,7 @@ use super::parallel::{map_chunks, split_by, takes_much_memory, weighed_runs};
 const FEW: usize = 32;
 
 /// Number of elements for each bucket, about.
-const OF_BUCKET: usize = 8;
+const OF_BUCKET: usize = 4;
 
 /// Number of elements from which threads share the work.
 const MANY: usize = 1 << 15;

@@ -86,6 +86,17 @@ where
     let mut first = 0;
     starts[..count].iter().all(|last| {
         let ends = &mut ends[std::mem::replace(&mut first, *last as usize)..*last as usize];
+        if ends.len() <= FEW {
+            // without a branch: each is there once, and so is the one in the opposite direction
+            let is_paired = |end: &E| {
+                let count = |count: u32, other: &E| {
+                    let (end, other): (u64, u64) = ((*end).into(), (*other).into());
+                    count + u32::from(other == end) + (u32::from(other == end ^ 1) << 16)
+                };
+                ends.iter().fold(0, count) == 1 << 16 | 1
+            };
+            return ends.iter().all(is_paired);
+        }
         ends.sort_unstable();
         // of each other end one goes up, right before the one that comes down; an edge from a vertex to itself goes up alone
         let (pairs, rest) = ends.as_chunks();

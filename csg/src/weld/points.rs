@@ -296,10 +296,11 @@ fn join_equal(table: &PlaneTable, named: &[Named], alike: &[([u64; 3], NameId)],
 
 /// What names the meeting point of three planes, whatever their order and sides.
 pub(super) fn key(triple: [PlaneId; 3]) -> Triple {
-    let mut indices = triple.map(PlaneId::index);
-    indices.sort_unstable();
-    let [a, b, c] = indices;
-    (u64::from(a) << 32 | u64::from(b), c)
+    // without a branch
+    let [p, q, r] = triple.map(PlaneId::index);
+    let (low, high) = (p.min(q), p.max(q));
+    let (least, middle, largest) = (low.min(r), low.max(high.min(r)), high.max(r));
+    (u64::from(least) << 32 | u64::from(middle), largest)
 }
 
 /// A key in one word, of planes whose numbers have at most [`SHORT_BITS`] bits.
@@ -343,7 +344,8 @@ fn holds_exactly(table: &PlaneTable, plane: PlaneId, position: DVec3) -> bool {
     let limit = f64::from(1 << BITS);
     let row = table.row(plane);
     let [x, y, z, d] = *row.coefficients();
-    let is_short = |v: f64| (v * 16.0).fract() == 0.0 && v.abs() < limit;
+    #[expect(clippy::cast_possible_truncation, reason = "the comparison is what tells")]
+    let is_short = |v: f64| f64::from((v * 16.0) as i32) == v * 16.0 && v.abs() < limit;
     row.integer_bits().is_some_and(|bits| bits < BITS)
         && position.to_array().into_iter().all(is_short)
         && x * position.x + y * position.y + z * position.z == d

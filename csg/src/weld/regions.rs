@@ -49,11 +49,19 @@ impl Regions {
         let mut keys = concat_owned(planecut_parallel::map_parts(runs.len(), keys_of));
         sort_by_number(&mut keys, |key| u64::from(key.0.index()));
         keys.dedup();
+        // those of a plane are few
+        let mut first_of_plane = vec![0; keys.last().map_or(0, |key| key.0.index() as usize + 1)];
+        for (number, key) in keys.iter().enumerate().rev() {
+            first_of_plane[key.0.index() as usize] = number;
+        }
         let mut numbers = repeated(edges.len(), || RegionId::NONE);
         let parts = split_by(&mut numbers, runs.iter().map(|run| run.len()));
         runs.par_iter().zip(parts).with_max_len(1).for_each(|(run, mut numbers)| {
             for edges in same_face(run) {
-                let number = keys.binary_search(&key(edges)).expect("the region of each edge is among the keys");
+                let key = key(edges);
+                let first = first_of_plane[key.0.index() as usize];
+                let place = keys[first..].iter().position(|other| *other == key);
+                let number = first + place.expect("the region of each edge is among the keys");
                 let own = numbers.split_off_mut(..edges.len()).expect("there is room for each edge");
                 own.fill(RegionId::from_index(number));
             }
@@ -113,7 +121,7 @@ impl ByRegion {
         let runs = weighed_runs(lengths.len(), PIECES_OF_CHUNK, |region| lengths[region]);
         let parts = split_by(&mut members, runs.iter().map(|run| lengths[run.clone()].iter().sum()));
         let sort_region = |members: &mut [PlacedPiece]| {
-            members.sort_unstable();
+            members.sort_unstable_by_key(|(from, number)| number_of_two(from.number(), number.number()));
             for alike in members.chunk_by_mut(|a, b| a.0 == b.0).filter(|alike| alike.len() > 1) {
                 alike.sort_unstable_by_key(|(_, number)| (pieces[number.index()].to, *number));
             }
