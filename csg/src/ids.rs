@@ -40,6 +40,16 @@ pub(crate) fn holds<T: Copy + Eq>(list: &[T], number: T) -> bool {
     list.chunks(8).any(|chunk| chunk.iter().fold(false, |is_found, other| is_found | (*other == number)))
 }
 
+/// The first place of a typed number in a list, for lists that are searched over and over: as [`holds`].
+#[inline]
+pub(crate) fn place_of<T: Copy + Eq>(list: &[T], number: T) -> Option<usize> {
+    list.chunks(8).enumerate().find_map(|(chunk, some)| {
+        let first = |first, (place, other): (usize, &T)| if *other == number { place } else { first };
+        let place = some.iter().enumerate().rev().fold(some.len(), first);
+        (place < some.len()).then_some(8 * chunk + place)
+    })
+}
+
 /// A count, or the place of a thing in a list, in 32 bits.
 ///
 /// # Panics
@@ -263,6 +273,10 @@ mod tests {
             let list: Vec<PointId> = PointId::all(count).collect();
             assert!(list.iter().all(|id| holds(&list, *id)));
             assert!(!holds(&list, PointId::from_index(count)) && !holds(&list, PointId::NONE));
+            assert!(list.iter().enumerate().all(|(place, id)| place_of(&list, *id) == Some(place)));
+            assert_eq!(place_of(&list, PointId::NONE), None);
+            let twice = [list.clone(), list].concat();
+            assert!(twice[..count].iter().enumerate().all(|(place, id)| place_of(&twice, *id) == Some(place)));
         }
     }
 

@@ -63,7 +63,11 @@ impl Bounds {
     #[must_use]
     pub fn may_share_area(&self, other: &Self) -> bool {
         let (low, high) = (self.min.max(other.min), self.max.min(other.max));
-        low.cmple(high).all() && low.cmplt(high).bitmask().count_ones() > 1
+        // a bit for each number with more than one of three bits
+        const SEVERAL: u32 = 0b1110_1000;
+        let is_long = low.cmplt(high).bitmask();
+        // without a branch
+        low.cmple(high).all() & (SEVERAL >> is_long & 1 != 0)
     }
 
     /// The part of the box within a half-space whose plane is perpendicular to an axis; all of it for other half-spaces.

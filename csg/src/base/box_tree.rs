@@ -1,6 +1,6 @@
 //! Which of many boxes touch a box.
 
-use super::Bounds;
+use super::{Bounds, sort_few};
 use crate::ids::number32;
 
 /// Leaves hold at most this many boxes.
@@ -120,7 +120,7 @@ impl Boxes {
                 found.extend(self.order[node.start as usize..node.end as usize].iter().copied().filter(fulfils));
             }
         }
-        found.sort_unstable();
+        sort_few(found, |number| u64::from(*number));
     }
 
     /// The box with the smallest value, and that value; of equal ones the first. `least` is a lower bound of the values of all boxes within a box, nothing

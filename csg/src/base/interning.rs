@@ -94,18 +94,20 @@ impl<K: Copy + Eq + Hash> Different<K> {
     }
 
     fn number(&mut self, key: K) -> u32 {
-        let fresh = number32(self.keys.len());
-        let number = if self.are_many {
-            *self.number.entry(key).or_insert(fresh)
-        } else {
-            // the same key often comes twice in a row
-            let known = self.keys[self.first..].iter().rposition(|known| *known == key);
-            known.map_or(fresh, |place| number32(self.first + place))
-        };
-        if number == fresh {
-            self.keys.push(key);
+        let fresh = self.keys.len();
+        if self.are_many {
+            let number = *self.number.entry(key).or_insert(number32(fresh));
+            if number as usize == fresh {
+                self.keys.push(key);
+            }
+            return number;
         }
-        number
+        // without a branch, which would mostly be guessed wrong: it is found at last where it is put
+        self.keys.push(key);
+        let place = |place: usize, (other, known): (usize, &K)| if *known == key { other } else { place };
+        let number = self.first + self.keys[self.first..].iter().enumerate().rev().fold(0, place);
+        self.keys.truncate(fresh + usize::from(number == fresh));
+        number32(number)
     }
 }
 

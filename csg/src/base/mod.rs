@@ -24,6 +24,6 @@ pub(crate) use parallel::{
 };
 pub(crate) use rays::IN_BOX;
 pub use rays::{Ray, RayCaster};
-pub(crate) use sorting::{number_of_two, sort_by_number};
+pub(crate) use sorting::{number_of_two, sort_by_number, sort_few};
 pub use sum::CompensatedSum;
 pub use union_find::DisjointSets;

@@ -140,7 +140,7 @@ impl Clipper {
 
     /// Whether the polygon that is looked at is known to lie beyond a plane of a body near.
     pub(super) fn is_known_outside(&self, place: NearId) -> bool {
-        self.planes[place.index()].clone().any(|plane| self.sides.is_known_outside(plane))
+        self.sides.is_known_outside_of_one(self.planes[place.index()].clone())
     }
 
     /// Whether a body is quickly seen to hold a polygon within a face, the one that is looked at. What it holds need not be clipped by

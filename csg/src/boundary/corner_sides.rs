@@ -15,6 +15,9 @@ use crate::plane_table::PlaneId;
 /// Of bodies with more corners nothing is told here.
 const MOST: usize = 1024;
 
+/// Of up to so many planes all are looked at, of more no more than it takes.
+const FEW_PLANES: usize = 16;
+
 /// Corners that are told at once.
 const LANES: usize = 4;
 /// Corners of a word.
@@ -150,12 +153,30 @@ impl CornerSides {
 
     /// Whether the polygon is known to lie strictly inside of some planes.
     pub(super) fn are_known_inside(&self, mut planes: Range<usize>) -> bool {
+        if let Some((bits, sides)) = self.few_sides(&planes) {
+            return self.cut.is_empty() & (sides.iter().fold(0, |others, sides| others | bits & !sides.inside) == 0);
+        }
         let holds = |(bits, sides): (&u64, &Sides)| bits & !sides.inside == 0;
         self.cut.is_empty() && planes.all(|plane| self.polygon.iter().zip(self.of_plane(plane)).all(holds))
     }
 
+    /// Whether the polygon is known to lie strictly outside of one of some planes.
+    pub(super) fn is_known_outside_of_one(&self, mut planes: Range<usize>) -> bool {
+        if let Some((bits, sides)) = self.few_sides(&planes) {
+            let is_outside = |is_one: bool, sides: &Sides| is_one | (bits & !sides.outside == 0);
+            return self.cut.is_empty() & sides.iter().fold(false, is_outside);
+        }
+        planes.any(|plane| self.is_known_outside(plane))
+    }
+
+    /// The corners of the polygon in one word, and the sides of few planes: to be looked at without a branch for each.
+    fn few_sides(&self, planes: &Range<usize>) -> Option<(u64, &[Sides])> {
+        let is_little = self.words == 1 && planes.len() <= FEW_PLANES;
+        is_little.then(|| (self.polygon[0], &self.sides[planes.clone()]))
+    }
+
     /// Whether the polygon is known to lie strictly outside of a plane.
-    pub(super) fn is_known_outside(&self, plane: usize) -> bool {
+    fn is_known_outside(&self, plane: usize) -> bool {
         let is_outside = |(bits, sides): (&u64, &Sides)| bits & !sides.outside == 0;
         self.cut.is_empty() && self.polygon.iter().zip(self.of_plane(plane)).all(is_outside)
     }

@@ -15,7 +15,7 @@ use super::{BoundaryEdge, EdgeChange, KnownEdge, Scene};
 use crate::base::{Bounds, Boxes};
 use crate::body::{BodyFace, PlaneFilter};
 use crate::expression::{OneLevel, Restriction};
-use crate::ids::{BodyFaceId, BodyId, EdgeId, Id, KeptLeafId, LeafId, NearId, holds, number32};
+use crate::ids::{BodyFaceId, BodyId, EdgeId, Id, KeptLeafId, LeafId, NearId, holds, number32, place_of};
 use crate::plane_table::PlaneTable;
 
 /// Number of sections from which those near one are looked up: few are compared one by one.
@@ -386,7 +386,7 @@ impl FaceWorker {
             self.pieces.push(Piece::of_edge(&self.region, i));
             for section in &self.sections[..self.live] {
                 let polygon = &section.polygon;
-                if let Some(k) = polygon.edges.iter().position(|other| *other == edge) {
+                if let Some(k) = place_of(&polygon.edges, edge) {
                     let covered = Piece::of_edge(polygon, k);
                     line.subtract(signs, &mut self.pieces, &covered);
                 }

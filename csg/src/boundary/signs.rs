@@ -85,7 +85,7 @@ impl<'a> Signs<'a> {
     /// The same where plain numbers leave it open.
     #[inline]
     fn exact_side(&self, planes: [PlaneId; 3], plane: PlaneId) -> Sign {
-        if planes.iter().any(|other| other.index() == plane.index()) {
+        if planes.iter().fold(false, |is_one, other| is_one | (other.index() == plane.index())) {
             return Sign::Zero;
         }
         self.side_of_other(planes, plane)

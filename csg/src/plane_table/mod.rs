@@ -62,6 +62,12 @@ impl PlaneId {
         self.0 >> 1
     }
 
+    /// A number in the order of ids, another one for each side.
+    #[inline]
+    pub(crate) fn sided_index(self) -> u32 {
+        self.0
+    }
+
     /// The side of the plane on which the first coefficient of the normal that is not zero is positive.
     #[inline]
     #[must_use]

@@ -11,8 +11,8 @@ use super::nest::Projection;
 use super::pinches::PinchFinder;
 use super::points::Points;
 use crate::base::{
-    by_group, concat_owned, counted, number_of_two, repeated, runs_apart, sort_by_number, split_by, takes_much_memory,
-    weighed_runs,
+    by_group, concat_owned, counted, number_of_two, repeated, runs_apart, sort_by_number, sort_few, split_by,
+    takes_much_memory, weighed_runs,
 };
 use crate::boundary::BoundaryEdge;
 use crate::ids::{HalfEdgeId, Id, PointId, PointOnLine, RegionId};
@@ -47,7 +47,7 @@ impl Regions {
         let runs = runs_apart(edges, PIECES_OF_CHUNK, is_apart);
         let keys_of = |run: usize| same_face(runs[run]).map(key).collect::<Vec<Key>>();
         let mut keys = concat_owned(planecut_parallel::map_parts(runs.len(), keys_of));
-        sort_by_number(&mut keys, |key| u64::from(key.0.index()));
+        sort_by_number(&mut keys, |(plane, rank, _)| number_of_two(plane.sided_index(), *rank));
         keys.dedup();
         // those of a plane are few
         let mut first_of_plane = vec![0; keys.last().map_or(0, |key| key.0.index() as usize + 1)];
@@ -121,7 +121,8 @@ impl ByRegion {
         let runs = weighed_runs(lengths.len(), PIECES_OF_CHUNK, |region| lengths[region]);
         let parts = split_by(&mut members, runs.iter().map(|run| lengths[run.clone()].iter().sum()));
         let sort_region = |members: &mut [PlacedPiece]| {
-            members.sort_unstable_by_key(|(from, number)| number_of_two(from.number(), number.number()));
+            // they are listed in the order of their numbers
+            sort_few(members, |(from, _)| u64::from(from.number()));
             for alike in members.chunk_by_mut(|a, b| a.0 == b.0).filter(|alike| alike.len() > 1) {
                 alike.sort_unstable_by_key(|(_, number)| (pieces[number.index()].to, *number));
             }

@@ -167,16 +167,22 @@ impl Row {
 /// The coefficients as coprime integers below 2⁴⁸, where they are such up to a power of two.
 fn integer_row(coefficients: [f64; 4]) -> Option<[i64; 4]> {
     let (mut lowest, mut highest) = (i32::MAX, i32::MIN);
-    for v in coefficients.into_iter().filter(|v| *v != 0.0) {
-        lowest = lowest.min(lowest_bit(v));
-        highest = highest.max(exponent(v));
-        if highest - lowest >= MAX_INTEGER_BITS {
-            return None;
-        }
+    for v in coefficients {
+        // without a branch: any of them may be zero
+        let is_zero = v == 0.0;
+        lowest = lowest.min(if is_zero { i32::MAX } else { lowest_bit(v) });
+        highest = highest.max(if is_zero { i32::MIN } else { exponent(v) });
+    }
+    if highest - lowest >= MAX_INTEGER_BITS {
+        return None;
     }
     let integers = coefficients.map(|v| scale(v, -lowest));
     debug_assert!(integers.iter().all(|v| v.fract() == 0.0));
     let integers = integers.map(|v| v as i64);
+    // one of them is odd, so that no power of two among them has a divisor with all others
+    if integers.into_iter().fold(false, |is_power, v| is_power | v.unsigned_abs().is_power_of_two()) {
+        return Some(integers);
+    }
     let divisor = integers.into_iter().fold(0, |g, v| if g == 1 { 1 } else { gcd(g, v.unsigned_abs()) }) as i64;
     if divisor == 1 {
         return Some(integers);

@@ -141,10 +141,9 @@ impl Boundary<'_> {
         grid.any_in(min, max, |node| {
             let entry = &self.nodes[node.index()];
             let at = entry.corner.at;
-            entry.reflex
-                && !entry.removed
-                && at.cmpge(min).all()
-                && at.cmple(max).all()
+            // without a branch for each
+            let is_near = entry.reflex & !entry.removed & at.cmpge(min).all() & at.cmple(max).all();
+            is_near
                 && corners.iter().all(|corner| self.nodes[corner.index()].corner.point != entry.corner.point)
                 && if noise > 0.0 { is_deep_in(p, q, r, at, noise) } else { self.is_in_triangle(corners, node) }
         })
