@@ -1,7 +1,7 @@
 //! Axis-aligned boxes that are sure to hold what they bound. The kernel's `BoundingBox` is another promise: correctly rounded, so that it
 //! may lie half a unit in the last place inside the set.
 
-use glam::DVec3;
+use glam::{BVec3, DVec3};
 use planecut_kernel::HalfSpace;
 
 /// A box; empty where a minimum exceeds its maximum, as at first.
@@ -11,6 +11,12 @@ pub struct Bounds {
     pub min: DVec3,
     /// The largest coordinates.
     pub max: DVec3,
+}
+
+/// Whether something holds along all axes, without a branch for each.
+#[inline]
+fn is_everywhere(holds: BVec3) -> bool {
+    holds.bitmask() == 0b111
 }
 
 impl Default for Bounds {
@@ -48,7 +54,7 @@ impl Bounds {
     #[inline]
     #[must_use]
     pub fn touches(&self, other: &Self) -> bool {
-        self.min.cmple(other.max).all() && other.min.cmple(self.max).all()
+        is_everywhere(self.min.cmple(other.max)) & is_everywhere(other.min.cmple(self.max))
     }
 
     /// Whether another box lies in the closed box.
@@ -67,7 +73,7 @@ impl Bounds {
         const SEVERAL: u32 = 0b1110_1000;
         let is_long = low.cmplt(high).bitmask();
         // without a branch
-        low.cmple(high).all() & (SEVERAL >> is_long & 1 != 0)
+        is_everywhere(low.cmple(high)) & (SEVERAL >> is_long & 1 != 0)
     }
 
     /// The part of the box within a half-space whose plane is perpendicular to an axis; all of it for other half-spaces.

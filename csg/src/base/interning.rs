@@ -13,8 +13,9 @@ use crate::ids::number32;
 /// Number of keys, about, that a thread numbers in a row.
 const KEYS_OF_CHUNK: usize = 1 << 13;
 
-/// Of fewer keys that may be equal, each is compared with those before it; more are hashed.
-const FEW: usize = 48;
+/// Places of a table in which keys that may be equal are sought by their hashes, and up to how many such keys.
+const SLOTS: usize = 1 << 10;
+const FEW: usize = SLOTS / 2;
 
 /// By which four numbers are multiplied and summed up to one that tells most of them apart: none is a short sum of the others.
 pub(crate) const WEIGHTS: [f64; 4] = [0.731_592_653_589, 0.467_182_818_284, 0.618_033_988_749, 0.914_213_562_373];
@@ -72,14 +73,16 @@ struct Different<K> {
     keys: Vec<K>,
     /// Where those of the group at hand begin.
     first: usize,
-    /// The numbers of these, where keys of the group are many.
+    /// The numbers of these by their hashes, among older ones, where keys of the group are few.
+    slots: Vec<u32>,
+    /// The same where they are many.
     number: FxHashMap<K, u32>,
     are_many: bool,
 }
 
 impl<K> Default for Different<K> {
     fn default() -> Self {
-        Self { keys: Vec::new(), first: 0, number: FxHashMap::default(), are_many: false }
+        Self { keys: Vec::new(), first: 0, slots: vec![u32::MAX; SLOTS], number: FxHashMap::default(), are_many: false }
     }
 }
 
@@ -102,12 +105,20 @@ impl<K: Copy + Eq + Hash> Different<K> {
             }
             return number;
         }
-        // without a branch, which would mostly be guessed wrong: it is found at last where it is put
+        // Whether it is there already would mostly be guessed wrong: it is put where it would be, and taken away again.
         self.keys.push(key);
-        let place = |place: usize, (other, known): (usize, &K)| if *known == key { other } else { place };
-        let number = self.first + self.keys[self.first..].iter().enumerate().rev().fold(0, place);
-        self.keys.truncate(fresh + usize::from(number == fresh));
-        number32(number)
+        #[expect(clippy::cast_possible_truncation, reason = "the last bits are what counts")]
+        let mut slot = hash_of(&key) as usize % SLOTS;
+        loop {
+            let known = self.slots[slot] as usize;
+            let number = if self.first <= known && known < fresh { known } else { fresh };
+            if self.keys[number] == key {
+                self.slots[slot] = number32(number);
+                self.keys.truncate(fresh + usize::from(number == fresh));
+                return number32(number);
+            }
+            slot = (slot + 1) % SLOTS;
+        }
     }
 }
 

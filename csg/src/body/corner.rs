@@ -59,6 +59,13 @@ impl PlaneFilter {
         Some(Corner { at, error: error + off + rounding, within: Corner::NOWHERE, number: Corner::NEW })
     }
 
+    /// Whether a corner certainly is inside of the plane, and whether it certainly is outside.
+    #[inline]
+    pub(crate) fn is_surely(&self, corner: &Corner) -> [bool; 2] {
+        let (value, bound) = self.value(corner);
+        [value < -bound, value > bound]
+    }
+
     /// On which side of the plane a corner certainly is; zero where that is not certain.
     pub(crate) fn side(&self, corner: &Corner) -> Sign {
         let (value, bound) = self.value(corner);

@@ -231,20 +231,21 @@ impl Clipper {
         loop {
             let cut = scene.body(body).faces[beyond.index()].plane;
             self.cut_by.push((cut, beyond));
+            // the first corner that is not known to lie within
+            let mut first = i;
             match out.clip(signs, face.plane, cut, &mut self.spare) {
                 Clip::Nothing => return Clip::Nothing,
-                Clip::Part => {}
+                Clip::Part => first = 0,
                 // signs decide
                 Clip::Whole => out.corners[i].within = body,
             }
             let next = loop {
-                let Some(k) = out.corners.iter().position(|corner| corner.within != body) else { break None };
-                i = k;
-                // on which faces of the body it lies, the last that cut the polygon first
+                let unknown = out.corners[first..].iter().position(|corner| corner.within != body);
+                let Some(k) = unknown else { break None };
+                i = first + k;
+                first = i;
                 let [_, ends @ ..] = out.corner(face.plane, i);
-                let cut_by = self.cut_by.iter().rev().filter(|(plane, _)| ends.contains(plane));
-                let mut on = cut_by.map(|(_, face)| *face);
-                let found = match on.next().map(|face| (face, on.next())) {
+                let found = match faces_of(&self.cut_by, ends) {
                     Some(faces) => self.exact_place(cutter, dual, out, i, dual.place_on(&out.corners[i], faces)),
                     None => self.place(cutter, dual, out, i),
                 };
@@ -337,6 +338,19 @@ impl Clipper {
             Place::Unknown => Found::Unknown,
         }
     }
+}
+
+/// Of faces by which a polygon was cut, with their planes, one or two on whose planes a corner lies between two edges: the last ones.
+fn faces_of(cut_by: &[(PlaneId, BodyFaceId)], ends: [PlaneId; 2]) -> Option<(BodyFaceId, Option<BodyFaceId>)> {
+    // a bit for each, without a branch
+    let some = &cut_by[cut_by.len().saturating_sub(64)..];
+    let bit =
+        |(k, (plane, _)): (usize, &(PlaneId, BodyFaceId))| u64::from((*plane == ends[0]) | (*plane == ends[1])) << k;
+    let bits = some.iter().enumerate().map(bit).fold(0, |bits, bit| bits | bit);
+    let last = bits.checked_ilog2()?;
+    let other = (bits & !(1 << last)).checked_ilog2();
+    let face = |place: u32| some[place as usize].1;
+    Some((face(last), other.map(face)))
 }
 
 /// Whether a plane of a body is found beyond which all corners of another surely lie.

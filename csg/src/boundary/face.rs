@@ -295,24 +295,28 @@ impl FaceWorker {
         let body = self.own();
         let half_space = scene.table.half_space(face.plane);
         let (normal, offset) = (half_space.normal(), half_space.offset());
-        let reaches = |place: NearId, other: BodyId| {
-            let bounds = &scene.body(other).bounds;
-            bounds.may_share_area(&face.bounds)
-                && !self.clipper.is_known_outside(place)
-                && !misses(bounds, normal, offset)
-        };
-        self.bodies.clear();
-        self.places.clear();
-        let mut own = None;
-        for (place, &other) in NearId::all(self.near.len()).zip(&self.near) {
-            if other == body {
-                own = Some(KeptLeafId::from_index(self.bodies.len()));
-            }
-            if other == body || reaches(place, other) {
-                self.bodies.push(other);
-                self.places.push(place);
-            }
+        let Self { near, bodies, places, clipper, .. } = self;
+        // by their boxes first, without a branch for each
+        places.clear();
+        for (place, other) in NearId::all(near.len()).zip(near.iter()) {
+            places.push(place);
+            let is_near = (*other == body) | scene.body(*other).bounds.may_share_area(&face.bounds);
+            places.truncate(places.len() - usize::from(!is_near));
         }
+        bodies.clear();
+        let mut own = None;
+        places.retain(|place| {
+            let other = near[place.index()];
+            if other == body {
+                own = Some(KeptLeafId::from_index(bodies.len()));
+            }
+            let misses = || misses(&scene.body(other).bounds, normal, offset);
+            let reaches = other == body || !clipper.is_known_outside(*place) && !misses();
+            if reaches {
+                bodies.push(other);
+            }
+            reaches
+        });
         self.leaves.clear();
         self.leaves.extend(self.bodies.iter().map(|body| scene.leaf_of_body[body.index()]));
         own.expect("a body is near itself")

@@ -49,18 +49,25 @@ impl Polygon {
     /// Keeps what lies inside `cut`. The sign at each corner is the true three-way one.
     pub(super) fn clip(&mut self, signs: Signs<'_>, plane: PlaneId, cut: PlaneId, spare: &mut Self) -> Clip {
         let n = self.edges.len();
-        let (mut some_inside, mut some_outside) = (false, false);
-        // Which corners are strictly inside; polygons of more than 128 corners take the slow way.
+        // Which corners are strictly inside; polygons of more than 64 corners take the slow way.
         let mut inside = Inside::new(n);
+        let (mut some_inside, mut some_outside, mut some_open) = (false, false, false);
         let filter = PlaneFilter::new(signs.table.half_space(cut));
+        // without a branch, which would mostly be guessed wrong
         for (i, corner) in self.corners.iter().enumerate() {
-            match signs.settled(filter.side(corner), || self.corner(plane, i), cut) {
-                Sign::Negative => {
-                    some_inside = true;
-                    inside.set(i);
-                }
-                Sign::Positive => some_outside = true,
-                Sign::Zero => {}
+            let [is_inside, is_outside] = filter.is_surely(corner);
+            inside.set(i, is_inside);
+            some_inside |= is_inside;
+            some_outside |= is_outside;
+            some_open |= !(is_inside | is_outside);
+        }
+        if some_open {
+            let is_open = |i: &usize| filter.side(&self.corners[*i]) == Sign::Zero;
+            for i in (0..n).filter(is_open) {
+                let side = signs.settled(Sign::Zero, || self.corner(plane, i), cut);
+                inside.set(i, side == Sign::Negative);
+                some_inside |= side == Sign::Negative;
+                some_outside |= side == Sign::Positive;
             }
         }
         if !some_outside {
@@ -101,19 +108,20 @@ impl Polygon {
 
 /// A set of corners.
 enum Inside {
-    Few(u128),
+    Few(u64),
     Many(Vec<bool>),
 }
 
 impl Inside {
     fn new(n: usize) -> Self {
-        if n <= 128 { Self::Few(0) } else { Self::Many(vec![false; n]) }
+        if n <= 64 { Self::Few(0) } else { Self::Many(vec![false; n]) }
     }
 
-    fn set(&mut self, i: usize) {
+    /// Whether corner `i` is of the set, in which it is not yet.
+    fn set(&mut self, i: usize, is_inside: bool) {
         match self {
-            Self::Few(bits) => *bits |= 1 << i,
-            Self::Many(flags) => flags[i] = true,
+            Self::Few(bits) => *bits |= u64::from(is_inside) << i,
+            Self::Many(flags) => flags[i] = is_inside,
         }
     }
 
@@ -383,18 +391,18 @@ mod tests {
 
     use super::*;
 
-    /// Few corners are told by bits, of which runs that go on at the front, and all 128 at once, are the hard ones.
+    /// Few corners are told by bits, of which runs that go on at the front, and all 64 at once, are the hard ones.
     #[test]
     fn runs_of_few_corners_are_those_of_many() {
         let mut rng = Rng::new(7);
         let mut around_the_end = 0;
-        for n in (2..=128_usize).chain([127, 128].repeat(200)) {
+        for n in (2..=64_usize).chain([63, 64].repeat(200)) {
             let start = rng.below(n);
             let length = 1 + rng.below(n - 1);
             let (mut few, mut many) = (Inside::new(n), Inside::Many(vec![false; n]));
             for i in (start..start + length).map(|i| i % n) {
-                few.set(i);
-                many.set(i);
+                few.set(i, true);
+                many.set(i, true);
             }
             assert!(matches!(few, Inside::Few(_)));
             assert_eq!(few.run(n), (start, (start + length - 1) % n), "{length} of {n} from {start}");

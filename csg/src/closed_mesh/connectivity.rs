@@ -251,8 +251,10 @@ impl<'a> HalfEdges<'a> {
     pub(crate) fn repeated(&self) -> Vec<(u32, u32)> {
         let repeated_at = |a: u32| {
             let mut ends: SmallVec<[u32; FEW]> = self.leaving(a).iter().map(|half_edge| self.to(*half_edge)).collect();
-            let is_repeated = |k: usize| ends[..k].contains(&ends[k]);
-            if ends.len() > FEW || (1..ends.len()).any(is_repeated) {
+            // without a branch for each
+            let is_repeated =
+                |is_any: bool, k: usize| ends[..k].iter().fold(is_any, |any, end| any | (*end == ends[k]));
+            if ends.len() > FEW || (1..ends.len()).fold(false, is_repeated) {
                 ends.sort_unstable();
             } else {
                 ends.clear();

@@ -4,6 +4,7 @@ use std::cmp::Ordering;
 
 use super::lines::Line;
 use super::points::Points;
+use crate::base::{sort_few, sortable};
 use crate::ids::{PointId, number32};
 use crate::plane_table::PlaneTable;
 
@@ -36,10 +37,14 @@ impl Stops {
         self.ends.clear();
         let end = |(number, point): (u32, PointId)| End { along: line.height(points, point), point, number };
         self.ends.extend((0..).zip(ends).map(end));
-        self.ends.sort_unstable_by(|a, b| match a.along.partial_cmp(&b.along) {
-            Some(Ordering::Equal) | None => line.compare(table, points, a.point, b.point),
-            Some(order) => order,
-        });
+        sort_few(&mut self.ends, |end| sortable(end.along));
+        let is_open = |ends: &[End]| (ends[0].along == ends[1].along) & (ends[0].point != ends[1].point);
+        if self.ends.windows(2).fold(false, |is_any, ends| is_any | is_open(ends)) {
+            self.ends.sort_unstable_by(|a, b| match a.along.partial_cmp(&b.along) {
+                Some(Ordering::Equal) | None => line.compare(table, points, a.point, b.point),
+                Some(order) => order,
+            });
+        }
         self.points.clear();
         self.places.clear();
         self.places.resize(self.ends.len(), 0);
