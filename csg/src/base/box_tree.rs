@@ -124,7 +124,7 @@ impl Boxes {
                 }
             }
         }
-        sort_few(found, |number| u64::from(*number));
+        sort_few(found, &|number: &u32| u64::from(*number));
     }
 
     /// The box with the smallest value, and that value; of equal ones the first. `least` is a lower bound of the values of all boxes within a box, nothing

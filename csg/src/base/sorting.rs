@@ -26,23 +26,25 @@ const MOST_BUCKETS: usize = 1 << 12;
 /// 3, section 5.2.5).
 pub(crate) fn sort_by_number<T: Copy + Ord + Send + Sync>(list: &mut Vec<T>, number: impl Fn(&T) -> u64 + Sync) {
     if list.len() <= FEW {
-        sort_few(list, number);
+        sort_few(list, &number);
     } else if takes_much_memory::<T>(list.len()) {
         // there is no second list
         list.par_sort_unstable();
     } else if list.len() >= MANY && planecut_parallel::current_num_threads() > 1 {
         *list = sorted_by_threads(list, &number);
     } else {
-        let unsorted = list.clone();
-        sort_into(&unsorted, list, &number);
+        sort_many(list, &number);
     }
 }
 
 /// Sorts elements, of which there are mostly few, by a number: those of the same number stay in order. Few are counted, for each, that come before it,
 /// without a branch, which would mostly be guessed wrong (comparison counting: Knuth, volume 3, section 5.2, algorithm C).
 #[inline]
-pub(crate) fn sort_few<T: Copy>(list: &mut [T], number: impl Fn(&T) -> u64) {
-    let Some(first) = list.first().filter(|_| list.len() <= FEW) else { return list.sort_by_key(number) };
+pub(crate) fn sort_few<T: Copy>(list: &mut [T], number: &impl Fn(&T) -> u64) {
+    if list.len() > FEW {
+        return sort_many(list, number);
+    }
+    let Some(first) = list.first() else { return };
     let (mut unsorted, mut numbers, mut places) = ([*first; FEW], [0; FEW], [0; FEW]);
     for (k, element) in list.iter().enumerate() {
         let own = number(element);
@@ -58,6 +60,12 @@ pub(crate) fn sort_few<T: Copy>(list: &mut [T], number: impl Fn(&T) -> u64) {
     for (element, place) in unsorted[..count].iter().zip(&places) {
         list[*place] = *element;
     }
+}
+
+/// Sorts many elements by a number: those of the same number stay in order.
+fn sort_many<T: Copy>(list: &mut [T], number: &impl Fn(&T) -> u64) {
+    let unsorted = list.to_vec();
+    sort_into(&unsorted, list, number);
 }
 
 /// Numbers from the least one on, in ranges that are equally long.
@@ -117,10 +125,7 @@ fn sort_into<T: Copy>(list: &[T], sorted: &mut [T], number: &impl Fn(&T) -> u64)
     for end in ends {
         let bucket = &mut sorted[start..end as usize];
         start = end as usize;
-        if bucket.len() > FEW {
-            let unsorted = bucket.to_vec();
-            sort_into(&unsorted, bucket, number);
-        } else if bucket.len() > 1 {
+        if bucket.len() > 1 {
             sort_few(bucket, number);
         }
     }
@@ -170,7 +175,7 @@ mod tests {
             0 => any,
             1 => any >> 60,
             2 => {
-                if place % 97 == 0 {
+                if place.is_multiple_of(97) {
                     any
                 } else {
                     u64::MAX - (any >> 40)
@@ -200,7 +205,7 @@ mod tests {
             sort_by_number(&mut sorted, |element| element.0);
             assert!(sorted == expected, "seed {seed}");
             sorted.clone_from(&list);
-            sort_few(&mut sorted, |element| element.0);
+            sort_few(&mut sorted, &|element: &(u64, u32)| element.0);
             assert!(sorted == expected, "seed {seed}");
             if !list.is_empty() {
                 assert!(sorted_by_threads(&list, &|element: &(u64, u32)| element.0) == expected, "seed {seed}");

@@ -207,7 +207,8 @@ impl Line {
 
     /// The coordinate of a point of the line along which the line rises, correctly rounded: points for which it differs are in that order.
     pub(super) fn height(&self, points: &Points, point: PointId) -> f64 {
-        points.positions[point.index()][self.axis()]
+        // by its address, which needs no branch
+        points.positions[point.index()].to_array()[self.axis()]
     }
 
     /// The exact order of two points of the line along its direction.

@@ -97,6 +97,8 @@ impl Projection {
     }
 
     pub(crate) fn of(self, p: DVec3) -> DVec2 {
+        // by its address, which needs no branch
+        let p = p.to_array();
         DVec2::new(p[self.u], p[self.v])
     }
 }

@@ -8,7 +8,7 @@ use super::cancel::HalfEdge;
 use super::nest::Projection;
 use super::points::Points;
 use super::region_corners::RegionCorners;
-use crate::base::{Bounds, Boxes};
+use crate::base::{Bounds, Boxes, sort_few, sortable};
 use crate::ids::{Id, PointId, PointOnLine, number32};
 use crate::plane_table::PlaneTable;
 
@@ -50,10 +50,9 @@ impl Sorted {
     fn sort(&mut self, places: &[DVec2], key: impl Fn(DVec2) -> [f64; 2]) {
         self.order.clear();
         self.order.extend(0..number32(places.len()));
-        self.order.sort_unstable_by(|a, b| {
-            let [[p, q], [r, s]] = [a, b].map(|k| key(places[*k as usize]));
-            p.total_cmp(&r).then(q.total_cmp(&s))
-        });
+        for coordinate in [1, 0] {
+            sort_few(&mut self.order, &|k: &u32| sortable(key(places[*k as usize])[coordinate]));
+        }
         self.rank.clear();
         self.rank.resize(places.len(), 0);
         for (rank, place) in (0..).zip(&self.order) {

@@ -6,10 +6,15 @@ use crate::ids::{Id, PointId, number32};
 /// Of fewer corners each is compared.
 const FEW: usize = 64;
 
+/// Corners that are compared at once.
+const LANES: usize = 8;
+
 /// The different points at which half-edges of a region begin, ascending.
 #[derive(Debug, Default)]
 pub(super) struct RegionCorners {
     points: Vec<PointId>,
+    /// Where there are few, these and [`Id::NONE`], as many as can be compared at once.
+    padded: Vec<PointId>,
     /// The place of the first half-edge that begins at each.
     first: Vec<u32>,
 }
@@ -27,6 +32,11 @@ impl RegionCorners {
                 self.first.push(number32(place));
             }
         }
+        self.padded.clear();
+        if self.points.len() < FEW {
+            self.padded.extend_from_slice(&self.points);
+            self.padded.resize(self.points.len().next_multiple_of(LANES), PointId::NONE);
+        }
     }
 
     pub(super) fn points(&self) -> &[PointId] {
@@ -36,8 +46,9 @@ impl RegionCorners {
     /// The place of a point among the corners.
     pub(super) fn place_of(&self, point: PointId) -> Option<usize> {
         let place = if self.points.len() < FEW {
-            // without a branch, several at a time
-            self.points.iter().map(|other| u32::from(*other < point)).sum::<u32>() as usize
+            // without a branch
+            let before = |some: &[PointId; LANES]| some.iter().map(|other| u32::from(*other < point)).sum::<u32>();
+            self.padded.as_chunks().0.iter().map(before).sum::<u32>() as usize
         } else {
             self.points.partition_point(|other| *other < point)
         };

@@ -122,7 +122,7 @@ impl ByRegion {
         let parts = split_by(&mut members, runs.iter().map(|run| lengths[run.clone()].iter().sum()));
         let sort_region = |members: &mut [PlacedPiece]| {
             // they are listed in the order of their numbers
-            sort_few(members, |(from, _)| u64::from(from.number()));
+            sort_few(members, &|(from, _): &PlacedPiece| u64::from(from.number()));
             for alike in members.chunk_by_mut(|a, b| a.0 == b.0).filter(|alike| alike.len() > 1) {
                 alike.sort_unstable_by_key(|(_, number)| (pieces[number.index()].to, *number));
             }

@@ -37,7 +37,7 @@ impl Stops {
         self.ends.clear();
         let end = |(number, point): (u32, PointId)| End { along: line.height(points, point), point, number };
         self.ends.extend((0..).zip(ends).map(end));
-        sort_few(&mut self.ends, |end| sortable(end.along));
+        sort_few(&mut self.ends, &|end: &End| sortable(end.along));
         let is_open = |ends: &[End]| (ends[0].along == ends[1].along) & (ends[0].point != ends[1].point);
         if self.ends.windows(2).fold(false, |is_any, ends| is_any | is_open(ends)) {
             self.ends.sort_unstable_by(|a, b| match a.along.partial_cmp(&b.along) {

@@ -122,7 +122,8 @@ fn apex(triangles: &[[NodeId; 3]], half_edge: u32) -> NodeId {
 pub(super) fn should_flip(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> bool {
     let longest =
         a.distance_squared(b).max(c.distance_squared(d)).max(a.distance_squared(c)).max(b.distance_squared(d));
-    if orient(a, d, c) <= FLAT_TRIANGLE * longest || orient(d, b, c) <= FLAT_TRIANGLE * longest {
+    // without a branch for each
+    if (orient(a, d, c) <= FLAT_TRIANGLE * longest) | (orient(d, b, c) <= FLAT_TRIANGLE * longest) {
         return false;
     }
     // in-circle of a, b, c at d, by the sum of the opposite angles: flip where it exceeds half a turn

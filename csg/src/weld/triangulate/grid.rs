@@ -26,7 +26,11 @@ impl Grid {
     pub(super) fn fill(&mut self, boundary: &Boundary<'_>, ring: &[NodeId]) {
         self.starts.clear();
         self.nodes.clear();
-        self.nodes.extend(ring.iter().copied().filter(|node| boundary.nodes[node.index()].reflex));
+        // which of them are would mostly be guessed wrong
+        for node in ring {
+            self.nodes.push(*node);
+            self.nodes.truncate(self.nodes.len() - usize::from(!boundary.nodes[node.index()].reflex));
+        }
         let count = self.nodes.len();
         let side = if count <= SMALL { 1 } else { count.isqrt() };
         (self.columns, self.rows) = (side, side);

@@ -239,7 +239,9 @@ impl Boundary<'_> {
             return if is_left { Sign::Positive } else { Sign::Negative };
         }
         let [a, b, c] = [a, b, c].map(|node| &self.nodes[node.index()]);
-        if a.lines.iter().any(|line| b.lines.contains(line) && c.lines.contains(line)) {
+        // without a branch for each
+        let is_on = |node: &Node, line: LineId| (node.lines[0] == line) | (node.lines[1] == line);
+        if a.lines.iter().fold(false, |is_any, line| is_any | (is_on(b, *line) & is_on(c, *line))) {
             return Sign::Zero;
         }
         self.turns.of(&a.corner, &b.corner, &c.corner)
