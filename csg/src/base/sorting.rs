@@ -9,6 +9,9 @@ use super::parallel::{map_chunks, split_by, takes_much_memory, weighed_runs};
 /// Up to so many elements are all compared with one another.
 const FEW: usize = 16;
 
+/// Up to so many more are sorted by comparisons: where numbers lie close together but for some, buckets would have to be sorted again and again.
+const SOME: usize = 512;
+
 /// Number of elements for each bucket, about.
 const OF_BUCKET: usize = 4;
 
@@ -65,7 +68,16 @@ pub(crate) fn sort_few<T: Copy>(list: &mut [T], number: &impl Fn(&T) -> u64) {
 /// Sorts many elements by a number: those of the same number stay in order.
 fn sort_many<T: Copy>(list: &mut [T], number: &impl Fn(&T) -> u64) {
     let unsorted = list.to_vec();
-    sort_into(&unsorted, list, number);
+    if list.len() > SOME {
+        return sort_into(&unsorted, list, number);
+    }
+    // numbers with their places, in one word
+    let mut order: Vec<u128> =
+        unsorted.iter().enumerate().map(|(place, element)| u128::from(number(element)) << 64 | place as u128).collect();
+    order.sort_unstable();
+    for (element, placed) in list.iter_mut().zip(order) {
+        *element = unsorted[usize::try_from(placed & u128::from(u64::MAX)).expect("a place in the list")];
+    }
 }
 
 /// Numbers from the least one on, in ranges that are equally long.
