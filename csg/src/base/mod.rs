@@ -11,6 +11,7 @@ mod rays;
 mod sorting;
 pub(crate) mod sum;
 pub(crate) mod union_find;
+mod workers;
 
 pub use bounds::Bounds;
 pub use box_tree::Boxes;
@@ -27,3 +28,4 @@ pub use rays::{Ray, RayCaster};
 pub(crate) use sorting::{number_of_two, sort_by_number, sort_few};
 pub use sum::CompensatedSum;
 pub use union_find::DisjointSets;
+pub(crate) use workers::Workers;

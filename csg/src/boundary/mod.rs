@@ -24,7 +24,7 @@ use std::borrow::Cow;
 
 use planecut_kernel::sign::Counts;
 
-use crate::base::{Boxes, concat_owned, map_chunks};
+use crate::base::{Boxes, Workers, concat_owned, map_chunks};
 use crate::body::{Body, BodyFace, PolarDual};
 use crate::expression::{Expression, OneLevel, Polarity};
 use crate::ids::{BodyFaceId, BodyId, Id, LeafId};
@@ -149,18 +149,19 @@ pub(crate) fn boundary_edges(scene: &Scene<'_>, is_own: impl Fn(BodyId) -> bool)
     let body_of = |place: &u32| BodyId::from_index(*place as usize);
     // in the order of space, so that what is near is at hand
     let in_order: Vec<u32> = boxes.in_order().filter(|place| is_own(body_of(place))).collect();
+    let workers = Workers::new(|| (FaceWorker::default(), Vec::new()));
     let (parts, counts) = map_chunks(&in_order, 1, |chunk| {
         let mut edges = Vec::new();
-        let mut worker = FaceWorker::default();
-        let mut found = Vec::new();
-        for body in chunk.iter().map(body_of) {
-            let solid = scene.body(body);
-            boxes.find(|other| other.may_share_area(&solid.bounds), &mut found);
-            worker.begin(scene, body, found.iter().map(body_of));
-            for face in BodyFaceId::all(solid.faces.len()) {
-                worker.emit(scene, face, &mut edges);
+        workers.with(|(worker, found)| {
+            for body in chunk.iter().map(body_of) {
+                let solid = scene.body(body);
+                boxes.find(|other| other.may_share_area(&solid.bounds), found);
+                worker.begin(scene, body, found.iter().map(body_of));
+                for face in BodyFaceId::all(solid.faces.len()) {
+                    worker.emit(scene, face, &mut edges);
+                }
             }
-        }
+        });
         // room for more may be as much again
         edges.shrink_to_fit();
         edges

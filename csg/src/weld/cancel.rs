@@ -14,7 +14,7 @@ use super::lines::Line;
 use super::points::Points;
 use super::slits::SlitFinder;
 use super::stops::Stops;
-use crate::base::{concat_made, map_chunks, split_by, starts_of};
+use crate::base::{Workers, concat_made, map_chunks, split_by, starts_of};
 use crate::ids::{DirectedLine, EdgeId, HalfEdgeId, Id, LineId, PointId, PointOfRegion, RegionId};
 use crate::plane_table::{PlaneId, PlaneTable};
 
@@ -114,15 +114,15 @@ pub(super) fn pieces(
         let first = lines[0].index();
         starts[first] as usize..starts[first + lines.len()] as usize
     };
-    let (parts, counts) = map_chunks(&numbers, 256, |numbers| -> Result<Pieces, WeldError> {
-        let mut worker = LineWorker::new(table, points, lines, planes);
-        let (mut surviving, mut runs) = (Surviving::default(), Vec::new());
+    let workers = Workers::new(|| (LineWorker::new(table, points, lines, planes), Vec::new()));
+    let work = |numbers: &[LineId], (worker, runs): &mut (LineWorker<'_>, Vec<Run>)| -> Result<Pieces, WeldError> {
+        let mut surviving = Surviving::default();
         let mut pieces = Vec::with_capacity(of_lines(numbers).len());
         for some in numbers.chunks(LINES_AT_A_TIME) {
             // edges lie anywhere in memory: in a loop of their own several are on their way at once
             runs.clear();
             runs.extend(by_line[of_lines(some)].iter().map(|k| edges[k.index()]));
-            for group in split_by(&mut runs, some.iter().map(|line| of_lines(&[*line]).len())) {
+            for group in split_by(runs, some.iter().map(|line| of_lines(&[*line]).len())) {
                 if worker.pair_alone(group, &mut pieces) {
                     continue;
                 }
@@ -135,7 +135,8 @@ pub(super) fn pieces(
             }
         }
         Ok(Pieces { pieces, is_slit: !surviving.slits.is_empty(), passed: surviving.passed })
-    });
+    };
+    let (parts, counts) = map_chunks(&numbers, 256, |numbers| workers.with(|worker| work(numbers, worker)));
     Ok((parts.into_iter().collect::<Result<_, _>>()?, counts))
 }
 

@@ -10,7 +10,7 @@ use super::nest::{Face, Faces, Projection};
 use super::points::Points;
 use super::regions::Regions;
 use super::triangulate::{Triangles, Triangulator, WeldPoints};
-use crate::base::{by_parts, concat_made, concat_owned, map_chunks, starts_of};
+use crate::base::{Workers, by_parts, concat_made, concat_owned, map_chunks, starts_of};
 use crate::ids::{HalfEdgeId, Id, PointId, RegionId, VertexId, number32};
 use crate::mesh::{Mesh, MeshFace};
 use crate::model::Material;
@@ -32,10 +32,10 @@ pub(super) fn filled_faces(
     pieces: &[HalfEdge],
     faces: &[Faces],
 ) -> (Vec<FilledFaces>, Counts) {
-    let (parts, counts) = map_chunks(faces, 1, |chunk| {
-        let exact = WeldPoints { table, points, half_edges: pieces, planes: &regions.planes };
-        let mut triangulator = Triangulator::new(&exact);
-        let (mut edges, mut triangles): (Vec<FaceEdge>, _) = (Vec::new(), Triangles::default());
+    let exact = WeldPoints { table, points, half_edges: pieces, planes: &regions.planes };
+    let workers = Workers::new(|| (Triangulator::new(&exact), Vec::new()));
+    let fill = |chunk: &[Faces], (triangulator, edges): &mut (Triangulator<'_>, Vec<FaceEdge>)| {
+        let mut triangles = Triangles::default();
         // planes lie anywhere in memory: in a loop of their own several are on their way at once
         let of_face = |face: Face<'_>| {
             let normal = table.half_space(regions.planes[face.region.index()]).normal();
@@ -50,7 +50,7 @@ pub(super) fn filled_faces(
             edges.clear();
             edges.extend(face.loops().flatten().map(|k| pieces[k.index()].edge_of_face(*k)));
             let at = |point: PointId| projection.of(points.positions[point.index()]);
-            match LargeFace::of_many(&edges, at) {
+            match LargeFace::of_many(edges, at) {
                 Some(large) => large.list(&mut triangles),
                 None => {
                     triangulator.begin(projection);
@@ -68,8 +68,8 @@ pub(super) fn filled_faces(
         mesh_faces.shrink_to_fit();
         triangle_faces.shrink_to_fit();
         FilledFaces { triangles, faces: mesh_faces, triangle_faces }
-    });
-    (parts, counts)
+    };
+    map_chunks(faces, 1, |chunk| workers.with(|worker| fill(chunk, worker)))
 }
 
 fn mesh_face(regions: &Regions, region: RegionId, normal: DVec3) -> MeshFace {

@@ -43,7 +43,7 @@ use planecut_kernel::sign::Counts;
 use planecut_parallel::prelude::*;
 use thiserror::Error;
 
-use crate::base::{Clock, by_group, map_weighed_chunks_into, repeated, takes_much_memory};
+use crate::base::{Clock, Workers, by_group, map_weighed_chunks_into, repeated, takes_much_memory};
 use crate::boundary::BoundaryEdge;
 use crate::ids::{EdgeId, HalfEdgeId, Id, PointId, RegionId};
 use crate::mesh::{Flaw, Mesh, Noise, SolidMeasures, proven};
@@ -263,23 +263,25 @@ fn nest(
     }
     let extent = measure::extent(&points.positions, pieces);
     let middle = 0.5 * (extent.0 + extent.1);
-    let work = |chunk: &[Range<usize>], mut following: &mut [HalfEdgeId]| -> Result<_, WeldError> {
-        let (mut nester, mut corners) = (Nester::default(), RegionCorners::default());
-        let mut faces = Faces::with_room(following.len(), chunk.len());
-        // planes lie anywhere in memory: in a loop of their own several are on their way at once
-        let plane = |range: &Range<usize>| regions.planes[pieces[range.start].region.index()];
-        let planes = chunk.iter().map(|range| RegionPlane::new(table, points, plane(range)));
-        let planes: Vec<RegionPlane<'_>> = planes.collect();
-        for (range, plane) in chunk.iter().zip(&planes) {
-            let (region, start) = (&pieces[range.clone()], range.start);
-            let own = following.split_off_mut(..region.len()).expect("there is room for each half-edge");
-            corners.set(region);
-            let first = |point: PointId| corners.first_at(point).unwrap_or(region.len());
-            loops::follow(table, plane.plane, region, start, first, own)?;
-            nester.add_faces(plane, region, start, own, &mut faces)?;
-        }
-        let measures = measure::of_faces(&points.positions, pieces, &faces, middle);
-        Ok((faces, measures))
+    let workers = Workers::new(|| (Nester::default(), RegionCorners::default()));
+    let work = |chunk: &[Range<usize>], mut following: &mut [HalfEdgeId]| {
+        workers.with(|(nester, corners)| -> Result<_, WeldError> {
+            let mut faces = Faces::with_room(following.len(), chunk.len());
+            // planes lie anywhere in memory: in a loop of their own several are on their way at once
+            let plane = |range: &Range<usize>| regions.planes[pieces[range.start].region.index()];
+            let planes = chunk.iter().map(|range| RegionPlane::new(table, points, plane(range)));
+            let planes: Vec<RegionPlane<'_>> = planes.collect();
+            for (range, plane) in chunk.iter().zip(&planes) {
+                let (region, start) = (&pieces[range.clone()], range.start);
+                let own = following.split_off_mut(..region.len()).expect("there is room for each half-edge");
+                corners.set(region);
+                let first = |point: PointId| corners.first_at(point).unwrap_or(region.len());
+                loops::follow(table, plane.plane, region, start, first, own)?;
+                nester.add_faces(plane, region, start, own, &mut faces)?;
+            }
+            let measures = measure::of_faces(&points.positions, pieces, &faces, middle);
+            Ok((faces, measures))
+        })
     };
     let (parts, counts) = map_weighed_chunks_into(ranges, 512, Range::len, &mut nested.following, work);
     let parts = parts.into_iter().collect::<Result<Vec<_>, _>>()?;

@@ -11,7 +11,7 @@ use super::nest::Projection;
 use super::pinches::PinchFinder;
 use super::points::Points;
 use crate::base::{
-    by_group, concat_owned, counted, number_of_two, repeated, runs_apart, sort_by_number, sort_few, split_by,
+    Workers, by_group, concat_owned, counted, number_of_two, repeated, runs_apart, sort_by_number, sort_few, split_by,
     takes_much_memory, weighed_runs,
 };
 use crate::boundary::BoundaryEdge;
@@ -207,8 +207,8 @@ impl RegionPieces {
         let place = repeated(old.len(), || AtomicU32::new(0));
         let slices = split_by(&mut sorted, lengths_of(&ranges, &runs));
         let jobs: Vec<_> = runs.iter().zip(slices).collect();
-        let work = |(run, sorted): (&Range<usize>, &mut [HalfEdge])| {
-            let mut finder = PinchFinder::new(table, points);
+        let finders = Workers::new(|| PinchFinder::new(table, points));
+        let work = |(run, sorted): (&Range<usize>, &mut [HalfEdge]), finder: &mut PinchFinder<'_>| {
             let first = ranges[run.start].start;
             // planes and half-edges lie anywhere in memory: in loops of their own several are on their way at once
             let projection = |number: &RegionId| Projection::of_plane(table, planes[number.index()]);
@@ -225,10 +225,13 @@ impl RegionPieces {
             for (projection, range) in projections.into_iter().zip(&ranges[run.clone()]) {
                 finder.search(&sorted[range.start - first..range.end - first], projection);
             }
-            finder.found
+            std::mem::take(&mut finder.found)
         };
-        let parts: Vec<(Vec<PointOnLine>, Counts)> =
-            jobs.into_par_iter().with_max_len(1).map(|job| counted(|| work(job))).collect();
+        let parts: Vec<(Vec<PointOnLine>, Counts)> = jobs
+            .into_par_iter()
+            .with_max_len(1)
+            .map(|job| counted(|| finders.with(|finder| work(job, finder))))
+            .collect();
         drop((pieces, old));
         let new_place = |old: HalfEdgeId| HalfEdgeId::from_index(place[old.index()].load(Ordering::Relaxed) as usize);
         sorted.par_iter_mut().with_min_len(1 << 13).for_each(|piece| piece.twin = new_place(piece.twin));

@@ -15,7 +15,7 @@ use crate::weld::points::Points;
 const U: f64 = f64::EPSILON / 2.0;
 
 /// Points that are known exactly, by their numbers.
-pub(crate) trait ExactPoints {
+pub(crate) trait ExactPoints: Sync {
     /// Which way three points of a plane turn as it is projected; positive is left. Asked for where rounded coordinates do not tell.
     fn turn(&self, points: [PointId; 3], projection: Projection) -> Sign;
 
