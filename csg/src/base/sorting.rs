@@ -89,7 +89,7 @@ struct Buckets {
 }
 
 impl Buckets {
-    /// For numbers between two others: at most as many as are asked for, a power of two.
+    /// For numbers between two others: at most as many as are asked for, a power of two above one.
     fn new(least: u64, largest: u64, most: usize) -> Self {
         let bits = u64::BITS - (largest - least).leading_zeros();
         let shift = bits.saturating_sub(most.ilog2());
@@ -132,7 +132,8 @@ fn sort_into<T: Copy>(list: &[T], sorted: &mut [T], number: &impl Fn(&T) -> u64)
         sorted.copy_from_slice(list);
         return;
     }
-    let ends = Buckets::new(least, largest, (list.len() / OF_BUCKET).next_power_of_two()).fill(list, sorted, number);
+    let most = (list.len() / OF_BUCKET).next_power_of_two().max(2);
+    let ends = Buckets::new(least, largest, most).fill(list, sorted, number);
     let mut start = 0;
     for end in ends {
         let bucket = &mut sorted[start..end as usize];
