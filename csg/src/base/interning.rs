@@ -13,8 +13,10 @@ use crate::ids::number32;
 /// Number of keys, about, that a thread numbers in a row.
 const KEYS_OF_CHUNK: usize = 1 << 13;
 
-/// Places of a table in which keys that may be equal are sought by their hashes, and up to how many such keys.
+/// Number of places of a table in which keys that may be equal are sought by their hashes.
 const SLOTS: usize = 1 << 10;
+
+/// Of more keys that may be equal, for which that table would be too full, there is a map.
 const FEW: usize = SLOTS / 2;
 
 /// By which four numbers are multiplied and summed up to one that tells most of them apart: none is a short sum of the others.

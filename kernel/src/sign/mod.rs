@@ -141,7 +141,7 @@ pub fn cross_component(i: &Row, j: &Row, axis: usize) -> Sign {
     let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
     let (p, q) = (i.coefficients()[u] * j.coefficients()[v], i.coefficients()[v] * j.coefficients()[u]);
     counts::note_total();
-    // Rounding keeps the order of the two products: where they still differ, that is the sign, without a bound. No product of two numbers that are not zero is.
+    // Rounding keeps the order of the two products: where they still differ, that is the sign, without a bound. Both are zero only where a factor of each is.
     if (p != q) | (p == 0.0) {
         return Sign::of(p - q);
     }
