@@ -12,6 +12,9 @@ const FEW: usize = 16;
 /// Up to so many more are sorted by comparisons: where numbers lie close together but for some, buckets would have to be sorted again and again.
 const SOME: usize = 512;
 
+/// How often all elements are there at once where threads share the work, and room for more.
+const COPIES: usize = 4;
+
 /// Number of elements for each bucket, about.
 const OF_BUCKET: usize = 4;
 
@@ -30,8 +33,7 @@ const MOST_BUCKETS: usize = 1 << 12;
 pub(crate) fn sort_by_number<T: Copy + Ord + Send + Sync>(list: &mut Vec<T>, number: impl Fn(&T) -> u64 + Sync) {
     if list.len() <= FEW {
         sort_few(list, &number);
-    } else if takes_much_memory::<T>(list.len()) {
-        // there is no second list
+    } else if takes_much_memory::<[T; COPIES]>(list.len()) {
         list.par_sort_unstable();
     } else if list.len() >= MANY && planecut_parallel::current_num_threads() > 1 {
         *list = sorted_by_threads(list, &number);

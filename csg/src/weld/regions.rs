@@ -15,7 +15,7 @@ use crate::base::{
     takes_much_memory, weighed_runs,
 };
 use crate::boundary::BoundaryEdge;
-use crate::ids::{HalfEdgeId, Id, PointId, PointOnLine, RegionId};
+use crate::ids::{HalfEdgeId, Id, PointId, PointOnLine, RegionId, number32};
 use crate::model::MaterialId;
 use crate::plane_table::{PlaneId, PlaneTable};
 
@@ -50,16 +50,16 @@ impl Regions {
         sort_by_number(&mut keys, |(plane, rank, _)| number_of_two(plane.sided_index(), *rank));
         keys.dedup();
         // those of a plane are few
-        let mut first_of_plane = vec![0; keys.last().map_or(0, |key| key.0.index() as usize + 1)];
+        let mut first_of_plane = vec![0_u32; keys.last().map_or(0, |key| key.0.index() as usize + 1)];
         for (number, key) in keys.iter().enumerate().rev() {
-            first_of_plane[key.0.index() as usize] = number;
+            first_of_plane[key.0.index() as usize] = number32(number);
         }
         let mut numbers = repeated(edges.len(), || RegionId::NONE);
         let parts = split_by(&mut numbers, runs.iter().map(|run| run.len()));
         runs.par_iter().zip(parts).with_max_len(1).for_each(|(run, mut numbers)| {
             for edges in same_face(run) {
                 let key = key(edges);
-                let first = first_of_plane[key.0.index() as usize];
+                let first = first_of_plane[key.0.index() as usize] as usize;
                 let place = keys[first..].iter().position(|other| *other == key);
                 let number = first + place.expect("the region of each edge is among the keys");
                 let own = numbers.split_off_mut(..edges.len()).expect("there is room for each edge");
@@ -269,7 +269,7 @@ mod tests {
     use planecut_testkit::random::Rng;
 
     use super::*;
-    use crate::ids::{DirectedLine, LineId, number32};
+    use crate::ids::{DirectedLine, LineId};
 
     #[test]
     fn half_edges_change_places_in_one_list() {
