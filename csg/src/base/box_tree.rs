@@ -1,6 +1,6 @@
 //! Which of many boxes touch a box.
 
-use super::{Bounds, sort_few};
+use super::{Bounds, push_if, sort_few};
 use crate::ids::number32;
 
 /// Leaves hold at most this many boxes.
@@ -117,10 +117,8 @@ impl Boxes {
             if node.second != 0 {
                 waiting.extend([number + 1, node.second]);
             } else {
-                // whether one does would mostly be guessed wrong
                 for number in &self.order[node.start as usize..node.end as usize] {
-                    found.push(*number);
-                    found.truncate(found.len() - usize::from(!fulfils(number)));
+                    push_if(found, *number, fulfils(number));
                 }
             }
         }

@@ -16,7 +16,7 @@ const KEYS_OF_CHUNK: usize = 1 << 13;
 /// Number of places of a table in which keys that may be equal are sought by their hashes.
 const SLOTS: usize = 1 << 10;
 
-/// Of more keys that may be equal, for which that table would be too full, there is a map.
+/// Maximum number of keys that may be equal and are sought in that table; for more, which would fill it, there is a map.
 const FEW: usize = SLOTS / 2;
 
 /// By which four numbers are multiplied and summed up to one that tells most of them apart: none is a short sum of the others.
@@ -107,7 +107,7 @@ impl<K: Copy + Eq + Hash> Different<K> {
             }
             return number;
         }
-        // Whether it is there already would mostly be guessed wrong: it is put where it would be, and taken away again.
+        // Whether it is there already would mostly be guessed wrong: it is added, and removed where it was there.
         self.keys.push(key);
         #[expect(clippy::cast_possible_truncation, reason = "the last bits are what counts")]
         let mut slot = hash_of(&key) as usize % SLOTS;

@@ -7,6 +7,7 @@ mod clock;
 mod exact_sum;
 mod interning;
 mod parallel;
+mod push_if;
 mod rays;
 mod sorting;
 pub(crate) mod sum;
@@ -23,6 +24,7 @@ pub(crate) use parallel::{
     by_parts, concat_made, concat_owned, counted, map_chunks, map_fixed_chunks, map_weighed_chunks,
     map_weighed_chunks_into, repeated, runs_apart, split_by, starts_of, takes_much_memory, weighed_runs,
 };
+pub(crate) use push_if::push_if;
 pub(crate) use rays::IN_BOX;
 pub use rays::{Ray, RayCaster};
 pub(crate) use sorting::{number_of_two, sort_by_number, sort_few};

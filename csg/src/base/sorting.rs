@@ -6,10 +6,10 @@ use planecut_parallel::prelude::*;
 
 use super::parallel::{map_chunks, split_by, takes_much_memory, weighed_runs};
 
-/// Up to so many elements are all compared with one another.
+/// Maximum number of elements that are all compared with one another.
 const FEW: usize = 16;
 
-/// Up to so many more are sorted by comparisons: where numbers lie close together but for some, buckets would have to be sorted again and again.
+/// Maximum number of elements that are sorted by comparisons: where numbers lie close together but for some, buckets would have to be sorted again and again.
 const SOME: usize = 512;
 
 /// How often all elements are there at once where threads share the work, and room for more.
@@ -24,7 +24,7 @@ const MANY: usize = 1 << 15;
 /// Least number of elements that a thread sorts in a row.
 const OF_CHUNK: usize = 1 << 11;
 
-/// Most buckets that the elements of each thread are put into.
+/// Maximum number of buckets that the elements of each thread are put into.
 const MOST_BUCKETS: usize = 1 << 12;
 
 /// Sorts a list of elements by a number, which must not fall where elements rise; those of the same number must be in order. It puts them into buckets of

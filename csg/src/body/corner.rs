@@ -68,10 +68,10 @@ impl PlaneFilter {
 
     /// On which side of the plane a corner certainly is; zero where that is not certain.
     pub(crate) fn side(&self, corner: &Corner) -> Sign {
-        let (value, bound) = self.value(corner);
-        if value > bound {
+        let [is_inside, is_outside] = self.is_surely(corner);
+        if is_outside {
             Sign::Positive
-        } else if value < -bound {
+        } else if is_inside {
             Sign::Negative
         } else {
             Sign::Zero

@@ -15,7 +15,7 @@ use crate::plane_table::PlaneId;
 /// Of bodies with more corners nothing is told here.
 const MOST: usize = 1024;
 
-/// Of up to so many planes all are looked at, of more no more than it takes.
+/// Maximum number of planes all of which are looked at; of more, no more than it takes.
 const FEW_PLANES: usize = 16;
 
 /// Corners that are told at once.

@@ -12,7 +12,7 @@ use super::section::{Clip, Cover, Line, Piece, Polygon};
 use super::signs::{KeptSigns, Signs};
 use super::sweep::{Context, Sweep};
 use super::{BoundaryEdge, EdgeChange, KnownEdge, Scene};
-use crate::base::{Bounds, Boxes};
+use crate::base::{Bounds, Boxes, push_if};
 use crate::body::{BodyFace, PlaneFilter};
 use crate::expression::{OneLevel, Restriction};
 use crate::ids::{BodyFaceId, BodyId, EdgeId, Id, KeptLeafId, LeafId, NearId, holds, number32, place_of};
@@ -299,9 +299,8 @@ impl FaceWorker {
         // by their boxes first, without a branch for each
         places.clear();
         for (place, other) in NearId::all(near.len()).zip(near.iter()) {
-            places.push(place);
             let is_near = (*other == body) | scene.body(*other).bounds.may_share_area(&face.bounds);
-            places.truncate(places.len() - usize::from(!is_near));
+            push_if(places, place, is_near);
         }
         bodies.clear();
         let mut own = None;

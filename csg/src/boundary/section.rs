@@ -62,9 +62,8 @@ impl Polygon {
             some_open |= !(is_inside | is_outside);
         }
         if some_open {
-            let is_open = |i: &usize| filter.side(&self.corners[*i]) == Sign::Zero;
-            for i in (0..n).filter(is_open) {
-                let side = signs.settled(Sign::Zero, || self.corner(plane, i), cut);
+            for (i, corner) in self.corners.iter().enumerate() {
+                let side = signs.settled(filter.side(corner), || self.corner(plane, i), cut);
                 inside.set(i, side == Sign::Negative);
                 some_inside |= side == Sign::Negative;
                 some_outside |= side == Sign::Positive;
@@ -117,11 +116,11 @@ impl Inside {
         if n <= 64 { Self::Few(0) } else { Self::Many(vec![false; n]) }
     }
 
-    /// Whether corner `i` is of the set, in which it is not yet.
+    /// Adds corner `i` where it is inside.
     fn set(&mut self, i: usize, is_inside: bool) {
         match self {
             Self::Few(bits) => *bits |= u64::from(is_inside) << i,
-            Self::Many(flags) => flags[i] = is_inside,
+            Self::Many(flags) => flags[i] |= is_inside,
         }
     }
 

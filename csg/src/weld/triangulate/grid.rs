@@ -1,10 +1,10 @@
 //! A grid of the reflex corners of a boundary, so that an ear asks only those near it.
 
-use crate::ids::number32;
 use planecut_kernel::DVec2;
 
 use super::Boundary;
-use crate::ids::{Id, NodeId};
+use crate::base::push_if;
+use crate::ids::{Id, NodeId, number32};
 
 /// Below this many reflex corners a list does.
 const SMALL: usize = 32;
@@ -26,10 +26,8 @@ impl Grid {
     pub(super) fn fill(&mut self, boundary: &Boundary<'_>, ring: &[NodeId]) {
         self.starts.clear();
         self.nodes.clear();
-        // which of them are would mostly be guessed wrong
         for node in ring {
-            self.nodes.push(*node);
-            self.nodes.truncate(self.nodes.len() - usize::from(!boundary.nodes[node.index()].reflex));
+            push_if(&mut self.nodes, *node, boundary.nodes[node.index()].reflex);
         }
         let count = self.nodes.len();
         let side = if count <= SMALL { 1 } else { count.isqrt() };
