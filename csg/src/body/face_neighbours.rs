@@ -7,6 +7,7 @@ use std::ops::Range;
 
 use planecut_kernel::DVec3;
 use rustc_hash::FxHashMap;
+use wide::f32x4;
 
 use crate::base::Bounds;
 use crate::ids::{BodyFaceId, Id, number32};
@@ -16,6 +17,9 @@ const U: f64 = (f32::EPSILON / 2.0) as f64;
 
 /// Number of neighbours whose values are made at once.
 const LANES: usize = 4;
+
+/// The last bits of a value, in place of which there may be the number of its lane.
+const LANE_BITS: u32 = 0b11;
 
 /// Number of fours in a short run.
 const RUN: usize = 4;
@@ -42,7 +46,7 @@ pub(super) struct FaceNeighbours {
 #[derive(Debug, Clone, Copy)]
 struct Four {
     /// By coordinate the duals, divided by the reach.
-    duals: [[f32; LANES]; 3],
+    duals: [f32x4; 3],
     faces: [BodyFaceId; LANES],
 }
 
@@ -50,8 +54,8 @@ struct Four {
 pub(super) struct SeenPoint {
     /// From where the duals are seen.
     pub(super) at: DVec3,
-    /// The same times the reach.
-    single: [f32; 3],
+    /// Each coordinate times the reach, in all lanes.
+    single: [f32x4; 3],
     /// By how much a value may be off in single precision; infinite where such values tell nothing.
     pub(super) slack: f64,
 }
@@ -60,13 +64,22 @@ impl Four {
     fn of(faces: &[BodyFaceId], duals: &[DVec3], reach: f64) -> Self {
         let faces = std::array::from_fn(|lane| faces[lane.min(faces.len() - 1)]);
         let coordinate = |axis: usize| faces.map(|face: BodyFaceId| single(duals[face.index()][axis] / reach));
-        Self { duals: [coordinate(0), coordinate(1), coordinate(2)], faces }
+        Self { duals: [0, 1, 2].map(|axis| f32x4::from(coordinate(axis))), faces }
     }
 
     #[inline]
-    fn values(&self, [x, y, z]: [f32; 3]) -> [f32; LANES] {
-        let [a, b, c] = &self.duals;
-        std::array::from_fn(|lane| a[lane] * x + b[lane] * y + c[lane] * z)
+    fn values(&self, [x, y, z]: [f32x4; 3]) -> f32x4 {
+        let [a, b, c] = self.duals;
+        a * x + b * y + c * z
+    }
+
+    /// The largest value, whose last bits are those of the lane that has it: no branch tells which it is.
+    #[inline]
+    fn largest(&self, point: [f32x4; 3]) -> f32 {
+        let numbers = f32x4::from([0, 1, 2, 3].map(f32::from_bits));
+        let other_bits = f32x4::splat(f32::from_bits(!LANE_BITS));
+        let [a, b, c, d] = (self.values(point) & other_bits | numbers).to_array();
+        larger(larger(a, b), larger(c, d))
     }
 }
 
@@ -106,10 +119,10 @@ impl FaceNeighbours {
         let scaled = at * self.reach;
         // no number where one of them is none
         let size = scaled.abs().element_sum();
-        // Of the sum of the products' magnitudes, which is at most the size: a rounding of both factors, of the product, and of two sums.
+        // Of the sum of the products' magnitudes, which is at most the size: a rounding of both factors, of the product, and of two sums, and the number of a lane.
         // What is too small for single precision is off by less than the least that is not.
-        let slack = if size < FAR { 8.0 * U * size.max(f64::from(f32::MIN_POSITIVE)) } else { f64::INFINITY };
-        SeenPoint { at, single: scaled.to_array().map(single), slack }
+        let slack = if size < FAR { 16.0 * U * size.max(f64::from(f32::MIN_POSITIVE)) } else { f64::INFINITY };
+        SeenPoint { at, single: scaled.to_array().map(|coordinate| f32x4::splat(single(coordinate))), slack }
     }
 
     /// Calls `visit` with the neighbours of a face whose values may reach a level, and some others.
@@ -125,11 +138,11 @@ impl FaceNeighbours {
         let bound = single(level - point.slack - 2.0 * U * level.abs());
         let tells_nothing = point.slack.is_infinite();
         self.for_each_four(face, point, level, |four| {
-            let values = four.values(point.single);
-            for (value, face) in values.into_iter().zip(four.faces) {
-                if value >= bound || tells_nothing {
-                    visit(face);
-                }
+            let reaching = four.values(point.single).simd_ge(f32x4::splat(bound)).to_bitmask();
+            let mut lanes = if tells_nothing { (1 << LANES) - 1 } else { reaching };
+            while lanes != 0 {
+                visit(four.faces[lanes.trailing_zeros() as usize]);
+                lanes &= lanes - 1;
             }
         });
     }
@@ -142,25 +155,19 @@ impl FaceNeighbours {
             return (from, f64::INFINITY);
         }
         loop {
-            let (start, mut largest) = (best, f32::NEG_INFINITY);
-            self.for_each_four(start, point, f64::from(value) - point.slack, |four| {
-                let values = four.values(point.single);
-                let [a, b, c, d] = values;
-                largest = larger(larger(larger(a, b), larger(c, d)), largest);
-                // values are larger in each step, of which there are no more than faces
-                if largest > value {
-                    for (other, face) in values.into_iter().zip(four.faces) {
-                        if other > value {
-                            (best, value) = (face, other);
-                        }
-                    }
-                }
+            let (mut largest, mut of) = (f32::NEG_INFINITY, &self.fours[0]);
+            self.for_each_four(best, point, f64::from(value) - point.slack, |four| {
+                let other = four.largest(point.single);
+                (largest, of) = if other > largest { (other, four) } else { (largest, of) };
             });
-            if best == start {
-                // in runs, not all neighbours are looked at
-                let around = if self.runs_of(start).is_none() { f64::from(largest) } else { f64::INFINITY };
-                return (best, around);
+            // values are larger in each step, of which there are no more than neighbours
+            if largest > value {
+                (best, value) = (of.faces[(largest.to_bits() & LANE_BITS) as usize], largest);
+                continue;
             }
+            // in runs, not all neighbours are looked at
+            let around = if self.runs_of(best).is_none() { f64::from(largest) } else { f64::INFINITY };
+            return (best, around);
         }
     }
 
@@ -175,7 +182,7 @@ impl FaceNeighbours {
     }
 
     #[inline]
-    fn for_each_four(&self, face: BodyFaceId, point: &SeenPoint, level: f64, visit: impl FnMut(&Four)) {
+    fn for_each_four<'a>(&'a self, face: BodyFaceId, point: &SeenPoint, level: f64, visit: impl FnMut(&'a Four)) {
         let all = self.fours_of(face);
         match self.runs_of(face) {
             None => all.iter().for_each(visit),

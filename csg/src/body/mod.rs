@@ -8,6 +8,7 @@
 mod build;
 mod built;
 mod corner;
+mod directions;
 mod face_neighbours;
 mod kinds;
 mod outer;
@@ -151,7 +152,7 @@ impl Body {
     ) -> bool {
         let Some(first) = corners.clone().next() else { return true };
         if let Some(dual) = self.polar_dual(table) {
-            let Place::Outside(face) = dual.place(first, dual.seed(first)) else { return false };
+            let Place::Outside(face) = dual.place(first) else { return false };
             return corners.all(|corner| dual.is_beyond(corner, face));
         }
         self.faces.iter().any(|face| {

@@ -4,7 +4,7 @@
 //! it is the largest of `nᵢ·(p − c) / (dᵢ − nᵢ·c)`, one number for each plane. These are the values of a linear function at
 //! the vertices of the polar dual, whose edges are the pairs of neighbouring faces: along them it climbs to the largest
 //! without a local one on the way (the simplex method), and the faces above any level are connected. So a point is placed by
-//! looking at a few faces near the last one, however many there are, and the planes that it may lie on or beyond are found
+//! looking at a few faces near the one in its direction, however many there are, and the planes that it may lie on or beyond are found
 //! as those connected to the largest. Numbers here are rounded, with a bound for the error; what they leave open signs decide.
 
 use std::ops::Range;
@@ -14,6 +14,7 @@ use planecut_kernel::{DVec3, HalfSpace};
 use smallvec::SmallVec;
 
 use super::Corner;
+use super::directions::Directions;
 use super::face_neighbours::{FaceNeighbours, SeenPoint};
 use super::shape::Corners;
 use crate::ids::{BodyFaceId, Id, holds};
@@ -35,8 +36,8 @@ pub(crate) struct PolarDual {
     /// `nᵢ / (dᵢ − nᵢ·c)` for each face.
     duals: Vec<DVec3>,
     neighbours: FaceNeighbours,
-    /// For each octant around the center the face in its middle.
-    seeds: [BodyFaceId; 8],
+    /// Faces from which climbs are short.
+    directions: Directions,
 }
 
 /// A bound for the error of the values of a point, relative to the larger of 1 and the value: for the reach of a dual, the error of the point, and the sum of the
@@ -51,8 +52,8 @@ fn room(reach: f64, error: f64, size: f64) -> f64 {
 /// Where a point lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Place {
-    /// Strictly inside of all planes but one that it is known to lie on; this face is the nearest.
-    Inside(BodyFaceId),
+    /// Strictly inside of all planes but one that it is known to lie on.
+    Inside,
     /// Strictly outside of the plane of this face.
     Outside(BodyFaceId),
     /// On the surface or close to it; this face is the nearest, or one of them.
@@ -62,7 +63,7 @@ pub(crate) enum Place {
 }
 
 impl Place {
-    /// What the largest value of a point tells, with the error of a value of 1: the face that has it, and the one that is nearest where the point is inside.
+    /// What the largest value of a point tells, with the error of a value of 1: the face that has it, and the one that is nearest where the point is on the surface.
     fn of(value: f64, room: f64, [farthest, nearest]: [BodyFaceId; 2]) -> Self {
         let room = room * value.max(1.0);
         if room >= USELESS || value.is_nan() {
@@ -70,7 +71,7 @@ impl Place {
         } else if value > 1.0 + room {
             Self::Outside(farthest)
         } else if value < 1.0 - room {
-            Self::Inside(nearest)
+            Self::Inside
         } else {
             Self::Near(nearest)
         }
@@ -120,32 +121,25 @@ impl PolarDual {
             edges.iter().filter_map(|plane| face_of[plane.0])
         });
         let neighbours = FaceNeighbours::of(&duals, reach, neighbours);
-        let mut dual = Self { center, duals, neighbours, seeds: [BodyFaceId::from_index(0); 8] };
-        for octant in 0..8_usize {
-            let sign = |axis: usize| if octant >> axis & 1 == 1 { -1.0 } else { 1.0 };
-            let before = dual.seeds[octant.saturating_sub(1)];
-            dual.seeds[octant] = dual.climb(DVec3::new(sign(0), sign(1), sign(2)), before, 0.0).0;
-        }
-        Some(dual)
+        let find = |direction: DVec3, last: BodyFaceId| {
+            neighbours.climb(&neighbours.seen(direction), last, duals[last.index()].dot(direction)).0
+        };
+        let directions = Directions::new(duals.len(), corners.size(), find);
+        Some(Self { center, duals, neighbours, directions })
     }
 
-    /// A face from which the climb to a point is short.
-    pub(crate) fn seed(&self, point: &Corner) -> BodyFaceId {
-        self.face_toward(point.at - self.center)
-    }
-
-    /// The face in the middle of the octant of a direction.
+    /// A face in a direction from the center, or one near it.
     pub(super) fn face_toward(&self, direction: DVec3) -> BodyFaceId {
-        self.seeds[direction.is_negative_bitmask() as usize]
+        self.directions.face(direction)
     }
 
-    /// Where a point lies, climbing from a face.
-    pub(crate) fn place(&self, point: &Corner, from: BodyFaceId) -> Place {
+    /// Where a point lies.
+    pub(crate) fn place(&self, point: &Corner) -> Place {
         let (at, room) = self.relative(point);
         if room >= USELESS {
             return Place::Unknown;
         }
-        let (face, value) = self.climb(at, from, room);
+        let (face, value) = self.climb(at, self.face_toward(at), room);
         Place::of(value, room, [face, face])
     }
 

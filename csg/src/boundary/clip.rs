@@ -21,8 +21,6 @@ const MOST: usize = 1 << 20;
 pub(super) struct Clipper {
     spare: Polygon,
     near: SomeFaces,
-    /// For each body near the one whose faces are clipped, the face at which the last point was found, or [`Id::NONE`].
-    last: Vec<BodyFaceId>,
     /// How many corners the body has whose faces are clipped.
     corners: usize,
     /// Where each of these corners lies in each body near: a corner is seen from several faces.
@@ -55,7 +53,6 @@ impl Clipper {
     pub(super) fn begin(&mut self, scene: &Scene<'_>, body: BodyId) {
         let solid = scene.body(body);
         self.corners = solid.corner_count();
-        self.last.clear();
         self.known.clear();
         self.sides.begin(solid.all_corners());
         self.planes.clear();
@@ -66,7 +63,7 @@ impl Clipper {
         let (own, solid) = (scene.body(body), scene.body(other));
         let first = self.sides.planes();
         if self.sides.is_empty() {
-            self.push_near(first..first);
+            self.planes.push(first..first);
             return true;
         }
         let (is_apart, is_within) = match scene.polar_dual(other) {
@@ -80,40 +77,32 @@ impl Clipper {
             self.sides.forget_from(first);
             return false;
         }
-        self.push_near(first..self.sides.planes());
+        self.planes.push(first..self.sides.planes());
         true
     }
 
     /// Adds the body itself to those near it.
     pub(super) fn add_itself(&mut self) {
         let end = self.sides.planes();
-        self.push_near(end..end);
-    }
-
-    fn push_near(&mut self, planes: Range<usize>) {
-        self.last.push(BodyFaceId::NONE);
-        self.planes.push(planes);
+        self.planes.push(end..end);
     }
 
     /// Adds some planes of a body of many faces: those beyond which corners of the own body lie that are beyond none of those before. Tells whether all of them
     /// surely lie beyond one, and whether one surely lies within the body.
     fn add_some_planes(&mut self, scene: &Scene<'_>, own: &Body, other: &Body, dual: &PolarDual) -> (bool, bool) {
         let mut corner = own.corner_toward(scene.table, other.bounds.center() - own.bounds.center());
-        let mut from = dual.seed(corner);
         self.sides.begin_search();
         let mut is_within = false;
         for guess in 0..GUESSES {
-            match dual.place(corner, from) {
+            match dual.place(corner) {
                 Place::Outside(face) => {
                     if self.sides.add_plane(scene.table.half_space(other.faces[face.index()].plane)) {
                         return (true, false);
                     }
-                    from = face;
                     self.sides.drop_outside();
                 }
-                Place::Inside(face) | Place::Near(face) => {
+                Place::Inside | Place::Near(_) => {
                     is_within = true;
-                    from = face;
                     self.sides.drop_corner(corner.number);
                 }
                 Place::Unknown => break,
@@ -150,7 +139,7 @@ impl Clipper {
             return !self.sides.is_empty() && self.sides.are_known_inside(self.planes[cutter.place.index()].clone());
         };
         !self.planes[cutter.place.index()].clone().any(|plane| self.sides.is_one_known_outside(plane))
-            && (0..polygon.corners.len()).all(|i| matches!(self.place(cutter, dual, polygon, i), Found::Inside(_)))
+            && (0..polygon.corners.len()).all(|i| matches!(self.place(cutter, dual, polygon, i), Found::Inside))
     }
 
     /// By the planes of a body of few faces: those on both sides of which corners lie. The polygon is the one that is looked at.
@@ -209,7 +198,7 @@ impl Clipper {
         let mut first = None;
         for i in 0..polygon.corners.len() {
             match self.place(cutter, dual, polygon, i) {
-                Found::Inside(_) => {}
+                Found::Inside => {}
                 Found::Beyond(beyond) => {
                     if polygon.corners.iter().all(|corner| dual.is_beyond(corner, beyond)) {
                         return Clip::Nothing;
@@ -250,7 +239,7 @@ impl Clipper {
                     None => self.place(cutter, dual, out, i),
                 };
                 match found {
-                    Found::Inside(_) => out.corners[i].within = body,
+                    Found::Inside => out.corners[i].within = body,
                     Found::Beyond(other) => break Some(other),
                     Found::Unknown => {
                         return if self.clip_by_all(cutter, out) == Clip::Nothing { Clip::Nothing } else { Clip::Part };
@@ -269,47 +258,20 @@ impl Clipper {
     /// Where a corner lies, exactly where numbers do not tell.
     fn place(&mut self, cutter: Cutter<'_>, dual: &PolarDual, polygon: &Polygon, i: usize) -> Found {
         let number = polygon.corners[i].number.index();
-        let found = if number >= self.corners || self.corners.saturating_mul(self.last.len()) > MOST {
-            self.find(cutter, dual, polygon, i)
-        } else {
-            if self.known.is_empty() {
-                self.known.resize(self.last.len() * self.corners, Found::Unknown);
-            }
-            let entry = cutter.place.index() * self.corners + number;
-            if self.known[entry] == Found::Unknown {
-                self.stay_near(cutter.place, polygon);
-                self.known[entry] = self.find(cutter, dual, polygon, i);
-            }
-            self.known[entry]
-        };
-        if let Found::Inside(nearest) | Found::Beyond(nearest) = found {
-            self.last[cutter.place.index()] = nearest;
+        let is_kept = number < self.corners && self.corners.saturating_mul(self.planes.len()) <= MOST;
+        let entry = is_kept.then(|| cutter.place.index() * self.corners + number);
+        if is_kept && self.known.is_empty() {
+            self.known.resize(self.planes.len() * self.corners, Found::Unknown);
+        }
+        match entry.map(|entry| self.known[entry]) {
+            None | Some(Found::Unknown) => {}
+            Some(known) => return known,
+        }
+        let found = self.exact_place(cutter, dual, polygon, i, dual.place(&polygon.corners[i]));
+        if let Some(entry) = entry {
+            self.known[entry] = found;
         }
         found
-    }
-
-    /// Lets the search begin near a corner of the polygon that was placed with another face: faces that follow one another may lie
-    /// far apart.
-    fn stay_near(&mut self, place: NearId, polygon: &Polygon) {
-        let known = |corner: &Corner| {
-            let number = corner.number.index();
-            let found =
-                if number < self.corners { self.known[place.index() * self.corners + number] } else { Found::Unknown };
-            match found {
-                Found::Inside(nearest) | Found::Beyond(nearest) => Some(nearest),
-                Found::Unknown => None,
-            }
-        };
-        if let Some(nearest) = polygon.corners.iter().find_map(known) {
-            self.last[place.index()] = nearest;
-        }
-    }
-
-    fn find(&mut self, cutter: Cutter<'_>, dual: &PolarDual, polygon: &Polygon, i: usize) -> Found {
-        let corner = &polygon.corners[i];
-        let last = self.last[cutter.place.index()];
-        let place = dual.place(corner, if last == BodyFaceId::NONE { dual.seed(corner) } else { last });
-        self.exact_place(cutter, dual, polygon, i, place)
     }
 
     /// Where a corner lies, of which it is known as well as numbers tell.
@@ -323,7 +285,7 @@ impl Clipper {
     ) -> Found {
         let corner = &polygon.corners[i];
         match place {
-            Place::Inside(nearest) => Found::Inside(nearest),
+            Place::Inside => Found::Inside,
             Place::Outside(other) => Found::Beyond(other),
             Place::Near(other) => {
                 let planes = polygon.corner(face.plane, i);
@@ -333,7 +295,7 @@ impl Clipper {
                     let plane = faces[other.index()].plane;
                     signs.side(corner, planes, plane) == Sign::Positive
                 };
-                self.near.iter().copied().find(is_beyond).map_or(Found::Inside(other), Found::Beyond)
+                self.near.iter().copied().find(is_beyond).map_or(Found::Inside, Found::Beyond)
             }
             Place::Unknown => Found::Unknown,
         }
@@ -366,7 +328,7 @@ fn is_apart_by_own_planes(scene: &Scene<'_>, body: BodyId, other: &Body) -> bool
         }),
         Some(dual) => {
             let corner = other.corner_toward(scene.table, own.bounds.center() - other.bounds.center());
-            let Place::Outside(face) = dual.place(corner, dual.seed(corner)) else { return false };
+            let Place::Outside(face) = dual.place(corner) else { return false };
             other.all_corners().iter().all(|corner| dual.is_beyond(corner, face))
         }
     }
@@ -375,8 +337,8 @@ fn is_apart_by_own_planes(scene: &Scene<'_>, body: BodyId, other: &Body) -> bool
 /// Where a corner lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Found {
-    /// Inside of all planes or on some; this face is the nearest.
-    Inside(BodyFaceId),
+    /// Inside of all planes or on some.
+    Inside,
     /// Outside of the plane of this face.
     Beyond(BodyFaceId),
     Unknown,
