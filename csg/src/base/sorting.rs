@@ -7,6 +7,9 @@ use planecut_parallel::prelude::*;
 use super::parallel::{map_chunks, split_by, takes_much_memory, weighed_runs};
 
 /// Maximum number of elements that are all compared with one another.
+const COMPARED: usize = 64;
+
+/// Maximum number of those that are compared within short arrays, which take less time to make.
 const FEW: usize = 16;
 
 /// Maximum number of elements that are sorted by comparisons: where numbers lie close together but for some, buckets would have to be sorted again and again.
@@ -31,7 +34,7 @@ const MOST_BUCKETS: usize = 1 << 12;
 /// about equal numbers, each of which is sorted in the same way where it has many elements (bucket sort: Knuth, The Art of Computer Programming, volume
 /// 3, section 5.2.5).
 pub(crate) fn sort_by_number<T: Copy + Ord + Send + Sync>(list: &mut Vec<T>, number: impl Fn(&T) -> u64 + Sync) {
-    if list.len() <= FEW {
+    if list.len() <= COMPARED {
         sort_few(list, &number);
     } else if takes_much_memory::<[T; COPIES]>(list.len()) {
         list.par_sort_unstable();
@@ -42,15 +45,24 @@ pub(crate) fn sort_by_number<T: Copy + Ord + Send + Sync>(list: &mut Vec<T>, num
     }
 }
 
-/// Sorts elements, of which there are mostly few, by a number: those of the same number stay in order. Few are counted, for each, that come before it,
-/// without a branch, which would mostly be guessed wrong (comparison counting: Knuth, volume 3, section 5.2, algorithm C).
+/// Sorts elements, of which there are mostly few, by a number: those of the same number stay in order.
 #[inline]
 pub(crate) fn sort_few<T: Copy>(list: &mut [T], number: &impl Fn(&T) -> u64) {
-    if list.len() > FEW {
-        return sort_many(list, number);
+    if list.len() <= FEW {
+        sort_by_counting::<T, FEW>(list, number);
+    } else if list.len() <= COMPARED {
+        sort_by_counting::<T, COMPARED>(list, number);
+    } else {
+        sort_many(list, number);
     }
+}
+
+/// Sorts a maximum number of elements by a number: for each it counts those that come before it, without a branch, which would mostly be guessed wrong
+/// (comparison counting: Knuth, volume 3, section 5.2, algorithm C).
+#[inline]
+fn sort_by_counting<T: Copy, const MOST: usize>(list: &mut [T], number: &impl Fn(&T) -> u64) {
     let Some(first) = list.first() else { return };
-    let (mut unsorted, mut numbers, mut places) = ([*first; FEW], [0; FEW], [0; FEW]);
+    let (mut unsorted, mut numbers, mut places) = ([*first; MOST], [0; MOST], [0; MOST]);
     for (k, element) in list.iter().enumerate() {
         let own = number(element);
         let mut place = 0;
@@ -207,7 +219,7 @@ mod tests {
         for seed in 0..60 {
             let mut rng = Rng::spread(seed);
             let count = match seed % 3 {
-                0 => rng.below(2 * FEW),
+                0 => rng.below(2 * COMPARED),
                 1 => rng.below(5_000),
                 _ => MANY + rng.below(MANY),
             };
