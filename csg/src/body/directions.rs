@@ -19,7 +19,7 @@ impl Directions {
     /// About as many as there are faces, of a body of a size along each axis. `find` gives the face in a direction, searched from one that is mostly near.
     pub(super) fn new(count: usize, size: DVec3, mut find: impl FnMut(DVec3, BodyFaceId) -> BodyFaceId) -> Self {
         // the root of a sixth, rounded
-        let squares = (2 * count / 3).isqrt().midpoint(1).max(1);
+        let squares = (2 * count / 3).isqrt().midpoint(1);
         let scale = size.recip();
         let scale = if scale.is_finite() { scale } else { DVec3::ONE };
         let mut faces = Vec::with_capacity(6 * squares * squares);

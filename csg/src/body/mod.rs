@@ -102,7 +102,7 @@ impl Body {
         let edges = self.faces.iter().map(|face| face.start..face.end);
         self.corners
             .polar_dual
-            .get_or_init(|| PolarDual::new(half_spaces, edges, &self.corners).map(Box::new))
+            .get_or_init(|| PolarDual::new(half_spaces, edges, &self.corners, &self.bounds).map(Box::new))
             .as_deref()
     }
 

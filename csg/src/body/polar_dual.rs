@@ -17,6 +17,7 @@ use super::Corner;
 use super::directions::Directions;
 use super::face_neighbours::{FaceNeighbours, SeenPoint};
 use super::shape::Corners;
+use crate::base::Bounds;
 use crate::ids::{BodyFaceId, Id, holds};
 
 /// Bodies of fewer faces are asked plane by plane.
@@ -80,11 +81,12 @@ impl Place {
 
 impl PolarDual {
     /// That of a body of many faces which is not too thin for its numbers; of each face the half-space, and which of the edges of the
-    /// body it has.
+    /// body it has; of the body its corners and its box.
     pub(super) fn new<'a, H: ExactSizeIterator<Item = &'a HalfSpace>>(
         half_spaces: impl Fn() -> H,
         edges: impl Iterator<Item = Range<u32>>,
         corners: &Corners,
+        bounds: &Bounds,
     ) -> Option<Self> {
         if half_spaces().len() < MANY {
             return None;
@@ -124,7 +126,7 @@ impl PolarDual {
         let find = |direction: DVec3, last: BodyFaceId| {
             neighbours.climb(&neighbours.seen(direction), last, duals[last.index()].dot(direction)).0
         };
-        let directions = Directions::new(duals.len(), corners.size(), find);
+        let directions = Directions::new(duals.len(), bounds.max - bounds.min, find);
         Some(Self { center, duals, neighbours, directions })
     }
 

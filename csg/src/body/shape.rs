@@ -63,12 +63,6 @@ impl Corners {
         let corners = self.numbers.iter().map(|number| self.different[number.index()].at);
         corners.sum::<DVec3>() / self.numbers.len() as f64
     }
-
-    /// How far they reach along each axis, but for the rounding.
-    pub(super) fn size(&self) -> DVec3 {
-        let at = || self.different.iter().map(|corner| corner.at);
-        at().fold(DVec3::NEG_INFINITY, DVec3::max) - at().fold(DVec3::INFINITY, DVec3::min)
-    }
 }
 
 impl Shape {

@@ -258,20 +258,21 @@ impl Clipper {
     /// Where a corner lies, exactly where numbers do not tell.
     fn place(&mut self, cutter: Cutter<'_>, dual: &PolarDual, polygon: &Polygon, i: usize) -> Found {
         let number = polygon.corners[i].number.index();
-        let is_kept = number < self.corners && self.corners.saturating_mul(self.planes.len()) <= MOST;
-        let entry = is_kept.then(|| cutter.place.index() * self.corners + number);
-        if is_kept && self.known.is_empty() {
+        if number >= self.corners || self.corners.saturating_mul(self.planes.len()) > MOST {
+            return self.find(cutter, dual, polygon, i);
+        }
+        if self.known.is_empty() {
             self.known.resize(self.planes.len() * self.corners, Found::Unknown);
         }
-        match entry.map(|entry| self.known[entry]) {
-            None | Some(Found::Unknown) => {}
-            Some(known) => return known,
+        let entry = cutter.place.index() * self.corners + number;
+        if self.known[entry] == Found::Unknown {
+            self.known[entry] = self.find(cutter, dual, polygon, i);
         }
-        let found = self.exact_place(cutter, dual, polygon, i, dual.place(&polygon.corners[i]));
-        if let Some(entry) = entry {
-            self.known[entry] = found;
-        }
-        found
+        self.known[entry]
+    }
+
+    fn find(&mut self, cutter: Cutter<'_>, dual: &PolarDual, polygon: &Polygon, i: usize) -> Found {
+        self.exact_place(cutter, dual, polygon, i, dual.place(&polygon.corners[i]))
     }
 
     /// Where a corner lies, of which it is known as well as numbers tell.
