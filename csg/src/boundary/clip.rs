@@ -194,15 +194,12 @@ impl Clipper {
     /// By planes beyond which corners lie, until there is none. Then all corners lie in the body, and so does the polygon.
     fn clip_by_dual(&mut self, cutter: Cutter<'_>, dual: &PolarDual, polygon: &Polygon, out: &mut Polygon) -> Clip {
         let Cutter { scene, signs, face, body, .. } = cutter;
-        // mostly all of it is inside, or all beyond one plane, and nothing need be copied
+        // mostly all of it is inside, and nothing need be cut
         let mut first = None;
         for i in 0..polygon.corners.len() {
             match self.place(cutter, dual, polygon, i) {
                 Found::Inside => {}
                 Found::Beyond(beyond) => {
-                    if polygon.corners.iter().all(|corner| dual.is_beyond(corner, beyond)) {
-                        return Clip::Nothing;
-                    }
                     first = Some((i, beyond));
                     break;
                 }
@@ -212,17 +209,18 @@ impl Clipper {
                 }
             }
         }
-        let Some((known, mut beyond)) = first else { return Clip::Whole };
-        out.copy_from(polygon);
-        out.corners[..known].iter_mut().for_each(|corner| corner.within = body);
-        let mut i = known;
+        let Some((mut i, mut beyond)) = first else { return Clip::Whole };
+        let plane_of = |other: BodyFaceId| scene.body(body).faces[other.index()].plane;
+        let mut clip = polygon.inside_of(signs, face.plane, plane_of(beyond), out);
+        if clip == Clip::Whole {
+            out.copy_from(polygon);
+        }
         self.cut_by.clear();
         loop {
-            let cut = scene.body(body).faces[beyond.index()].plane;
-            self.cut_by.push((cut, beyond));
+            self.cut_by.push((plane_of(beyond), beyond));
             // the first corner that is not known to lie within
             let mut first = i;
-            match out.clip(signs, face.plane, cut, &mut self.spare) {
+            match clip {
                 Clip::Nothing => return Clip::Nothing,
                 Clip::Part => first = 0,
                 // signs decide
@@ -246,10 +244,9 @@ impl Clipper {
                     }
                 }
             };
-            match next {
-                Some(other) => beyond = other,
-                None => break,
-            }
+            let Some(other) = next else { break };
+            beyond = other;
+            clip = out.clip(signs, face.plane, plane_of(other), &mut self.spare);
         }
         out.corners.iter_mut().for_each(|corner| corner.within = Corner::NOWHERE);
         Clip::Part

@@ -43,12 +43,14 @@ pub(super) struct Section {
 }
 
 impl Section {
-    /// Whether another surely lies strictly within this one.
-    fn surely_holds(&self, table: &PlaneTable, other: &Self) -> bool {
+    /// Whether another surely lies within this one, and strictly but for edges of the region, which both lie in.
+    fn surely_holds(&self, table: &PlaneTable, region: &Polygon, other: &Self) -> bool {
         self.bounds.holds(&other.bounds)
             && self.polygon.edges.iter().all(|edge| {
-                let filter = PlaneFilter::new(table.half_space(*edge));
-                other.polygon.corners.iter().all(|corner| filter.side(corner) == Sign::Negative)
+                holds(&region.edges, *edge) || {
+                    let filter = PlaneFilter::new(table.half_space(*edge));
+                    other.polygon.corners.iter().all(|corner| filter.side(corner) == Sign::Negative)
+                }
             })
     }
 }
@@ -206,7 +208,7 @@ impl FaceWorker {
         true
     }
 
-    /// Leaves out what covering bodies cover strictly within what another covers: none of its edges is one of the boundary.
+    /// Leaves out what covering bodies cover within what another covers: none of its edges is one of the boundary.
     fn drop_held_sections(&mut self, table: &PlaneTable) {
         if self.live > MANY_SECTIONS {
             return;
@@ -214,7 +216,7 @@ impl FaceWorker {
         let mut k = 0;
         while k < self.live {
             let (section, others) = (&self.sections[k], (0..self.live).filter(|other| *other != k));
-            if others.map(|other| &self.sections[other]).any(|other| other.surely_holds(table, section)) {
+            if others.map(|other| &self.sections[other]).any(|other| other.surely_holds(table, &self.region, section)) {
                 // the others stay in order
                 self.sections[k..self.live].rotate_left(1);
                 self.live -= 1;

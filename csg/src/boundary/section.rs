@@ -46,8 +46,17 @@ impl Polygon {
         [plane, self.edges[i], self.edges[after(i, self.edges.len())]]
     }
 
-    /// Keeps what lies inside `cut`. The sign at each corner is the true three-way one.
+    /// Keeps what lies inside `cut`.
     pub(super) fn clip(&mut self, signs: Signs<'_>, plane: PlaneId, cut: PlaneId, spare: &mut Self) -> Clip {
+        let clip = self.inside_of(signs, plane, cut, spare);
+        if clip == Clip::Part {
+            std::mem::swap(self, spare);
+        }
+        clip
+    }
+
+    /// What lies inside `cut`; `out` is that part where it is [`Clip::Part`], else of no meaning. The sign at each corner is the true three-way one.
+    pub(super) fn inside_of(&self, signs: Signs<'_>, plane: PlaneId, cut: PlaneId, out: &mut Self) -> Clip {
         let n = self.edges.len();
         // Which corners are strictly inside; polygons of more than 64 corners take the slow way.
         let mut inside = Inside::new(n);
@@ -82,16 +91,15 @@ impl Polygon {
         let cut_off = crossing(signs.table, &filter, ends(last, after(last, n)), [plane, leaving, cut]);
         let cut_in = crossing(signs.table, &filter, ends(first, before(first, n)), [plane, cut, entering]);
         // Kept are the edges that touch a corner strictly inside: from edge `first` to edge `last + 1`.
-        spare.edges.clear();
-        spare.corners.clear();
+        out.edges.clear();
+        out.corners.clear();
         let runs = if first <= last { [first..last + 1, 0..0] } else { [first..n, 0..last + 1] };
         for run in runs {
-            spare.edges.extend_from_slice(&self.edges[run.clone()]);
-            spare.corners.extend_from_slice(&self.corners[run]);
+            out.edges.extend_from_slice(&self.edges[run.clone()]);
+            out.corners.extend_from_slice(&self.corners[run]);
         }
-        spare.edges.extend([leaving, cut]);
-        spare.corners.extend([cut_off, cut_in]);
-        std::mem::swap(self, spare);
+        out.edges.extend([leaving, cut]);
+        out.corners.extend([cut_off, cut_in]);
         Clip::Part
     }
 
