@@ -16,7 +16,7 @@ use crate::base::{Bounds, Boxes, push_if};
 use crate::body::{BodyFace, PlaneFilter};
 use crate::expression::{OneLevel, Restriction};
 use crate::ids::{BodyFaceId, BodyId, EdgeId, Id, KeptLeafId, LeafId, NearId, holds, number32, place_of};
-use crate::plane_table::PlaneTable;
+use crate::plane_table::{PlaneId, PlaneTable};
 
 /// Number of sections from which those near one are looked up: few are compared one by one.
 const MANY_SECTIONS: usize = 32;
@@ -200,12 +200,62 @@ impl FaceWorker {
         for k in 0..self.covering.len() {
             match self.cover(scene, face, self.covering[k]) {
                 Clip::Whole => return false,
-                Clip::Part => self.live += 1,
+                Clip::Part if self.take_section(scene, face) => {}
+                Clip::Part => return false,
                 Clip::Nothing => {}
             }
         }
         self.drop_held_sections(scene.table);
         true
+    }
+
+    /// Takes the section that was cut last; false where covering bodies leave nothing of the region.
+    ///
+    /// Where a section has one edge within the region, what it leaves is convex, and the region becomes that.
+    fn take_section(&mut self, scene: &Scene<'_>, face: &BodyFace) -> bool {
+        let mut k = self.live;
+        self.live += 1;
+        while k < self.live {
+            let mut within = self.edges_within_region(k);
+            match (within.next(), within.next()) {
+                (None, _) => return false,
+                (Some(edge), None) => {
+                    drop(within);
+                    self.leave_out_section(k);
+                    self.cut_region(scene, face, edge.flipped());
+                    // of others there may be one edge left now
+                    k = 0;
+                }
+                (Some(_), Some(_)) => k += 1,
+            }
+        }
+        true
+    }
+
+    /// The edges of a section that are none of the region.
+    fn edges_within_region(&self, section: usize) -> impl Iterator<Item = PlaneId> {
+        let edges = self.sections[section].polygon.edges.iter().copied();
+        edges.filter(|edge| !holds(&self.region.edges, *edge))
+    }
+
+    /// Cuts the region, and the sections with it.
+    fn cut_region(&mut self, scene: &Scene<'_>, face: &BodyFace, cut: PlaneId) {
+        self.region.clip(Signs::new(scene.table, &self.signs), face.plane, cut, &mut self.part);
+        self.clipper.look_at(&self.region);
+        for k in (0..self.live).rev() {
+            let (section, signs) = (&mut self.sections[k], Signs::new(scene.table, &self.signs));
+            match section.polygon.clip(signs, face.plane, cut, &mut self.part) {
+                Clip::Whole => section.polygon.name_edge_by(signs, face.plane, cut),
+                Clip::Part => section.bounds = section.polygon.bounds(),
+                Clip::Nothing => self.leave_out_section(k),
+            }
+        }
+    }
+
+    /// Leaves out a section; the others stay in order.
+    fn leave_out_section(&mut self, section: usize) {
+        self.sections[section..self.live].rotate_left(1);
+        self.live -= 1;
     }
 
     /// Leaves out what covering bodies cover within what another covers: none of its edges is one of the boundary.
@@ -217,9 +267,7 @@ impl FaceWorker {
         while k < self.live {
             let (section, others) = (&self.sections[k], (0..self.live).filter(|other| *other != k));
             if others.map(|other| &self.sections[other]).any(|other| other.surely_holds(table, &self.region, section)) {
-                // the others stay in order
-                self.sections[k..self.live].rotate_left(1);
-                self.live -= 1;
+                self.leave_out_section(k);
             } else {
                 k += 1;
             }

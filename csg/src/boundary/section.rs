@@ -103,6 +103,25 @@ impl Polygon {
         Clip::Part
     }
 
+    /// Names an edge that lies on the line of another plane by that plane, where there is one; no corner lies outside of it.
+    pub(super) fn name_edge_by(&mut self, signs: Signs<'_>, plane: PlaneId, other: PlaneId) {
+        let n = self.corners.len();
+        let filter = PlaneFilter::new(signs.table.half_space(other));
+        let mut on = Inside::new(n);
+        let mut count = 0;
+        for (i, corner) in self.corners.iter().enumerate() {
+            if filter.side(corner) != Sign::Negative && signs.side(corner, self.corner(plane, i), other) == Sign::Zero {
+                on.set(i, true);
+                count += 1;
+            }
+        }
+        if count >= 2 {
+            // two corners on a line are the ends of an edge
+            let (_, last) = on.run(n);
+            self.edges[last] = other;
+        }
+    }
+
     pub(super) fn bounds(&self) -> Bounds {
         self.corners.iter().fold(Bounds::EMPTY, |bounds, corner| bounds.with_corner(corner))
     }
