@@ -165,11 +165,12 @@ impl Clipper {
                 (_, false) => {}
             }
         }
-        if self.cuts.is_empty() {
-            return Clip::Whole;
+        let Some((first, others)) = self.cuts.split_first() else { return Clip::Whole };
+        // signs tell that corners are on both sides of it
+        if polygon.inside_of(signs, face.plane, *first, out) != Clip::Part {
+            return Clip::Nothing;
         }
-        out.copy_from(polygon);
-        for cut in &self.cuts {
+        for cut in others {
             if out.clip(signs, face.plane, *cut, &mut self.spare) == Clip::Nothing {
                 return Clip::Nothing;
             }

@@ -68,7 +68,9 @@ pub(crate) struct FaceWorker {
     places: Vec<NearId>,
     leaves: Vec<LeafId>,
     others: Vec<Reaching>,
+    /// Bodies that cover what lies in them, first those with a face on the plane: of these one often covers all.
     covering: Vec<Reaching>,
+    coplanar: usize,
     open: Vec<Reaching>,
     /// Bodies that hold both sides of all of the region.
     holding: Vec<KeptLeafId>,
@@ -287,6 +289,7 @@ impl FaceWorker {
         operation: OneLevel,
     ) -> Option<Facing> {
         self.covering.clear();
+        self.coplanar = 0;
         let turn = scene.turn(self.own(), face);
         let is_tool = operation == OneLevel::Difference && self.leaves[own.index()].index() != 0;
         let mut is_in_first = !is_tool;
@@ -301,10 +304,20 @@ impl FaceWorker {
                 }
                 is_in_first = true;
             } else if reaching.contact != Contact::SameWay || reaching.turn < turn {
-                self.covering.push(reaching);
+                self.cover_by(reaching);
             }
         }
         is_in_first.then_some(if is_tool { Facing::In } else { Facing::Out })
+    }
+
+    /// Adds a body that covers what lies in it.
+    fn cover_by(&mut self, reaching: Reaching) {
+        self.covering.push(reaching);
+        if reaching.contact != Contact::Across {
+            let last = self.covering.len() - 1;
+            self.covering.swap(self.coplanar, last);
+            self.coplanar += 1;
+        }
     }
 
     /// Cuts the region down to what lies in a body; false where that is nothing.
@@ -374,6 +387,7 @@ impl FaceWorker {
     /// Finds what each body does to the face and cuts the face down to what is required; false where nothing is left.
     fn sort_out(&mut self, scene: &Scene<'_>, own: &Reaching, face: &BodyFace) -> bool {
         self.covering.clear();
+        self.coplanar = 0;
         self.open.clear();
         self.holding.clear();
         self.others.clear();
@@ -388,7 +402,7 @@ impl FaceWorker {
             let reaching = self.others[k];
             match Pair::new(scene.expression, &self.restriction, (own, polarity), &reaching, coplanar).role() {
                 Role::None => {}
-                Role::Covers => self.covering.push(reaching),
+                Role::Covers => self.cover_by(reaching),
                 Role::Open => self.open.push(reaching),
                 Role::Required => {
                     if !self.require(scene, face, &reaching) {
