@@ -182,3 +182,29 @@ fn a_loop_of_the_size_of_rounding_keeps_its_sense() {
     ]);
     evaluate_soundly(&model).expect("a sound mesh");
 }
+
+/// On the top of a cube one body covers all on one side of a line, and another a part beside it, on either side, by another plane through the line: what
+/// the first leaves of the face ends there, and so does what the second covers, under one name.
+#[test]
+fn bodies_that_end_on_one_line_of_a_face_by_different_planes() {
+    let cuboid = |x: [f64; 2], y: [f64; 2], z: [f64; 2]| {
+        let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let planes = |(axis, [low, high]): ([f64; 3], [f64; 2])| [(axis, high, 0), (axis.map(|c| -c), -low, 0)];
+        std::iter::zip(axes, [x, y, z]).flat_map(planes).collect::<Vec<_>>()
+    };
+    let cube = cuboid([-2.0, 2.0], [-2.0, 2.0], [-2.0, 2.0]);
+    let half = cuboid([-3.0, 0.0], [-3.0, 3.0], [1.0, 3.0]);
+    // to which side of the line, how the plane leans, and what is neither in the cube nor in the half: a block, wedges on the plane or below it, nothing
+    for (side, lean, added) in [(1.0, -1.0, 2.0), (1.0, 1.0, 1.0), (-1.0, -1.0, 1.0), (-1.0, 1.0, 0.0)] {
+        let mut beside = cuboid([-1.0, 1.0], [-1.0, 1.0], [-1.0, 3.0]);
+        beside.push(([-side, 0.0, lean], 2.0 * lean, 0));
+        let volume = 64.0 + (36.0 - 8.0) + added;
+        let bodies = [&cube[..], &beside, &half];
+        for order in [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]] {
+            let model = model_of(&order.map(|k| bodies[k]));
+            let evaluation = evaluate_soundly(&model).expect("a sound mesh");
+            let off = evaluation.solid.volume - volume;
+            assert!(off.abs() < 1e-12 * volume, "{order:?}, side {side}, lean {lean}: off by {off}");
+        }
+    }
+}
