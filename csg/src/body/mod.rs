@@ -50,6 +50,18 @@ pub(crate) struct BodyFace {
     end: u32,
 }
 
+impl BodyFace {
+    /// Whether all of some corners surely lie beyond its plane.
+    pub(crate) fn is_surely_before<'a>(
+        &self,
+        table: &PlaneTable,
+        corners: impl IntoIterator<Item = &'a Corner>,
+    ) -> bool {
+        let filter = PlaneFilter::new(table.half_space(self.plane));
+        corners.into_iter().all(|corner| filter.side(corner) == Sign::Positive)
+    }
+}
+
 /// A bounded convex body with interior.
 #[derive(Debug, Clone)]
 pub struct Body {
@@ -148,17 +160,14 @@ impl Body {
     pub(crate) fn is_surely_apart_from<'a>(
         &self,
         table: &PlaneTable,
-        mut corners: impl Iterator<Item = &'a Corner> + Clone,
+        corners: impl Iterator<Item = &'a Corner> + Clone,
     ) -> bool {
         let Some(first) = corners.clone().next() else { return true };
         if let Some(dual) = self.polar_dual(table) {
             let Place::Outside(face) = dual.place(first) else { return false };
-            return corners.all(|corner| dual.is_beyond(corner, face));
+            return self.faces[face.index()].is_surely_before(table, corners);
         }
-        self.faces.iter().any(|face| {
-            let filter = PlaneFilter::new(table.half_space(face.plane));
-            corners.clone().all(|corner| filter.side(corner) == Sign::Positive)
-        })
+        self.faces.iter().any(|face| face.is_surely_before(table, corners.clone()))
     }
 
     /// The face on a plane, whatever its side.

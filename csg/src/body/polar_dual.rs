@@ -158,13 +158,6 @@ impl PolarDual {
         Place::of(value, room, [farthest, face])
     }
 
-    /// Whether a point surely lies strictly outside of the plane of a face.
-    pub(crate) fn is_beyond(&self, point: &Corner, face: BodyFaceId) -> bool {
-        let (at, room) = self.relative(point);
-        let value = self.value(face, at);
-        value > 1.0 + room * value.max(1.0)
-    }
-
     /// The faces on or beyond whose planes a point may lie, `face` being the one where its value is largest.
     pub(crate) fn near(&self, point: &Corner, face: BodyFaceId, found: &mut SomeFaces) {
         let (at, room) = self.relative(point);

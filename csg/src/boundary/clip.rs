@@ -9,7 +9,7 @@ use super::Scene;
 use super::corner_sides::CornerSides;
 use super::section::{Clip, Polygon};
 use super::signs::Signs;
-use crate::body::{Body, BodyFace, Corner, Place, PlaneFilter, PolarDual, SomeFaces};
+use crate::body::{Body, BodyFace, Corner, Place, PolarDual, SomeFaces};
 use crate::ids::{BodyFaceId, BodyId, Id, NearId};
 use crate::plane_table::PlaneId;
 
@@ -320,15 +320,14 @@ fn is_apart_by_own_planes(scene: &Scene<'_>, body: BodyId, other: &Body) -> bool
     match scene.polar_dual(body) {
         // planes across an axis are faces of the boxes, which touch
         None => own.faces.iter().any(|face| {
-            let half_space = scene.table.half_space(face.plane);
-            let is_across_axis = half_space.normal().cmpne(DVec3::ZERO).bitmask().count_ones() == 1;
-            let filter = PlaneFilter::new(half_space);
-            !is_across_axis && other.all_corners().iter().all(|corner| filter.side(corner) == Sign::Positive)
+            let normal = scene.table.half_space(face.plane).normal();
+            let is_across_axis = normal.cmpne(DVec3::ZERO).bitmask().count_ones() == 1;
+            !is_across_axis && face.is_surely_before(scene.table, other.all_corners())
         }),
         Some(dual) => {
             let corner = other.corner_toward(scene.table, own.bounds.center() - other.bounds.center());
             let Place::Outside(face) = dual.place(corner) else { return false };
-            other.all_corners().iter().all(|corner| dual.is_beyond(corner, face))
+            own.faces[face.index()].is_surely_before(scene.table, other.all_corners())
         }
     }
 }

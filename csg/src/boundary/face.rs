@@ -62,6 +62,8 @@ pub(crate) struct FaceWorker {
     body: Option<BodyId>,
     /// The bodies that may touch it, itself among them, ascending.
     near: Vec<BodyId>,
+    /// The boxes of these.
+    boxes: Vec<Bounds>,
     restriction: Restriction,
     bodies: Vec<BodyId>,
     /// The places of these among the bodies near.
@@ -94,6 +96,7 @@ impl FaceWorker {
         self.body = Some(body);
         self.signs.forget();
         self.near.clear();
+        self.boxes.clear();
         self.clipper.begin(scene, body);
         for other in near {
             if other == body {
@@ -102,6 +105,7 @@ impl FaceWorker {
                 continue;
             }
             self.near.push(other);
+            self.boxes.push(scene.body(other).bounds);
         }
     }
 
@@ -358,12 +362,11 @@ impl FaceWorker {
         let body = self.own();
         let half_space = scene.table.half_space(face.plane);
         let (normal, offset) = (half_space.normal(), half_space.offset());
-        let Self { near, bodies, places, clipper, .. } = self;
+        let Self { near, boxes, bodies, places, clipper, .. } = self;
         // by their boxes first, without a branch for each
         places.clear();
-        for (place, other) in NearId::all(near.len()).zip(near.iter()) {
-            let is_near = (*other == body) | scene.body(*other).bounds.may_share_area(&face.bounds);
-            push_if(places, place, is_near);
+        for (place, (other, bounds)) in NearId::all(near.len()).zip(near.iter().zip(boxes.iter())) {
+            push_if(places, place, (*other == body) | bounds.may_share_area(&face.bounds));
         }
         bodies.clear();
         let mut own = None;
@@ -372,7 +375,7 @@ impl FaceWorker {
             if other == body {
                 own = Some(KeptLeafId::from_index(bodies.len()));
             }
-            let misses = || misses(&scene.body(other).bounds, normal, offset);
+            let misses = || misses(&boxes[place.index()], normal, offset);
             let reaches = other == body || !clipper.is_known_outside(*place) && !misses();
             if reaches {
                 bodies.push(other);
