@@ -57,7 +57,7 @@ impl Vicinity {
     }
 }
 
-/// The bodies around a change, with their boxes: those that may share an area with a box. Where they are too many to be looked at one by one, or there is no telling
+/// The bodies around a change, in their order, with their boxes: those that may share an area with a box. Where they are too many to be looked at one by one, or there is no telling
 /// where the change is, that box is empty.
 pub(super) struct Surroundings {
     around: Bounds,
@@ -132,6 +132,7 @@ impl LiveModel {
         let mut near = self.places.near(&around);
         let few = near.by_ref().take(FEW_NEAR);
         bodies.extend(few.map(|(operand, bounds)| (self.member(operand), bounds)));
+        bodies.sort_unstable_by_key(|(member, _)| *member);
         let around = if near.next().is_none() { around } else { Bounds::EMPTY };
         Surroundings { around, bodies }
     }
@@ -194,9 +195,16 @@ impl LiveModel {
             near[start..].sort_unstable();
             groups.push(FaceBatch { number, near: start..near.len(), faces: first..first + group.len(), way });
         }
-        members.clone_from(&near);
+        // each once, and mostly in order
+        place.resize(self.operands.len(), BodyId::NONE);
+        let mut is_first = |member: &Member| {
+            let place = &mut place[member.operand.index()];
+            std::mem::replace(place, BodyId::from_index(0)) == BodyId::NONE
+        };
+        members.clear();
+        members.extend(near.iter().filter(|member| is_first(member)));
+        members.iter().for_each(|member| place[member.operand.index()] = BodyId::NONE);
         members.sort_unstable();
-        members.dedup();
         let role = |member: &Member| self.operand(member.operand).state.role;
         let member = |leaf: LeafId| self.operand(members[leaf.index()].operand);
         let faces_of = |leaf: LeafId| self.body_at(members[leaf.index()].operand).planes_and_materials();
@@ -212,7 +220,6 @@ impl LiveModel {
         let repeated = expression.repeated_leaves(kinds);
         let leaves: SmallVec<[LeafId; 32]> =
             LeafId::all(members.len()).filter(|leaf| !repeated[leaf.index()]).collect();
-        place.resize(self.operands.len(), BodyId::NONE);
         for (k, leaf) in BodyId::all(leaves.len()).zip(&leaves) {
             place[members[leaf.index()].operand.index()] = k;
         }
