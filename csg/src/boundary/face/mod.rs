@@ -1,22 +1,25 @@
 //! One face of one body: which part of it is boundary, and where that part ends.
 
+mod cover;
+mod edges;
+
 use planecut_kernel::DVec3;
-use planecut_kernel::sign::Sign;
+
+pub(super) use cover::Section;
 
 use super::clip::{Clipper, Cutter};
 use super::contact::{Contact, Facing, misses};
 use super::covered::CoverWorker;
 use super::ownership::{EdgeSide, Ownership, Turn};
 use super::role::{Pair, Role};
-use super::section::{Clip, Cover, Line, Piece, Polygon};
+use super::section::{Clip, Piece, Polygon};
 use super::signs::{KeptSigns, Signs};
 use super::sweep::{Context, Sweep};
 use super::{BoundaryEdge, EdgeChange, KnownEdge, Scene};
-use crate::base::{Bounds, Boxes, push_if};
-use crate::body::{BodyFace, PlaneFilter};
+use crate::base::{Bounds, push_if};
+use crate::body::BodyFace;
 use crate::expression::{OneLevel, Restriction};
-use crate::ids::{BodyFaceId, BodyId, EdgeId, Id, KeptLeafId, LeafId, NearId, holds, number32, place_of};
-use crate::plane_table::{PlaneId, PlaneTable};
+use crate::ids::{BodyFaceId, BodyId, EdgeId, Id, KeptLeafId, LeafId, NearId};
 
 /// Number of sections from which those near one are looked up: few are compared one by one.
 const MANY_SECTIONS: usize = 32;
@@ -32,27 +35,6 @@ pub(super) struct Reaching {
     pub(super) contact: Contact,
     /// When its face on the plane has its turn, where it has one.
     pub(super) turn: Turn,
-}
-
-/// A part of the face that another body covers.
-#[derive(Debug, Clone)]
-pub(super) struct Section {
-    pub(super) polygon: Polygon,
-    pub(super) bounds: Bounds,
-    pub(super) of: Reaching,
-}
-
-impl Section {
-    /// Whether another surely lies within this one, and strictly but for edges of the region, which both lie in.
-    fn surely_holds(&self, table: &PlaneTable, region: &Polygon, other: &Self) -> bool {
-        self.bounds.holds(&other.bounds)
-            && self.polygon.edges.iter().all(|edge| {
-                holds(&region.edges, *edge) || {
-                    let filter = PlaneFilter::new(table.half_space(*edge));
-                    other.polygon.corners.iter().all(|corner| filter.side(corner) == Sign::Negative)
-                }
-            })
-    }
 }
 
 /// Emits the boundary edges of faces, reusing its buffers.
@@ -72,6 +54,7 @@ pub(crate) struct FaceWorker {
     others: Vec<Reaching>,
     /// Bodies that cover what lies in them, first those with a face on the plane: of these one often covers all.
     covering: Vec<Reaching>,
+    /// How many of these come first.
     coplanar: usize,
     open: Vec<Reaching>,
     /// Bodies that hold both sides of all of the region.
@@ -192,92 +175,6 @@ impl FaceWorker {
         let signs = Signs::new(scene.table, &self.signs);
         let cutter = Cutter { scene, signs, face, body: by, place: NearId::from_index(place) };
         self.cover.change(&mut self.clipper, cutter, &self.region, known, rounded)
-    }
-
-    /// Finds what covering bodies leave of the region; false where that is nothing.
-    fn cover_region(&mut self, scene: &Scene<'_>, face: &BodyFace) -> bool {
-        self.live = 0;
-        for k in 0..self.covering.len() {
-            let cutter = cutter(scene, &self.signs, face, &self.covering[k]);
-            if self.clipper.surely_holds(cutter, &self.region) {
-                return false;
-            }
-        }
-        for k in 0..self.covering.len() {
-            match self.cover(scene, face, self.covering[k]) {
-                Clip::Whole => return false,
-                Clip::Part if self.take_section(scene, face) => {}
-                Clip::Part => return false,
-                Clip::Nothing => {}
-            }
-        }
-        self.drop_held_sections(scene.table);
-        true
-    }
-
-    /// Takes the section that was cut last; false where covering bodies leave nothing of the region.
-    ///
-    /// Where a section has one edge within the region, what it leaves is convex, and the region becomes that.
-    fn take_section(&mut self, scene: &Scene<'_>, face: &BodyFace) -> bool {
-        let mut k = self.live;
-        self.live += 1;
-        while k < self.live {
-            let mut within = self.edges_within_region(k);
-            match (within.next(), within.next()) {
-                (None, _) => return false,
-                (Some(edge), None) => {
-                    drop(within);
-                    self.leave_out_section(k);
-                    self.cut_region(scene, face, edge.flipped());
-                    // of others there may be one edge left now
-                    k = 0;
-                }
-                (Some(_), Some(_)) => k += 1,
-            }
-        }
-        true
-    }
-
-    /// The edges of a section that are none of the region.
-    fn edges_within_region(&self, section: usize) -> impl Iterator<Item = PlaneId> {
-        let edges = self.sections[section].polygon.edges.iter().copied();
-        edges.filter(|edge| !holds(&self.region.edges, *edge))
-    }
-
-    /// Cuts the region, and the sections with it.
-    fn cut_region(&mut self, scene: &Scene<'_>, face: &BodyFace, cut: PlaneId) {
-        self.region.clip(Signs::new(scene.table, &self.signs), face.plane, cut, &mut self.part);
-        self.clipper.look_at(&self.region);
-        for k in (0..self.live).rev() {
-            let (section, signs) = (&mut self.sections[k], Signs::new(scene.table, &self.signs));
-            match section.polygon.clip(signs, face.plane, cut, &mut self.part) {
-                Clip::Whole => section.polygon.name_edge_by(signs, face.plane, cut),
-                Clip::Part => section.bounds = section.polygon.bounds(),
-                Clip::Nothing => self.leave_out_section(k),
-            }
-        }
-    }
-
-    /// Leaves out a section; the others stay in order.
-    fn leave_out_section(&mut self, section: usize) {
-        self.sections[section..self.live].rotate_left(1);
-        self.live -= 1;
-    }
-
-    /// Leaves out what covering bodies cover within what another covers: none of its edges is one of the boundary.
-    fn drop_held_sections(&mut self, table: &PlaneTable) {
-        if self.live > MANY_SECTIONS {
-            return;
-        }
-        let mut k = 0;
-        while k < self.live {
-            let (section, others) = (&self.sections[k], (0..self.live).filter(|other| *other != k));
-            if others.map(|other| &self.sections[other]).any(|other| other.surely_holds(table, &self.region, section)) {
-                self.leave_out_section(k);
-            } else {
-                k += 1;
-            }
-        }
     }
 
     /// What [`sort_out`](Self::sort_out) finds in a union, or where the tree has one level and no other face lies on the plane; and which
@@ -431,96 +328,8 @@ impl FaceWorker {
         let turn = scene.turn(body, other.unwrap_or(face));
         Reaching { body, place: self.places[leaf.index()], leaf, contact, turn }
     }
-
-    /// Clips the region by a body into the next free section.
-    fn cover(&mut self, scene: &Scene<'_>, face: &BodyFace, of: Reaching) -> Clip {
-        if self.sections.len() == self.live {
-            self.sections.push(Section { polygon: Polygon::default(), bounds: Bounds::EMPTY, of });
-        }
-        let cutter = cutter(scene, &self.signs, face, &of);
-        let section = &mut self.sections[self.live];
-        section.of = of;
-        let clip = self.clipper.clip(cutter, &self.region, &mut section.polygon);
-        if clip == Clip::Part {
-            section.bounds = section.polygon.bounds();
-        }
-        clip
-    }
-
-    /// The pieces of the region's own edges along which nothing is covered.
-    fn emit_own_edges(&mut self, scene: &Scene<'_>, face: &BodyFace, facing: Facing, out: &mut Vec<BoundaryEdge>) {
-        let signs = Signs::new(scene.table, &self.signs);
-        for (i, &edge) in self.region.edges.iter().enumerate() {
-            let line = Line { plane: face.plane, edge };
-            self.pieces.clear();
-            self.pieces.push(Piece::of_edge(&self.region, i));
-            for section in &self.sections[..self.live] {
-                let polygon = &section.polygon;
-                if let Some(k) = place_of(&polygon.edges, edge) {
-                    let covered = Piece::of_edge(polygon, k);
-                    line.subtract(signs, &mut self.pieces, &covered);
-                }
-            }
-            out.extend(self.pieces.iter().map(|piece| BoundaryEdge::left(face, facing, edge, piece.start, piece.end)));
-        }
-    }
-
-    /// The pieces of section edges outside of which nothing is covered: there the boundary ends, too.
-    fn emit_section_edges(&mut self, scene: &Scene<'_>, face: &BodyFace, facing: Facing, out: &mut Vec<BoundaryEdge>) {
-        let signs = Signs::new(scene.table, &self.signs);
-        let sections = &self.sections[..self.live];
-        let boxes = || Boxes::new(sections.iter().map(|section| section.bounds).collect());
-        let boxes = (sections.len() > MANY_SECTIONS).then(boxes);
-        self.beside.clear();
-        self.beside.extend(0..number32(sections.len()));
-        for (k, section) in sections.iter().enumerate() {
-            if let Some(boxes) = &boxes {
-                boxes.touching(&section.bounds, &mut self.beside);
-            }
-            for (i, &edge) in section.polygon.edges.iter().enumerate() {
-                if holds(&self.region.edges, edge) {
-                    continue;
-                }
-                let line = Line { plane: face.plane, edge };
-                self.pieces.clear();
-                self.pieces.push(Piece::of_edge(&section.polygon, i));
-                subtract_others(signs, line, sections, &self.beside, [k, i], &mut self.pieces);
-                let right = |piece: &Piece| BoundaryEdge::right(face, facing, edge, piece.start, piece.end);
-                out.extend(self.pieces.iter().map(right));
-            }
-        }
-    }
 }
 
 fn cutter<'a>(scene: &'a Scene<'a>, signs: &'a KeptSigns, face: &'a BodyFace, by: &Reaching) -> Cutter<'a> {
     Cutter { scene, signs: Signs::new(scene.table, signs), face, body: by.body, place: by.place }
-}
-
-/// Takes out of `pieces`, which lie on edge `edge` of section `own`, what others cover on the outer side of those `beside`.
-///
-/// Along a shared edge line a section on the outer side covers; of two on the same side the first keeps the edge.
-fn subtract_others(
-    signs: Signs<'_>,
-    line: Line,
-    sections: &[Section],
-    beside: &[u32],
-    [own, edge]: [usize; 2],
-    pieces: &mut Vec<Piece>,
-) {
-    let Some(whole) = pieces.first().copied() else { return };
-    let bounds = sections[own].polygon.edge_bounds(edge);
-    for (k, other) in beside.iter().map(|k| (*k as usize, &sections[*k as usize])) {
-        if k == own || pieces.is_empty() || !other.bounds.touches(&bounds) {
-            continue;
-        }
-        match line.cover(signs, &whole, &other.polygon) {
-            Cover::Apart => {}
-            Cover::Across(part) => line.subtract(signs, pieces, &part),
-            Cover::Along(part, edge) => {
-                if !line.is_same_side(signs.table, edge) || k < own {
-                    line.subtract(signs, pieces, &part);
-                }
-            }
-        }
-    }
 }
