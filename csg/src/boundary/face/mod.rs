@@ -37,6 +37,13 @@ pub(super) struct Reaching {
     pub(super) turn: Turn,
 }
 
+impl Reaching {
+    /// Whether it has a face on the plane.
+    fn is_coplanar(&self) -> bool {
+        self.contact != Contact::Across
+    }
+}
+
 /// Emits the boundary edges of faces, reusing its buffers.
 #[derive(Default)]
 pub(crate) struct FaceWorker {
@@ -54,8 +61,6 @@ pub(crate) struct FaceWorker {
     others: Vec<Reaching>,
     /// Bodies that cover what lies in them, first those with a face on the plane: of these one often covers all.
     covering: Vec<Reaching>,
-    /// How many of these come first.
-    coplanar: usize,
     open: Vec<Reaching>,
     /// Bodies that hold both sides of all of the region.
     holding: Vec<KeptLeafId>,
@@ -190,7 +195,6 @@ impl FaceWorker {
         operation: OneLevel,
     ) -> Option<Facing> {
         self.covering.clear();
-        self.coplanar = 0;
         let turn = scene.turn(self.own(), face);
         let is_tool = operation == OneLevel::Difference && self.leaves[own.index()].index() != 0;
         let mut is_in_first = !is_tool;
@@ -213,11 +217,11 @@ impl FaceWorker {
 
     /// Adds a body that covers what lies in it.
     fn cover_by(&mut self, reaching: Reaching) {
+        let coplanar = self.covering.partition_point(Reaching::is_coplanar);
         self.covering.push(reaching);
-        if reaching.contact != Contact::Across {
+        if reaching.is_coplanar() {
             let last = self.covering.len() - 1;
-            self.covering.swap(self.coplanar, last);
-            self.coplanar += 1;
+            self.covering.swap(coplanar, last);
         }
     }
 
@@ -287,7 +291,6 @@ impl FaceWorker {
     /// Finds what each body does to the face and cuts the face down to what is required; false where nothing is left.
     fn sort_out(&mut self, scene: &Scene<'_>, own: &Reaching, face: &BodyFace) -> bool {
         self.covering.clear();
-        self.coplanar = 0;
         self.open.clear();
         self.holding.clear();
         self.others.clear();
@@ -297,7 +300,7 @@ impl FaceWorker {
             }
         }
         let polarity = scene.polarity(own.body);
-        let coplanar = self.others.iter().filter(|other| other.contact != Contact::Across).count();
+        let coplanar = self.others.iter().filter(|other| other.is_coplanar()).count();
         for k in 0..self.others.len() {
             let reaching = self.others[k];
             match Pair::new(scene.expression, &self.restriction, (own, polarity), &reaching, coplanar).role() {
