@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 
-/// Measures of a solid, taken from its boundary before triangulation; lengths in the input's units.
+/// Measures of a solid, taken from its boundary before triangulation; lengths in the input's units. A part thinner than
+/// rounding counts here, also where the mesh leaves it out as noise.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]

@@ -208,3 +208,30 @@ fn bodies_that_end_on_one_line_of_a_face_by_different_planes() {
         }
     }
 }
+
+/// A needle along x = 1.1, one ulp thick: contraction takes it out of the mesh, the measures of the exact boundary reach
+/// to its end, and it is reported as noise.
+#[test]
+fn a_needle_thinner_than_rounding_is_reported_as_noise() {
+    let model = model_of(&[
+        &[
+            ([0.0, 1.0, 0.0], 0.43333333333333335, 0),
+            ([0.0, -1.0, 0.0], 0.2333333333333333, 0),
+            ([0.0, 0.0, -1.0], -0.7666666666666666, 0),
+            ([-1.0, 0.0, 1.0], -0.3333333333333333, 0),
+            ([1.0, 0.0, 0.0], 1.1, 0),
+        ],
+        &[
+            ([1.0, 0.0, 0.0], -0.2333333333333333, 0),
+            ([-1.0, 0.0, 0.0], 0.9, 0),
+            ([0.0, 1.0, 0.0], 0.43333333333333335, 0),
+            ([0.0, -1.0, 0.0], 0.5666666666666667, 0),
+            ([0.0, 0.0, 1.0], 0.43333333333333335, 0),
+            ([0.0, 0.0, -1.0], 0.9, 0),
+        ],
+    ]);
+    let found = evaluate_soundly(&model).expect("a sound mesh");
+    let reach = found.mesh.positions.iter().fold(f64::NEG_INFINITY, |reach, at| reach.max(at.x));
+    assert_eq!((reach, found.solid.max.x), (-0.2333333333333333, 1.1));
+    assert!(found.noise.collapsed > 0 && found.noise.thickest < 1e-15, "{:?}", found.noise);
+}
