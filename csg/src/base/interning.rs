@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use planecut_parallel::prelude::*;
 use rustc_hash::{FxBuildHasher, FxHashMap};
 
-use super::{by_group, concat_owned, repeated};
+use super::{by_group, concat_owned, made_by_place, repeated};
 use crate::ids::number32;
 
 /// Number of keys, about, that a thread numbers in a row.
@@ -34,7 +34,7 @@ pub(crate) fn intern<K: Copy + Eq + Hash + Send + Sync, N: Send>(
     number_of: impl Fn(usize) -> N + Sync,
 ) -> (Vec<K>, Vec<N>) {
     let group_of = |place: usize| number32(group(&key(place)));
-    let of_key: Vec<u32> = (0..keys).into_par_iter().with_min_len(KEYS_OF_CHUNK / 4).map(group_of).collect();
+    let of_key: Vec<u32> = made_by_place(keys, KEYS_OF_CHUNK / 4, group_of);
     let (starts, members) = by_group(bound, keys, |place| of_key[place] as usize, number32);
     let numbers = repeated(keys, || AtomicU32::new(0));
     // groups in runs of about as many keys
@@ -65,8 +65,9 @@ pub(crate) fn intern<K: Copy + Eq + Hash + Send + Sync, N: Send>(
         first[groups].fill(end);
         end += number32(different.len());
     }
-    let number = |(number, group): (AtomicU32, u32)| number_of((number.into_inner() + first[group as usize]) as usize);
-    let numbers = numbers.into_par_iter().with_min_len(KEYS_OF_CHUNK / 4).zip(of_key).map(number).collect();
+    let number =
+        |place: usize| number_of((numbers[place].load(Ordering::Relaxed) + first[of_key[place] as usize]) as usize);
+    let numbers = made_by_place(keys, KEYS_OF_CHUNK / 4, number);
     (concat_owned(different), numbers)
 }
 

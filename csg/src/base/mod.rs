@@ -21,8 +21,9 @@ pub(crate) use clock::Clock;
 pub(crate) use exact_sum::ExactSum;
 pub(crate) use interning::{WEIGHTS, hash_of, intern, sortable};
 pub(crate) use parallel::{
-    by_parts, concat_made, concat_owned, counted, map_chunks, map_fixed_chunks, map_weighed_chunks,
-    map_weighed_chunks_into, repeated, runs_apart, split_by, starts_of, takes_much_memory, weighed_runs,
+    by_parts, concat_made, concat_owned, counted, made_by_place, map_chunks, map_fixed_chunks, map_items, map_owned,
+    map_ranges, map_weighed_chunks, map_weighed_chunks_into, repeated, runs_apart, split_by, starts_of,
+    takes_much_memory, weighed_runs, with_room,
 };
 pub(crate) use push_if::push_if;
 pub(crate) use rays::IN_BOX;

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 use planecut_kernel::sign::Counts;
 use planecut_parallel::job;
@@ -29,6 +30,17 @@ const SHARES_OF_COPY: usize = 16;
 /// Number of bytes from which lists are not kept longer than they must.
 const MUCH_MEMORY: usize = 1 << 24;
 
+/// Number of bytes from which the allocator of glibc maps a block by itself, whatever was dropped before, and unmaps it when it is dropped: 32 MB, the greatest value of
+/// its `M_MMAP_THRESHOLD`, and a page. With other allocators nothing is to be had.
+const MAPPED: usize = if cfg!(all(target_os = "linux", target_env = "gnu", target_pointer_width = "64")) {
+    (1 << 25) + (1 << 12)
+} else {
+    0
+};
+
+/// Least number of bytes of a part of a long list for which this is worth while.
+const MAPPED_PART: usize = 1 << 20;
+
 /// Whether a list is so long that it should not be there twice.
 pub(crate) fn takes_much_memory<T>(count: usize) -> bool {
     count * size_of::<T>() >= MUCH_MEMORY
@@ -41,15 +53,44 @@ pub(crate) fn map_chunks<T: Sync, R: Send>(
     least: usize,
     work: impl Fn(&[T]) -> R + Sync,
 ) -> (Vec<R>, Counts) {
-    let shares = Shares::new(items.len(), least);
-    let mut chunks: Vec<&[T]> = Vec::new();
-    let mut rest = items;
-    while !rest.is_empty() {
-        let (chunk, others) = rest.split_at(shares.next(rest.len()).min(rest.len()));
-        chunks.push(chunk);
-        rest = others;
-    }
-    map_all(&chunks, work)
+    map_ranges(items.len(), least, |range| work(&items[range]))
+}
+
+/// The same for the numbers from zero to a count.
+pub(crate) fn map_ranges<R: Send>(
+    count: usize,
+    least: usize,
+    work: impl Fn(Range<usize>) -> R + Sync,
+) -> (Vec<R>, Counts) {
+    let starts = starts_of(Shares::new(count, least).lengths(count));
+    let stage = Stage::new(starts.len() - 1);
+    in_order(planecut_parallel::map_parts(starts.len() - 1, |k| stage.counted(|| work(starts[k]..starts[k + 1]))))
+}
+
+/// What is made of each item, in their order: `work` is given the number of the first of some items, these, and the places of what it makes of them,
+/// where `blank` is. Of many items this takes less memory than lists that are joined.
+pub(crate) fn map_items<T: Sync, R: Copy + Send + Sync>(
+    items: &[T],
+    least: usize,
+    blank: R,
+    work: impl Fn(usize, &[T], &mut [R]) + Sync,
+) -> (Vec<R>, Counts) {
+    let mut made = repeated(items.len(), || blank);
+    let starts = starts_of(Shares::new(items.len(), least).lengths(items.len()));
+    let places = split_by(&mut made, starts.windows(2).map(|ends| ends[1] - ends[0]));
+    let (_, counts) = map_owned(starts.into_iter().zip(places).collect(), |(start, places)| {
+        work(start, &items[start..start + places.len()], places);
+    });
+    (made, counts)
+}
+
+/// The outcome of `work` for each of some parts, which are dropped one by one, in their order.
+pub(crate) fn map_owned<P: Send, R: Send>(parts: Vec<P>, work: impl Fn(P) -> R + Sync) -> (Vec<R>, Counts) {
+    let stage = Stage::new(parts.len());
+    let parts: Vec<Mutex<Option<P>>> = parts.into_iter().map(|part| Mutex::new(Some(part))).collect();
+    let take = |k: usize| parts[k].lock().unwrap_or_else(PoisonError::into_inner).take();
+    let outcome = |k: usize| stage.counted(|| work(take(k).expect("each part is taken once")));
+    in_order(planecut_parallel::map_parts(parts.len(), outcome))
 }
 
 /// The same in chunks that do not depend on the number of threads, for work that asks for other signs where it follows other items of a chunk.
@@ -91,10 +132,7 @@ pub(crate) fn map_weighed_chunks_into<T: Sync, S: Send, R: Send>(
 ) -> (Vec<R>, Counts) {
     let runs = weighed_runs(items.len(), least, |k| size(&items[k]));
     let parts = split_by(list, runs.iter().map(|run| items[run.clone()].iter().map(&size).sum()));
-    let stage = Stage::new(runs.len());
-    let jobs: Vec<(Range<usize>, &mut [S])> = runs.into_iter().zip(parts).collect();
-    let outcome = |(run, part)| stage.counted(|| work(&items[run], part));
-    in_order(jobs.into_par_iter().with_max_len(1).map(outcome).collect())
+    map_owned(runs.into_iter().zip(parts).collect(), |(run, part)| work(&items[run], part))
 }
 
 /// How much of some work threads do in a row.
@@ -113,6 +151,16 @@ impl Shares {
     /// The size of the next one, where so much is left.
     fn next(&self, left: usize) -> usize {
         (left / (PARTS_OF_REST * self.threads)).max(self.least)
+    }
+
+    /// The sizes of all of them.
+    fn lengths(self, all: usize) -> impl Iterator<Item = usize> {
+        let mut left = all;
+        std::iter::from_fn(move || {
+            let length = self.next(left).min(left);
+            left -= length;
+            (length > 0).then_some(length)
+        })
     }
 }
 
@@ -204,8 +252,24 @@ fn extend_by_parts<T: Send>(
 }
 
 /// A list of elements that are made without regard to their places, by all threads: filling much memory takes time.
-pub(crate) fn repeated<T: Send>(count: usize, element: impl Fn() -> T + Sync) -> Vec<T> {
-    (0..count).into_par_iter().with_min_len(REPEATED_OF_CHUNK).map(|_| element()).collect()
+pub(crate) fn repeated<T: Send>(count: usize, element: impl Fn() -> T + Sync + Send) -> Vec<T> {
+    made_by_place(count, REPEATED_OF_CHUNK, |_| element())
+}
+
+/// A list of elements that are made from their places by all threads, at least `least` of them in a row; for as long as an evaluation lasts, see [`with_room`].
+pub(crate) fn made_by_place<T: Send>(count: usize, least: usize, make: impl Fn(usize) -> T + Sync + Send) -> Vec<T> {
+    let mut list = with_room(count, count);
+    list.par_extend((0..count).into_par_iter().with_min_len(least).map(make));
+    list
+}
+
+/// A list with room for some elements of a list or, where it is made in parts, of one of its parts; `of_all` is the number of elements of the whole. What takes much
+/// memory has room for so much that the allocator gives it back to the system when it is dropped, and what is not written to takes no memory. Of smaller blocks
+/// the allocator keeps some 64 MB for each thread that dropped them, which was a quarter of the memory of a model of 100,000 bodies.
+pub(crate) fn with_room<T>(count: usize, of_all: usize) -> Vec<T> {
+    let is_mapped = takes_much_memory::<T>(of_all) && count * size_of::<T>() >= MAPPED_PART;
+    let least = if is_mapped { MAPPED.div_ceil(size_of::<T>()) } else { 0 };
+    Vec::with_capacity(count.max(least))
 }
 
 /// The elements of some parts one after another. Where they are many, or there is one thread, parts are dropped when they are copied.

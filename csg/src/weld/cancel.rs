@@ -4,6 +4,8 @@
 //! end points: coplanar pieces merge, however they were cut. The maximal runs that survive are then cut at the ends of
 //! all runs on the line, so that faces meet without T-junctions.
 
+use std::ops::Range;
+
 use planecut_kernel::sign::Counts;
 
 use super::WeldError;
@@ -14,7 +16,7 @@ use super::lines::Line;
 use super::points::Points;
 use super::slits::SlitFinder;
 use super::stops::Stops;
-use crate::base::{Workers, concat_made, map_chunks, split_by, starts_of};
+use crate::base::{Workers, concat_made, map_ranges, split_by, starts_of, with_room};
 use crate::ids::{DirectedLine, EdgeId, HalfEdgeId, Id, LineId, PointId, PointOfRegion, RegionId};
 use crate::plane_table::{PlaneId, PlaneTable};
 
@@ -108,21 +110,18 @@ pub(super) fn pieces(
     edges: &[Run],
     (starts, by_line): &(Vec<u32>, Vec<EdgeId>),
 ) -> Result<(Vec<Pieces>, Counts), WeldError> {
-    let numbers: Vec<LineId> = LineId::all(lines.len()).collect();
     // where the edges of lines that follow one another are in the list
-    let of_lines = |lines: &[LineId]| {
-        let first = lines[0].index();
-        starts[first] as usize..starts[first + lines.len()] as usize
-    };
+    let of_lines = |lines: Range<usize>| starts[lines.start] as usize..starts[lines.end] as usize;
     let workers = Workers::new(|| (LineWorker::new(table, points, lines, planes), Vec::new()));
-    let work = |numbers: &[LineId], (worker, runs): &mut (LineWorker<'_>, Vec<Run>)| -> Result<Pieces, WeldError> {
+    let work = |numbers: Range<usize>, (worker, runs): &mut (LineWorker<'_>, Vec<Run>)| -> Result<Pieces, WeldError> {
         let mut surviving = Surviving::default();
-        let mut pieces = Vec::with_capacity(of_lines(numbers).len());
-        for some in numbers.chunks(LINES_AT_A_TIME) {
+        let mut pieces = with_room(of_lines(numbers.clone()).len(), by_line.len());
+        for first in numbers.clone().step_by(LINES_AT_A_TIME) {
+            let some = first..numbers.end.min(first + LINES_AT_A_TIME);
             // edges lie anywhere in memory: in a loop of their own several are on their way at once
             runs.clear();
-            runs.extend(by_line[of_lines(some)].iter().map(|k| edges[k.index()]));
-            for group in split_by(runs, some.iter().map(|line| of_lines(&[*line]).len())) {
+            runs.extend(by_line[of_lines(some.clone())].iter().map(|k| edges[k.index()]));
+            for group in split_by(runs, some.map(|line| of_lines(line..line + 1).len())) {
                 if worker.pair_alone(group, &mut pieces) {
                     continue;
                 }
@@ -136,7 +135,7 @@ pub(super) fn pieces(
         }
         Ok(Pieces { pieces, is_slit: !surviving.slits.is_empty(), passed: surviving.passed })
     };
-    let (parts, counts) = map_chunks(&numbers, 256, |numbers| workers.with(|worker| work(numbers, worker)));
+    let (parts, counts) = map_ranges(lines.len(), 256, |numbers| workers.with(|worker| work(numbers, worker)));
     Ok((parts.into_iter().collect::<Result<_, _>>()?, counts))
 }
 

@@ -10,7 +10,7 @@ use super::nest::{Face, Faces, Projection};
 use super::points::Points;
 use super::regions::Regions;
 use super::triangulate::{Triangles, Triangulator, WeldPoints};
-use crate::base::{Workers, by_parts, concat_made, concat_owned, map_chunks, starts_of};
+use crate::base::{Workers, by_parts, concat_made, concat_owned, map_owned, starts_of, with_room};
 use crate::ids::{HalfEdgeId, Id, PointId, RegionId, VertexId, number32};
 use crate::mesh::{Mesh, MeshFace};
 use crate::model::Material;
@@ -24,29 +24,29 @@ pub(super) struct FilledFaces {
     triangle_faces: Vec<u32>,
 }
 
-/// Fills faces with triangles, in parallel.
+/// Fills faces with triangles, in parallel; faces are dropped part by part, as of a large model they take as much memory as triangles do.
 pub(super) fn filled_faces(
     table: &PlaneTable,
     regions: &Regions,
     points: &Points,
     pieces: &[HalfEdge],
-    faces: &[Faces],
+    faces: Vec<Faces>,
 ) -> (Vec<FilledFaces>, Counts) {
     let exact = WeldPoints { table, points, half_edges: pieces, planes: &regions.planes };
     let workers = Workers::new(|| (Triangulator::new(&exact), Vec::new()));
-    let fill = |chunk: &[Faces], (triangulator, edges): &mut (Triangulator<'_>, Vec<FaceEdge>)| {
+    let fill = |faces: Faces, (triangulator, edges): &mut (Triangulator<'_>, Vec<FaceEdge>)| {
         let mut triangles = Triangles::default();
         // planes lie anywhere in memory: in a loop of their own several are on their way at once
         let of_face = |face: Face<'_>| {
             let normal = table.half_space(regions.planes[face.region.index()]).normal();
             (mesh_face(regions, face.region, normal), Projection::new(normal))
         };
-        let all = || chunk.iter().flat_map(Faces::iter);
-        let (mut mesh_faces, projections): (Vec<MeshFace>, Vec<Projection>) = all().map(of_face).unzip();
-        let count = chunk.iter().map(Faces::triangle_count).sum();
-        triangles.reserve(count);
-        let mut triangle_faces = Vec::with_capacity(count);
-        for (number, (face, projection)) in (0..).zip(all().zip(projections)) {
+        let (mut mesh_faces, projections): (Vec<MeshFace>, Vec<Projection>) = faces.iter().map(of_face).unzip();
+        let count = faces.triangle_count();
+        triangles.corners = with_room(count, pieces.len());
+        triangles.on_loops.reserve(count);
+        let mut triangle_faces = with_room(count, pieces.len());
+        for (number, (face, projection)) in (0..).zip(faces.iter().zip(projections)) {
             edges.clear();
             edges.extend(face.loops().flatten().map(|k| pieces[k.index()].edge_of_face(*k)));
             let at = |point: PointId| projection.of(points.positions[point.index()]);
@@ -69,7 +69,7 @@ pub(super) fn filled_faces(
         triangle_faces.shrink_to_fit();
         FilledFaces { triangles, faces: mesh_faces, triangle_faces }
     };
-    map_chunks(faces, 1, |chunk| workers.with(|worker| fill(chunk, worker)))
+    map_owned(faces, |part| workers.with(|worker| fill(part, worker)))
 }
 
 fn mesh_face(regions: &Regions, region: RegionId, normal: DVec3) -> MeshFace {

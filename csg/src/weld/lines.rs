@@ -4,11 +4,10 @@ use std::cmp::Ordering;
 
 use planecut_kernel::sign::{Counts, Row, Sign, orient3};
 use planecut_kernel::{DVec3, HalfSpace, line_coordinates};
-use planecut_parallel::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::points::Points;
-use crate::base::{WEIGHTS, concat_made, concat_owned, intern, map_chunks, sort_by_number, sortable, starts_of};
+use crate::base::{WEIGHTS, intern, made_by_place, map_chunks, map_items, sort_by_number, sortable};
 use crate::boundary::BoundaryEdge;
 use crate::ids::{DirectedLine, Id, LineId, NameId, PointId};
 use crate::plane_table::{PlaneId, PlaneTable};
@@ -34,8 +33,8 @@ pub(super) type Key = (usize, [u64; 4]);
 pub(super) fn identify(table: &PlaneTable, edges: &[BoundaryEdge]) -> (Vec<Line>, Vec<LineId>, Counts) {
     let key = |edge: usize| pair(&edges[edge]);
     let (different, of_pair) = intern(edges.len(), key, table.len(), |key| (key >> 32) as usize, NameId::from_index);
-    let (lines, of_different, counts) = number(table, &different);
-    (lines, of_pair.into_par_iter().with_min_len(1024).map(|k| of_different[k.index()]).collect(), counts)
+    let (lines, of_different, counts) = number(table, different);
+    (lines, made_by_place(edges.len(), 1024, |edge| of_different[of_pair[edge].index()]), counts)
 }
 
 /// What names the line of an edge: the indices of its two planes.
@@ -50,20 +49,19 @@ pub(super) fn pair_of(planes: [PlaneId; 2]) -> u64 {
 }
 
 /// Numbers the lines of different pairs, each two plane indices.
-fn number(table: &PlaneTable, pairs: &[u64]) -> (Vec<Line>, Vec<LineId>, Counts) {
-    let (parts, mut counts) = map_chunks(pairs, 256, |pairs| {
-        let (mut lines, mut marks) = (Vec::with_capacity(pairs.len()), Vec::with_capacity(pairs.len()));
-        for (number, pair) in NameId::all(pairs.len()).zip(pairs) {
-            let line = Line::of(table, *pair);
-            marks.push(mark(table, &line, number));
-            lines.push(line);
-        }
-        (lines, marks)
+fn number(table: &PlaneTable, pairs: Vec<u64>) -> (Vec<Line>, Vec<LineId>, Counts) {
+    let (mut lines, mut counts) = map_items(&pairs, 256, Line::blank(), |_, pairs, lines| {
+        lines.iter_mut().zip(pairs).for_each(|(line, pair)| *line = Line::of(table, *pair));
     });
-    let (lines, marks): (Vec<_>, Vec<Vec<Mark>>) = parts.into_iter().unzip();
-    let first = starts_of(marks.iter().map(Vec::len));
-    let mut lines = concat_owned(lines);
-    let mut order = concat_made(marks, |part, mark: &Mark| Mark { line: mark.line.plus(first[part]), ..*mark });
+    drop(pairs);
+    let (mut order, marking) = map_items(&lines, 256, Mark::new(0, 0.0, 0.0, NameId::NONE), |first, lines, marks| {
+        let numbered = NameId::all(lines.len()).zip(lines);
+        marks
+            .iter_mut()
+            .zip(numbered)
+            .for_each(|(place, (number, line))| *place = mark(table, line, number.plus(first)));
+    });
+    counts += marking;
     sort_by_number(&mut order, |mark| mark.low);
     // runs of lines that may be equal
     let mut runs: Vec<&[Mark]> = Vec::new();
@@ -169,6 +167,11 @@ fn whole(number: f32) -> u64 {
 }
 
 impl Line {
+    /// What is in a list until its lines are made.
+    fn blank() -> Self {
+        Self { planes: [PlaneId::of_index(0); 2], axis: 0, direction: [Sign::Zero; 3] }
+    }
+
     /// That of a [`pair`] of planes.
     #[expect(clippy::cast_possible_truncation, reason = "two numbers of 32 bits are taken apart")]
     pub(super) fn of(table: &PlaneTable, pair: u64) -> Self {

@@ -10,7 +10,7 @@ use planecut_parallel::prelude::*;
 use rustc_hash::FxHashSet;
 
 use super::cancel::HalfEdge;
-use crate::base::{concat_owned, repeated};
+use crate::base::{concat_owned, made_by_place, repeated};
 use crate::closed_mesh::connectivity::{HalfEdges, are_all_paired};
 use crate::ids::{HalfEdgeId, Id, PointId, VertexId, number32};
 use crate::mesh::Mesh;
@@ -21,8 +21,8 @@ const CHUNK: usize = 4096;
 /// The vertex at the start of each half-edge; and for each vertex the point it lies on. Vertices are numbered by the first of their half-edges.
 pub(super) fn vertices(pieces: &[HalfEdge], following: Vec<HalfEdgeId>) -> (Vec<VertexId>, Vec<PointId>) {
     // Around the fan: the twin ends at the corner's point, and its follower starts there. In a list of their own several are on their way from memory at once.
-    let turned = |piece: &HalfEdge| following[piece.twin.index()];
-    let turned: &[HalfEdgeId] = &pieces.par_iter().with_min_len(CHUNK).map(turned).collect::<Vec<_>>();
+    let turned = |piece: usize| following[pieces[piece].twin.index()];
+    let turned: &[HalfEdgeId] = &made_by_place(pieces.len(), CHUNK, turned);
     drop(following);
     let around = |first: HalfEdgeId| {
         let next = move |piece: &HalfEdgeId| Some(turned[piece.index()]).filter(|piece| *piece != first);
@@ -41,7 +41,7 @@ pub(super) fn vertices(pieces: &[HalfEdge], following: Vec<HalfEdgeId>) -> (Vec<
     // on one thread it is the same memory
     let number = |vertex: AtomicU32| VertexId::from_index(vertex.into_inner() as usize);
     let vertex = vertex.into_iter().map(number).collect();
-    (vertex, firsts.into_par_iter().with_min_len(CHUNK).map(|first| pieces[first.index()].from).collect())
+    (vertex, made_by_place(firsts.len(), CHUNK, |k| pieces[firsts[k].index()].from))
 }
 
 /// The half-edge behind each side of each triangle; [`Id::NONE`] for a diagonal.

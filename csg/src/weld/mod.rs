@@ -161,10 +161,8 @@ pub(crate) fn weld(
     let (vertex, point) = manifold::vertices(&pieces, following);
 
     let begin = Clock::start();
-    let (filled, counted) = filled_faces(table, &regions, &points, &pieces, &faces);
+    let (filled, counted) = filled_faces(table, &regions, &points, &pieces, faces);
     signs += counted;
-    // of a large model each of these is as large as its mesh
-    drop(faces);
     let twins = twins(pieces);
     let positions = points.into_positions();
     let (mut mesh, filled) = filled_faces::mesh_of(filled, &vertex, materials);

@@ -13,7 +13,8 @@ use planecut_parallel::prelude::*;
 use super::cancel::HalfEdge;
 use super::triangulate::LoopCorner;
 use crate::base::{
-    Bounds, concat_owned, intern, map_chunks, repeated, runs_apart, sort_by_number, sortable, starts_of,
+    Bounds, concat_owned, intern, made_by_place, map_chunks, map_items, repeated, runs_apart, sort_by_number, sortable,
+    starts_of,
 };
 use crate::boundary::BoundaryEdge;
 use crate::ids::{HalfEdgeId, Id, NameId, PointId};
@@ -71,13 +72,12 @@ impl Points {
             key([edge.face, edge.edge, if end.is_multiple_of(2) { edge.start } else { edge.end }])
         };
         let (different, of_triple) = intern(2 * edges.len(), key_of_end, table.len(), first, NameId::from_index);
-        let (named, mut counts) = map_chunks(&different, 256, |keys| {
-            keys.iter().map(|key| Named::of(table, planes(*key))).collect::<Vec<_>>()
+        let (named, mut counts) = map_items(&different, 256, Named::blank(), |_, keys, named| {
+            named.iter_mut().zip(keys).for_each(|(named, key)| *named = Named::of(table, planes(*key)));
         });
-        let named: Vec<Named> = concat_owned(named);
         drop(different);
-        let place = |(k, point): (usize, &Named)| (curve_number(point.position), NameId::from_index(k));
-        let mut sorted: Vec<(u64, NameId)> = named.par_iter().enumerate().with_min_len(1024).map(place).collect();
+        let place = |k: usize| (curve_number(named[k].position), NameId::from_index(k));
+        let mut sorted: Vec<(u64, NameId)> = made_by_place(named.len(), 1024, place);
         sort_by_number(&mut sorted, |point| point.0);
         let runs = runs_apart(&sorted, 512, |a, b| a.0 != b.0);
         let (parts, joining) = map_chunks(&runs, 1, |chunk| {
@@ -116,17 +116,17 @@ impl Points {
         let points = Self::of_names(&named, &concat_owned(firsts));
         drop(named);
         let number = |k: NameId| PointId::from_index(of_named[k.index()].load(Ordering::Relaxed) as usize);
-        let numbers = |ends: &[NameId]| [ends[0], ends[1]].map(number);
-        (points, of_triple.par_chunks_exact(2).with_min_len(1024).map(numbers).collect(), counts)
+        let ends = |edge: usize| [of_triple[2 * edge], of_triple[2 * edge + 1]].map(number);
+        (points, made_by_place(edges.len(), 1024, ends), counts)
     }
 
     /// Some of the points that were named, in the order given.
     fn of_names(named: &[Named], names: &[NameId]) -> Self {
-        let names = || names.par_iter().with_min_len(1024).map(|k| &named[k.index()]);
+        let named = |k: usize| &named[names[k].index()];
         Self {
-            planes: names().map(|named| named.planes).collect(),
-            positions: names().map(|named| named.position).collect(),
-            exact: names().map(|named| named.exact).collect(),
+            planes: made_by_place(names.len(), 1024, |k| named(k).planes),
+            positions: made_by_place(names.len(), 1024, |k| named(k).position),
+            exact: made_by_place(names.len(), 1024, |k| named(k).exact),
         }
     }
 
@@ -229,6 +229,11 @@ impl Points {
 }
 
 impl Named {
+    /// What is in a list until its points are named.
+    fn blank() -> Self {
+        Self { planes: [PlaneId::of_index(0); 3], position: DVec3::ZERO, exact: 0 }
+    }
+
     pub(super) fn of(table: &PlaneTable, [a, b, c]: [PlaneId; 3]) -> Self {
         let position = table.position([a, b, c]).expect("the planes of a corner are independent");
         Self { planes: right_handed(table, [a, b, c]), position, exact: exact_coordinates(table, [a, b, c], position) }

@@ -11,8 +11,8 @@ use super::nest::Projection;
 use super::pinches::PinchFinder;
 use super::points::Points;
 use crate::base::{
-    Workers, by_group, concat_owned, counted, number_of_two, repeated, runs_apart, sort_by_number, sort_few, split_by,
-    takes_much_memory, weighed_runs,
+    Workers, by_group, concat_owned, counted, made_by_place, number_of_two, repeated, runs_apart, sort_by_number,
+    sort_few, split_by, takes_much_memory, weighed_runs,
 };
 use crate::boundary::BoundaryEdge;
 use crate::ids::{HalfEdgeId, Id, PointId, PointOnLine, RegionId, number32};
@@ -152,7 +152,7 @@ impl ByRegion {
             }
         }
         let runs = weighed_runs(ranges.len(), PIECES_OF_CHUNK, |k| ranges[k].len());
-        let mut order = Order { regions, ranges, runs, old: vec![HalfEdgeId::NONE; end] };
+        let mut order = Order { regions, ranges, runs, old: repeated(end, || HalfEdgeId::NONE) };
         let parts = split_by(&mut order.old, lengths_of(&order.ranges, &order.runs));
         let fill = |(run, part): (&Range<usize>, &mut [HalfEdgeId])| {
             let members = order.regions[run.clone()].iter().flat_map(|new| self.of_region(self.order[new.index()]));
@@ -260,7 +260,7 @@ fn permute_part<P: Send>(
     get: impl Fn(&HalfEdge) -> P + Sync,
     set: impl Fn(&mut HalfEdge, P) + Sync,
 ) {
-    let parts: Vec<P> = old.par_iter().with_min_len(1 << 13).map(|old| get(&pieces[old.index()])).collect();
+    let parts: Vec<P> = made_by_place(old.len(), 1 << 13, |new| get(&pieces[old[new].index()]));
     pieces.par_iter_mut().with_min_len(1 << 13).zip(parts).for_each(|(piece, part)| set(piece, part));
 }
 

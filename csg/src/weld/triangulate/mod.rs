@@ -54,14 +54,6 @@ pub(crate) struct Triangles {
     pub(crate) on_loops: Vec<u8>,
 }
 
-impl Triangles {
-    /// Makes room for more.
-    pub(crate) fn reserve(&mut self, count: usize) {
-        self.corners.reserve(count);
-        self.on_loops.reserve(count);
-    }
-}
-
 /// The bits of the sides of a triangle for which something holds.
 pub(crate) fn side_bits(sides: [bool; 3]) -> u8 {
     sides.into_iter().rev().fold(0, |bits, side| bits << 1 | u8::from(side))
