@@ -5,7 +5,8 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 use planecut_parallel::prelude::*;
 
-use super::parallel::{repeated, takes_much_memory};
+use super::memory::takes_much_memory;
+use super::parallel::repeated;
 use crate::ids::number32;
 
 /// Least number of members that a thread looks at in a row.

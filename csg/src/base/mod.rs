@@ -6,6 +6,7 @@ mod by_group;
 mod clock;
 mod exact_sum;
 mod interning;
+mod memory;
 mod parallel;
 mod push_if;
 mod rays;
@@ -20,10 +21,10 @@ pub(crate) use by_group::by_group;
 pub(crate) use clock::Clock;
 pub(crate) use exact_sum::ExactSum;
 pub(crate) use interning::{WEIGHTS, hash_of, intern, sortable};
+pub(crate) use memory::{takes_much_memory, with_room};
 pub(crate) use parallel::{
     by_parts, concat_made, concat_owned, counted, made_by_place, map_chunks, map_fixed_chunks, map_items, map_owned,
-    map_ranges, map_weighed_chunks, map_weighed_chunks_into, repeated, runs_apart, split_by, starts_of,
-    takes_much_memory, weighed_runs, with_room,
+    map_ranges, map_weighed_chunks, map_weighed_chunks_into, repeated, runs_apart, split_by, starts_of, weighed_runs,
 };
 pub(crate) use push_if::push_if;
 pub(crate) use rays::IN_BOX;

@@ -8,6 +8,8 @@ use planecut_kernel::sign::Counts;
 use planecut_parallel::job;
 use planecut_parallel::prelude::*;
 
+use super::memory::{takes_much_memory, with_room};
+
 /// Into how many parts, for each thread, what is left to do is divided when a thread takes the next one. Parts become smaller towards the end,
 /// so that no thread waits long for the last one (guided self-scheduling: Polychronopoulos and Kuck 1987).
 const PARTS_OF_REST: usize = 3;
@@ -26,25 +28,6 @@ const REPEATED_OF_CHUNK: usize = 1 << 13;
 
 /// Shares of a long list, about, that are copied by all threads before the parts copied are dropped.
 const SHARES_OF_COPY: usize = 16;
-
-/// Number of bytes from which lists are not kept longer than they must.
-const MUCH_MEMORY: usize = 1 << 24;
-
-/// Number of bytes from which the allocator of glibc maps a block by itself, whatever was dropped before, and unmaps it when it is dropped: 32 MB, the greatest value of
-/// its `M_MMAP_THRESHOLD`, and a page. With other allocators nothing is to be had.
-const MAPPED: usize = if cfg!(all(target_os = "linux", target_env = "gnu", target_pointer_width = "64")) {
-    (1 << 25) + (1 << 12)
-} else {
-    0
-};
-
-/// Least number of bytes of a part of a long list for which this is worth while.
-const MAPPED_PART: usize = 1 << 20;
-
-/// Whether a list is so long that it should not be there twice.
-pub(crate) fn takes_much_memory<T>(count: usize) -> bool {
-    count * size_of::<T>() >= MUCH_MEMORY
-}
 
 /// The outcome of `work` for each chunk of some items, at least `least` in each, in their order. What a chunk holds depends on
 /// the number of threads: outcomes must not.
@@ -263,15 +246,6 @@ pub(crate) fn made_by_place<T: Send>(count: usize, least: usize, make: impl Fn(u
     list
 }
 
-/// A list with room for some elements of a list or, where it is made in parts, of one of its parts; `of_all` is the number of elements of the whole. What takes much
-/// memory has room for so much that the allocator gives it back to the system when it is dropped, and what is not written to takes no memory. Of smaller blocks
-/// the allocator keeps some 64 MB for each thread that dropped them, which was a quarter of the memory of a model of 100,000 bodies.
-pub(crate) fn with_room<T>(count: usize, of_all: usize) -> Vec<T> {
-    let is_mapped = takes_much_memory::<T>(of_all) && count * size_of::<T>() >= MAPPED_PART;
-    let least = if is_mapped { MAPPED.div_ceil(size_of::<T>()) } else { 0 };
-    Vec::with_capacity(count.max(least))
-}
-
 /// The elements of some parts one after another. Where they are many, or there is one thread, parts are dropped when they are copied.
 pub(crate) fn concat_owned<T: Copy + Send + Sync>(parts: Vec<Vec<T>>) -> Vec<T> {
     concat_made(parts, |_, element| *element)
@@ -349,13 +323,31 @@ mod tests {
     use planecut_testkit::random::Rng;
 
     use super::*;
+    use crate::base::memory;
+
+    #[test]
+    fn items_are_numbered_across_chunks() {
+        for seed in 0..50 {
+            let mut rng = Rng::spread(seed);
+            let (count, least) = (rng.below(3_000), 1 + rng.below(60));
+            let items: Vec<usize> = (0..count).map(|_| rng.below(9)).collect();
+            let (made, _) = map_items(&items, least, usize::MAX, |first, items, places| {
+                places
+                    .iter_mut()
+                    .zip(items)
+                    .enumerate()
+                    .for_each(|(k, (place, item))| *place = 10 * (first + k) + item);
+            });
+            assert!(made.into_iter().eq(items.into_iter().enumerate().map(|(k, item)| 10 * k + item)), "seed {seed}");
+        }
+    }
 
     #[test]
     fn lists_of_any_length_are_joined_in_order() {
         for seed in 0..4 {
             let mut rng = Rng::spread(seed);
             // some of them so long that parts are dropped as they are copied
-            let count = (MUCH_MEMORY / size_of::<u64>()) >> (4 * (seed % 2));
+            let count = (memory::MUCH_MEMORY / size_of::<u64>()) >> (4 * (seed % 2));
             let (mut parts, mut end): (Vec<Vec<u64>>, u64) = (Vec::new(), 0);
             while end < 2 * count as u64 {
                 let length = rng.below(count / 3) as u64 >> rng.below(12);

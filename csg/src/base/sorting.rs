@@ -4,7 +4,8 @@ use std::ops::Range;
 
 use planecut_parallel::prelude::*;
 
-use super::parallel::{map_chunks, split_by, takes_much_memory, weighed_runs};
+use super::memory::takes_much_memory;
+use super::parallel::{map_chunks, split_by, weighed_runs};
 
 /// Maximum number of elements that are all compared with one another.
 const COMPARED: usize = 64;

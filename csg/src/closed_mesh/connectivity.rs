@@ -7,7 +7,7 @@ use std::ops::Range;
 use planecut_parallel::prelude::*;
 use smallvec::SmallVec;
 
-use crate::base::by_group;
+use crate::base::{by_group, with_room};
 use crate::ids::number32;
 
 /// The twin of a half-edge that has none.
@@ -73,7 +73,8 @@ where
     }
     // the higher end of each half-edge, and in the last bit whether it comes down from there
     let end = |from: u32, to: u32| E::try_from(u64::from(from.max(to)) << 1 | u64::from(from > to)).ok();
-    let mut ends = vec![E::default(); starts[count] as usize];
+    let mut ends = with_room(starts[count] as usize, 3 * triangles.len());
+    ends.resize(starts[count] as usize, E::default());
     for &[a, b, c] in triangles {
         for [from, to] in [[a, b], [b, c], [c, a]] {
             if let Some(next) = starts[..count].get_mut(place(from, to)) {

@@ -36,12 +36,14 @@ pub(super) fn filled_faces(
     let workers = Workers::new(|| (Triangulator::new(&exact), Vec::new()));
     let fill = |faces: Faces, (triangulator, edges): &mut (Triangulator<'_>, Vec<FaceEdge>)| {
         let mut triangles = Triangles::default();
+        let mut mesh_faces: Vec<MeshFace> = with_room(faces.len(), regions.planes.len());
         // planes lie anywhere in memory: in a loop of their own several are on their way at once
         let of_face = |face: Face<'_>| {
             let normal = table.half_space(regions.planes[face.region.index()]).normal();
-            (mesh_face(regions, face.region, normal), Projection::new(normal))
+            mesh_faces.push(mesh_face(regions, face.region, normal));
+            Projection::new(normal)
         };
-        let (mut mesh_faces, projections): (Vec<MeshFace>, Vec<Projection>) = faces.iter().map(of_face).unzip();
+        let projections: Vec<Projection> = faces.iter().map(of_face).collect();
         let count = faces.triangle_count();
         triangles.corners = with_room(count, pieces.len());
         triangles.on_loops.reserve(count);

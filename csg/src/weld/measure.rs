@@ -4,7 +4,7 @@ use planecut_kernel::DVec3;
 
 use super::cancel::HalfEdge;
 use super::nest::{Face, Faces};
-use crate::base::{CompensatedSum, map_chunks};
+use crate::base::{CompensatedSum, map_chunks, with_room};
 use crate::ids::Id;
 use crate::mesh::SolidMeasures;
 
@@ -29,8 +29,14 @@ pub(super) fn extent(positions: &[DVec3], pieces: &[HalfEdge]) -> (DVec3, DVec3)
     parts.into_iter().fold(none, |(min, max), part| (min.min(part.0), max.max(part.1)))
 }
 
-/// The parts of faces by the divergence theorem, relative to a point near the middle so that little cancels.
-pub(super) fn of_faces(positions: &[DVec3], pieces: &[HalfEdge], faces: &Faces, middle: DVec3) -> Vec<FaceMeasures> {
+/// The parts of faces by the divergence theorem, relative to a point near the middle so that little cancels; there are about `of_all` faces in all.
+pub(super) fn of_faces(
+    positions: &[DVec3],
+    pieces: &[HalfEdge],
+    faces: &Faces,
+    of_all: usize,
+    middle: DVec3,
+) -> Vec<FaceMeasures> {
     let of_face = |face: Face<'_>| {
         let mut origin = None;
         let mut twice_area = DVec3::ZERO;
@@ -51,7 +57,7 @@ pub(super) fn of_faces(positions: &[DVec3], pieces: &[HalfEdge], faces: &Faces, 
         let moment = DVec3::from_array(moment.map(CompensatedSum::value));
         FaceMeasures { six_volume: six_volume.value(), area: 0.5 * twice_area.length(), moment }
     };
-    let mut measures = Vec::with_capacity(faces.len());
+    let mut measures = with_room(faces.len(), of_all);
     measures.extend(faces.iter().map(of_face));
     measures
 }

@@ -264,7 +264,7 @@ fn nest(
     let workers = Workers::new(|| (Nester::default(), RegionCorners::default()));
     let work = |chunk: &[Range<usize>], mut following: &mut [HalfEdgeId]| {
         workers.with(|(nester, corners)| -> Result<_, WeldError> {
-            let mut faces = Faces::with_room(following.len(), chunk.len());
+            let mut faces = Faces::with_room(following.len(), pieces.len(), chunk.len());
             // planes lie anywhere in memory: in a loop of their own several are on their way at once
             let plane = |range: &Range<usize>| regions.planes[pieces[range.start].region.index()];
             let planes = chunk.iter().map(|range| RegionPlane::new(table, points, plane(range)));
@@ -277,7 +277,7 @@ fn nest(
                 loops::follow(table, plane.plane, region, start, first, own)?;
                 nester.add_faces(plane, region, start, own, &mut faces)?;
             }
-            let measures = measure::of_faces(&points.positions, pieces, &faces, middle);
+            let measures = measure::of_faces(&points.positions, pieces, &faces, ranges.len(), middle);
             Ok((faces, measures))
         })
     };

@@ -1,6 +1,5 @@
 //! Which hole belongs to which outer loop.
 
-use crate::ids::number32;
 use std::cmp::Ordering;
 
 use planecut_kernel::sign::Sign;
@@ -9,7 +8,8 @@ use planecut_kernel::{DVec2, DVec3};
 use super::WeldError;
 use super::cancel::HalfEdge;
 use super::points::Points;
-use crate::ids::{HalfEdgeId, Id, PointId, RegionId};
+use crate::base::with_room;
+use crate::ids::{HalfEdgeId, Id, PointId, RegionId, number32};
 use crate::plane_table::{PlaneId, PlaneTable};
 
 /// Connected parts of regions, each an outer loop and its holes.
@@ -32,10 +32,10 @@ pub(super) struct Face<'a> {
 }
 
 impl Faces {
-    /// With room for the half-edges of some regions.
-    pub(super) fn with_room(half_edges: usize, regions: usize) -> Self {
+    /// With room for the half-edges of some regions, of so many in all.
+    pub(super) fn with_room(half_edges: usize, of_all: usize, regions: usize) -> Self {
         Self {
-            pieces: Vec::with_capacity(half_edges),
+            pieces: with_room(half_edges, of_all),
             loops: Vec::with_capacity(regions),
             faces: Vec::with_capacity(regions),
         }

@@ -1,0 +1,29 @@
+//! Lists that take much memory.
+
+/// Number of bytes from which lists are not kept longer than they must.
+pub(super) const MUCH_MEMORY: usize = 1 << 24;
+
+/// Number of bytes from which the allocator of glibc maps a block by itself, whatever was dropped before, and unmaps it when it is dropped: 32 MB, the
+/// greatest value of its `M_MMAP_THRESHOLD`, and a page. With other allocators nothing is to be had.
+const MAPPED: usize = if cfg!(all(target_os = "linux", target_env = "gnu", target_pointer_width = "64")) {
+    (1 << 25) + (1 << 12)
+} else {
+    0
+};
+
+/// Least number of bytes of a part of a long list for which this is worth while.
+const MAPPED_PART: usize = 1 << 20;
+
+/// Whether a list is so long that it should not be there twice.
+pub(crate) fn takes_much_memory<T>(count: usize) -> bool {
+    count * size_of::<T>() >= MUCH_MEMORY
+}
+
+/// A list with room for some elements or, where a list is made in parts, for those of a part; `of_all` is the number of elements of the whole. What takes
+/// much memory has room for so much that the allocator gives it back to the system when it is dropped; what is not written to takes no memory. Of smaller
+/// blocks the allocator keeps some 64 MB for each thread that dropped them.
+pub(crate) fn with_room<T>(count: usize, of_all: usize) -> Vec<T> {
+    let is_mapped = takes_much_memory::<T>(of_all) && count * size_of::<T>() >= MAPPED_PART;
+    let least = if is_mapped { MAPPED.div_ceil(size_of::<T>()) } else { 0 };
+    Vec::with_capacity(count.max(least))
+}
