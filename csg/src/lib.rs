@@ -63,7 +63,7 @@ pub use model::{
     TextureUnit, Transform, TransformError, Tree, TreeBuilder, TreeNode, TreeSink, UsedMaterials, sine_and_cosine,
 };
 pub use plane_table::{PlaneId, PlaneTable};
-pub use planecut_parallel::keep_freed_memory;
+pub use planecut_parallel::{keep_freed_memory, spare_addresses};
 pub use tolerances::SNAP_TOLERANCE;
 pub use weld::WeldError;
 

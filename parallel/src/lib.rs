@@ -22,7 +22,7 @@ mod parts;
 #[cfg(all(feature = "threads", target_os = "linux"))]
 mod processors;
 
-pub use memory::{keep_freed_memory, keeps_freed_memory};
+pub use memory::{keep_freed_memory, maps_long_lists, spare_addresses};
 #[cfg(feature = "threads")]
 pub use parts::{in_pool, join, map_parts};
 #[cfg(feature = "threads")]

@@ -145,4 +145,7 @@ fn freed_memory_is_kept() {
     drop(block);
     // of its 6,144 pages
     assert!(resident() + 1500 > before, "{} of {before} pages are left", resident());
+    assert!(crate::maps_long_lists());
+    crate::spare_addresses();
+    assert!(!crate::maps_long_lists());
 }

@@ -23,9 +23,8 @@ pub(crate) fn takes_much_memory<T>(count: usize) -> bool {
 /// kept, what takes much of it has room for so much that the allocator gives it back to the system when it is dropped; what is not written to takes no memory. Of
 /// smaller blocks the allocator keeps some 64 MB for each thread that dropped them.
 pub(crate) fn with_room<T>(count: usize, of_all: usize) -> Vec<T> {
-    let is_mapped = planecut_parallel::keeps_freed_memory()
-        && takes_much_memory::<T>(of_all)
-        && count * size_of::<T>() >= MAPPED_PART;
+    let is_mapped =
+        planecut_parallel::maps_long_lists() && takes_much_memory::<T>(of_all) && count * size_of::<T>() >= MAPPED_PART;
     let least = if is_mapped { MAPPED.div_ceil(size_of::<T>()) } else { 0 };
     Vec::with_capacity(count.max(least))
 }

@@ -81,6 +81,8 @@ fn answer(request: Request) -> Answer {
 #[cfg(unix)]
 fn limit_memory(megabytes: u64) -> Result<(), CliError> {
     use rustix::process::{Resource, Rlimit, setrlimit};
+    // what is mapped counts, also where nothing is written to it; a worker in Python keeps freed memory
+    planecut_csg::spare_addresses();
     let bytes = Some(megabytes.saturating_mul(1_000_000));
     setrlimit(Resource::Data, Rlimit { current: bytes, maximum: bytes }).map_err(|error| {
         CliError::Usage(format!("found a system that sets no limit on memory: {error}, expected one that does"))
