@@ -67,8 +67,9 @@ pub(crate) fn intern<K: Copy + Eq + Hash + Send + Sync, N: Send>(
     }
     let number =
         |place: usize| number_of((numbers[place].load(Ordering::Relaxed) + first[of_key[place] as usize]) as usize);
-    let numbers = made_by_place(keys, KEYS_OF_CHUNK / 4, number);
-    (concat_owned(different), numbers)
+    let all_numbers = made_by_place(keys, KEYS_OF_CHUNK / 4, number);
+    drop((numbers, of_key));
+    (concat_owned(different), all_numbers)
 }
 
 /// The different keys of some groups.

@@ -19,9 +19,9 @@ pub(crate) fn takes_much_memory<T>(count: usize) -> bool {
     count * size_of::<T>() >= MUCH_MEMORY
 }
 
-/// A list with room for some elements or, where a list is made in parts, for those of a part; `of_all` is the number of elements of the whole. Where freed memory is
-/// kept, what takes much of it has room for so much that the allocator gives it back to the system when it is dropped; what is not written to takes no memory. Of
-/// smaller blocks the allocator keeps some 64 MB for each thread that dropped them.
+/// An empty list with capacity for `count` elements. It is a whole list, or one of the parts in which a list of `of_all` elements is made. Where freed memory is kept
+/// and the whole takes much memory, the capacity is at least 32 MB: the allocator then maps the block by itself and unmaps it when it is dropped, and pages that are
+/// not written to take no memory. Of smaller blocks the allocator keeps some 64 MB for each thread that dropped them.
 pub(crate) fn with_room<T>(count: usize, of_all: usize) -> Vec<T> {
     let is_mapped =
         planecut_parallel::maps_long_lists() && takes_much_memory::<T>(of_all) && count * size_of::<T>() >= MAPPED_PART;

@@ -46,34 +46,32 @@ pub(crate) fn map_ranges<R: Send>(
     work: impl Fn(Range<usize>) -> R + Sync,
 ) -> (Vec<R>, Counts) {
     let starts = starts_of(Shares::new(count, least).lengths(count));
-    let stage = Stage::new(starts.len() - 1);
-    in_order(planecut_parallel::map_parts(starts.len() - 1, |k| stage.counted(|| work(starts[k]..starts[k + 1]))))
+    map_numbers(starts.len() - 1, |k| work(starts[k]..starts[k + 1]))
 }
 
-/// What is made of each item, in their order: `work` is given the number of the first of some items, these, and the places of what it makes of them,
-/// where `blank` is. Of many items this takes less memory than lists that are joined.
+/// What is made of each item and its number, in a list of its own; `blank` is what its places hold before. Of many items this takes less memory than lists that are
+/// joined.
 pub(crate) fn map_items<T: Sync, R: Copy + Send + Sync>(
     items: &[T],
     least: usize,
     blank: R,
-    work: impl Fn(usize, &[T], &mut [R]) + Sync,
+    make: impl Fn(usize, &T) -> R + Sync,
 ) -> (Vec<R>, Counts) {
     let mut made = repeated(items.len(), || blank);
     let starts = starts_of(Shares::new(items.len(), least).lengths(items.len()));
     let places = split_by(&mut made, starts.windows(2).map(|ends| ends[1] - ends[0]));
     let (_, counts) = map_owned(starts.into_iter().zip(places).collect(), |(start, places)| {
-        work(start, &items[start..start + places.len()], places);
+        let numbered = (start..).zip(&items[start..]);
+        places.iter_mut().zip(numbered).for_each(|(place, (number, item))| *place = make(number, item));
     });
     (made, counts)
 }
 
-/// The outcome of `work` for each of some parts, which are dropped one by one, in their order.
+/// The outcome of `work` for each of some parts, in their order; each part is dropped when its work is done.
 pub(crate) fn map_owned<P: Send, R: Send>(parts: Vec<P>, work: impl Fn(P) -> R + Sync) -> (Vec<R>, Counts) {
-    let stage = Stage::new(parts.len());
     let parts: Vec<Mutex<Option<P>>> = parts.into_iter().map(|part| Mutex::new(Some(part))).collect();
     let take = |k: usize| parts[k].lock().unwrap_or_else(PoisonError::into_inner).take();
-    let outcome = |k: usize| stage.counted(|| work(take(k).expect("each part is taken once")));
-    in_order(planecut_parallel::map_parts(parts.len(), outcome))
+    map_numbers(parts.len(), |k| work(take(k).expect("each part is taken once")))
 }
 
 /// The same in chunks that do not depend on the number of threads, for work that asks for other signs where it follows other items of a chunk.
@@ -84,7 +82,7 @@ pub(crate) fn map_fixed_chunks<T: Sync, R: Send>(
 ) -> (Vec<R>, Counts) {
     let size = (items.len() / FIXED_CHUNKS).max(least).max(1);
     let chunks: Vec<&[T]> = items.chunks(size).collect();
-    map_all(&chunks, work)
+    map_numbers(chunks.len(), |k| work(chunks[k]))
 }
 
 /// The same for items of different sizes: each chunk but the last is at least of size `least`, the sizes of its items added.
@@ -95,14 +93,13 @@ pub(crate) fn map_weighed_chunks<T: Sync, R: Send>(
     work: impl Fn(&[T]) -> R + Sync,
 ) -> (Vec<R>, Counts) {
     let runs = weighed_runs(items.len(), least, |k| size(&items[k]));
-    let chunks: Vec<&[T]> = runs.into_iter().map(|run| &items[run]).collect();
-    map_all(&chunks, work)
+    map_numbers(runs.len(), |k| work(&items[runs[k].clone()]))
 }
 
-/// The outcome of `work` for each of some chunks, in their order.
-fn map_all<T: Sync, R: Send>(chunks: &[&[T]], work: impl Fn(&[T]) -> R + Sync) -> (Vec<R>, Counts) {
-    let stage = Stage::new(chunks.len());
-    in_order(planecut_parallel::map_parts(chunks.len(), |k| stage.counted(|| work(chunks[k]))))
+/// The outcome of `work` for each number below a count, in their order.
+fn map_numbers<R: Send>(count: usize, work: impl Fn(usize) -> R + Sync) -> (Vec<R>, Counts) {
+    let stage = Stage::new(count);
+    in_order(planecut_parallel::map_parts(count, |k| stage.counted(|| work(k))))
 }
 
 /// The same as `map_weighed_chunks`, where of a list each item fills as many elements as its size is, one after another: `work` is given the part of a chunk.
@@ -331,13 +328,7 @@ mod tests {
             let mut rng = Rng::spread(seed);
             let (count, least) = (rng.below(3_000), 1 + rng.below(60));
             let items: Vec<usize> = (0..count).map(|_| rng.below(9)).collect();
-            let (made, _) = map_items(&items, least, usize::MAX, |first, items, places| {
-                places
-                    .iter_mut()
-                    .zip(items)
-                    .enumerate()
-                    .for_each(|(k, (place, item))| *place = 10 * (first + k) + item);
-            });
+            let (made, _) = map_items(&items, least, usize::MAX, |number, item| 10 * number + item);
             assert!(made.into_iter().eq(items.into_iter().enumerate().map(|(k, item)| 10 * k + item)), "seed {seed}");
         }
     }

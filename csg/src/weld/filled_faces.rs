@@ -6,7 +6,7 @@ use planecut_kernel::sign::Counts;
 use super::cancel::HalfEdge;
 use super::large_face::{FaceEdge, LargeFace};
 use super::manifold::Labels;
-use super::nest::{Face, Faces, Projection};
+use super::nest::{Faces, Projection};
 use super::points::Points;
 use super::regions::Regions;
 use super::triangulate::{Triangles, Triangulator, WeldPoints};
@@ -36,14 +36,14 @@ pub(super) fn filled_faces(
     let workers = Workers::new(|| (Triangulator::new(&exact), Vec::new()));
     let fill = |faces: Faces, (triangulator, edges): &mut (Triangulator<'_>, Vec<FaceEdge>)| {
         let mut triangles = Triangles::default();
-        let mut mesh_faces: Vec<MeshFace> = with_room(faces.len(), regions.planes.len());
+        let mut mesh_faces = with_room(faces.len(), regions.planes.len());
+        let mut projections = Vec::with_capacity(faces.len());
         // planes lie anywhere in memory: in a loop of their own several are on their way at once
-        let of_face = |face: Face<'_>| {
+        for face in faces.iter() {
             let normal = table.half_space(regions.planes[face.region.index()]).normal();
             mesh_faces.push(mesh_face(regions, face.region, normal));
-            Projection::new(normal)
-        };
-        let projections: Vec<Projection> = faces.iter().map(of_face).collect();
+            projections.push(Projection::new(normal));
+        }
         let count = faces.triangle_count();
         triangles.corners = with_room(count, pieces.len());
         triangles.on_loops.reserve(count);

@@ -50,17 +50,10 @@ pub(super) fn pair_of(planes: [PlaneId; 2]) -> u64 {
 
 /// Numbers the lines of different pairs, each two plane indices.
 fn number(table: &PlaneTable, pairs: Vec<u64>) -> (Vec<Line>, Vec<LineId>, Counts) {
-    let (mut lines, mut counts) = map_items(&pairs, 256, Line::blank(), |_, pairs, lines| {
-        lines.iter_mut().zip(pairs).for_each(|(line, pair)| *line = Line::of(table, *pair));
-    });
+    let (mut lines, mut counts) = map_items(&pairs, 256, Line::blank(), |_, pair| Line::of(table, *pair));
     drop(pairs);
-    let (mut order, marking) = map_items(&lines, 256, Mark::new(0, 0.0, 0.0, NameId::NONE), |first, lines, marks| {
-        let numbered = NameId::all(lines.len()).zip(lines);
-        marks
-            .iter_mut()
-            .zip(numbered)
-            .for_each(|(place, (number, line))| *place = mark(table, line, number.plus(first)));
-    });
+    let mark_of = |number, line: &Line| mark(table, line, NameId::from_index(number));
+    let (mut order, marking) = map_items(&lines, 256, Mark::new(0, 0.0, 0.0, NameId::NONE), mark_of);
     counts += marking;
     sort_by_number(&mut order, |mark| mark.low);
     // runs of lines that may be equal

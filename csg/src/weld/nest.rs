@@ -32,7 +32,7 @@ pub(super) struct Face<'a> {
 }
 
 impl Faces {
-    /// With room for the half-edges of some regions, of so many in all.
+    /// With room for the half-edges of some regions; `of_all` is the number of half-edges of all regions.
     pub(super) fn with_room(half_edges: usize, of_all: usize, regions: usize) -> Self {
         Self {
             pieces: with_room(half_edges, of_all),

@@ -72,9 +72,8 @@ impl Points {
             key([edge.face, edge.edge, if end.is_multiple_of(2) { edge.start } else { edge.end }])
         };
         let (different, of_triple) = intern(2 * edges.len(), key_of_end, table.len(), first, NameId::from_index);
-        let (named, mut counts) = map_items(&different, 256, Named::blank(), |_, keys, named| {
-            named.iter_mut().zip(keys).for_each(|(named, key)| *named = Named::of(table, planes(*key)));
-        });
+        let name = |_, key: &K| Named::of(table, planes(*key));
+        let (named, mut counts) = map_items(&different, 256, Named::blank(), name);
         drop(different);
         let place = |k: usize| (curve_number(named[k].position), NameId::from_index(k));
         let mut sorted: Vec<(u64, NameId)> = made_by_place(named.len(), 1024, place);
