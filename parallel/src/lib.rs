@@ -13,6 +13,10 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+#[cfg(feature = "threads")]
+mod halves;
+#[cfg(feature = "threads")]
+mod iterators;
 pub mod job;
 mod memory;
 #[cfg(not(feature = "threads"))]
@@ -22,11 +26,13 @@ mod parts;
 #[cfg(all(feature = "threads", target_os = "linux"))]
 mod processors;
 
+#[cfg(feature = "threads")]
+pub use iterators::prelude;
 pub use memory::{keep_freed_memory, maps_long_lists, spare_addresses};
 #[cfg(feature = "threads")]
 pub use parts::{in_pool, join, map_parts};
 #[cfg(feature = "threads")]
-pub use rayon::{current_num_threads, prelude};
+pub use rayon::current_num_threads;
 
 #[cfg(not(feature = "threads"))]
 pub use one_thread::{current_num_threads, in_pool, join, map_parts, prelude};

@@ -58,13 +58,31 @@ pub fn join<A, B: Send>(first: impl FnOnce() -> A, second: impl FnOnce() -> B + 
         let first = first();
         return (first, second());
     }
-    let mut of_other = None;
-    let own = rayon::in_place_scope(|scope| {
-        let of_other = &mut of_other;
-        scope.spawn(move |_| *of_other = Some(second()));
-        first()
+    let (mut of_first, mut of_second) = (None, None);
+    let (mut first, mut second) = (Some(first), Some(second));
+    with_another_thread(&mut || of_first = first.take().map(|work| work()), &mut || {
+        of_second = second.take().map(|work| work());
     });
-    (own, of_other.expect("the scope waits for what it has begun"))
+    let expected = "both have been called, or one of them has panicked";
+    (of_first.expect(expected), of_second.expect(expected))
+}
+
+/// Calls two functions, the first one on the calling thread. They are trait objects, as in [`on_threads`], so that rayon's functions around them are compiled once.
+fn with_another_thread(first: &mut dyn FnMut(), second: &mut (dyn FnMut() + Send)) {
+    rayon::in_place_scope(|scope| {
+        scope.spawn(move |_| second());
+        first();
+    });
+}
+
+/// Calls a function on the calling thread and on some others at once.
+fn on_threads(others: usize, work: &(dyn Fn() + Sync)) {
+    rayon::in_place_scope(|scope| {
+        for _ in 0..others {
+            scope.spawn(move |_| work());
+        }
+        work();
+    });
 }
 
 /// The results of `work` for the parts `0..count`, in their order.
@@ -74,28 +92,19 @@ pub fn map_parts<R: Send>(count: usize, work: impl Fn(usize) -> R + Sync) -> Vec
         return (0..count).map(work).collect();
     }
     let next = AtomicUsize::new(0);
-    let take = || {
+    let all = Mutex::new(Vec::with_capacity(count));
+    on_threads(others, &|| {
         let mut done = Vec::new();
         loop {
             let part = next.fetch_add(1, Ordering::Relaxed);
             if part >= count {
-                return done;
+                break;
             }
             done.push((part, work(part)));
         }
-    };
-    let of_others = Mutex::new(Vec::new());
-    let own = rayon::in_place_scope(|scope| {
-        for _ in 0..others {
-            scope.spawn(|_| {
-                let done = take();
-                of_others.lock().unwrap_or_else(PoisonError::into_inner).extend(done);
-            });
-        }
-        take()
+        all.lock().unwrap_or_else(PoisonError::into_inner).append(&mut done);
     });
-    let mut all = of_others.into_inner().unwrap_or_else(PoisonError::into_inner);
-    all.extend(own);
+    let mut all = all.into_inner().unwrap_or_else(PoisonError::into_inner);
     all.sort_unstable_by_key(|(part, _)| *part);
     all.into_iter().map(|(_, result)| result).collect()
 }

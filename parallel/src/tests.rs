@@ -28,6 +28,34 @@ fn iterators_keep_the_order_of_elements() {
 }
 
 #[test]
+fn parts_of_any_length_are_all_elements_in_order() {
+    for (length, least, most) in
+        [(0, 1, 1), (1, 5, 3), (2, 1, 1), (999, 7, 20), (1000, 1000, 1), (4096, 0, 0), (5000, 64, 100)]
+    {
+        let numbers: Vec<usize> = (0..length).collect();
+        let all = || numbers.par_iter().zip(&numbers).enumerate().with_min_len(least).with_max_len(most);
+        let made: Vec<usize> = all().map(|(place, (one, other))| place + one + other).collect();
+        assert!(made.into_iter().eq(numbers.iter().map(|n| 3 * n)), "{length} {least} {most}");
+        // these are not as many as there are elements
+        let some: Vec<usize> = all().filter(|(place, _)| place % 3 == 0).map(|(place, _)| place).collect();
+        assert!(some.into_iter().eq(numbers.iter().copied().step_by(3)), "{length} {least} {most}");
+        // and these may end early
+        let last = length.checked_sub(1);
+        assert_eq!(all().any(|(place, _)| Some(place) == last), length > 0, "{length} {least} {most}");
+        assert!(all().all(|(place, _)| place < length), "{length} {least} {most}");
+    }
+}
+
+#[test]
+fn a_loop_within_a_loop_and_one_that_panics() {
+    let of_row = |row: u32| (0..row).into_par_iter().map(|k| k).collect::<Vec<u32>>().len();
+    let lengths: Vec<usize> = (0..200).into_par_iter().map(of_row).collect();
+    assert!(lengths.into_iter().eq(0..200));
+    let outcome = std::panic::catch_unwind(|| (0..1000).into_par_iter().for_each(|k| assert!(k != 600, "this one")));
+    assert_eq!(outcome.unwrap_err().downcast_ref(), Some(&"this one"));
+}
+
+#[test]
 fn states_are_scratch_memory() {
     let lengths: Vec<usize> = (0..100_usize)
         .into_par_iter()
