@@ -48,6 +48,8 @@ export async function start({ width = 1280, height = 800, query = "", dark = fal
     ],
   });
   const context = await browser.newContext({ viewport: { width, height }, colorScheme: dark ? "dark" : "light", acceptDownloads: true, permissions: ["clipboard-read", "clipboard-write"] });
+  // other tests may keep both cores busy
+  context.setDefaultTimeout(120_000);
   const page = await context.newPage();
   const [errors, foreign] = [[], []];
   page.on("pageerror", (error) => errors.push(String(error)));
