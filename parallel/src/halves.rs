@@ -17,7 +17,7 @@ fn join_halves(first: Half<'_>, second: Half<'_>) {
 /// How far a loop is still to be split.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Splits {
-    /// How often each part is still to be halved, where no other thread takes it.
+    /// Into how many parts, about, it is still to be split, where no other thread takes any of them: half as many for each half.
     left: usize,
     /// The least length of a part.
     least: usize,
