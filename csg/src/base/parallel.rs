@@ -208,18 +208,15 @@ pub(crate) fn by_parts<T: Send>(
     lengths: impl Iterator<Item = usize>,
     make: impl Fn(usize, usize) -> T + Sync,
 ) -> Vec<T> {
-    let mut all = Vec::new();
-    extend_by_parts(&mut all, lengths, make);
+    let starts = starts_of(lengths);
+    let count = starts[starts.len() - 1];
+    let mut all = with_room(count, count);
+    extend_by_parts(&mut all, &starts, make);
     all
 }
 
-/// The same, added to a list.
-fn extend_by_parts<T: Send>(
-    all: &mut Vec<T>,
-    lengths: impl Iterator<Item = usize>,
-    make: impl Fn(usize, usize) -> T + Sync,
-) {
-    let starts = starts_of(lengths);
+/// The same, added to a list; `starts` gives where parts begin that follow one another, and where the last one ends.
+fn extend_by_parts<T: Send>(all: &mut Vec<T>, starts: &[usize], make: impl Fn(usize, usize) -> T + Sync) {
     let element = |part: &mut usize, k: usize| {
         // mostly it is in the same part as the one before
         if k < starts[*part] || k >= starts[*part + 1] {
@@ -256,7 +253,7 @@ pub(crate) fn concat_made<S: Send + Sync, T: Send>(parts: Vec<Vec<S>>, make: imp
     if threads > 1 && !takes_much_memory::<T>(count) {
         return by_parts(lengths(), |part, k| make(part, &parts[part][k]));
     }
-    let mut all = Vec::with_capacity(count);
+    let mut all = with_room(count, count);
     if threads == 1 {
         for (number, part) in parts.into_iter().enumerate() {
             all.extend(part.iter().map(|element| make(number, element)));
@@ -268,7 +265,8 @@ pub(crate) fn concat_made<S: Send + Sync, T: Send>(parts: Vec<Vec<S>>, make: imp
         waiting += part.len();
         some.push(part);
         if waiting >= count / SHARES_OF_COPY || number == last {
-            extend_by_parts(&mut all, some.iter().map(Vec::len), |part, k| make(first + part, &some[part][k]));
+            let starts = starts_of(some.iter().map(Vec::len));
+            extend_by_parts(&mut all, &starts, |part, k| make(first + part, &some[part][k]));
             some.clear();
             (first, waiting) = (number, 0);
         }
