@@ -203,7 +203,8 @@ pub(crate) fn starts_of(lengths: impl Iterator<Item = usize>) -> Vec<usize> {
     starts
 }
 
-/// What is made of each element of some parts, one after another, in parallel; `make` is given the number of the part and the place of the element in it.
+/// What is made of each element of some parts, one after another, in parallel; `make` is given the number of the part and the place of the element in it. A long list
+/// may have room for more, of which nothing is written to, see [`with_room`].
 pub(crate) fn by_parts<T: Send>(
     lengths: impl Iterator<Item = usize>,
     make: impl Fn(usize, usize) -> T + Sync,
