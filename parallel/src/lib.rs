@@ -14,6 +14,8 @@
 #![deny(missing_docs)]
 
 #[cfg(feature = "threads")]
+mod awake;
+#[cfg(feature = "threads")]
 mod halves;
 #[cfg(feature = "threads")]
 mod iterators;

@@ -6,12 +6,16 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
+use crate::awake::Awake;
 use crate::job;
 #[cfg(target_os = "linux")]
 use crate::processors::{Caller, KEPT, Spread};
 
 /// The result of work that is done by a thread of the pool, so that its loops and joins begin without waiting for one to awake; where the calling thread is one,
 /// it does the work itself. What watches the calling thread watches the work.
+///
+/// The other threads look for work for as long as it lasts, unless there is none for some tenths of a millisecond: they do not fall asleep between its loops. Those of pools of more threads than 16, or than there are
+/// processors to run on, do.
 ///
 /// On Linux the threads of a pool that has slept are kept on processors of their own for the first 50 ms at most, where there are as many as processors that they
 /// may run on, and not more than 16: in virtual machines they would share one.
@@ -20,9 +24,12 @@ pub fn in_pool<R: Send>(work: impl FnOnce() -> R + Send) -> R {
         return work();
     }
     let watch = job::current();
-    let work = || match watch {
-        Some(watch) => job::watched(&watch, work),
-        None => work(),
+    let work = || {
+        let _awake = Awake::begin();
+        match watch {
+            Some(watch) => job::watched(&watch, work),
+            None => work(),
+        }
     };
     #[cfg(target_os = "linux")]
     let (_caller, has_slept) = Caller::begin();

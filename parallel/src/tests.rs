@@ -140,6 +140,50 @@ fn threads_of_a_pool_that_slept_may_run_where_they_might_before() {
     assert_eq!(allowed(), before);
 }
 
+#[cfg(feature = "threads")]
+#[test]
+fn threads_that_stay_awake_do_the_work_of_others_until_it_is_over_or_there_is_none() {
+    use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+    use crate::awake::look_for_work;
+
+    // of one thread, so that no other one takes the work
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a pool of threads");
+    pool.install(|| {
+        let done = AtomicUsize::new(0);
+        rayon::scope(|scope| {
+            for _ in 0..3 {
+                scope.spawn(|_| {
+                    done.fetch_add(1, Ordering::Relaxed);
+                });
+            }
+            look_for_work(&AtomicBool::new(true));
+            assert_eq!(done.load(Ordering::Relaxed), 0);
+            look_for_work(&AtomicBool::new(false));
+            assert_eq!(done.load(Ordering::Relaxed), 3);
+        });
+    });
+}
+
+#[test]
+fn callers_of_the_pool_at_once_do_not_wait_for_one_another_for_ever() {
+    let _pool = pool();
+    std::thread::scope(|scope| {
+        for caller in 0..6_usize {
+            scope.spawn(move || {
+                for round in 0..40 {
+                    let sum = crate::in_pool(|| {
+                        let sums = crate::map_parts(20, |part| crate::map_parts(part, |k| k * caller + round));
+                        sums.into_iter().flatten().sum::<usize>()
+                    });
+                    let expected: usize = (0..20).flat_map(|part| 0..part).map(|k| k * caller + round).sum();
+                    assert_eq!(sum, expected, "caller {caller}, round {round}");
+                }
+            });
+        }
+    });
+}
+
 #[test]
 fn a_part_that_panics_ends_the_work() {
     let outcome = std::panic::catch_unwind(|| crate::map_parts(100, |part| assert!(part != 60, "this one")));

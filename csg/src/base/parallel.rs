@@ -21,7 +21,7 @@ const SMALLEST_PARTS: usize = 48;
 const FIXED_CHUNKS: usize = 64;
 
 /// Elements that a thread copies in a row, at least.
-const ELEMENTS_OF_CHUNK: usize = 2048;
+const COPIED_OF_CHUNK: usize = 2048;
 
 /// Equal elements that a thread writes in a row, at least.
 const REPEATED_OF_CHUNK: usize = 1 << 13;
@@ -203,21 +203,22 @@ pub(crate) fn starts_of(lengths: impl Iterator<Item = usize>) -> Vec<usize> {
     starts
 }
 
-/// What is made of each element of some parts, one after another, in parallel; `make` is given the number of the part and the place of the element in it. A long list
+/// What is made of each element of some parts, one after another, in parallel, at least `least` of them in a row; `make` is given the number of the part and the place of the element in it. A long list
 /// may have room for more, of which nothing is written to, see [`with_room`].
 pub(crate) fn by_parts<T: Send>(
     lengths: impl Iterator<Item = usize>,
+    least: usize,
     make: impl Fn(usize, usize) -> T + Sync,
 ) -> Vec<T> {
     let starts = starts_of(lengths);
     let count = starts[starts.len() - 1];
     let mut all = with_room(count, count);
-    extend_by_parts(&mut all, &starts, make);
+    extend_by_parts(&mut all, &starts, least, make);
     all
 }
 
 /// The same, added to a list; `starts` gives where parts begin that follow one another, and where the last one ends.
-fn extend_by_parts<T: Send>(all: &mut Vec<T>, starts: &[usize], make: impl Fn(usize, usize) -> T + Sync) {
+fn extend_by_parts<T: Send>(all: &mut Vec<T>, starts: &[usize], least: usize, make: impl Fn(usize, usize) -> T + Sync) {
     let element = |part: &mut usize, k: usize| {
         // mostly it is in the same part as the one before
         if k < starts[*part] || k >= starts[*part + 1] {
@@ -225,7 +226,7 @@ fn extend_by_parts<T: Send>(all: &mut Vec<T>, starts: &[usize], make: impl Fn(us
         }
         make(*part, k - starts[*part])
     };
-    let places = (0..starts[starts.len() - 1]).into_par_iter().with_min_len(ELEMENTS_OF_CHUNK);
+    let places = (0..starts[starts.len() - 1]).into_par_iter().with_min_len(least);
     all.par_extend(places.map_init(|| 0, element));
 }
 
@@ -252,7 +253,7 @@ pub(crate) fn concat_made<S: Send + Sync, T: Send>(parts: Vec<Vec<S>>, make: imp
     let (count, last) = (lengths().sum(), parts.len());
     let threads = planecut_parallel::current_num_threads();
     if threads > 1 && !takes_much_memory::<T>(count) {
-        return by_parts(lengths(), |part, k| make(part, &parts[part][k]));
+        return by_parts(lengths(), COPIED_OF_CHUNK, |part, k| make(part, &parts[part][k]));
     }
     let mut all = with_room(count, count);
     if threads == 1 {
@@ -267,7 +268,7 @@ pub(crate) fn concat_made<S: Send + Sync, T: Send>(parts: Vec<Vec<S>>, make: imp
         some.push(part);
         if waiting >= count / SHARES_OF_COPY || number == last {
             let starts = starts_of(some.iter().map(Vec::len));
-            extend_by_parts(&mut all, &starts, |part, k| make(first + part, &some[part][k]));
+            extend_by_parts(&mut all, &starts, COPIED_OF_CHUNK, |part, k| make(first + part, &some[part][k]));
             some.clear();
             (first, waiting) = (number, 0);
         }

@@ -165,7 +165,7 @@ pub fn evaluate_built(
 
 /// The [`smallest_size`] of brushes that are not meshes.
 fn smallest_size_of_convex(brushes: &[Brush]) -> f64 {
-    let (sizes, _) = map_chunks(brushes, 256, |chunk| {
+    let (sizes, _) = map_chunks(brushes, BRUSHES_OF_CHUNK, |chunk| {
         smallest_size(chunk.iter().filter(|brush| !brush.is_mesh()).map(Brush::half_spaces))
     });
     // where a chunk has no body, its size is 0
@@ -204,6 +204,9 @@ impl OtherBrushes<'_> {
         self.polarities.map_or_else(|| expression.common_polarities(kinds), <[Polarity]>::to_vec)
     }
 }
+
+/// Least number of brushes that a thread looks at in a row.
+const BRUSHES_OF_CHUNK: usize = 32;
 
 /// Number of planes from which a model is worth waiting for a thread of the pool.
 const MANY_PLANES: usize = 256;
@@ -261,7 +264,7 @@ fn evaluate_here(
     let bodies: Vec<Option<Body>> = bodies.into_iter().enumerate().map(bounded).collect();
     let faces = |leaf: LeafId| bodies[leaf.index()].iter().flat_map(Body::planes_and_materials);
     let mark = |leaf: usize| mark_of(faces(LeafId::from_index(leaf)));
-    let marks: Vec<u64> = (0..bodies.len()).into_par_iter().with_min_len(256).map(mark).collect();
+    let marks: Vec<u64> = (0..bodies.len()).into_par_iter().with_min_len(BRUSHES_OF_CHUNK).map(mark).collect();
     let kinds = others.kinds(kinds(bodies.len(), faces, |leaf| marks[leaf.index()]));
     let repeated = expression.repeated_leaves(&kinds);
     let polarities = others.polarities(&expression, &kinds);

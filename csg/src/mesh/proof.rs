@@ -14,7 +14,7 @@ use crate::model::MaterialId;
 use crate::tolerances::PROOF;
 
 /// Triangles that are summed one after the other, so that sums do not depend on the number of threads.
-const CHUNK: usize = 4096;
+const CHUNK: usize = 1024;
 
 /// What is wrong with a mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]

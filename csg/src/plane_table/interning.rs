@@ -64,7 +64,7 @@ impl InternedPlanes {
         half_space: impl Fn(usize, usize) -> &'a HalfSpace + Sync,
         size: f64,
     ) -> (Self, Vec<PlaneId>) {
-        let sides = by_parts(lengths, |part, k| first_side(&Row::new(half_space(part, k))));
+        let sides = by_parts(lengths, CHUNK, |part, k| first_side(&Row::new(half_space(part, k))));
         let (sorted, reach) = sort(&sides, size);
         let may_be_near = |a: &(u64, u32), b: &(u64, u32)| f64::from_bits(b.0) - f64::from_bits(a.0) <= APART;
         let runs = runs_apart(&sorted, CHUNK, |a, b| !may_be_near(a, b));

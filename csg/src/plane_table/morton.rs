@@ -11,7 +11,7 @@ use crate::base::{Bounds, map_chunks, sort_by_number, sortable};
 use crate::ids::number32;
 
 /// Least number of brushes that a thread looks at in a row.
-const BRUSHES_OF_CHUNK: usize = 256;
+const BRUSHES_OF_CHUNK: usize = 64;
 
 /// A number that is close for places close to each other, and depends on the place alone: the highest bits of its coordinates,
 /// interleaved.

@@ -16,6 +16,9 @@ use crate::mesh::{Mesh, MeshFace};
 use crate::model::Material;
 use crate::plane_table::PlaneTable;
 
+/// Least number of triangles that a thread makes in a row.
+const TRIANGLES_OF_CHUNK: usize = 1 << 10;
+
 /// The triangles of some faces.
 pub(super) struct FilledFaces {
     triangles: Triangles,
@@ -92,7 +95,7 @@ pub(super) fn mesh_of(parts: Vec<FilledFaces>, vertex: &[VertexId], materials: &
     let triangle_faces = concat_made(triangle_faces, |part, face| number32(first[part]) + *face);
     let corner = |piece: HalfEdgeId| vertex[piece.index()].number();
     let triangle = |part: usize, k: usize| filled[part].corners[k].map(corner);
-    let triangles = by_parts(filled.iter().map(|part| part.corners.len()), triangle);
+    let triangles = by_parts(filled.iter().map(|part| part.corners.len()), TRIANGLES_OF_CHUNK, triangle);
     (Mesh { triangles, triangle_faces, faces, materials: materials.to_vec(), ..Mesh::default() }, filled)
 }
 
@@ -102,5 +105,5 @@ pub(super) fn labels(filled: &[Triangles]) -> Labels {
         let (corners, on_loops) = (filled[part].corners[triangle], filled[part].on_loops[triangle]);
         [0, 1, 2].map(|k| if on_loops >> k & 1 == 1 { corners[k] } else { HalfEdgeId::NONE })
     };
-    by_parts(filled.iter().map(|part| part.corners.len()), label)
+    by_parts(filled.iter().map(|part| part.corners.len()), TRIANGLES_OF_CHUNK, label)
 }

@@ -16,7 +16,7 @@ use crate::ids::{HalfEdgeId, Id, PointId, VertexId, number32};
 use crate::mesh::Mesh;
 
 /// Number of half-edges that a thread looks at in a row.
-const CHUNK: usize = 4096;
+const CHUNK: usize = 1024;
 
 /// The vertex at the start of each half-edge; and for each vertex the point it lies on. Vertices are numbered by the first of their half-edges.
 pub(super) fn vertices(pieces: &[HalfEdge], following: Vec<HalfEdgeId>) -> (Vec<VertexId>, Vec<PointId>) {
@@ -34,7 +34,7 @@ pub(super) fn vertices(pieces: &[HalfEdge], following: Vec<HalfEdgeId>) -> (Vec<
     };
     let firsts = concat_owned(pieces.par_chunks(CHUNK).enumerate().map(firsts_of).collect());
     let vertex = repeated(pieces.len(), || AtomicU32::new(0));
-    firsts.par_iter().enumerate().with_min_len(1024).for_each(|(number, first)| {
+    firsts.par_iter().enumerate().with_min_len(512).for_each(|(number, first)| {
         let number = VertexId::from_index(number).number();
         around(*first).for_each(|piece| vertex[piece.index()].store(number, Ordering::Relaxed));
     });

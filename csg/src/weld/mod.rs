@@ -167,7 +167,7 @@ pub(crate) fn weld(
     let positions = points.into_positions();
     let (mut mesh, filled) = filled_faces::mesh_of(filled, &vertex, materials);
     drop(vertex);
-    mesh.positions = point.par_iter().with_min_len(4096).map(|p| positions[p.index()]).collect();
+    mesh.positions = point.par_iter().with_min_len(1024).map(|p| positions[p.index()]).collect();
     drop((point, positions));
     // an edge that is there twice is not paired
     let repeated = manifold::repeated_edges(&mesh);
@@ -190,7 +190,7 @@ fn twins(pieces: Vec<HalfEdge>) -> Vec<HalfEdgeId> {
         twins.shrink_to_fit();
         return twins;
     }
-    pieces.par_iter().with_min_len(4096).map(twin).collect()
+    pieces.par_iter().with_min_len(1024).map(twin).collect()
 }
 
 /// Numbers regions, points and lines, cancels what is opposite, and cuts and pairs what is left; half-edges are sorted by

@@ -44,7 +44,7 @@ impl RegionPieces {
         let is_concerned = |(number, piece): (usize, &HalfEdge)| {
             (piece.is_forward() && is_cut[piece.line().index()]).then(|| (piece.line(), HalfEdgeId::from_index(number)))
         };
-        let pieces = self.pieces.par_iter().enumerate().with_min_len(1 << 12);
+        let pieces = self.pieces.par_iter().enumerate().with_min_len(1 << 11);
         let mut on_lines: Vec<(LineId, HalfEdgeId)> = pieces.filter_map(is_concerned).collect();
         on_lines.sort_unstable();
         on_lines
@@ -79,7 +79,7 @@ impl RegionPieces {
     fn sort_again(&mut self, known: usize, regions: &[RegionId]) {
         let changed = Changed::of(self, known, regions);
         let new = |piece: &mut HalfEdge| piece.twin = changed.new_number(piece.twin);
-        self.pieces.par_iter_mut().with_min_len(1 << 13).for_each(new);
+        self.pieces.par_iter_mut().with_min_len(1 << 11).for_each(new);
         changed.move_pieces(&mut self.pieces);
         let mut added = 0;
         let mut rest = changed.regions.iter().peekable();

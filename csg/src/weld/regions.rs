@@ -234,7 +234,7 @@ impl RegionPieces {
             .collect();
         drop((pieces, old));
         let new_place = |old: HalfEdgeId| HalfEdgeId::from_index(place[old.index()].load(Ordering::Relaxed) as usize);
-        sorted.par_iter_mut().with_min_len(1 << 13).for_each(|piece| piece.twin = new_place(piece.twin));
+        sorted.par_iter_mut().with_min_len(1 << 11).for_each(|piece| piece.twin = new_place(piece.twin));
         let (mut pinches, mut counts) = (Vec::new(), Counts::default());
         for (found, counted) in parts {
             pinches.extend(found);
@@ -261,7 +261,7 @@ fn permute_part<P: Send>(
     set: impl Fn(&mut HalfEdge, P) + Sync,
 ) {
     let parts: Vec<P> = made_by_place(old.len(), 1 << 13, |new| get(&pieces[old[new].index()]));
-    pieces.par_iter_mut().with_min_len(1 << 13).zip(parts).for_each(|(piece, part)| set(piece, part));
+    pieces.par_iter_mut().with_min_len(1 << 11).zip(parts).for_each(|(piece, part)| set(piece, part));
 }
 
 #[cfg(test)]
