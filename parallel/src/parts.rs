@@ -6,7 +6,7 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use crate::awake::Awake;
+use crate::awake::{Awake, is_worthwhile};
 use crate::job;
 #[cfg(target_os = "linux")]
 use crate::processors::{Caller, KEPT, Spread};
@@ -23,9 +23,9 @@ pub fn in_pool<R: Send>(work: impl FnOnce() -> R + Send) -> R {
     if rayon::current_thread_index().is_some() {
         return work();
     }
-    let watch = job::current();
+    let (watch, stay_awake) = (job::current(), is_worthwhile());
     let work = || {
-        let _awake = Awake::begin();
+        let _awake = stay_awake.then(Awake::begin);
         match watch {
             Some(watch) => job::watched(&watch, work),
             None => work(),

@@ -165,6 +165,17 @@ fn threads_that_stay_awake_do_the_work_of_others_until_it_is_over_or_there_is_no
     });
 }
 
+#[cfg(feature = "threads")]
+#[test]
+fn threads_stay_awake_where_there_are_processors_for_them_and_not_only_for_the_one_that_is_asked() {
+    let _pool = pool();
+    // the first caller asks, and then threads may be kept on processors of their own
+    assert_eq!(crate::in_pool(|| crate::map_parts(10, |part| part).len()), 10);
+    let (threads, processors) = (rayon::current_num_threads(), std::thread::available_parallelism());
+    let are_enough = (2..=16.min(processors.expect("a number of processors").get())).contains(&threads);
+    assert_eq!(crate::awake::is_worthwhile(), are_enough);
+}
+
 #[test]
 fn callers_of_the_pool_at_once_do_not_wait_for_one_another_for_ever() {
     let _pool = pool();
