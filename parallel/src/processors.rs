@@ -9,14 +9,13 @@ use std::time::{Duration, Instant};
 
 use rustix::thread::{CpuSet, Pid, gettid, sched_getaffinity, sched_setaffinity};
 
+use crate::awake::MOST_THREADS;
+
 /// Threads that have slept for less time are where they were.
 const PAUSE: Duration = Duration::from_millis(10);
 
 /// How long threads are kept where they are put.
 pub(crate) const KEPT: Duration = Duration::from_millis(50);
-
-/// Pools of more threads are left as they are: to move each would take longer than short work gains.
-const MOST: usize = 16;
 
 /// Of how many callers the pool does the work, and when the last of them was done.
 static CALLERS: Mutex<(usize, Option<Instant>)> = Mutex::new((0, None));
@@ -51,7 +50,7 @@ impl Spread {
         static THREADS: OnceLock<Vec<Pid>> = OnceLock::new();
         let mut spread = Self(Vec::new());
         let count = rayon::current_num_threads();
-        if !(2..=MOST).contains(&count) {
+        if !(2..=MOST_THREADS).contains(&count) {
             return spread;
         }
         let threads = THREADS.get_or_init(|| rayon::broadcast(|_| gettid()));

@@ -143,7 +143,7 @@ fn threads_of_a_pool_that_slept_may_run_where_they_might_before() {
 #[cfg(feature = "threads")]
 #[test]
 fn threads_that_stay_awake_do_the_work_of_others_until_it_is_over_or_there_is_none() {
-    use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+    use std::sync::atomic::{AtomicUsize, Ordering};
 
     use crate::awake::look_for_work;
 
@@ -157,11 +157,37 @@ fn threads_that_stay_awake_do_the_work_of_others_until_it_is_over_or_there_is_no
                     done.fetch_add(1, Ordering::Relaxed);
                 });
             }
-            look_for_work(&AtomicBool::new(true));
+            look_for_work(&AtomicUsize::new(0));
             assert_eq!(done.load(Ordering::Relaxed), 0);
-            look_for_work(&AtomicBool::new(false));
+            look_for_work(&AtomicUsize::new(1));
             assert_eq!(done.load(Ordering::Relaxed), 3);
         });
+    });
+}
+
+/// A thread that looks for work finds that it is to look for that of another caller, too, again and again while callers overlap.
+#[cfg(feature = "threads")]
+#[test]
+fn works_that_overlap_do_not_fill_the_stack_of_a_thread() {
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    use crate::awake::look_for_work;
+
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a pool of threads");
+    pool.install(|| {
+        let (works, done) = (AtomicUsize::new(1), AtomicUsize::new(0));
+        rayon::scope(|scope| {
+            // the last one is found first; looked for within each other, the first would be found before any of the others ends
+            for number in 0..100 {
+                let (works, done) = (&works, &done);
+                scope.spawn(move |_| {
+                    look_for_work(works);
+                    assert_eq!(done.fetch_add(1, Ordering::Relaxed), 99 - number);
+                });
+            }
+            look_for_work(&works);
+        });
+        assert_eq!(done.into_inner(), 100);
     });
 }
 

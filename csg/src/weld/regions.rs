@@ -261,7 +261,7 @@ fn permute_part<P: Send>(
     set: impl Fn(&mut HalfEdge, P) + Sync,
 ) {
     let parts: Vec<P> = made_by_place(old.len(), 1 << 13, |new| get(&pieces[old[new].index()]));
-    pieces.par_iter_mut().with_min_len(1 << 11).zip(parts).for_each(|(piece, part)| set(piece, part));
+    pieces.par_iter_mut().with_min_len(1 << 13).zip(parts).for_each(|(piece, part)| set(piece, part));
 }
 
 #[cfg(test)]
