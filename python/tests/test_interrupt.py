@@ -30,7 +30,7 @@ LONG = {
     "cells": lambda progress=None: heap(250).cells(progress=progress),
     "coarsen a solid": lambda progress=None: pc.coarsen(heap(100), 8, progress=progress),
     "coarsen a mesh": lambda progress=None: pc.coarsen(MESHES[0], 8, progress=progress),
-    "Live": lambda progress=None: pc.Live(heap(1500), progress=progress),
+    "Live": lambda progress=None: pc.Live(heap(3000), progress=progress),
 }
 SILENT = {
     "volume": lambda: heap(3000).volume,
@@ -48,6 +48,28 @@ def meshes():
     MESHES.append(heap(100).mesh())
     yield
     MESHES.clear()
+
+
+SHORTER = {
+    "mesh": (600, lambda count, progress: heap(count).mesh(progress=progress)),
+    "cells": (40, lambda count, progress: heap(count).cells(progress=progress)),
+    "coarsen a solid": (14, lambda count, progress: pc.coarsen(heap(count), 4, progress=progress)),
+    "coarsen a mesh": (14, lambda count, progress: pc.coarsen(heap(count).mesh(), 4, progress=progress)),
+    "Live": (300, lambda count, progress: pc.Live(heap(count), progress=progress)),
+}
+"""Work on a number of spheres, and a number of them to begin with."""
+
+
+@functools.cache
+def count_for(name: str, seconds: float = 0.5) -> int:
+    """A number of spheres with which the work takes this long at least, however fast the machine is: progress is told and signals are seen every 50 ms."""
+    count, work = SHORTER[name]
+    while True:
+        begin = time.perf_counter()
+        work(count, None)
+        if time.perf_counter() - begin >= seconds:
+            return count
+        count *= 2
 
 
 def interrupted_after(work, send=lambda: signal.raise_signal(signal.SIGINT), delay=0.25):
@@ -127,10 +149,11 @@ def test_a_handler_of_a_signal_may_raise_what_it_likes():
 def test_a_signal_that_raises_nothing_ends_nothing():
     seen = []
     before = signal.signal(signal.SIGTERM, lambda number, frame: seen.append(time.perf_counter()))
+    count = count_for("mesh")
     timer = threading.Timer(0.1, signal.raise_signal, [signal.SIGTERM])
     try:
         timer.start()
-        mesh = heap(800).mesh()
+        mesh = heap(count).mesh()
     finally:
         timer.join()
         signal.signal(signal.SIGTERM, before)
@@ -138,7 +161,8 @@ def test_a_signal_that_raises_nothing_ends_nothing():
 
 
 def test_what_was_interrupted_can_be_asked_again():
-    solid, expected = heap(800), heap(800).mesh()
+    count = count_for("mesh")
+    solid, expected = heap(count), heap(count).mesh()
     timer = threading.Timer(0.1, signal.raise_signal, [signal.SIGINT])
     timer.start()
     with pytest.raises(KeyboardInterrupt):
@@ -173,21 +197,12 @@ def test_nothing_goes_on_after_ctrl_c(name):
 # ---- progress
 
 
-
-SHORTER = {
-    "mesh": lambda progress: heap(600).mesh(progress=progress),
-    "cells": lambda progress: heap(40).cells(progress=progress),
-    "coarsen a solid": lambda progress: pc.coarsen(heap(14), 4, progress=progress),
-    "coarsen a mesh": lambda progress: pc.coarsen(heap(14).mesh(), 4, progress=progress),
-    "Live": lambda progress: pc.Live(heap(300), progress=progress),
-}
-
-
 @functools.cache
 def told_by(name):
     """The calls of a function for progress, with the thread that made each."""
     calls = []
-    SHORTER[name](lambda done, total: calls.append((done, total, threading.get_ident())))
+    _, work = SHORTER[name]
+    work(count_for(name), lambda done, total: calls.append((done, total, threading.get_ident())))
     print(name, [call[:2] for call in calls])
     return calls
 
@@ -206,7 +221,7 @@ def test_progress_ends_with_all_that_is_to_be_done(name):
 def test_progress_is_told_on_the_way_and_never_falls(name):
     calls = told_by(name)
     shares = [done / total for done, total, _ in calls]
-    assert len(set(shares)) > 2
+    assert len(set(shares)) > 2, "work of half a second is told about more often than at its end"
     assert shares == sorted(shares)
 
 
@@ -240,21 +255,22 @@ def test_progress_may_ask_the_same_solid():
 
 @pytest.mark.parametrize("name", ["mesh", "cells", "coarsen a solid", "coarsen a mesh", "Live"])
 def test_other_threads_go_on_during_long_work(name):
+    count, (_, work) = count_for(name), SHORTER[name]
     stop = threading.Event()
     ticks = []
 
-    def count():
+    def tick():
         while not stop.is_set():
             ticks.append(time.perf_counter())
             time.sleep(0.001)
 
-    thread = threading.Thread(target=count)
+    thread = threading.Thread(target=tick)
     thread.start()
     try:
         while not ticks:
             time.sleep(0.001)
         begin = time.perf_counter()
-        SHORTER[name](None)
+        work(count, None)
         end = time.perf_counter()
     finally:
         stop.set()
