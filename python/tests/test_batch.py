@@ -2,23 +2,17 @@
 
 from __future__ import annotations
 
-import importlib.util
 import json
 import os
-import signal
 import subprocess
 import sys
-import threading
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import planecut as pc
 import pytest
-
-needs_ray = pytest.mark.skipif(importlib.util.find_spec("ray") is None, reason="Ray is absent")
-needs_dask = pytest.mark.skipif(importlib.util.find_spec("distributed") is None, reason="Dask is absent")
+from workers import Killer, needs_dask, needs_ray, ray_worker
 
 MODEL = {"planecut": 1, "parameters": {"w": 1}, "model": {"box": {"min": [0, 0, 0], "max": ["=w", 1, 1]}}}
 
@@ -102,26 +96,10 @@ def test_another_engine_is_an_error(folder: Path) -> None:
         pc.batch.run(jobs(1), "out", engine="spark")  # type: ignore[arg-type]
 
 
-def killed_half_way(out: Path, count: int, victim: Callable[[], int | None]) -> threading.Thread:
-    """Kills a process as soon as this number of jobs is done."""
-
-    def wait_and_kill() -> None:
-        results = out / "results.jsonl"
-        until = time.monotonic() + 120
-        while time.monotonic() < until:
-            lines = results.read_text().count("\n") if results.is_file() else 0
-            process = victim() if lines >= count else None
-            if process is not None:
-                os.kill(process, signal.SIGKILL)
-                killed.append(process)
-                return
-            time.sleep(0.01)
-
-    killed: list[int] = []
-    thread = threading.Thread(target=wait_and_kill)
-    thread.start()
-    thread.killed = killed  # type: ignore[attr-defined]
-    return thread
+def has_done(out: Path, count: int) -> bool:
+    """Whether this number of jobs is done."""
+    results = out / "results.jsonl"
+    return results.is_file() and results.read_text().count("\n") >= count
 
 
 @pytest.fixture
@@ -137,38 +115,26 @@ def test_dask_gives_the_same_though_a_worker_is_killed(folder: Path, dask_client
     many = jobs(150)
     local = pc.batch.run(many, "local")
 
-    def victim() -> int | None:
-        return next(iter(dask_client.run(os.getpid).values()))
-
-    thread = killed_half_way(folder / "dask", 30, victim)
+    killer = Killer(lambda: has_done(folder / "dask", 30), lambda: next(iter(dask_client.run(os.getpid).values())))
     results = pc.batch.run(many, "dask", engine="dask")
-    thread.join()
-    assert thread.killed  # type: ignore[attr-defined]
+    killer.assert_killed()
     assert told(results) == told(local)
     assert content(folder / "dask") == content(folder / "local")
 
 
 @needs_ray
 def test_ray_gives_the_same_though_a_worker_is_killed(folder: Path) -> None:
-    import psutil
     import ray
 
     many = jobs(150)
     local = pc.batch.run(many, "local")
-
-    def victim() -> int | None:
-        # workers are named after what they do, and "ray::IDLE" otherwise
-        names = ((process.pid, process.cmdline()) for process in psutil.process_iter())
-        return next((pid for pid, words in names if words and words[0].startswith("ray::carry_out")), None)
-
     ray.init(num_cpus=2, include_dashboard=False, log_to_driver=False)
     try:
-        thread = killed_half_way(folder / "ray", 30, victim)
+        killer = Killer(lambda: has_done(folder / "ray", 30), lambda: ray_worker("carry_out"))
         results = pc.batch.run(many, "ray", engine="ray")
-        thread.join()
+        killer.assert_killed()
     finally:
         ray.shutdown()
-    assert thread.killed  # type: ignore[attr-defined]
     assert told(results) == told(local)
     assert content(folder / "ray") == content(folder / "local")
 

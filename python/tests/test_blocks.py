@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.util
 import json
 import os
 import pickle
@@ -18,9 +17,7 @@ import numpy as np
 import planecut as pc
 import pytest
 from oracles import assert_refused, generator, mesh_volume, raised
-
-needs_ray = pytest.mark.skipif(importlib.util.find_spec("ray") is None, reason="Ray is absent")
-needs_dask = pytest.mark.skipif(importlib.util.find_spec("distributed") is None, reason="Dask is absent")
+from workers import Killer, needs_dask, needs_ray, ray_worker
 
 TETRAHEDRON = ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
 L_SHAPE = pc.box([0, 0, 0], [2, 1, 1]) | pc.box([0, 0, 0], [1, 2, 1])
@@ -277,7 +274,7 @@ def test_progress_counts_blocks(tmp_path: Path) -> None:
         told.append((done, total))
         assert threading.current_thread() is threading.main_thread()
 
-    plan.evaluate(progress=progress)
+    plan.evaluate(progress=lambda done, total: told.append((done, total)))
     count = len(plan.blocks)
     assert told == sorted(set(told)) and {total for _, total in told} == {count} and told[-1][0] == count and len(told) > 1
 
@@ -296,18 +293,20 @@ def test_ctrl_c_ends_it_and_it_goes_on_where_it_was(tmp_path: Path) -> None:
     sent: list[float] = []
 
     def interrupt() -> None:
+        while not any(block.piece_path.exists() for block in plan.blocks):
+            time.sleep(0.01)
         sent.append(time.perf_counter())
         signal.raise_signal(signal.SIGINT)
 
-    timer = threading.Timer(0.5, interrupt)
-    timer.start()
+    thread = threading.Thread(target=interrupt)
+    thread.start()
     with pytest.raises(KeyboardInterrupt):
         plan.evaluate()
-        timer.join()
+        thread.join()
         time.sleep(0.5)
         pytest.fail("the work was done before it could be interrupted")
     assert time.perf_counter() - sent[0] < 1
-    timer.join()
+    thread.join()
     time.sleep(1)
     there = [block.piece_path for block in plan.blocks if block.piece_path.exists()]
     assert 0 < len(there) < len(plan.blocks), "blocks that were begun are ended, and no others begin"
@@ -411,46 +410,17 @@ def test_two_threads_give_the_same(tmp_path: Path, local: dict[str, bytes]) -> N
     assert pieces_of(plan) == local
 
 
-class Killer:
-    """Kills a process as soon as this number of blocks is done."""
-
-    def __init__(self, count: int, victim: Callable[[], int | None]) -> None:
-        self.count, self.victim, self.begun = count, victim, threading.Event()
-        self.killed: list[int] = []
-        self.told: list[tuple[int, int]] = []
-        self.thread = threading.Thread(target=self.wait_and_kill, daemon=True)
-        self.thread.start()
-
-    def progress(self, done: int, total: int) -> None:
-        self.told.append((done, total))
-        if done >= self.count:
-            self.begun.set()
-
-    def wait_and_kill(self) -> None:
-        self.begun.wait(120)
-        until = time.monotonic() + 60
-        while time.monotonic() < until:
-            process = self.victim()
-            if process is not None:
-                os.kill(process, signal.SIGKILL)
-                self.killed.append(process)
-                return
-
-    def assert_done(self, count: int) -> None:
-        self.thread.join(60)
-        assert self.killed
-        assert self.told == [(done, count) for done in range(1, count + 1)]
-
-
 @needs_dask
 def test_dask_gives_the_same_though_a_worker_is_killed(tmp_path: Path, local: dict[str, bytes]) -> None:
     import distributed
 
     plan = pc.blocks.plan(bored(*SIZE), tmp_path, brushes=50)
     with distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster, distributed.Client(cluster) as client:
-        killer = Killer(len(local) // 3, lambda: next(iter(client.run(os.getpid).values())))
-        pieces = plan.evaluate("dask", progress=killer.progress)
-        killer.assert_done(len(local))
+        told: list[tuple[int, int]] = []
+        killer = Killer(lambda: len(told) > len(local) // 3, lambda: next(iter(client.run(os.getpid).values())))
+        pieces = plan.evaluate("dask", progress=lambda done, total: told.append((done, total)))
+        killer.assert_killed()
+        assert told == [(done, len(local)) for done in range(1, len(local) + 1)]
         assert len(pieces) == len(local) and pieces_of(plan) == local
         # started again, only what is missing is done; a task that fails raises what it raised
         plan.blocks[3].piece_path.unlink()
@@ -461,20 +431,16 @@ def test_dask_gives_the_same_though_a_worker_is_killed(tmp_path: Path, local: di
 
 @needs_ray
 def test_ray_gives_the_same_though_a_worker_is_killed(tmp_path: Path, local: dict[str, bytes]) -> None:
-    import psutil
     import ray
-
-    def victim() -> int | None:
-        # workers are named after what they do, and "ray::IDLE" otherwise
-        names = ((process.pid, process.cmdline()) for process in psutil.process_iter())
-        return next((pid for pid, words in names if words and words[0].startswith("ray::evaluate_one")), None)
 
     plan = pc.blocks.plan(bored(*SIZE), tmp_path, brushes=50)
     ray.init(num_cpus=2, include_dashboard=False, log_to_driver=False)
     try:
-        killer = Killer(len(local) // 3, victim)
-        pieces = plan.evaluate("ray", progress=killer.progress)
-        killer.assert_done(len(local))
+        told: list[tuple[int, int]] = []
+        killer = Killer(lambda: len(told) > len(local) // 3, lambda: ray_worker("evaluate_one"))
+        pieces = plan.evaluate("ray", progress=lambda done, total: told.append((done, total)))
+        killer.assert_killed()
+        assert told == [(done, len(local)) for done in range(1, len(local) + 1)]
         assert len(pieces) == len(local) and pieces_of(plan) == local
         plan.blocks[3].piece_path.unlink()
         plan.evaluate("ray", workers=1)
