@@ -101,13 +101,14 @@ pub fn map_parts<R: Send>(count: usize, work: impl Fn(usize) -> R + Sync) -> Vec
     let next = AtomicUsize::new(0);
     let all = Mutex::new(Vec::with_capacity(count));
     on_threads(others, &|| {
-        let mut done = Vec::new();
-        loop {
-            let part = next.fetch_add(1, Ordering::Relaxed);
-            if part >= count {
-                break;
-            }
+        let mut part = next.fetch_add(1, Ordering::Relaxed);
+        if part >= count {
+            return;
+        }
+        let mut done = Vec::with_capacity(count - part);
+        while part < count {
             done.push((part, work(part)));
+            part = next.fetch_add(1, Ordering::Relaxed);
         }
         all.lock().unwrap_or_else(PoisonError::into_inner).append(&mut done);
     });

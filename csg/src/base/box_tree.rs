@@ -9,6 +9,9 @@ const LEAF: usize = 4;
 /// Number of boxes from which two threads split them further.
 const MANY: usize = 256;
 
+/// The most nodes that wait while a tree is walked: one for each time that as many boxes as there are numbers can be halved, and the last one's sibling.
+const WAITING: usize = 33;
+
 #[derive(Debug, Clone, Copy)]
 struct BoxNode {
     bounds: Bounds,
@@ -108,14 +111,19 @@ impl Boxes {
         let fulfils = |number: &u32| condition(self.get(*number));
         found.clear();
         found.extend(self.infinite.iter().copied().filter(fulfils));
-        let mut waiting: Vec<u32> = if self.nodes.is_empty() { Vec::new() } else { vec![0] };
-        while let Some(number) = waiting.pop() {
+        // not a list: most searches are short, and would take longer to find memory for it
+        let mut waiting = [0; WAITING];
+        let mut count = usize::from(!self.nodes.is_empty());
+        while count > 0 {
+            count -= 1;
+            let number = waiting[count];
             let node = &self.nodes[number as usize];
             if !condition(&node.bounds) {
                 continue;
             }
             if node.second != 0 {
-                waiting.extend([number + 1, node.second]);
+                waiting[count..count + 2].copy_from_slice(&[number + 1, node.second]);
+                count += 2;
             } else {
                 for number in &self.order[node.start as usize..node.end as usize] {
                     push_if(found, *number, fulfils(number));

@@ -3,6 +3,8 @@
 //! Planes are sorted by a number that is the same for both sides of a plane and close for planes that are nearly the same: what equals another
 //! plane, or is near it, follows it. Most have no other as close as that, and need not be compared with any.
 
+use std::collections::hash_map::Entry;
+use std::iter;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use planecut_kernel::HalfSpace;
@@ -33,7 +35,7 @@ impl PlaneTable {
     /// The numbering depends on the planes alone, not on the order in which they were given.
     #[must_use]
     pub fn intern(half_spaces: &[HalfSpace], size: f64) -> (Self, Vec<PlaneId>) {
-        let (interned, mut ids) = InternedPlanes::of(std::iter::once(half_spaces.len()), |_, k| &half_spaces[k], size);
+        let (interned, mut ids) = InternedPlanes::of(iter::once(half_spaces.len()), |_, k| &half_spaces[k], size);
         // in this order cells are cut and merged
         let mut order: Vec<u32> = (0..number32(interned.len())).collect();
         let place = |index: &u32| settling_order(interned.first_side(*index));
@@ -181,20 +183,24 @@ impl Settled {
             return;
         }
         let row = |place: u32| &sides[place as usize].0;
+        if let Some(least) = least_of_equal(chain, row) {
+            self.ids.extend(iter::repeat_n(self.next(), chain.len()));
+            self.planes.push(least);
+            return;
+        }
         let groups = EqualPlanes::of(chain, row);
         let mut order: Vec<usize> = (0..groups.least.len()).collect();
         order.sort_by_cached_key(|group| settling_order(row(groups.least[*group])));
         let mut ids = vec![PlaneId(0); order.len()];
         let mut near = NearPlanes::new(size);
-        let is_alone = order.len() == 1;
         for group in order {
             let row = row(groups.least[group]);
-            let at = if is_alone { None } else { Some(unit(row)) };
-            let found = at.filter(|_| !is_exact(row)).and_then(|at| near.find(&at));
+            let at = unit(row);
+            let found = if is_exact(row) { None } else { near.find(&at) };
             ids[group] = found.unwrap_or_else(|| {
                 let id = self.next();
                 self.planes.push(groups.least[group]);
-                at.into_iter().for_each(|at| near.insert(at, id));
+                near.insert(at, id);
                 id
             });
             self.replaced.extend(found.map(|id| (*row, id)));
@@ -208,6 +214,21 @@ impl Settled {
     }
 }
 
+/// Of planes that are all exactly the same the place of the least row, as most are that are close to one another; nothing where they are not.
+fn least_of_equal<'a>(chain: &[(u64, u32)], row: impl Fn(u32) -> &'a Row) -> Option<u32> {
+    let (_, mut least) = *chain.first()?;
+    for (_, place) in &chain[1..] {
+        let (this, known) = (row(*place), row(least));
+        if this != known && !(key(this) == key(known) && this.is_same_plane(known)) {
+            return None;
+        }
+        if compare_coefficients(this, known).is_lt() {
+            least = *place;
+        }
+    }
+    Some(least)
+}
+
 /// Planes that are exactly the same, among some.
 struct EqualPlanes {
     /// Of rows of different scale the place of the least, so that the order of the input does not matter.
@@ -219,20 +240,27 @@ struct EqualPlanes {
 impl EqualPlanes {
     fn of<'a>(chain: &[(u64, u32)], row: impl Fn(u32) -> &'a Row) -> Self {
         let mut groups = Self { least: Vec::new(), of_plane: Vec::with_capacity(chain.len()) };
-        let mut by_key: FxHashMap<Key, Vec<u32>> = FxHashMap::default();
+        // by key the last group that has it, and for each group the one before it with the same key
+        let mut by_key: FxHashMap<Key, u32> = FxHashMap::default();
+        let mut before: Vec<Option<u32>> = Vec::new();
         let mut last: Option<(&Row, u32)> = None;
         for (_, place) in chain {
             let this = row(*place);
             let known = last.filter(|(other, _)| *other == this).map(|(_, group)| group);
             let group = known.unwrap_or_else(|| {
-                let bucket = by_key.entry(key(this)).or_default();
+                let new = number32(groups.least.len());
+                let entry = by_key.entry(key(this));
+                let known = match &entry {
+                    Entry::Occupied(last) => Some(*last.get()),
+                    Entry::Vacant(_) => None,
+                };
                 let is_same = |group: &u32| row(groups.least[*group as usize]).is_same_plane(this);
-                let same = bucket.iter().copied().find(is_same);
-                same.unwrap_or_else(|| {
-                    let group = number32(groups.least.len());
+                let mut with_key = iter::successors(known, |group| before[*group as usize]);
+                with_key.find(is_same).unwrap_or_else(|| {
                     groups.least.push(*place);
-                    bucket.push(group);
-                    group
+                    before.push(known);
+                    entry.insert_entry(new);
+                    new
                 })
             });
             let least = &mut groups.least[group as usize];

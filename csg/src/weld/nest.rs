@@ -314,11 +314,11 @@ impl<'a> Nester<'a> {
     /// Gives each hole to the smallest outer loop around it.
     fn group(&self, plane: &RegionPlane<'_>, region: RegionId, faces: &mut Faces) -> Result<(), WeldError> {
         let is_outer = |candidate: &Loop| plane.is_outer(self.loop_of(candidate), &candidate.extent);
-        if let [only] = self.loops[..]
-            && is_outer(&only)
-        {
-            faces.push_loop(self.pieces_of(&only));
-            faces.faces.push((region, number32(faces.loops.len())));
+        if self.loops.iter().all(is_outer) {
+            for outer in &self.loops {
+                faces.push_loop(self.pieces_of(outer));
+                faces.faces.push((region, number32(faces.loops.len())));
+            }
             return Ok(());
         }
         let (outers, holes): (Vec<Loop>, Vec<Loop>) = self.loops.iter().partition(|candidate| is_outer(candidate));

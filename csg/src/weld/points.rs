@@ -2,9 +2,9 @@
 //!
 //! Coordinates are correctly rounded, so equal points have equal coordinates: the coordinates propose, signs decide.
 
-use std::cmp;
 use std::hash::Hash;
 use std::sync::atomic::{AtomicU32, Ordering};
+use std::{cmp, iter};
 
 use planecut_kernel::sign::{Counts, Sign};
 use planecut_kernel::{DVec3, compare_exactly};
@@ -84,7 +84,7 @@ impl Points {
             let (mut joined, mut places) = (Joined { names: Vec::with_capacity(count), firsts: 0 }, Vec::new());
             for close in chunk.iter().flat_map(|run| run.chunk_by(|a, b| a.0 == b.0)) {
                 if let [(_, only)] = close {
-                    joined.add(&[*only]);
+                    joined.add(iter::once(*only));
                     continue;
                 }
                 places.clear();
@@ -272,30 +272,32 @@ struct Joined {
 
 impl Joined {
     /// Adds the names of a point.
-    fn add(&mut self, names: &[NameId]) {
-        self.names.extend(names.iter().enumerate().map(|(place, k)| (*k, place == 0)));
+    fn add(&mut self, names: impl Iterator<Item = NameId>) {
+        self.names.extend(names.enumerate().map(|(place, k)| (k, place == 0)));
         self.firsts += 1;
     }
 }
 
 /// Adds points that round alike in their exact order, each with those that are equal to it.
 fn join_equal(table: &PlaneTable, named: &[Named], alike: &[([u64; 3], NameId)], joined: &mut Joined) {
-    if let [(_, one)] = alike {
-        joined.add(&[*one]);
+    let planes = |k: NameId| named[k.index()].planes;
+    let names = || alike.iter().map(|(_, k)| *k);
+    let first = alike[0].1;
+    let equal = 1 + names().skip(1).take_while(|k| is_at(table, planes(first), planes(*k))).count();
+    if equal == alike.len() {
+        joined.add(names());
         return;
     }
-    let rows = |k: NameId| named[k.index()].planes.map(|plane| table.row(plane));
-    // mostly all are equal
-    let mut groups: Vec<Vec<NameId>> = Vec::new();
-    for (_, k) in alike {
-        let planes = named[k.index()].planes;
-        match groups.iter_mut().find(|group| is_at(table, named[group[0].index()].planes, planes)) {
-            Some(group) => group.push(*k),
-            None => groups.push(vec![*k]),
+    let mut groups: Vec<Vec<NameId>> = vec![names().take(equal).collect()];
+    for k in names().skip(equal) {
+        match groups.iter_mut().find(|group| is_at(table, planes(group[0]), planes(k))) {
+            Some(group) => group.push(k),
+            None => groups.push(vec![k]),
         }
     }
+    let rows = |k: NameId| planes(k).map(|plane| table.row(plane));
     groups.sort_by(|p, q| compare_exactly(rows(p[0]), rows(q[0]), &[0, 1, 2]));
-    groups.iter().for_each(|group| joined.add(group));
+    groups.iter().for_each(|group| joined.add(group.iter().copied()));
 }
 
 /// What names the meeting point of three planes, whatever their order and sides.
