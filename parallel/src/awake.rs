@@ -1,7 +1,7 @@
 //! Threads of the pool that do not fall asleep between the loops of one piece of work.
 //!
 //! A thread of rayon's that finds nothing to do falls asleep after some thirty looks, and has to be woken when there is work again: both it and the thread that wakes it lose time. Work of many short loops, between which one thread
-//! goes on alone, wakes the others again and again: an evaluation of 4 ms on two threads fourteen times. Here they go on looking.
+//! goes on alone, wakes the others again and again: an evaluation of 4 ms on two threads fourteen times. Here they go on looking, and so does the thread that waits for the last parts of a loop.
 
 use std::cell::Cell;
 use std::sync::OnceLock;
@@ -62,8 +62,14 @@ pub(crate) fn look_for_work(works: &AtomicUsize) {
     if IS_LOOKING.replace(true) {
         return;
     }
+    look_while(|| works.load(Ordering::Relaxed) > 0);
+    IS_LOOKING.set(false);
+}
+
+/// Does what there is to do for other threads while a condition holds, unless there has been nothing for a while.
+fn look_while(condition: impl Fn() -> bool) {
     let mut left = LOOKS;
-    while left > 0 && works.load(Ordering::Relaxed) > 0 {
+    while left > 0 && condition() {
         if rayon::yield_now() == Some(Yield::Executed) {
             left = LOOKS;
         } else {
@@ -71,5 +77,34 @@ pub(crate) fn look_for_work(works: &AtomicUsize) {
             yield_now();
         }
     }
-    IS_LOOKING.set(false);
+}
+
+/// What other threads do of a loop or join, so that the one that has begun it can wait for them without falling asleep.
+pub(crate) struct Helpers {
+    under_way: AtomicUsize,
+}
+
+impl Helpers {
+    pub(crate) const fn new() -> Self {
+        Self { under_way: AtomicUsize::new(0) }
+    }
+
+    /// Does a part, on another thread.
+    pub(crate) fn help<R>(&self, work: impl FnOnce() -> R) -> R {
+        struct Ending<'a>(&'a AtomicUsize);
+        impl Drop for Ending<'_> {
+            // where the work panics as well
+            fn drop(&mut self) {
+                self.0.fetch_sub(1, Ordering::Release);
+            }
+        }
+        self.under_way.fetch_add(1, Ordering::Relaxed);
+        let _ending = Ending(&self.under_way);
+        work()
+    }
+
+    /// Waits for parts that have been begun, as long as the threads of the pool stay awake at all. What has not been begun, the calling thread finds itself when it goes on to wait as rayon does.
+    pub(crate) fn wait(&self) {
+        look_while(|| self.under_way.load(Ordering::Acquire) > 0 && WORKS.load(Ordering::Relaxed) > 0);
+    }
 }

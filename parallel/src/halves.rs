@@ -6,12 +6,27 @@
 use rayon::current_num_threads;
 use rayon::iter::plumbing::{Consumer, Folder, Producer, Reducer};
 
+use crate::awake::Helpers;
+
 /// Half of a loop, which is told whether another thread has taken it.
 type Half<'a> = &'a mut (dyn FnMut(bool) + Send);
 
 /// Does both halves, on two threads where a second one has nothing to do.
 fn join_halves(first: Half<'_>, second: Half<'_>) {
-    rayon::join_context(|context| first(context.migrated()), |context| second(context.migrated()));
+    let helpers = Helpers::new();
+    rayon::join_context(
+        |context| {
+            first(context.migrated());
+            helpers.wait();
+        },
+        |context| {
+            if context.migrated() {
+                helpers.help(|| second(true));
+            } else {
+                second(false);
+            }
+        },
+    );
 }
 
 /// How far a loop is still to be split.

@@ -32,12 +32,12 @@ mod processors;
 pub use iterators::prelude;
 pub use memory::{keep_freed_memory, maps_long_lists, spare_addresses};
 #[cfg(feature = "threads")]
-pub use parts::{in_pool, join, map_parts};
+pub use parts::{drop_beside, in_pool, join, map_parts};
 #[cfg(feature = "threads")]
 pub use rayon::current_num_threads;
 
 #[cfg(not(feature = "threads"))]
-pub use one_thread::{current_num_threads, in_pool, join, map_parts, prelude};
+pub use one_thread::{current_num_threads, drop_beside, in_pool, join, map_parts, prelude};
 
 #[cfg(test)]
 mod tests;

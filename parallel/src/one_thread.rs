@@ -21,6 +21,12 @@ pub fn join<A, B>(first: impl FnOnce() -> A, second: impl FnOnce() -> B) -> (A, 
     (first, second())
 }
 
+/// Does some work after dropping what that does not need.
+pub fn drop_beside<T, R>(dropped: T, work: impl FnOnce() -> R) -> R {
+    drop(dropped);
+    work()
+}
+
 /// The results of `work` for the parts `0..count`, in their order.
 pub fn map_parts<R>(count: usize, work: impl Fn(usize) -> R) -> Vec<R> {
     (0..count).map(work).collect()

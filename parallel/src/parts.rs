@@ -6,7 +6,7 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use crate::awake::{Awake, is_worthwhile};
+use crate::awake::{Awake, Helpers, is_worthwhile};
 use crate::job;
 #[cfg(target_os = "linux")]
 use crate::processors::{Caller, KEPT, Spread};
@@ -74,21 +74,34 @@ pub fn join<A, B: Send>(first: impl FnOnce() -> A, second: impl FnOnce() -> B + 
     (of_first.expect(expected), of_second.expect(expected))
 }
 
+/// Does some work while another thread drops what that does not need; outside of the pool, and where there is one thread, it is dropped first.
+pub fn drop_beside<T: Send, R>(dropped: T, work: impl FnOnce() -> R) -> R {
+    if rayon::current_num_threads() == 1 || rayon::current_thread_index().is_none() {
+        drop(dropped);
+        return work();
+    }
+    join(work, || drop(dropped)).0
+}
+
 /// Calls two functions, the first one on the calling thread. They are trait objects, as in [`on_threads`], so that rayon's functions around them are compiled once.
 fn with_another_thread(first: &mut dyn FnMut(), second: &mut (dyn FnMut() + Send)) {
+    let helpers = Helpers::new();
     rayon::in_place_scope(|scope| {
-        scope.spawn(move |_| second());
+        scope.spawn(|_| helpers.help(second));
         first();
+        helpers.wait();
     });
 }
 
 /// Calls a function on the calling thread and on some others at once.
 fn on_threads(others: usize, work: &(dyn Fn() + Sync)) {
+    let helpers = Helpers::new();
     rayon::in_place_scope(|scope| {
         for _ in 0..others {
-            scope.spawn(move |_| work());
+            scope.spawn(|_| helpers.help(work));
         }
         work();
+        helpers.wait();
     });
 }
 

@@ -1,6 +1,6 @@
 //! The same lines compile, and give the same, with threads and without: `./check` runs them both ways.
 
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use crate::prelude::*;
 
@@ -239,6 +239,46 @@ fn slices_are_sorted_and_split() {
     assert!(numbers.iter().copied().eq((0..1000).rev()));
     assert_eq!(crate::join(|| 1, || "two"), (1, "two"));
     assert!(crate::current_num_threads() >= 1);
+}
+
+#[test]
+fn what_is_dropped_beside_work_is_gone_after_it() {
+    let _alone = pool();
+    let look = || {
+        let dropped = Arc::new(());
+        let known = Arc::downgrade(&dropped);
+        assert_eq!(crate::drop_beside(dropped, || 7), 7);
+        assert!(known.upgrade().is_none());
+    };
+    look();
+    crate::in_pool(look);
+}
+
+/// Whoever waits for the other thread without falling asleep sees that it has ended.
+#[test]
+#[cfg(panic = "unwind")]
+fn a_panic_of_either_thread_ends_a_join_and_a_loop() {
+    let _alone = pool();
+    let ends = |work: fn(usize)| {
+        let join = || crate::in_pool(|| crate::join(|| work(0), || work(1)));
+        assert!(std::panic::catch_unwind(join).is_err());
+        let every = || crate::in_pool(|| (0..64_usize).into_par_iter().with_max_len(1).for_each(work));
+        assert!(std::panic::catch_unwind(every).is_err());
+        let parts = || crate::in_pool(|| crate::map_parts(64, work));
+        assert!(std::panic::catch_unwind(parts).is_err());
+    };
+    for _ in 0..10 {
+        ends(|number| {
+            if number % 64 == 0 {
+                std::panic::resume_unwind(Box::new(number))
+            }
+        });
+        ends(|number| {
+            if number % 64 == 1 {
+                std::panic::resume_unwind(Box::new(number))
+            }
+        });
+    }
 }
 
 #[test]

@@ -23,8 +23,8 @@ pub(crate) use exact_sum::ExactSum;
 pub(crate) use interning::{WEIGHTS, hash_of, intern, sortable};
 pub(crate) use memory::{takes_much_memory, with_room};
 pub(crate) use parallel::{
-    by_parts, concat_made, concat_owned, counted, made_by_place, map_chunks, map_fixed_chunks, map_items, map_owned,
-    map_ranges, map_weighed_chunks, map_weighed_chunks_into, repeated, runs_apart, split_by, starts_of, weighed_runs,
+    by_parts, concat_made, concat_owned, made_by_place, map_chunks, map_fixed_chunks, map_items, map_owned, map_ranges,
+    map_weighed_chunks, map_weighed_chunks_into, repeated, runs_apart, split_by, starts_of, weighed_runs,
 };
 pub(crate) use push_if::push_if;
 pub(crate) use rays::IN_BOX;

@@ -23,8 +23,8 @@ const FIXED_CHUNKS: usize = 64;
 /// Elements that a thread copies in a row, at least.
 const COPIED_OF_CHUNK: usize = 2048;
 
-/// Equal elements that a thread writes in a row, at least.
-const REPEATED_OF_CHUNK: usize = 1 << 13;
+/// Bytes of equal elements that a thread writes in a row, at least.
+const REPEATED_OF_CHUNK: usize = 1 << 14;
 
 /// Shares of a long list, about, that are copied by all threads before the parts copied are dropped.
 const SHARES_OF_COPY: usize = 16;
@@ -232,7 +232,7 @@ fn extend_by_parts<T: Send>(all: &mut Vec<T>, starts: &[usize], least: usize, ma
 
 /// A list of elements that are made without regard to their places, by all threads: filling much memory takes time.
 pub(crate) fn repeated<T: Send>(count: usize, element: impl Fn() -> T + Sync + Send) -> Vec<T> {
-    made_by_place(count, REPEATED_OF_CHUNK, |_| element())
+    made_by_place(count, REPEATED_OF_CHUNK / size_of::<T>().max(1), |_| element())
 }
 
 /// A list of elements that are made from their places by all threads, at least `least` of them in a row; for as long as an evaluation lasts, see [`with_room`].
@@ -309,7 +309,7 @@ fn in_order<R>(counted: Vec<(R, Counts)>) -> (Vec<R>, Counts) {
 }
 
 /// The outcome of work on one thread, and the signs that it asked for.
-pub(crate) fn counted<R>(work: impl FnOnce() -> R) -> (R, Counts) {
+fn counted<R>(work: impl FnOnce() -> R) -> (R, Counts) {
     let before = Counts::now();
     let outcome = work();
     (outcome, Counts::since(before))

@@ -23,9 +23,10 @@ pub(crate) fn kinds<I: Iterator<Item = (PlaneId, MaterialId)>>(
     };
     // those of bodies that were made alike are in the same order
     let are_equal = |a: LeafId, b: LeafId| faces(a).eq(faces(b)) || sorted(a) == sorted(b);
-    let is_body = |number: &LeafId| faces(*number).next().is_some();
+    // without faces the mark is 0; to look at the faces of each would take longer
+    let is_body = |&(mark, number): &(u64, LeafId)| mark != 0 || faces(number).next().is_some();
     let mut marked: SmallVec<[(u64, LeafId); 32]> =
-        LeafId::all(bodies).filter(is_body).map(|number| (mark(number), number)).collect();
+        LeafId::all(bodies).map(|number| (mark(number), number)).filter(is_body).collect();
     marked.sort_unstable();
     let mut kinds: Vec<LeafId> = LeafId::all(bodies).collect();
     let mut different: SmallVec<[LeafId; 8]> = SmallVec::new();

@@ -10,6 +10,7 @@ use crate::ids::number32;
 use std::time::Duration;
 
 use planecut_kernel::sign::Counts;
+use planecut_parallel::drop_beside;
 use planecut_parallel::prelude::*;
 use rustc_hash::FxHashMap;
 use thiserror::Error;
@@ -268,20 +269,20 @@ fn evaluate_here(
     let kinds = others.kinds(kinds(bodies.len(), faces, |leaf| marks[leaf.index()]));
     let repeated = expression.repeated_leaves(&kinds);
     let polarities = others.polarities(&expression, &kinds);
-    let mut leaves = Leaves::default();
-    for (leaf, body) in bodies.into_iter().enumerate().filter(|(leaf, _)| !repeated[*leaf]) {
-        body.into_iter().for_each(|body| leaves.push(leaf, body));
-    }
+    let takes_part = |leaf: &LeafId| bodies[leaf.index()].is_some() && !repeated[leaf.index()];
+    let leaf_of_body = LeafId::all(bodies.len()).filter(takes_part).collect();
+    let bodies = bodies.into_iter().zip(&repeated).filter_map(|(body, repeated)| body.filter(|_| !repeated));
+    let mut leaves = Leaves { bodies: bodies.collect(), leaf_of_body };
     let rank = ranks(model);
     let (edges, counted) = match outer {
         None => leaves.boundary_edges(&table, (&expression, &polarities), &rank),
         Some(outer) => leaves.boundary_within(&table, &outer, (model.tree.nodes(), polarities), &rank)?,
     };
     signs += counted;
-    drop((leaves, planes));
     let (evaluated, welding) = (begin.elapsed(), Clock::start());
+    // to free as many lists as there are bodies takes a while
     let Welded { mesh, solid, noise, signs: counted, triangulation } =
-        weld(&table, edges, &rank, &model.materials, others.walls)?;
+        drop_beside((leaves, planes), || weld(&table, edges, &rank, &model.materials, others.walls))?;
     signs += counted;
     let times = StageTimes {
         evaluate: evaluated,

@@ -2,7 +2,7 @@
 //! both sides of a line are slit along it, edges that go on beyond a point are cut there.
 
 use planecut_kernel::sign::Sign;
-
+use planecut_parallel::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::WeldError;
@@ -12,6 +12,12 @@ use super::points::Points;
 use super::stops::sort_along;
 use crate::ids::{DirectedLine, EdgeId, Id, LineId, PointId, PointOfRegion};
 use crate::plane_table::{PlaneId, PlaneTable};
+
+/// Most parts of the points that runs pass.
+const MOST_PARTS: usize = 4;
+
+/// Number of points that runs pass from which two threads look for one where they cross.
+const PASSED_OF_PART: usize = 256;
 
 /// A point inside a run of a region, at which edges that make it up end, and the line of the run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -28,9 +34,17 @@ struct Cut {
 }
 
 /// Whether runs of one region cross in a point that several of them pass.
-pub(super) fn any<'a>(mut passed: impl Iterator<Item = &'a Passed>) -> bool {
-    let mut at_point: FxHashMap<PointOfRegion, LineId> = FxHashMap::default();
-    passed.any(|passed| *at_point.entry(passed.at).or_insert(passed.line) != passed.line)
+pub(super) fn any(passed: &[&[Passed]]) -> bool {
+    let count: usize = passed.iter().map(|some| some.len()).sum();
+    // each part looks at all of them
+    let parts = planecut_parallel::current_num_threads().clamp(1, MOST_PARTS).min(1 + count / PASSED_OF_PART);
+    let crosses = |part: usize| {
+        let own = passed.iter().copied().flatten().filter(|passed| passed.at.point.index() % parts == part);
+        let mut at_point: FxHashMap<PointOfRegion, LineId> = FxHashMap::default();
+        at_point.reserve(count / parts);
+        own.into_iter().any(|passed| *at_point.entry(passed.at).or_insert(passed.line) != passed.line)
+    };
+    (0..parts).into_par_iter().with_max_len(1).any(crosses)
 }
 
 /// The elementary pieces of all lines, where something crosses.

@@ -40,6 +40,7 @@ use std::ops::Range;
 use std::time::Duration;
 
 use planecut_kernel::sign::Counts;
+use planecut_parallel::drop_beside;
 use planecut_parallel::prelude::*;
 use thiserror::Error;
 
@@ -50,6 +51,7 @@ use crate::mesh::{Flaw, Mesh, Noise, SolidMeasures, proven};
 use crate::model::{Material, MaterialId};
 use crate::plane_table::PlaneTable;
 use cancel::HalfEdge;
+use crossings::Passed;
 use filled_faces::filled_faces;
 pub(crate) use live::LiveWeld;
 pub(crate) use live::WeldedFace;
@@ -176,8 +178,7 @@ pub(crate) fn weld(
         let mut labels = filled_faces::labels(&filled);
         manifold::split_repeated_edges(&mut mesh, &mut labels, repeated, |piece| twins[piece.index()]);
     }
-    drop((filled, twins));
-    let (mesh, noise) = proven(mesh, &solid, walls, is_closed)?;
+    let (mesh, noise) = drop_beside((filled, twins), || proven(mesh, &solid, walls, is_closed))?;
     Ok(Welded { mesh, solid, noise, signs, triangulation: begin.elapsed() })
 }
 
@@ -222,8 +223,8 @@ fn half_edges(
     drop((line_of_edge, region_of_edge, ends));
     let (parts, counted) = cancel::pieces(table, &points, &lines, &regions.planes, &runs, &by_line)?;
     signs += counted;
-    let is_crossed =
-        parts.iter().any(|part| part.is_slit) || crossings::any(parts.iter().flat_map(|part| &part.passed));
+    let passed: Vec<&[Passed]> = parts.iter().map(|part| part.passed.as_slice()).collect();
+    let is_crossed = parts.iter().any(|part| part.is_slit) || crossings::any(&passed);
     let pieces = if is_crossed {
         crossings::pieces(table, &mut points, &lines, &regions.planes, &runs, &by_line)?
     } else {

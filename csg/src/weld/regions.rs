@@ -1,5 +1,6 @@
 //! The regions of the boundary, and the half-edges of each in order.
 
+use std::cmp::Reverse;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -11,7 +12,7 @@ use super::nest::Projection;
 use super::pinches::PinchFinder;
 use super::points::Points;
 use crate::base::{
-    Workers, by_group, concat_owned, counted, made_by_place, number_of_two, repeated, runs_apart, sort_by_number,
+    Workers, by_group, concat_owned, made_by_place, map_owned, number_of_two, repeated, runs_apart, sort_by_number,
     sort_few, split_by, takes_much_memory, weighed_runs,
 };
 use crate::boundary::BoundaryEdge;
@@ -206,7 +207,9 @@ impl RegionPieces {
         }
         let place = repeated(old.len(), || AtomicU32::new(0));
         let slices = split_by(&mut sorted, lengths_of(&ranges, &runs));
-        let jobs: Vec<_> = runs.iter().zip(slices).collect();
+        // the longest ones first, so that no thread comes to one of them when the others have nothing left to do
+        let mut jobs: Vec<(&Range<usize>, &mut [HalfEdge])> = runs.iter().zip(slices).collect();
+        jobs.sort_by_key(|(_, sorted)| Reverse(sorted.len()));
         let finders = Workers::new(|| PinchFinder::new(table, points));
         let work = |(run, sorted): (&Range<usize>, &mut [HalfEdge]), finder: &mut PinchFinder<'_>| {
             let first = ranges[run.start].start;
@@ -227,19 +230,11 @@ impl RegionPieces {
             }
             std::mem::take(&mut finder.found)
         };
-        let parts: Vec<(Vec<PointOnLine>, Counts)> = jobs
-            .into_par_iter()
-            .with_max_len(1)
-            .map(|job| counted(|| finders.with(|finder| work(job, finder))))
-            .collect();
+        let (parts, counts) = map_owned(jobs, |job| finders.with(|finder| work(job, finder)));
         drop((pieces, old));
         let new_place = |old: HalfEdgeId| HalfEdgeId::from_index(place[old.index()].load(Ordering::Relaxed) as usize);
         sorted.par_iter_mut().with_min_len(1 << 11).for_each(|piece| piece.twin = new_place(piece.twin));
-        let (mut pinches, mut counts) = (Vec::new(), Counts::default());
-        for (found, counted) in parts {
-            pinches.extend(found);
-            counts += counted;
-        }
+        let mut pinches = parts.concat();
         pinches.sort_unstable();
         pinches.dedup();
         (Self { pieces: sorted, ranges }, pinches, counts)
